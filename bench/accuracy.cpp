@@ -110,8 +110,8 @@ json measure(const MeasuredSurface &surface, const TruePoints &points, double to
 std::string broken_promise(const Setting &setting, const json &run) {
   for (const char *where : {"on_surface", "off_surface"}) {
     const double share = run.at(where).at("share_over_tolerance");
-    const double allowed = setting.method == RIIS_DISTANCE_TRIANGLES  ? 0
-                           : setting.method == RIIS_DISTANCE_SAMPLING ? sampling_share
+    const double allowed = setting.method == RIIS_MEASURE_TRIANGLES  ? 0
+                           : setting.method == RIIS_MEASURE_SAMPLING ? sampling_share
                                                                       : 1;
     if (share > allowed)
       return std::string(name_of(setting.method)) + " " + setting.name + ", " + where + ": " +

@@ -25,7 +25,7 @@ Surface surface_of(const char *kind, std::int32_t distance, double tolerance) {
   check(riis_surface_options_init(&options, sizeof options));
   options.half_thickness = half_thickness;
   options.distance = distance;
-  (distance == RIIS_DISTANCE_TRIANGLES ? options.tolerance : options.distance_tolerance) = tolerance;
+  (distance == RIIS_MEASURE_TRIANGLES ? options.tolerance : options.measure_tolerance) = tolerance;
   return make_surface(make_valve(kind).get(), &options);
 }
 
@@ -34,12 +34,13 @@ struct Points {
   std::vector<double> xyz, distances;
 
   Points(const char *kind, bool on_surface) {
-    const Surface fine = surface_of(kind, RIIS_DISTANCE_TRIANGLES, 1e-3);
+    const Surface fine = surface_of(kind, RIIS_MEASURE_TRIANGLES, 1e-3);
     riis_surface_info info;
     check(riis_surface_get_info(fine.get(), &info, sizeof info));
     std::int64_t n_vertices = 0;
     const double *vertices = nullptr;
-    check(riis_surface_vertices(fine.get(), &n_vertices, &vertices));
+    n_vertices = triangles_of(fine.get()).n_vertices;
+    vertices = triangles_of(fine.get()).xyz;
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> share(0, 1);
     for (std::size_t i = 0; i < n_points; ++i) {
@@ -75,16 +76,16 @@ void distance_query(benchmark::State &state, const char *kind) {
   }
   state.counters["largest_error"] = largest;
   state.counters["off_by_2%"] = n_off / static_cast<double>(n_points);
-  state.counters["triangles"] = method == RIIS_DISTANCE_TRIANGLES ? n_triangles_of(surface.get()) : 0;
+  state.counters["triangles"] = method == RIIS_MEASURE_TRIANGLES ? n_triangles_of(surface.get()) : 0;
   const auto *samples = dynamic_cast<const riis::SampleSet *>(surface->surface->other_distance());
   state.counters["samples"] = samples ? static_cast<double>(samples->n_samples()) : 0;
 }
 
 void all_methods(benchmark::internal::Benchmark *run) {
   for (const int on_surface : {1, 0}) {
-    for (const int method : {RIIS_DISTANCE_TRIANGLES, RIIS_DISTANCE_SAMPLING})
+    for (const int method : {RIIS_MEASURE_TRIANGLES, RIIS_MEASURE_SAMPLING})
       for (const int tolerance : {50, 20, 10}) run->Args({method, tolerance, on_surface});
-    for (const int tolerance : {10, 1}) run->Args({RIIS_DISTANCE_MINIMIZATION, tolerance, on_surface});
+    for (const int tolerance : {10, 1}) run->Args({RIIS_MEASURE_MINIMIZATION, tolerance, on_surface});
   }
   run->ArgNames({"method", "tolerance", "on_surface"})->Unit(benchmark::kMicrosecond);
 }

@@ -132,8 +132,10 @@ void write_all(const std::string &prefix, const riis_surface *surface, const Cyl
   std::int64_t n_vertices, n_triangles;
   const double *xyz;
   const std::int64_t *vertex_id;
-  check(riis_surface_vertices(surface, &n_vertices, &xyz));
-  check(riis_surface_triangles(surface, &n_triangles, &vertex_id, nullptr, nullptr, nullptr));
+  n_vertices = triangles_of(surface).n_vertices;
+  xyz = triangles_of(surface).xyz;
+  n_triangles = triangles_of(surface).n_triangles;
+  vertex_id = triangles_of(surface).vertex_id;
   write(prefix + "nodes.f64", nodes.xyz());
   write(prefix + "distances.f64", truth.distance);
   write(prefix + "vertices.f64", std::vector<double>(xyz, xyz + 3 * n_vertices));
@@ -141,9 +143,9 @@ void write_all(const std::string &prefix, const riis_surface *surface, const Cyl
 }
 
 // The distances of marked nodes, infinity for the others.
-std::vector<double> marked_distances(const riis_mark_result *result, std::int64_t n_nodes) {
+std::vector<double> marked_distances(const riis_marks *result, std::int64_t n_nodes) {
   std::vector<double> distance(static_cast<std::size_t>(n_nodes));
-  check(riis_mark_result_dense(result, n_nodes, infinity, nullptr, distance.data(), nullptr, nullptr));
+  check(riis_marks_get_dense(result, n_nodes, infinity, nullptr, distance.data(), nullptr, nullptr));
   return distance;
 }
 

@@ -88,7 +88,7 @@ class Shortest {
   double milliseconds_ = std::numeric_limits<double>::infinity();
 };
 
-void count(benchmark::State &state, const riis_mark_result *result) {
+void count(benchmark::State &state, const riis_marks *result) {
   const riis_mark_stats stats = stats_of(result);
   count_marking(state, stats);
   count_time_per(state, "time/node", static_cast<double>(stats.n_nodes));
@@ -268,8 +268,8 @@ void search_adjacency_of_faces(benchmark::State &state) {
       pairs.push_back(static_cast<std::int32_t>(cell + step[axis]));
     }
   }
-  riis_faces faces;
-  check(riis_faces_init(&faces, sizeof faces));
+  riis_mesh_faces faces;
+  check(riis_mesh_faces_init(&faces, sizeof faces));
   faces.n_cells = mesh.n_nodes();
   faces.n_faces = static_cast<std::int64_t>(pairs.size() / 2);
   faces.owner = pairs.data();

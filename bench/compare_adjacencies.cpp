@@ -78,7 +78,7 @@ double peak_megabytes(const std::function<void()> &work) {
 
 bool is_same(const PlainRows &plain, const riis_adjacency *adjacency) {
   riis_csr rows;
-  check(riis_adjacency_csr(adjacency, &rows, sizeof rows));
+  check(riis_adjacency_get_csr(adjacency, &rows, sizeof rows));
   const auto n = static_cast<std::size_t>(rows.n_rows);
   const auto *offsets = static_cast<const std::int64_t *>(rows.offsets);
   return rows.column_bits == 32 && plain.offsets.size() == n + 1 &&
@@ -86,9 +86,9 @@ bool is_same(const PlainRows &plain, const riis_adjacency *adjacency) {
          std::memcmp(plain.columns.data(), rows.columns, plain.columns.size() * sizeof plain.columns[0]) == 0;
 }
 
-riis_cells cells_of(std::int64_t n_nodes, const std::vector<std::int32_t> &tetrahedra) {
-  riis_cells cells;
-  check(riis_cells_init(&cells, sizeof cells));
+riis_mesh_cells cells_of(std::int64_t n_nodes, const std::vector<std::int32_t> &tetrahedra) {
+  riis_mesh_cells cells;
+  check(riis_mesh_cells_init(&cells, sizeof cells));
   cells.n_nodes = n_nodes;
   cells.n_cells = static_cast<std::int64_t>(tetrahedra.size() / 4);
   cells.node_ids = tetrahedra.data();
@@ -113,7 +113,7 @@ bool compare_adjacencies(Contest &contest, Bars &bars, std::int64_t about_n_node
   bool is_right = true;
   for (const std::vector<std::int32_t> *tetrahedra : {&in_lines, &at_random}) {
     const std::string name = tetrahedra == &in_lines ? "adjacency in lines" : "adjacency at random";
-    const riis_cells cells = cells_of(n, *tetrahedra);
+    const riis_mesh_cells cells = cells_of(n, *tetrahedra);
     const PlainRows plain = plain_adjacency(cells, 2);
     for (const int n_threads : {1, 2}) {
       const std::string of_threads = n_threads == 1 ? ", 1 thread" : ", 2 threads";

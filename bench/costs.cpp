@@ -152,7 +152,7 @@ void measure(Table &table, const char *kind, const Cylinder &cylinder, std::int6
   adjacency = adjacency_of(n, tetrahedra, 1);
   table.add("`riis_adjacency_create_from_cells`, 1 thread", seconds, allocated() - before);
   riis_csr rows;
-  check(riis_adjacency_csr(adjacency.get(), &rows, sizeof rows));
+  check(riis_adjacency_get_csr(adjacency.get(), &rows, sizeof rows));
   table.add("`riis_mesh_set_adjacency`", shortest([&] { check(riis_mesh_set_adjacency(mesh.get(), &rows)); }));
   add_marking(table, "neighbour search, not its first", surface, mesh.get(), RIIS_SEARCH_NEIGHBOR);
 
@@ -160,8 +160,8 @@ void measure(Table &table, const char *kind, const Cylinder &cylinder, std::int6
   check(riis_mark_nodes(surface.get(), mesh.get(), nullptr, result.get()));
   std::vector<double> distance(static_cast<std::size_t>(n));
   table.add(
-      "`riis_mark_result_dense`, distances", shortest([&] {
-        check(riis_mark_result_dense(result.get(), n, RIIS_FAR_DISTANCE, nullptr, distance.data(), nullptr, nullptr));
+      "`riis_marks_get_dense`, distances", shortest([&] {
+        check(riis_marks_get_dense(result.get(), n, RIIS_FAR_DISTANCE, nullptr, distance.data(), nullptr, nullptr));
       }));
 }
 

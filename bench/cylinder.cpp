@@ -45,7 +45,7 @@ CylinderMesh::CylinderMesh(const Cylinder &cylinder, std::int64_t about_n_nodes)
 
 riis_csr CylinderMesh::rows() const {
   riis_csr rows;
-  check(riis_adjacency_csr(adjacency_.get(), &rows, sizeof rows));
+  check(riis_adjacency_get_csr(adjacency_.get(), &rows, sizeof rows));
   return rows;
 }
 
@@ -70,8 +70,8 @@ std::vector<std::int32_t> CylinderNodes::tetrahedra() const {
 }
 
 Adjacency adjacency_of(std::int64_t n_nodes, const std::vector<std::int32_t> &tetrahedra, int n_threads) {
-  riis_cells cells;
-  check(riis_cells_init(&cells, sizeof cells));
+  riis_mesh_cells cells;
+  check(riis_mesh_cells_init(&cells, sizeof cells));
   cells.n_nodes = n_nodes;
   cells.n_cells = static_cast<std::int64_t>(tetrahedra.size() / 4);
   cells.node_ids = tetrahedra.data();

@@ -24,7 +24,7 @@ using Valve = std::unique_ptr<riis_valve, Destroy<riis_valve, riis_valve_destroy
 using Surface = std::unique_ptr<riis_surface, Destroy<riis_surface, riis_surface_destroy>>;
 using Mesh = std::unique_ptr<riis_mesh, Destroy<riis_mesh, riis_mesh_destroy>>;
 using Adjacency = std::unique_ptr<riis_adjacency, Destroy<riis_adjacency, riis_adjacency_destroy>>;
-using Result = std::unique_ptr<riis_mark_result, Destroy<riis_mark_result, riis_mark_result_destroy>>;
+using Result = std::unique_ptr<riis_marks, Destroy<riis_marks, riis_marks_destroy>>;
 
 inline Valve make_valve(const char *kind) {
   riis_valve *valve = nullptr;
@@ -49,14 +49,14 @@ inline Surface make_surface(const riis_surface_arrays &arrays, double half_thick
 }
 
 inline Result make_result() {
-  riis_mark_result *result = nullptr;
-  check(riis_mark_result_create(&result));
+  riis_marks *result = nullptr;
+  check(riis_marks_create(&result));
   return Result(result);
 }
 
-inline riis_mark_stats stats_of(const riis_mark_result *result) {
+inline riis_mark_stats stats_of(const riis_marks *result) {
   riis_mark_stats stats;
-  check(riis_mark_result_stats(result, &stats, sizeof stats));
+  check(riis_marks_get_stats(result, &stats, sizeof stats));
   return stats;
 }
 

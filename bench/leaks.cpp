@@ -44,12 +44,14 @@ Surface with_half_thickness(const Surface &surface, double thickness) {
   check(riis_surface_arrays_init(&arrays, sizeof arrays));
   const double *xyz = nullptr;
   const std::int64_t *ids = nullptr;
-  check(riis_surface_vertices(surface.get(), &arrays.n_vertices, &xyz));
-  check(riis_surface_triangles(surface.get(), &arrays.n_faces, &ids, nullptr, nullptr, nullptr));
+  arrays.n_vertices = triangles_of(surface.get()).n_vertices;
+  xyz = triangles_of(surface.get()).xyz;
+  arrays.n_faces = triangles_of(surface.get()).n_triangles;
+  ids = triangles_of(surface.get()).vertex_id;
   arrays.x = xyz, arrays.y = xyz + 1, arrays.z = xyz + 2;
   arrays.stride = 3;
   arrays.vertex_ids = ids;
-  arrays.vertex_id_bits = 64;
+  arrays.id_bits = 64;
   return make_surface(arrays, thickness);
 }
 
@@ -164,8 +166,9 @@ double open_share(const Surface &surface, double radius, int n_per_radius) {
   std::int64_t n = 0;
   const double *xyz = nullptr;
   const std::int64_t *ids = nullptr;
-  check(riis_surface_vertices(surface.get(), nullptr, &xyz));
-  check(riis_surface_triangles(surface.get(), &n, &ids, nullptr, nullptr, nullptr));
+  xyz = triangles_of(surface.get()).xyz;
+  n = triangles_of(surface.get()).n_triangles;
+  ids = triangles_of(surface.get()).vertex_id;
   for (std::int64_t t = 0; t < n; ++t) {
     const double *a = xyz + 3 * ids[3 * t], *b = xyz + 3 * ids[3 * t + 1], *c = xyz + 3 * ids[3 * t + 2];
     const auto to_grid = [&](double x) { return x / radius * n_per_radius + n_per_radius; };
@@ -220,7 +223,7 @@ void print_cost(double thickness, const CylinderMesh &nodes) {
   std::vector<std::int64_t> label(static_cast<std::size_t>(nodes.n_nodes()));
   const double labelling =
       1e3 * shortest([&] {
-        check(riis_label_open_regions(mesh.get(), &options, result.get(), nodes.n_nodes(), label.data(), nullptr));
+        check(riis_label_open_regions(mesh.get(), result.get(), &options, nodes.n_nodes(), label.data(), nullptr));
       });
   const std::int64_t from = 0, to = nodes.n_nodes() - 1;
   riis_passage passage;

@@ -85,7 +85,7 @@ class MovingSteps {
   }
   void add_resistance() {
     check(
-        riis_mark_result_add_resistance(result_.get(), &resistance_, n_nodes_, coefficient_.data(), momentum_.data()));
+        riis_marks_add_resistance(result_.get(), &resistance_, n_nodes_, coefficient_.data(), momentum_.data()));
   }
   riis_mark_stats stats() const { return stats_of(result_.get()); }
   double n_triangles() const { return n_triangles_of(surface_.get()); }

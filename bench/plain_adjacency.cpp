@@ -54,7 +54,7 @@ void for_blocks(std::int64_t n, int n_threads, const Body &body) {
 
 }  // namespace
 
-PlainRows plain_adjacency(const riis_cells &cells, int n_threads) {
+PlainRows plain_adjacency(const riis_mesh_cells &cells, int n_threads) {
   const Integers nodes{cells.node_ids, cells.id_bits == 64}, offsets{cells.offsets, cells.id_bits == 64};
   const std::int64_t first = cells.offsets ? offsets[0] : 0, base = cells.index_base;
   const auto begin_of = [&](std::int64_t cell) {

@@ -16,6 +16,6 @@ struct PlainRows {
 
 // Makes the rows of cells of 4, 5, 6 or 8 nodes each, with ids of either width. The cells must be right, and there must be fewer
 // than 2^31 nodes.
-PlainRows plain_adjacency(const riis_cells &cells, int n_threads);
+PlainRows plain_adjacency(const riis_mesh_cells &cells, int n_threads);
 
 }  // namespace bench

@@ -42,7 +42,7 @@ struct Graph {
 Graph graph_of(const CylinderNodes &nodes) {
   const Adjacency adjacency = adjacency_of(nodes.n_nodes(), nodes.tetrahedra(), 0);
   riis_csr rows;
-  check(riis_adjacency_csr(adjacency.get(), &rows, sizeof rows));
+  check(riis_adjacency_get_csr(adjacency.get(), &rows, sizeof rows));
   const auto *offsets = static_cast<const std::int64_t *>(rows.offsets);
   const auto *columns = static_cast<const std::int32_t *>(rows.columns);
   return {{offsets, offsets + nodes.n_nodes() + 1}, {columns, columns + offsets[nodes.n_nodes()]}};
@@ -101,7 +101,7 @@ class Rank {
       const auto updated = std::chrono::steady_clock::now();
       check(riis_mark_nodes(surface_.get(), mesh_.get(), &marking_, result_.get()));
       const auto n = static_cast<std::int64_t>(ids_.size());
-      check(riis_mark_result_add_resistance(result_.get(), &resistance_, n, coefficient_.data(), momentum_.data()));
+      check(riis_marks_add_resistance(result_.get(), &resistance_, n, coefficient_.data(), momentum_.data()));
       updates.push_back(milliseconds_of(updated - start));
       markings.push_back(milliseconds_of(std::chrono::steady_clock::now() - updated));
     }
@@ -114,7 +114,9 @@ class Rank {
     std::int64_t n = 0;
     const std::int64_t *node_id = nullptr;
     const double *distance = nullptr;
-    check(riis_mark_result_marked(result_.get(), &n, &node_id, &distance, nullptr, nullptr));
+    n = marked_list(result_.get()).n_nodes;
+    node_id = marked_list(result_.get()).node_id;
+    distance = marked_list(result_.get()).distance;
     for (std::int64_t i = 0; i < n; ++i) marks.emplace_back(ids_[static_cast<std::size_t>(node_id[i])], distance[i]);
   }
   std::int64_t n_marked() const { return stats_of(result_.get()).n_marked; }

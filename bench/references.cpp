@@ -60,8 +60,10 @@ Triangles::Triangles(const riis_surface *surface) {
   const double *xyz;
   const std::int64_t *vertex_id;
   const std::int32_t *leaflets;
-  check(riis_surface_vertices(surface, nullptr, &xyz));
-  check(riis_surface_triangles(surface, &n, &vertex_id, nullptr, &leaflets, nullptr));
+  xyz = triangles_of(surface).xyz;
+  n = triangles_of(surface).n_triangles;
+  vertex_id = triangles_of(surface).vertex_id;
+  leaflets = triangles_of(surface).leaflet_id;
   for (std::int64_t i = 0; i < 3 * n; ++i)
     corners.insert(corners.end(), xyz + 3 * vertex_id[i], xyz + 3 * vertex_id[i] + 3);
   leaflet_id.assign(leaflets, leaflets + n);

@@ -16,9 +16,12 @@ struct Marked {
   const double *distance;
 };
 
-inline Marked marked_in(const riis_mark_result *result) {
+inline Marked marked_in(const riis_marks *result) {
   Marked marked;
-  check(riis_mark_result_marked(result, &marked.n, &marked.node_id, &marked.distance, &marked.triangle_id, nullptr));
+  marked.n = marked_list(result).n_nodes;
+  marked.node_id = marked_list(result).node_id;
+  marked.distance = marked_list(result).distance;
+  marked.triangle_id = marked_list(result).triangle_id;
   return marked;
 }
 
@@ -81,7 +84,7 @@ class TimeSteps {
   }
 
   const riis_surface *surface() const { return surface_.get(); }
-  const riis_mark_result *result() const { return result_.get(); }
+  const riis_marks *result() const { return result_.get(); }
   riis_mark_stats stats() const { return stats_of(result_.get()); }
 
  private:

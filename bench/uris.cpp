@@ -144,13 +144,13 @@ std::vector<double> distances_by_library(const Corners &corners, double half_thi
   arrays.stride = 3;
   arrays.n_faces = arrays.n_vertices / 3;
   arrays.vertex_ids = ids.data();
-  arrays.vertex_id_bits = 64;
+  arrays.id_bits = 64;
   const Surface surface = make_surface(arrays, half_thickness);
   const Mesh mesh = mesh_over(nodes);
   const Result result = make_result();
   check(riis_mark_nodes(surface.get(), mesh.get(), nullptr, result.get()));
   std::vector<double> distance(static_cast<std::size_t>(nodes.n_nodes()));
-  check(riis_mark_result_dense(result.get(), nodes.n_nodes(), std::numeric_limits<double>::infinity(), nullptr,
+  check(riis_marks_get_dense(result.get(), nodes.n_nodes(), std::numeric_limits<double>::infinity(), nullptr,
                                distance.data(), nullptr, nullptr));
   return distance;
 }

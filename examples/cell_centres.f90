@@ -14,7 +14,7 @@ program cell_centres
   type(riis_valve) :: valve
   type(riis_surface) :: surface
   type(riis_mesh) :: mesh
-  type(riis_mark_result) :: result
+  type(riis_marks) :: result
   type(riis_surface_info) :: info
   double precision :: integral, expected
   integer :: i

@@ -44,21 +44,21 @@ int main(void) {
   check(riis_surface_create(valve, NULL, &surface));
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
 
-  riis_cells cells;
+  riis_mesh_cells cells;
   riis_adjacency *adjacency = NULL;
   riis_csr csr;
-  check(riis_cells_init(&cells, sizeof cells)); /* 4 nodes per cell and 32 bits are the defaults */
+  check(riis_mesh_cells_init(&cells, sizeof cells)); /* 4 nodes per cell and 32 bits are the defaults */
   cells.n_nodes = n_nodes;
   cells.n_cells = n_cells;
   cells.node_ids = node_ids;
   cells.index_base = 1;
   check(riis_adjacency_create_from_cells(&cells, &adjacency));
-  check(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+  check(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
   check(riis_mesh_set_adjacency(mesh, &csr)); /* borrowed: the adjacency has to outlive the mesh */
 
   static const int32_t searches[2] = {RIIS_SEARCH_NEIGHBOR, RIIS_SEARCH_EXHAUSTIVE};
   static const char *const names[2] = {"neighbor", "exhaustive"};
-  riis_mark_result *result[2] = {NULL,
+  riis_marks *result[2] = {NULL,
                                  NULL}; /* kept from step to step: the neighbour search starts from the last nodes */
   int64_t n_marked[2];
   const int64_t *node_id[2];
@@ -69,10 +69,12 @@ int main(void) {
     riis_mark_stats stats;
     check(riis_mark_options_init(&options, sizeof options));
     options.search = searches[i];
-    check(riis_mark_result_create(&result[i]));
+    check(riis_marks_create(&result[i]));
     check(riis_mark_nodes(surface, mesh, &options, result[i]));
-    check(riis_mark_result_marked(result[i], &n_marked[i], &node_id[i], &distance[i], NULL, NULL));
-    check(riis_mark_result_stats(result[i], &stats, sizeof stats));
+    n_marked[i] = marked_list(result[i]).n_nodes;
+    node_id[i] = marked_list(result[i]).node_id;
+    distance[i] = marked_list(result[i]).distance;
+    check(riis_marks_get_stats(result[i], &stats, sizeof stats));
     printf("%s search, marked: %lld, %s\n", names[i], (long long)n_marked[i],
            stats.complete ? "complete" : "perhaps not complete");
   }
@@ -83,7 +85,7 @@ int main(void) {
   }
   printf("nodes and distances: %s\n", same ? "the same, bit for bit" : "different");
 
-  for (int i = 0; i < 2; ++i) riis_mark_result_destroy(&result[i]);
+  for (int i = 0; i < 2; ++i) riis_marks_destroy(&result[i]);
   riis_mesh_destroy(&mesh);
   riis_adjacency_destroy(&adjacency);
   riis_surface_destroy(&surface);

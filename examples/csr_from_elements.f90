@@ -11,7 +11,7 @@ program csr_from_elements
   type(riis_surface) :: surface
   type(riis_mesh) :: mesh
   type(riis_adjacency) :: adjacency
-  type(riis_mark_result) :: by_neighbors, by_all ! kept from step to step: the neighbour search starts from the last nodes
+  type(riis_marks) :: by_neighbors, by_all ! kept from step to step: the neighbour search starts from the last nodes
   integer, allocatable :: node_num(:), node_num_of_all(:)
   double precision, allocatable :: distance(:), distance_of_all(:)
   integer :: i
@@ -48,7 +48,7 @@ contains
   subroutine mark(search, name, result, node_num, distance)
     integer, intent(in) :: search
     character(len=*), intent(in) :: name
-    type(riis_mark_result), intent(inout) :: result
+    type(riis_marks), intent(inout) :: result
     integer, allocatable, intent(inout) :: node_num(:)
     double precision, allocatable, intent(inout) :: distance(:)
     type(riis_mark_stats) :: stats

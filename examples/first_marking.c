@@ -27,7 +27,7 @@ int main(void) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   int64_t n_marked = 0;
   const int64_t *node_id = NULL;
   const double *distance = NULL;
@@ -35,9 +35,11 @@ int main(void) {
   check(riis_valve_create("aortic", &valve));
   check(riis_surface_create(valve, NULL, &surface)); /* half thickness 0.1 cm, tolerance 5 % of it */
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  check(riis_mark_result_create(&result));
+  check(riis_marks_create(&result));
   check(riis_mark_nodes(surface, mesh, NULL, result)); /* once a time step */
-  check(riis_mark_result_marked(result, &n_marked, &node_id, &distance, NULL, NULL));
+  n_marked = marked_list(result).n_nodes;
+  node_id = marked_list(result).node_id;
+  distance = marked_list(result).distance;
 
   printf("%d nodes, marked: %lld, the first of them:\n", n_nodes, (long long)n_marked);
   int64_t closest = 0;
@@ -48,7 +50,7 @@ int main(void) {
   printf("and the closest:\n");
   if (n_marked > 0) print_node(xyz + 3 * node_id[closest], distance[closest]);
 
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
   riis_mesh_destroy(&mesh);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);

@@ -8,7 +8,7 @@ program first_marking
   type(riis_valve) :: valve
   type(riis_surface) :: surface
   type(riis_mesh) :: mesh
-  type(riis_mark_result) :: result
+  type(riis_marks) :: result
   integer, allocatable :: node_num(:)
   double precision, allocatable :: distance(:)
   character(len=*), parameter :: place = '("(", f6.3, ", ", f6.3, ", ", f6.3, ") at ", f8.6, " cm")'

@@ -22,7 +22,7 @@ static void check(riis_status status) {
 }
 
 /* Marks n_planes planes of the grid from node `first` on, and labels their open regions by ids that count from there. */
-static int64_t label_part(const riis_surface *surface, riis_mark_result *result, int first, int n_planes,
+static int64_t label_part(const riis_surface *surface, riis_marks *result, int first, int n_planes,
                           int64_t *labels) {
   riis_mesh *mesh = NULL;
   riis_adjacency *adjacency = NULL;
@@ -35,10 +35,10 @@ static int64_t label_part(const riis_surface *surface, riis_mark_result *result,
   options.node_mask = in_tube + first;
   check(riis_mesh_create(n_planes * plane, own, own + 1, own + 2, 3, &mesh));
   check(riis_adjacency_create_from_grid(n, n, n_planes, 1, &adjacency));
-  check(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+  check(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
   check(riis_mesh_set_adjacency(mesh, &csr));
   check(riis_mark_nodes(surface, mesh, &options, result));
-  check(riis_label_open_regions(mesh, &options, result, n_planes * plane, labels, &n_regions));
+  check(riis_label_open_regions(mesh, result, &options, n_planes * plane, labels, &n_regions));
   riis_mesh_destroy(&mesh);
   riis_adjacency_destroy(&adjacency);
   return n_regions;
@@ -83,11 +83,11 @@ int main(int argc, char **argv) {
   /* An aortic valve whose cusps nearly meet. The surface is small, so every rank makes it for itself, with the same bits. */
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   check(riis_valve_create("aortic", &valve));
   check(riis_valve_set_scalar(valve, "leaflet_radius_in", 0.02));
   check(riis_surface_create(valve, NULL, &surface));
-  check(riis_mark_result_create(&result));
+  check(riis_marks_create(&result));
 
   /* The part: whole planes, and the first plane of the next rank, whose nodes both ranks have. */
   int first_plane = n * rank / n_ranks, n_own = n * (rank + 1) / n_ranks - first_plane;
@@ -117,7 +117,7 @@ int main(int argc, char **argv) {
     printf("%d ranks: %s\n", n_ranks, same ? "the same labels" : "other labels");
   }
 
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);
   MPI_Finalize();

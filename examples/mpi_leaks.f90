@@ -16,7 +16,7 @@ program mpi_leaks
   integer(int64) :: label(n_nodes), by_ranks(n_nodes), n_regions
   type(riis_valve) :: valve
   type(riis_surface) :: surface
-  type(riis_mark_result) :: result
+  type(riis_marks) :: result
   integer :: rank, n_ranks, first, n_own, n_planes, before, behind, axis, i
   logical :: changed, same
 

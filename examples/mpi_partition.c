@@ -61,10 +61,10 @@ int main(int argc, char **argv) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   check(riis_valve_create("aortic", &valve));
   check(riis_surface_create(valve, NULL, &surface));
-  check(riis_mark_result_create(&result));
+  check(riis_marks_create(&result));
 
   /* One thread suits a rank on every core. Ranks that are bound to several cores each, such as by mpirun --map-by slot:PE=4,
    * leave n_threads at 0, which means all cores of the rank. If nothing binds the ranks, 0 means all cores of the machine for
@@ -87,8 +87,8 @@ int main(int argc, char **argv) {
     check(riis_mesh_set_adjacency(mesh, &csr));
     options.search = RIIS_SEARCH_NEIGHBOR;
     check(riis_mark_nodes(surface, mesh, &options, result));
-    check(riis_mark_result_marked(result, &n_marked, NULL, NULL, NULL, NULL));
-    check(riis_mark_result_dense(result, n_rows, RIIS_FAR_DISTANCE, NULL, distance + first, NULL, NULL));
+    n_marked = marked_list(result).n_nodes;
+    check(riis_marks_get_dense(result, n_rows, RIIS_FAR_DISTANCE, NULL, distance + first, NULL, NULL));
     riis_mesh_destroy(&mesh);
   }
 
@@ -101,8 +101,8 @@ int main(int argc, char **argv) {
     options.search = RIIS_SEARCH_EXHAUSTIVE;
     check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
     check(riis_mark_nodes(surface, mesh, &options, result));
-    check(riis_mark_result_marked(result, &n_marked, NULL, NULL, NULL, NULL));
-    check(riis_mark_result_dense(result, n_nodes, RIIS_FAR_DISTANCE, NULL, distance, NULL, NULL));
+    n_marked = marked_list(result).n_nodes;
+    check(riis_marks_get_dense(result, n_nodes, RIIS_FAR_DISTANCE, NULL, distance, NULL, NULL));
     riis_mesh_destroy(&mesh);
     same = n_marked == n_marked_by_ranks;
     for (int i = 0; i < n_nodes; ++i) same = same && distance[i] == by_ranks[i];
@@ -111,7 +111,7 @@ int main(int argc, char **argv) {
            same ? "the same nodes and distances" : "other nodes or distances");
   }
 
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);
   MPI_Finalize();

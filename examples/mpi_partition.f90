@@ -13,7 +13,7 @@ program mpi_partition
   type(riis_valve) :: valve
   type(riis_surface) :: surface
   type(riis_mesh) :: mesh
-  type(riis_mark_result) :: result
+  type(riis_marks) :: result
   integer :: rank, n_ranks, first, last, n_all, n_marked, n_marked_by_ranks, i
   logical :: same
 

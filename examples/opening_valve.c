@@ -30,7 +30,7 @@ int main(void) {
   riis_valve *valve = NULL, *valve_before = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   check(riis_valve_create("mitral", &valve));
   check(riis_valve_set_scalar(valve, "opening", 0));
   check(riis_valve_copy(valve, &valve_before)); /* its opening is that of the step before */
@@ -40,16 +40,16 @@ int main(void) {
   options.half_thickness = eps; /* in the mesh's unit */
   check(riis_surface_create(valve, &options, &surface));
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  check(riis_mark_result_create(&result));
+  check(riis_marks_create(&result));
   riis_mark_options mark_options;
   check(riis_mark_options_init(&mark_options, sizeof mark_options));
   mark_options.fields = RIIS_FIELD_VELOCITY; /* the result keeps the surface's velocity at the nodes */
   riis_opening_times times; /* the valve opens at 0.45 s in 50 ms, and closes at 0.95 s, every second */
   check(riis_opening_times_init(&times, sizeof times));
   times.opening_start = 0.45;
-  times.opening_seconds = 0.05;
+  times.opening_duration = 0.05;
   times.closing_start = 0.95;
-  times.closing_seconds = 0.05;
+  times.closing_duration = 0.05;
   times.period = 1;
   riis_resistance resistance;
   check(riis_resistance_init(&resistance, sizeof resistance));
@@ -71,8 +71,9 @@ int main(void) {
     check(riis_surface_update_moving(surface, valve, valve_before, dt, NULL, NULL)); /* NULL: it keeps its options */
     check(riis_valve_set_scalar(valve_before, "opening", opening));
     check(riis_mark_nodes(surface, mesh, &mark_options, result));
-    check(riis_mark_result_add_resistance(result, &resistance, n_nodes, coefficient, momentum));
-    check(riis_mark_result_marked(result, &n_marked, &node_id, NULL, NULL, NULL));
+    check(riis_marks_add_resistance(result, &resistance, n_nodes, coefficient, momentum));
+    n_marked = marked_list(result).n_nodes;
+    node_id = marked_list(result).node_id;
 
     double sum = 0, maximum = 0, sum_z = 0;
     for (int i = 0; i < n_nodes; ++i) {
@@ -85,7 +86,7 @@ int main(void) {
     printf("z of K u_surface: sum %+.5E N/m^3\n", sum_z);
   }
 
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
   riis_mesh_destroy(&mesh);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve_before);

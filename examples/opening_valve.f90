@@ -14,7 +14,7 @@ program opening_valve
   type(riis_valve) :: valve, valve_before
   type(riis_surface) :: surface
   type(riis_mesh) :: mesh
-  type(riis_mark_result) :: result
+  type(riis_marks) :: result
   type(riis_opening_times) :: times
   integer, allocatable :: node_num(:)
   double precision :: opening, time
@@ -34,7 +34,7 @@ program opening_valve
   call mesh%create(xyz)
 
   ! The valve opens at 0.45 s in 50 ms, and closes at 0.95 s, every second.
-  times = riis_opening_times(opening_start=0.45d0, opening_seconds=0.05d0, closing_start=0.95d0, closing_seconds=0.05d0, &
+  times = riis_opening_times(opening_start=0.45d0, opening_duration=0.05d0, closing_start=0.95d0, closing_duration=0.05d0, &
     period=1d0)
   allocate (node_num(0))
   do step = 0, n_steps

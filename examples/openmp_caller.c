@@ -35,7 +35,7 @@ int main(void) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   int64_t n_marked = 0;
   const int64_t *node_id = NULL;
   const double *distance = NULL;
@@ -45,9 +45,11 @@ int main(void) {
   /* One call between parallel regions. Whatever OpenMP's settings, it uses the processors that this thread may run on. For
    * another number, set n_threads in riis_mark_options. */
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  check(riis_mark_result_create(&result));
+  check(riis_marks_create(&result));
   check(riis_mark_nodes(surface, mesh, NULL, result));
-  check(riis_mark_result_marked(result, &n_marked, &node_id, &distance, NULL, NULL));
+  n_marked = marked_list(result).n_nodes;
+  node_id = marked_list(result).node_id;
+  distance = marked_list(result).distance;
   int kept = omp_get_max_threads() == 3 && !omp_get_dynamic();
   double farthest = 0;
 #pragma omp parallel for reduction(max : farthest)
@@ -61,14 +63,14 @@ int main(void) {
    * update the surface. Do that before the region, or in a single construct, at whose end all threads wait. */
   riis_mark_options options;
   riis_mesh *block_mesh[n_blocks] = {NULL};
-  riis_mark_result *block_result[n_blocks] = {NULL};
+  riis_marks *block_result[n_blocks] = {NULL};
   check(riis_mark_options_init(&options, sizeof options));
   options.n_threads = 1;
 #pragma omp parallel for num_threads(n_blocks) schedule(static, 1)
   for (int i = 0; i < n_blocks; ++i) {
     double *block = xyz + 3 * first_node(i);
     check(riis_mesh_create(first_node(i + 1) - first_node(i), block, block + 1, block + 2, 3, &block_mesh[i]));
-    check(riis_mark_result_create(&block_result[i]));
+    check(riis_marks_create(&block_result[i]));
     check(riis_mark_nodes(surface, block_mesh[i], &options, block_result[i]));
   }
 
@@ -79,19 +81,21 @@ int main(void) {
     int64_t n_in_block = 0;
     const int64_t *id_in_block = NULL;
     const double *block_distance = NULL;
-    check(riis_mark_result_marked(block_result[i], &n_in_block, &id_in_block, &block_distance, NULL, NULL));
+    n_in_block = marked_list(block_result[i]).n_nodes;
+    id_in_block = marked_list(block_result[i]).node_id;
+    block_distance = marked_list(block_result[i]).distance;
     printf("block %d, marked: %lld\n", i, (long long)n_in_block);
     same = same && n_found + n_in_block <= n_marked;
     for (int64_t j = 0; same && j < n_in_block; ++j, ++n_found) {
       same = node_id[n_found] == first_node(i) + id_in_block[j] && distance[n_found] == block_distance[j];
     }
-    riis_mark_result_destroy(&block_result[i]);
+    riis_marks_destroy(&block_result[i]);
     riis_mesh_destroy(&block_mesh[i]);
   }
   same = same && n_found == n_marked;
   printf("blocks together: %s\n", same ? "the same nodes and distances" : "other nodes or distances");
 
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
   riis_mesh_destroy(&mesh);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);

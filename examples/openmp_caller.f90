@@ -11,7 +11,7 @@ program openmp_caller
   type(riis_valve) :: valve
   type(riis_surface) :: surface
   type(riis_mesh) :: mesh, block_mesh(n_blocks)
-  type(riis_mark_result) :: result, block_result(n_blocks)
+  type(riis_marks) :: result, block_result(n_blocks)
   integer, allocatable :: node_num(:), block_node_num(:)
   double precision, allocatable :: distance(:), block_distance(:)
   double precision :: farthest

@@ -97,12 +97,12 @@ int main(void) {
   riis_valve *valve = valve_with(closed_moving), *open = valve_with(open_moving);
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   check(riis_valve_set_open_state(valve, open));
   riis_valve_destroy(&open); /* the valve has a copy of it */
   check(riis_surface_create(valve, NULL, &surface));
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  check(riis_mark_result_create(&result));
+  check(riis_marks_create(&result));
 
   printf("%d nodes\n", n_nodes);
   for (int step = 0; step <= 2; ++step) {
@@ -110,11 +110,11 @@ int main(void) {
     check(riis_valve_set_scalar(valve, "opening", 0.5 * step)); /* the valve moves */
     check(riis_surface_update(surface, valve, NULL));
     check(riis_mark_nodes(surface, mesh, NULL, result));
-    check(riis_mark_result_marked(result, &n_marked, NULL, NULL, NULL, NULL));
+    n_marked = marked_list(result).n_nodes;
     printf("opening %3.1f, marked: %lld\n", 0.5 * step, (long long)n_marked);
   }
 
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
   riis_mesh_destroy(&mesh);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);

@@ -51,7 +51,7 @@ program prosthesis
   type(riis_valve) :: valve, open
   type(riis_surface) :: surface
   type(riis_mesh) :: mesh
-  type(riis_mark_result) :: result
+  type(riis_marks) :: result
   integer :: i, step
 
   do i = 0, n_nodes - 1

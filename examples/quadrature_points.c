@@ -68,7 +68,7 @@ int main(void) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   riis_surface_options options, before;
   check(riis_valve_create("mitral", &valve));
   check(riis_valve_set_scalar(valve, "opening", 0.5));
@@ -80,7 +80,7 @@ int main(void) {
   check(riis_surface_create(valve, &options, &surface));
   check(riis_surface_update_moving(surface, valve, valve, dt, &options, &before));
   check(riis_mesh_create(n_points, point[0], point[0] + 1, point[0] + 2, 3, &mesh));
-  check(riis_mark_result_create(&result));
+  check(riis_marks_create(&result));
 
   riis_mark_options mark_options;
   riis_resistance resistance;
@@ -90,7 +90,7 @@ int main(void) {
   resistance.resistance = R;
   resistance.rim = RIIS_RIM_CUT; /* the band ends at the free edges and at the annulus */
   check(riis_mark_nodes(surface, mesh, &mark_options, result));
-  check(riis_mark_result_add_resistance(result, &resistance, n_points, coefficient, momentum[0]));
+  check(riis_marks_add_resistance(result, &resistance, n_points, coefficient, momentum[0]));
   assemble();
 
   double sum = 0, force[3] = {0, 0, 0};
@@ -108,7 +108,7 @@ int main(void) {
   for (int c = 0; c < 3; ++c) is_right = is_right && fabs(force[c] - sum * speed[c]) < 1e-9 * sum * speed[2];
   if (!is_right) fprintf(stderr, "the sums are off\n");
 
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
   riis_mesh_destroy(&mesh);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);

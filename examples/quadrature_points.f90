@@ -21,7 +21,7 @@ program quadrature_points
   type(riis_valve) :: valve
   type(riis_surface) :: surface
   type(riis_mesh) :: mesh
-  type(riis_mark_result) :: result
+  type(riis_marks) :: result
   type(riis_surface_info) :: info
   logical :: is_right
 

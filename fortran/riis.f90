@@ -6,7 +6,7 @@
 !!     type(riis_valve) :: valve
 !!     type(riis_surface) :: surface
 !!     type(riis_mesh) :: mesh
-!!     type(riis_mark_result) :: result
+!!     type(riis_marks) :: result
 !!     integer, allocatable :: node_num(:)
 !!     real(8), allocatable :: distance(:)
 !!
@@ -57,7 +57,7 @@ module riis
     RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, RIIS_INTERNAL_ERROR, &
     RIIS_LOG_INFO, RIIS_LOG_WARNING, RIIS_LEAFLET_RIGHT, RIIS_LEAFLET_LEFT, RIIS_LEAFLET_NON_CORONARY, &
     RIIS_LEAFLET_ANTERIOR, RIIS_LEAFLET_POSTERIOR, RIIS_LEAFLET_POSITIVE, RIIS_LEAFLET_NEGATIVE, RIIS_LEAFLET_HOUSING, &
-    RIIS_DISTANCE_TRIANGLES, RIIS_DISTANCE_SAMPLING, RIIS_DISTANCE_MINIMIZATION, &
+    RIIS_MEASURE_TRIANGLES, RIIS_MEASURE_SAMPLING, RIIS_MEASURE_MINIMIZATION, &
     RIIS_SEARCH_AUTO, RIIS_SEARCH_EXHAUSTIVE, RIIS_SEARCH_NEIGHBOR, &
     RIIS_SEARCH_PAPER, RIIS_SEARCH_CLUSTERS, RIIS_INSTRUCTIONS_AUTO, RIIS_INSTRUCTIONS_BASELINE, &
     RIIS_INSTRUCTIONS_AVX2, RIIS_INSTRUCTIONS_AVX512, RIIS_AUTO, RIIS_FAR_DISTANCE, &
@@ -65,14 +65,14 @@ module riis
     RIIS_FIELD_VELOCITY, RIIS_FIELD_PATCH, RIIS_RIM_ROUND, RIIS_RIM_CUT, &
     RIIS_INTERPOLATION_LINEAR, RIIS_INTERPOLATION_CUBIC, RIIS_PHASE_CLOSING, RIIS_PHASE_OPENING, &
     RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED, RIIS_PASSAGE_CLOSED, RIIS_PASSAGE_OPEN, RIIS_PASSAGE_NONE, &
-    c_set_log => riis_set_log, c_status_name => riis_status_name, c_version => riis_version, &
+    c_set_log => riis_set_log, c_status_name => riis_status_name, c_version => riis_get_version, &
     c_version_string => riis_version_string
   use riis_valves, only: riis_valve, riis_parameter_info
   use riis_frames, only: riis_keyframes
   use riis_surfaces, only: riis_surface
   use riis_adjacencies, only: riis_adjacency
   use riis_meshes, only: riis_mesh
-  use riis_marking, only: riis_mark_result, riis_mark_fields, riis_mark_nodes
+  use riis_marking, only: riis_marks, riis_mark_fields, riis_mark_nodes
   use riis_leaking, only: riis_find_leaks
   use riis_crossing, only: riis_find_crossings
   use riis_passages, only: riis_label_open_regions, riis_find_passage
@@ -81,17 +81,17 @@ module riis
   implicit none
   private
   public :: riis_valve, riis_parameter_info, riis_surface, riis_surface_info, riis_closest, riis_mesh, riis_adjacency, &
-    riis_mark_result, riis_mark_fields, riis_mark_nodes, riis_mark_stats, riis_band_sums, riis_find_leaks, riis_leaks, &
+    riis_marks, riis_mark_fields, riis_mark_nodes, riis_mark_stats, riis_band_sums, riis_find_leaks, riis_leaks, &
     riis_keyframes, riis_label_open_regions, riis_find_passage, riis_passage, riis_find_crossings, riis_crossings
   public :: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, riis_opening_angle_state, &
     riis_opening_from_table, riis_opening_from_times, riis_opening_advance
-  public :: riis_error_message, riis_status_name, riis_version, riis_version_string, riis_set_log, riis_log_procedure
+  public :: riis_error_message, riis_status_name, riis_get_version, riis_version_string, riis_set_log, riis_log_procedure
   public :: riis_status, RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, RIIS_INVALID_PARAMETER, &
     RIIS_INVALID_SURFACE, RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, &
     RIIS_INTERNAL_ERROR
   public :: RIIS_LOG_INFO, RIIS_LOG_WARNING, RIIS_LEAFLET_RIGHT, RIIS_LEAFLET_LEFT, RIIS_LEAFLET_NON_CORONARY, &
     RIIS_LEAFLET_ANTERIOR, RIIS_LEAFLET_POSTERIOR, RIIS_LEAFLET_POSITIVE, RIIS_LEAFLET_NEGATIVE, RIIS_LEAFLET_HOUSING, &
-    RIIS_DISTANCE_TRIANGLES, RIIS_DISTANCE_SAMPLING, RIIS_DISTANCE_MINIMIZATION, &
+    RIIS_MEASURE_TRIANGLES, RIIS_MEASURE_SAMPLING, RIIS_MEASURE_MINIMIZATION, &
     RIIS_SEARCH_AUTO, RIIS_SEARCH_EXHAUSTIVE, RIIS_SEARCH_NEIGHBOR, &
     RIIS_SEARCH_PAPER, RIIS_SEARCH_CLUSTERS, RIIS_INSTRUCTIONS_AUTO, RIIS_INSTRUCTIONS_BASELINE, &
     RIIS_INSTRUCTIONS_AVX2, RIIS_INSTRUCTIONS_AVX512, RIIS_AUTO, RIIS_FAR_DISTANCE
@@ -109,9 +109,9 @@ module riis
   end interface riis_status_name
 
   !> Gives the version of the linked library, as numbers.
-  interface riis_version
+  interface riis_get_version
     module procedure version
-  end interface riis_version
+  end interface riis_get_version
 
   !> Returns the version of the linked library, as text.
   interface riis_version_string

@@ -61,9 +61,9 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_cells) :: the_cells
+    type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
-    code = riis_cells_init(the_cells, c_sizeof(the_cells))
+    code = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
     the_cells%n_cells = size(cells, 2, int64)
     the_cells%nodes_per_cell = size(cells, 1)
     if (size(cells, kind=int64) > 0) the_cells%node_ids = c_loc(cells)
@@ -80,9 +80,9 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_cells) :: the_cells
+    type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
-    code = riis_cells_init(the_cells, c_sizeof(the_cells))
+    code = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
     the_cells%n_cells = size(cells, 2, int64)
     the_cells%nodes_per_cell = size(cells, 1)
     if (size(cells, kind=int64) > 0) the_cells%node_ids = c_loc(cells)
@@ -99,9 +99,9 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_cells) :: the_cells
+    type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
-    code = riis_cells_init(the_cells, c_sizeof(the_cells))
+    code = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
     the_cells%n_cells = size(cells, 2, int64)
     the_cells%nodes_per_cell = size(cells, 1)
     if (size(cells, kind=int64) > 0) the_cells%node_ids = c_loc(cells)
@@ -118,9 +118,9 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_cells) :: the_cells
+    type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
-    code = riis_cells_init(the_cells, c_sizeof(the_cells))
+    code = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
     the_cells%n_cells = size(cells, 2, int64)
     the_cells%nodes_per_cell = size(cells, 1)
     if (size(cells, kind=int64) > 0) the_cells%node_ids = c_loc(cells)
@@ -139,10 +139,10 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_cells) :: the_cells
+    type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
     integer(int64) :: n
-    code = riis_cells_init(the_cells, c_sizeof(the_cells))
+    code = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
     n = size(offsets, kind=int64)
     if (code == RIIS_OK .and. n < 2) code = refuse('the size of offsets is ' // text_of(n) // '; it must be one more ' // &
       'than the cells, of which there is at least 1')
@@ -166,10 +166,10 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_cells) :: the_cells
+    type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
     integer(int64) :: n
-    code = riis_cells_init(the_cells, c_sizeof(the_cells))
+    code = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
     n = size(offsets, kind=int64)
     if (code == RIIS_OK .and. n < 2) code = refuse('the size of offsets is ' // text_of(n) // '; it must be one more ' // &
       'than the cells, of which there is at least 1')
@@ -193,10 +193,10 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_cells) :: the_cells
+    type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
     integer(int64) :: n
-    code = riis_cells_init(the_cells, c_sizeof(the_cells))
+    code = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
     n = size(offsets, kind=int64)
     if (code == RIIS_OK .and. n < 2) code = refuse('the size of offsets is ' // text_of(n) // '; it must be one more ' // &
       'than the cells, of which there is at least 1')
@@ -220,10 +220,10 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_cells) :: the_cells
+    type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
     integer(int64) :: n
-    code = riis_cells_init(the_cells, c_sizeof(the_cells))
+    code = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
     n = size(offsets, kind=int64)
     if (code == RIIS_OK .and. n < 2) code = refuse('the size of offsets is ' // text_of(n) // '; it must be one more ' // &
       'than the cells, of which there is at least 1')
@@ -251,7 +251,7 @@ contains
   subroutine create_from_cells(this, n_nodes, cells, index_base, n_threads, code)
     class(riis_adjacency), intent(inout) :: this
     integer(int64), intent(in) :: n_nodes
-    type(riis_cells), intent(inout) :: cells
+    type(riis_mesh_cells), intent(inout) :: cells
     class(*), intent(in), optional :: index_base, n_threads
     integer(riis_status), intent(inout) :: code
     cells%n_nodes = n_nodes
@@ -272,9 +272,9 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_faces) :: faces
+    type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
-    code = riis_faces_init(faces, c_sizeof(faces))
+    code = riis_mesh_faces_init(faces, c_sizeof(faces))
     if (code == RIIS_OK .and. size(face_cells, 1) /= 2) &
       code = refuse('the first extent of face_cells is ' // text_of(size(face_cells, 1)) // '; it must be 2')
     faces%n_faces = size(face_cells, 2, int64)
@@ -297,9 +297,9 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_faces) :: faces
+    type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
-    code = riis_faces_init(faces, c_sizeof(faces))
+    code = riis_mesh_faces_init(faces, c_sizeof(faces))
     if (code == RIIS_OK .and. size(face_cells, 1) /= 2) &
       code = refuse('the first extent of face_cells is ' // text_of(size(face_cells, 1)) // '; it must be 2')
     faces%n_faces = size(face_cells, 2, int64)
@@ -322,9 +322,9 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_faces) :: faces
+    type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
-    code = riis_faces_init(faces, c_sizeof(faces))
+    code = riis_mesh_faces_init(faces, c_sizeof(faces))
     if (code == RIIS_OK .and. size(face_cells, 1) /= 2) &
       code = refuse('the first extent of face_cells is ' // text_of(size(face_cells, 1)) // '; it must be 2')
     faces%n_faces = size(face_cells, 2, int64)
@@ -347,9 +347,9 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_faces) :: faces
+    type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
-    code = riis_faces_init(faces, c_sizeof(faces))
+    code = riis_mesh_faces_init(faces, c_sizeof(faces))
     if (code == RIIS_OK .and. size(face_cells, 1) /= 2) &
       code = refuse('the first extent of face_cells is ' // text_of(size(face_cells, 1)) // '; it must be 2')
     faces%n_faces = size(face_cells, 2, int64)
@@ -372,9 +372,9 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_faces) :: faces
+    type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
-    code = riis_faces_init(faces, c_sizeof(faces))
+    code = riis_mesh_faces_init(faces, c_sizeof(faces))
     if (code == RIIS_OK) code = check_size(size(neighbor, kind=int64), size(owner, kind=int64), 'neighbor', 'owners')
     faces%n_faces = size(owner, kind=int64)
     faces%id_bits = storage_size(owner)
@@ -395,9 +395,9 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_faces) :: faces
+    type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
-    code = riis_faces_init(faces, c_sizeof(faces))
+    code = riis_mesh_faces_init(faces, c_sizeof(faces))
     if (code == RIIS_OK) code = check_size(size(neighbor, kind=int64), size(owner, kind=int64), 'neighbor', 'owners')
     faces%n_faces = size(owner, kind=int64)
     faces%id_bits = storage_size(owner)
@@ -418,9 +418,9 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_faces) :: faces
+    type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
-    code = riis_faces_init(faces, c_sizeof(faces))
+    code = riis_mesh_faces_init(faces, c_sizeof(faces))
     if (code == RIIS_OK) code = check_size(size(neighbor, kind=int64), size(owner, kind=int64), 'neighbor', 'owners')
     faces%n_faces = size(owner, kind=int64)
     faces%id_bits = storage_size(owner)
@@ -441,9 +441,9 @@ contains
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_faces) :: faces
+    type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
-    code = riis_faces_init(faces, c_sizeof(faces))
+    code = riis_mesh_faces_init(faces, c_sizeof(faces))
     if (code == RIIS_OK) code = check_size(size(neighbor, kind=int64), size(owner, kind=int64), 'neighbor', 'owners')
     faces%n_faces = size(owner, kind=int64)
     faces%id_bits = storage_size(owner)
@@ -459,7 +459,7 @@ contains
   subroutine create_from_faces(this, n_cells, faces, index_base, n_threads, code)
     class(riis_adjacency), intent(inout) :: this
     integer(int64), intent(in) :: n_cells
-    type(riis_faces), intent(inout) :: faces
+    type(riis_mesh_faces), intent(inout) :: faces
     class(*), intent(in), optional :: index_base, n_threads
     integer(riis_status), intent(inout) :: code
     faces%n_cells = n_cells

@@ -6,7 +6,7 @@
 !!   status = riis_valve_create(riis_c_string('aortic'), valve)
 !!   status = riis_surface_create(valve, surface=surface)                            ! options left out: all defaults
 !!   status = riis_mesh_create(n_nodes, c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), c_loc(xyz(3, 1)), 3_c_int64_t, mesh)
-!!   status = riis_mark_result_create(result)
+!!   status = riis_marks_create(result)
 !!   status = riis_mark_nodes(surface, mesh, result=result)                          ! once a time step
 !!   status = riis_mark_result_marked(result, n_marked, node_id, distance)
 !!   if (n_marked > 0) call c_f_pointer(node_id, ids, [n_marked])        ! integer(c_int64_t), pointer :: ids(:)
@@ -70,9 +70,9 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_ZERO_AREA_REFUSE = 0
   integer(c_int32_t), parameter :: RIIS_ZERO_AREA_SKIP = 1
 
-  integer(c_int32_t), parameter :: RIIS_DISTANCE_TRIANGLES = 0
-  integer(c_int32_t), parameter :: RIIS_DISTANCE_SAMPLING = 1
-  integer(c_int32_t), parameter :: RIIS_DISTANCE_MINIMIZATION = 2
+  integer(c_int32_t), parameter :: RIIS_MEASURE_TRIANGLES = 0
+  integer(c_int32_t), parameter :: RIIS_MEASURE_SAMPLING = 1
+  integer(c_int32_t), parameter :: RIIS_MEASURE_MINIMIZATION = 2
 
   integer(c_int32_t), parameter :: RIIS_TRIANGULATION_ADAPTED = 0
   integer(c_int32_t), parameter :: RIIS_TRIANGULATION_FIXED = 1
@@ -152,7 +152,7 @@ module riis_c
     integer(c_int32_t) :: flip_normals
     integer(c_int32_t) :: distance
     integer(c_int32_t) :: n_threads
-    real(c_double) :: distance_tolerance
+    real(c_double) :: measure_tolerance
     integer(c_int32_t) :: triangulation
     integer(c_int32_t) :: reserved
   end type riis_surface_options
@@ -269,7 +269,7 @@ module riis_c
     integer(c_int32_t) :: reserved
   end type riis_csr
 
-  type, bind(c) :: riis_cells
+  type, bind(c) :: riis_mesh_cells
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_nodes
     integer(c_int64_t) :: n_cells
@@ -280,9 +280,9 @@ module riis_c
     integer(c_int32_t) :: id_bits    !< storage_size(node_ids)
     integer(c_int32_t) :: index_base !< 1 for node_ids that count from 1
     integer(c_int32_t) :: n_threads
-  end type riis_cells
+  end type riis_mesh_cells
 
-  type, bind(c) :: riis_faces
+  type, bind(c) :: riis_mesh_faces
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_cells
     integer(c_int64_t) :: n_faces
@@ -294,7 +294,7 @@ module riis_c
     integer(c_int32_t) :: index_base !< 1 for cells that count from 1; neighbor is then 0 at the boundary
     integer(c_int32_t) :: n_threads
     integer(c_int32_t) :: reserved
-  end type riis_faces
+  end type riis_mesh_faces
 
   type, bind(c) :: riis_mark_options
     integer(c_int64_t) :: struct_size
@@ -388,21 +388,21 @@ module riis_c
   type, bind(c) :: riis_opening_times
     integer(c_int64_t) :: struct_size
     real(c_double) :: opening_start
-    real(c_double) :: opening_seconds
+    real(c_double) :: opening_duration
     real(c_double) :: closing_start
-    real(c_double) :: closing_seconds
+    real(c_double) :: closing_duration
     real(c_double) :: closed, open
     real(c_double) :: period
   end type riis_opening_times
 
   type, bind(c) :: riis_opening_switch
     integer(c_int64_t) :: struct_size
-    real(c_double) :: opening_seconds
-    real(c_double) :: closing_seconds
+    real(c_double) :: opening_duration
+    real(c_double) :: closing_duration
     real(c_double) :: open_above
     real(c_double) :: close_below
-    real(c_double) :: filter_seconds
-    real(c_double) :: dwell_seconds
+    real(c_double) :: filter_time
+    real(c_double) :: dwell_time
   end type riis_opening_switch
 
   type, bind(c) :: riis_opening_switch_state
@@ -470,11 +470,11 @@ module riis_c
       type(c_ptr) :: text
     end function riis_last_error
 
-    subroutine riis_version(major, minor, patch) bind(c, name='riis_version')
+    subroutine riis_get_version(major, minor, patch) bind(c, name='riis_get_version')
       import :: c_int32_t
       implicit none
       integer(c_int32_t), intent(out), optional :: major, minor, patch
-    end subroutine riis_version
+    end subroutine riis_get_version
 
     !> For riis_c_text.
     function riis_version_string() result(text) bind(c, name='riis_version_string')
@@ -577,18 +577,18 @@ module riis_c
       integer(riis_status) :: status
     end function riis_valve_create_from_patches
 
-    function riis_valve_n_parameters(valve, n_parameters) result(status) bind(c, name='riis_valve_n_parameters')
+    function riis_valve_get_n_parameters(valve, n_parameters) result(status) bind(c, name='riis_valve_get_n_parameters')
       import :: c_int64_t, c_ptr, riis_status
       implicit none
       type(c_ptr), value :: valve
       integer(c_int64_t), intent(inout) :: n_parameters
       integer(riis_status) :: status
-    end function riis_valve_n_parameters
+    end function riis_valve_get_n_parameters
 
     !>   parameter_id  from 0
     !!   struct_size   c_sizeof(parameter)
-    function riis_valve_parameter(valve, parameter_id, parameter, struct_size) result(status) &
-        bind(c, name='riis_valve_parameter')
+    function riis_valve_get_parameter(valve, parameter_id, parameter, struct_size) result(status) &
+        bind(c, name='riis_valve_get_parameter')
       import :: c_int64_t, c_ptr, riis_parameter, riis_status
       implicit none
       type(c_ptr), value :: valve
@@ -596,7 +596,7 @@ module riis_c
       type(riis_parameter), intent(inout) :: parameter
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
-    end function riis_valve_parameter
+    end function riis_valve_get_parameter
 
     ! -----------------------------------------------------------------------------------------------------------------
     ! Surface
@@ -938,39 +938,39 @@ module riis_c
     ! -----------------------------------------------------------------------------------------------------------------
 
     !>   struct_size  c_sizeof(cells)
-    function riis_cells_init(cells, struct_size) result(status) bind(c, name='riis_cells_init')
-      import :: c_int64_t, riis_cells, riis_status
+    function riis_mesh_cells_init(cells, struct_size) result(status) bind(c, name='riis_mesh_cells_init')
+      import :: c_int64_t, riis_mesh_cells, riis_status
       implicit none
-      type(riis_cells), intent(inout) :: cells
+      type(riis_mesh_cells), intent(inout) :: cells
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
-    end function riis_cells_init
+    end function riis_mesh_cells_init
 
     !>   cells  its arrays are read during the call only
     function riis_adjacency_create_from_cells(cells, adjacency) result(status) &
         bind(c, name='riis_adjacency_create_from_cells')
-      import :: c_ptr, riis_cells, riis_status
+      import :: c_ptr, riis_mesh_cells, riis_status
       implicit none
-      type(riis_cells), intent(in) :: cells
+      type(riis_mesh_cells), intent(in) :: cells
       type(c_ptr), intent(inout) :: adjacency
       integer(riis_status) :: status
     end function riis_adjacency_create_from_cells
 
     !>   struct_size  c_sizeof(faces)
-    function riis_faces_init(faces, struct_size) result(status) bind(c, name='riis_faces_init')
-      import :: c_int64_t, riis_faces, riis_status
+    function riis_mesh_faces_init(faces, struct_size) result(status) bind(c, name='riis_mesh_faces_init')
+      import :: c_int64_t, riis_mesh_faces, riis_status
       implicit none
-      type(riis_faces), intent(inout) :: faces
+      type(riis_mesh_faces), intent(inout) :: faces
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
-    end function riis_faces_init
+    end function riis_mesh_faces_init
 
     !>   faces  its arrays are read during the call only
     function riis_adjacency_create_from_faces(faces, adjacency) result(status) &
         bind(c, name='riis_adjacency_create_from_faces')
-      import :: c_ptr, riis_faces, riis_status
+      import :: c_ptr, riis_mesh_faces, riis_status
       implicit none
-      type(riis_faces), intent(in) :: faces
+      type(riis_mesh_faces), intent(in) :: faces
       type(c_ptr), intent(inout) :: adjacency
       integer(riis_status) :: status
     end function riis_adjacency_create_from_faces
@@ -990,14 +990,14 @@ module riis_c
     !!                integer(c_int64_t), (n_rows + 1), from 0; its columns integer(c_int32_t), or (c_int64_t) where
     !!                column_bits is 64, (offsets(n_rows + 1)), from 0
     !!   struct_size  c_sizeof(csr)
-    function riis_adjacency_csr(adjacency, csr, struct_size) result(status) bind(c, name='riis_adjacency_csr')
+    function riis_adjacency_get_csr(adjacency, csr, struct_size) result(status) bind(c, name='riis_adjacency_get_csr')
       import :: c_int64_t, c_ptr, riis_csr, riis_status
       implicit none
       type(c_ptr), value :: adjacency
       type(riis_csr), intent(inout) :: csr
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
-    end function riis_adjacency_csr
+    end function riis_adjacency_get_csr
 
     subroutine riis_adjacency_destroy(adjacency) bind(c, name='riis_adjacency_destroy')
       import :: c_ptr
@@ -1009,18 +1009,18 @@ module riis_c
     ! Marking
     ! -----------------------------------------------------------------------------------------------------------------
 
-    function riis_mark_result_create(result) result(status) bind(c, name='riis_mark_result_create')
+    function riis_marks_create(result) result(status) bind(c, name='riis_marks_create')
       import :: c_ptr, riis_status
       implicit none
       type(c_ptr), intent(inout) :: result
       integer(riis_status) :: status
-    end function riis_mark_result_create
+    end function riis_marks_create
 
-    subroutine riis_mark_result_destroy(result) bind(c, name='riis_mark_result_destroy')
+    subroutine riis_marks_destroy(result) bind(c, name='riis_marks_destroy')
       import :: c_ptr
       implicit none
       type(c_ptr), intent(inout) :: result
-    end subroutine riis_mark_result_destroy
+    end subroutine riis_marks_destroy
 
     !>   struct_size  c_sizeof(options)
     function riis_mark_options_init(options, struct_size) result(status) bind(c, name='riis_mark_options_init')
@@ -1093,8 +1093,8 @@ module riis_c
     end function riis_mark_result_within_limit_fields
 
     !>   mark, distance, triangle_id, leaflet_id  (n_nodes), contiguous, every entry is written
-    function riis_mark_result_dense(result, n_nodes, far_distance, mark, distance, triangle_id, leaflet_id) &
-        result(status) bind(c, name='riis_mark_result_dense')
+    function riis_marks_get_dense(result, n_nodes, far_distance, mark, distance, triangle_id, leaflet_id) &
+        result(status) bind(c, name='riis_marks_get_dense')
       import :: c_double, c_int8_t, c_int32_t, c_int64_t, c_ptr, riis_status
       implicit none
       type(c_ptr), value :: result
@@ -1105,17 +1105,17 @@ module riis_c
       integer(c_int64_t), intent(inout), optional :: triangle_id(*)
       integer(c_int32_t), intent(inout), optional :: leaflet_id(*)
       integer(riis_status) :: status
-    end function riis_mark_result_dense
+    end function riis_marks_get_dense
 
     !>   struct_size  c_sizeof(stats)
-    function riis_mark_result_stats(result, stats, struct_size) result(status) bind(c, name='riis_mark_result_stats')
+    function riis_marks_get_stats(result, stats, struct_size) result(status) bind(c, name='riis_marks_get_stats')
       import :: c_int64_t, c_ptr, riis_mark_stats, riis_status
       implicit none
       type(c_ptr), value :: result
       type(riis_mark_stats), intent(inout) :: stats
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
-    end function riis_mark_result_stats
+    end function riis_marks_get_stats
 
     ! -----------------------------------------------------------------------------------------------------------------
     ! Resistance
@@ -1132,8 +1132,8 @@ module riis_c
 
     !>   coefficient  (n_nodes), contiguous; added to at the nodes of the band
     !!   momentum     (3, n_nodes), contiguous; added to at the nodes of the band
-    function riis_mark_result_add_resistance(result, resistance, n_nodes, coefficient, momentum) result(status) &
-        bind(c, name='riis_mark_result_add_resistance')
+    function riis_marks_add_resistance(result, resistance, n_nodes, coefficient, momentum) result(status) &
+        bind(c, name='riis_marks_add_resistance')
       import :: c_double, c_int64_t, c_ptr, riis_resistance, riis_status
       implicit none
       type(c_ptr), value :: result
@@ -1141,13 +1141,13 @@ module riis_c
       integer(c_int64_t), value :: n_nodes
       real(c_double), intent(inout), optional :: coefficient(*), momentum(*)
       integer(riis_status) :: status
-    end function riis_mark_result_add_resistance
+    end function riis_marks_add_resistance
 
     !>   velocity  (3, n_nodes), contiguous
     !!   weight    (n_nodes), contiguous
     !!   force     added to
-    function riis_mark_result_add_reaction(result, resistance, n_nodes, velocity, weight, force) result(status) &
-        bind(c, name='riis_mark_result_add_reaction')
+    function riis_marks_add_reaction(result, resistance, n_nodes, velocity, weight, force) result(status) &
+        bind(c, name='riis_marks_add_reaction')
       import :: c_double, c_int64_t, c_ptr, riis_resistance, riis_status
       implicit none
       type(c_ptr), value :: result
@@ -1156,12 +1156,12 @@ module riis_c
       real(c_double), intent(in) :: velocity(*), weight(*)
       real(c_double), intent(inout) :: force(3)
       integer(riis_status) :: status
-    end function riis_mark_result_add_reaction
+    end function riis_marks_add_reaction
 
     !>   value, weight  (n_nodes), contiguous
     !!   struct_size    c_sizeof(sums)
-    function riis_mark_result_band_sums(result, inner, outer, n_nodes, value, weight, sums, struct_size) &
-        result(status) bind(c, name='riis_mark_result_band_sums')
+    function riis_marks_get_band_sums(result, inner, outer, n_nodes, value, weight, sums, struct_size) &
+        result(status) bind(c, name='riis_marks_get_band_sums')
       import :: c_double, c_int64_t, c_ptr, riis_band_sums, riis_status
       implicit none
       type(c_ptr), value :: result
@@ -1171,7 +1171,7 @@ module riis_c
       type(riis_band_sums), intent(inout) :: sums
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
-    end function riis_mark_result_band_sums
+    end function riis_marks_get_band_sums
 
     ! -----------------------------------------------------------------------------------------------------------------
     ! Leaks

@@ -191,7 +191,7 @@ end subroutine riisf_surface_place
 
 !> Does the same with another way of measuring distances, which riisf_surface_update keeps.
 subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
-    translation, distance, distance_tolerance, status)
+    translation, distance, measure_tolerance, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_update
@@ -207,14 +207,14 @@ subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scal
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for none.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for none.
   integer(int32), intent(in) :: distance                  !< RIIS_DISTANCE_*.
-  real(c_double), intent(in) :: distance_tolerance        !< A share of half_thickness, 1e-6 to 1; RIIS_AUTO: tolerance.
-                                                          !! RIIS_DISTANCE_TRIANGLES does not use it.
+  real(c_double), intent(in) :: measure_tolerance        !< A share of half_thickness, 1e-6 to 1; RIIS_AUTO: tolerance.
+                                                          !! RIIS_MEASURE_TRIANGLES does not use it.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
   status = get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options)
   if (status /= RIIS_OK) return
   options%distance = distance
-  options%distance_tolerance = distance_tolerance
+  options%measure_tolerance = measure_tolerance
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_measure
 

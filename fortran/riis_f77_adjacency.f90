@@ -62,14 +62,14 @@ end subroutine riisf_mesh_set_adjacency_64
 subroutine riisf_mesh_use_adjacency(mesh, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_csr, riis_status, RIIS_OK, riis_adjacency_csr, riis_mesh_set_adjacency
+  use riis_c, only: riis_csr, riis_status, RIIS_OK, riis_adjacency_get_csr, riis_mesh_set_adjacency
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: mesh                      !< Created.
   integer(int64), intent(in) :: adjacency                 !< Created. Destroy it after the mesh.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
-  status = riis_adjacency_csr(c_handle_of(adjacency), csr, c_sizeof(csr))
+  status = riis_adjacency_get_csr(c_handle_of(adjacency), csr, c_sizeof(csr))
   if (status == RIIS_OK) status = riis_mesh_set_adjacency(c_handle_of(mesh), csr)
 end subroutine riisf_mesh_use_adjacency
 
@@ -90,7 +90,7 @@ end subroutine riisf_mesh_clear_adjacency
 subroutine riisf_adjacency_from_cells(n_nodes, nodes_per_cell, n_cells, cells, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_cells, riis_status, RIIS_OK, riis_adjacency_create_from_cells, riis_cells_init
+  use riis_c, only: riis_mesh_cells, riis_status, RIIS_OK, riis_adjacency_create_from_cells, riis_mesh_cells_init
   use riis_support, only: handle_of, location_of
   implicit none
   integer(int32), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
@@ -101,9 +101,9 @@ subroutine riisf_adjacency_from_cells(n_nodes, nodes_per_cell, n_cells, cells, i
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(riis_cells) :: the_cells
+  type(riis_mesh_cells) :: the_cells
   type(c_ptr) :: c_handle
-  status = riis_cells_init(the_cells, c_sizeof(the_cells))
+  status = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
   if (status /= RIIS_OK) return
   the_cells%n_nodes = n_nodes
   the_cells%n_cells = n_cells
@@ -121,7 +121,7 @@ end subroutine riisf_adjacency_from_cells
 subroutine riisf_adjacency_from_cells_64(n_nodes, nodes_per_cell, n_cells, cells, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_cells, riis_status, RIIS_OK, riis_adjacency_create_from_cells, riis_cells_init
+  use riis_c, only: riis_mesh_cells, riis_status, RIIS_OK, riis_adjacency_create_from_cells, riis_mesh_cells_init
   use riis_support, only: handle_of, location_of
   implicit none
   integer(int64), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
@@ -132,9 +132,9 @@ subroutine riisf_adjacency_from_cells_64(n_nodes, nodes_per_cell, n_cells, cells
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(riis_cells) :: the_cells
+  type(riis_mesh_cells) :: the_cells
   type(c_ptr) :: c_handle
-  status = riis_cells_init(the_cells, c_sizeof(the_cells))
+  status = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
   if (status /= RIIS_OK) return
   the_cells%n_nodes = n_nodes
   the_cells%n_cells = n_cells
@@ -153,7 +153,7 @@ end subroutine riisf_adjacency_from_cells_64
 subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_cells, riis_status, RIIS_OK, riis_adjacency_create_from_cells, riis_cells_init
+  use riis_c, only: riis_mesh_cells, riis_status, RIIS_OK, riis_adjacency_create_from_cells, riis_mesh_cells_init
   use riis_support, only: handle_of, location_of
   implicit none
   integer(int32), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
@@ -164,9 +164,9 @@ subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(riis_cells) :: the_cells
+  type(riis_mesh_cells) :: the_cells
   type(c_ptr) :: c_handle
-  status = riis_cells_init(the_cells, c_sizeof(the_cells))
+  status = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
   if (status /= RIIS_OK) return
   the_cells%n_nodes = n_nodes
   the_cells%n_cells = n_cells
@@ -184,7 +184,7 @@ end subroutine riisf_adjacency_from_mixed
 subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_cells, riis_status, RIIS_OK, riis_adjacency_create_from_cells, riis_cells_init
+  use riis_c, only: riis_mesh_cells, riis_status, RIIS_OK, riis_adjacency_create_from_cells, riis_mesh_cells_init
   use riis_support, only: handle_of, location_of
   implicit none
   integer(int64), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
@@ -195,9 +195,9 @@ subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, in
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(riis_cells) :: the_cells
+  type(riis_mesh_cells) :: the_cells
   type(c_ptr) :: c_handle
-  status = riis_cells_init(the_cells, c_sizeof(the_cells))
+  status = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
   if (status /= RIIS_OK) return
   the_cells%n_nodes = n_nodes
   the_cells%n_cells = n_cells
@@ -216,7 +216,7 @@ end subroutine riisf_adjacency_from_mixed_64
 subroutine riisf_adjacency_from_faces(n_cells, n_faces, face_cells, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_faces, riis_status, RIIS_OK, riis_adjacency_create_from_faces, riis_faces_init
+  use riis_c, only: riis_mesh_faces, riis_status, RIIS_OK, riis_adjacency_create_from_faces, riis_mesh_faces_init
   use riis_support, only: handle_of, location_of
   implicit none
   integer(int32), intent(in) :: n_cells                   !< >= 1.
@@ -227,9 +227,9 @@ subroutine riisf_adjacency_from_faces(n_cells, n_faces, face_cells, index_base, 
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(riis_faces) :: faces
+  type(riis_mesh_faces) :: faces
   type(c_ptr) :: c_handle
-  status = riis_faces_init(faces, c_sizeof(faces))
+  status = riis_mesh_faces_init(faces, c_sizeof(faces))
   if (status /= RIIS_OK) return
   faces%n_cells = n_cells
   faces%n_faces = n_faces
@@ -250,7 +250,7 @@ end subroutine riisf_adjacency_from_faces
 subroutine riisf_adjacency_from_faces_64(n_cells, n_faces, face_cells, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_faces, riis_status, RIIS_OK, riis_adjacency_create_from_faces, riis_faces_init
+  use riis_c, only: riis_mesh_faces, riis_status, RIIS_OK, riis_adjacency_create_from_faces, riis_mesh_faces_init
   use riis_support, only: handle_of, location_of
   implicit none
   integer(int64), intent(in) :: n_cells                   !< >= 1.
@@ -261,9 +261,9 @@ subroutine riisf_adjacency_from_faces_64(n_cells, n_faces, face_cells, index_bas
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(riis_faces) :: faces
+  type(riis_mesh_faces) :: faces
   type(c_ptr) :: c_handle
-  status = riis_faces_init(faces, c_sizeof(faces))
+  status = riis_mesh_faces_init(faces, c_sizeof(faces))
   if (status /= RIIS_OK) return
   faces%n_cells = n_cells
   faces%n_faces = n_faces

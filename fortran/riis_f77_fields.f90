@@ -8,7 +8,7 @@ subroutine riisf_mark_with_fields(surface, mesh, distance_limit, search, n_threa
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_mark_options, riis_status, RIIS_OK, riis_mark_nodes, riis_mark_options_init, &
-    riis_mark_result_create, riis_mark_result_destroy
+    riis_marks_create, riis_marks_destroy
   use riis_support, only: c_handle_of, handle_of
   implicit none
   integer(int64), intent(in) :: surface                   !< Created.
@@ -28,9 +28,9 @@ subroutine riisf_mark_with_fields(surface, mesh, distance_limit, search, n_threa
   options%n_threads = n_threads
   options%fields = fields
   c_handle = c_handle_of(result)
-  if (result == 0) status = riis_mark_result_create(c_handle)
+  if (result == 0) status = riis_marks_create(c_handle)
   if (status == RIIS_OK) status = riis_mark_nodes(c_handle_of(surface), c_handle_of(mesh), options, c_handle)
-  if (status /= RIIS_OK .and. result == 0) call riis_mark_result_destroy(c_handle) ! 0 as before
+  if (status /= RIIS_OK .and. result == 0) call riis_marks_destroy(c_handle) ! 0 as before
   result = handle_of(c_handle)
 end subroutine riisf_mark_with_fields
 

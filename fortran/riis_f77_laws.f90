@@ -38,16 +38,16 @@ end subroutine riisf_opening_from_table
 
 !> Tells the opening at a time by the times of opening and closing. The ramps are of fifth degree: neither the rate nor its
 !! derivative jumps. Errors: RIIS_INVALID_ARGUMENT naming the argument and its value.
-subroutine riisf_opening_from_times(opening_start, opening_seconds, closing_start, closing_seconds, closed, open, period, &
+subroutine riisf_opening_from_times(opening_start, opening_duration, closing_start, closing_duration, closed, open, period, &
     time, opening, rate, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use riis_c, only: riis_opening_times, riis_status, RIIS_OK, riis_opening_from_times, riis_opening_times_init
   implicit none
   real(c_double), intent(in) :: opening_start             !< When the valve begins to open.
-  real(c_double), intent(in) :: opening_seconds           !< How long that takes, > 0.
+  real(c_double), intent(in) :: opening_duration           !< How long that takes, > 0.
   real(c_double), intent(in) :: closing_start             !< When it begins to close, at least opening_start +
-                                                          !! opening_seconds.
-  real(c_double), intent(in) :: closing_seconds           !< How long that takes, > 0.
+                                                          !! opening_duration.
+  real(c_double), intent(in) :: closing_duration           !< How long that takes, > 0.
   real(c_double), intent(in) :: closed                    !< The opening when closed, 0 to 1; usually 0.
   real(c_double), intent(in) :: open                      !< The opening when open, 0 to 1; usually 1.
   real(c_double), intent(in) :: period                    !< > 0: it repeats, not before it has closed. 0: it opens once.
@@ -59,9 +59,9 @@ subroutine riisf_opening_from_times(opening_start, opening_seconds, closing_star
   status = riis_opening_times_init(times, c_sizeof(times))
   if (status /= RIIS_OK) return
   times%opening_start = opening_start
-  times%opening_seconds = opening_seconds
+  times%opening_duration = opening_duration
   times%closing_start = closing_start
-  times%closing_seconds = closing_seconds
+  times%closing_duration = closing_duration
   times%closed = closed
   times%open = open
   times%period = period
@@ -87,20 +87,20 @@ end subroutine riisf_opening_switch_init
 !> Advances a switch to a time: the valve opens when the pressure difference exceeds a value, and closes when the flow falls
 !! below one. It turns at the end of the step in which its condition was met, so its opening has first order in the length
 !! of steps. Errors: RIIS_INVALID_ARGUMENT naming the argument and its value.
-subroutine riisf_opening_switch_advance(opening_seconds, closing_seconds, open_above, close_below, filter_seconds, &
-    dwell_seconds, time, pressure_difference, flow, state, phase, status)
+subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open_above, close_below, filter_time, &
+    dwell_time, time, pressure_difference, flow, state, phase, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32
   use riis_c, only: riis_opening_switch, riis_opening_switch_state, riis_status, RIIS_OK, riis_opening_switch_advance, &
     riis_opening_switch_init, riis_opening_switch_state_init
   implicit none
-  real(c_double), intent(in) :: opening_seconds           !< From closed to open, > 0.
-  real(c_double), intent(in) :: closing_seconds           !< From open to closed, > 0.
+  real(c_double), intent(in) :: opening_duration           !< From closed to open, > 0.
+  real(c_double), intent(in) :: closing_duration           !< From open to closed, > 0.
   real(c_double), intent(in) :: open_above                !< Pressure difference; usually 0.
   real(c_double), intent(in) :: close_below               !< Flow; usually 0.
-  real(c_double), intent(in) :: filter_seconds            !< Time constant of a filter of first order on both, >= 0; 0: no
+  real(c_double), intent(in) :: filter_time            !< Time constant of a filter of first order on both, >= 0; 0: no
                                                           !! filter.
-  real(c_double), intent(in) :: dwell_seconds             !< The least time from one turn to the next, >= 0.
+  real(c_double), intent(in) :: dwell_time             !< The least time from one turn to the next, >= 0.
   real(c_double), intent(in) :: time                      !< At least state(1).
   real(c_double), intent(in) :: pressure_difference       !< Upstream less downstream, at the time.
   real(c_double), intent(in) :: flow                      !< Positive downstream, at the time.
@@ -114,12 +114,12 @@ subroutine riisf_opening_switch_advance(opening_seconds, closing_seconds, open_a
   status = riis_opening_switch_init(law, c_sizeof(law))
   if (status == RIIS_OK) status = riis_opening_switch_state_init(before, c_sizeof(before))
   if (status /= RIIS_OK) return
-  law%opening_seconds = opening_seconds
-  law%closing_seconds = closing_seconds
+  law%opening_duration = opening_duration
+  law%closing_duration = closing_duration
   law%open_above = open_above
   law%close_below = close_below
-  law%filter_seconds = filter_seconds
-  law%dwell_seconds = dwell_seconds
+  law%filter_time = filter_time
+  law%dwell_time = dwell_time
   before%time = state(1)
   before%opening = state(2)
   before%rate = state(3)

@@ -9,7 +9,7 @@ subroutine riisf_mark_nodes(surface, mesh, distance_limit, search, n_threads, re
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_mark_options, riis_status, RIIS_OK, riis_mark_nodes, riis_mark_options_init, &
-    riis_mark_result_create, riis_mark_result_destroy
+    riis_marks_create, riis_marks_destroy
   use riis_support, only: c_handle_of, handle_of
   implicit none
   integer(int64), intent(in) :: surface                   !< Created.
@@ -27,9 +27,9 @@ subroutine riisf_mark_nodes(surface, mesh, distance_limit, search, n_threads, re
   options%search = search
   options%n_threads = n_threads
   c_handle = c_handle_of(result)
-  if (result == 0) status = riis_mark_result_create(c_handle)
+  if (result == 0) status = riis_marks_create(c_handle)
   if (status == RIIS_OK) status = riis_mark_nodes(c_handle_of(surface), c_handle_of(mesh), options, c_handle)
-  if (status /= RIIS_OK .and. result == 0) call riis_mark_result_destroy(c_handle) ! 0 as before
+  if (status /= RIIS_OK .and. result == 0) call riis_marks_destroy(c_handle) ! 0 as before
   result = handle_of(c_handle)
 end subroutine riisf_mark_nodes
 
@@ -189,7 +189,7 @@ end subroutine riisf_within_limit_64
 subroutine riisf_dense_distance(result, n_nodes, far_distance, distance, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, riis_mark_result_dense
+  use riis_c, only: riis_status, riis_marks_get_dense
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
@@ -198,26 +198,26 @@ subroutine riisf_dense_distance(result, n_nodes, far_distance, distance, status)
                                                           !! RIIS_FAR_DISTANCE.
   real(c_double), intent(inout) :: distance(*)            !< (n_nodes): for nodes within the distance limit, else far_distance.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  status = riis_mark_result_dense(c_handle_of(result), int(n_nodes, int64), far_distance, distance=distance)
+  status = riis_marks_get_dense(c_handle_of(result), int(n_nodes, int64), far_distance, distance=distance)
 end subroutine riisf_dense_distance
 
 !> Writes every node's closest triangle.
 subroutine riisf_dense_triangle(result, n_nodes, triangle_id, status)
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, RIIS_FAR_DISTANCE, riis_mark_result_dense
+  use riis_c, only: riis_status, RIIS_FAR_DISTANCE, riis_marks_get_dense
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int64), intent(inout) :: triangle_id(*)         !< (n_nodes): from 0, for nodes within the distance limit, else -1.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  status = riis_mark_result_dense(c_handle_of(result), int(n_nodes, int64), RIIS_FAR_DISTANCE, triangle_id=triangle_id)
+  status = riis_marks_get_dense(c_handle_of(result), int(n_nodes, int64), RIIS_FAR_DISTANCE, triangle_id=triangle_id)
 end subroutine riisf_dense_triangle
 
 !> Writes every node's closest leaflet.
 subroutine riisf_dense_leaflet(result, n_nodes, leaflet_id, status)
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, RIIS_FAR_DISTANCE, riis_mark_result_dense
+  use riis_c, only: riis_status, RIIS_FAR_DISTANCE, riis_marks_get_dense
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
@@ -225,13 +225,13 @@ subroutine riisf_dense_leaflet(result, n_nodes, leaflet_id, status)
   integer(int32), intent(inout) :: leaflet_id(*)          !< (n_nodes): RIIS_LEAFLET_* for nodes within the distance limit, else
                                                           !! -1.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  status = riis_mark_result_dense(c_handle_of(result), int(n_nodes, int64), RIIS_FAR_DISTANCE, leaflet_id=leaflet_id)
+  status = riis_marks_get_dense(c_handle_of(result), int(n_nodes, int64), RIIS_FAR_DISTANCE, leaflet_id=leaflet_id)
 end subroutine riisf_dense_leaflet
 
 !> Writes every node's mark.
 subroutine riisf_dense_mark(result, n_nodes, mark, status)
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
-  use riis_c, only: riis_status, RIIS_FAR_DISTANCE, RIIS_OK, riis_mark_result_dense
+  use riis_c, only: riis_status, RIIS_FAR_DISTANCE, RIIS_OK, riis_marks_get_dense
   use riis_support, only: c_handle_of, out_of_memory
   implicit none
   integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
@@ -242,7 +242,7 @@ subroutine riisf_dense_mark(result, n_nodes, mark, status)
   integer :: stat
   allocate (bytes(max(n_nodes, 0_int32)), stat=stat)
   status = out_of_memory(stat)
-  if (status == RIIS_OK) status = riis_mark_result_dense(c_handle_of(result), int(n_nodes, int64), RIIS_FAR_DISTANCE, bytes)
+  if (status == RIIS_OK) status = riis_marks_get_dense(c_handle_of(result), int(n_nodes, int64), RIIS_FAR_DISTANCE, bytes)
   if (status == RIIS_OK) mark(:n_nodes) = bytes
 end subroutine riisf_dense_mark
 
@@ -250,12 +250,12 @@ end subroutine riisf_dense_mark
 subroutine riisf_mark_result_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_mark_result_destroy
+  use riis_c, only: riis_marks_destroy
   use riis_support, only: c_handle_of, handle_of
   implicit none
   integer(int64), intent(inout) :: handle                 !< Any.
   type(c_ptr) :: c_handle
   c_handle = c_handle_of(handle)
-  call riis_mark_result_destroy(c_handle)
+  call riis_marks_destroy(c_handle)
   handle = handle_of(c_handle)
 end subroutine riisf_mark_result_destroy

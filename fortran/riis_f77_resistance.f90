@@ -8,7 +8,7 @@
 subroutine riisf_add_resistance(result, resistance, half_thickness, rim, n_nodes, coefficient, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_mark_result_add_resistance, riis_resistance_init
+  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_marks_add_resistance, riis_resistance_init
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
@@ -25,14 +25,14 @@ subroutine riisf_add_resistance(result, resistance, half_thickness, rim, n_nodes
   made%resistance = resistance
   made%half_thickness = half_thickness
   made%rim = rim
-  status = riis_mark_result_add_resistance(c_handle_of(result), made, int(n_nodes, int64), coefficient)
+  status = riis_marks_add_resistance(c_handle_of(result), made, int(n_nodes, int64), coefficient)
 end subroutine riisf_add_resistance
 
 !> Does the same.
 subroutine riisf_add_resistance_64(result, resistance, half_thickness, rim, n_nodes, coefficient, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_mark_result_add_resistance, riis_resistance_init
+  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_marks_add_resistance, riis_resistance_init
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
@@ -49,7 +49,7 @@ subroutine riisf_add_resistance_64(result, resistance, half_thickness, rim, n_no
   made%resistance = resistance
   made%half_thickness = half_thickness
   made%rim = rim
-  status = riis_mark_result_add_resistance(c_handle_of(result), made, int(n_nodes, int64), coefficient)
+  status = riis_marks_add_resistance(c_handle_of(result), made, int(n_nodes, int64), coefficient)
 end subroutine riisf_add_resistance_64
 
 !> The same for a surface that moves: adds K u_surface also. A scheme takes (sum of K) u - (sum of K u_surface).
@@ -57,7 +57,7 @@ subroutine riisf_add_moving_resistance(result, resistance, half_thickness, rim, 
     status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_mark_result_add_resistance, riis_resistance_init
+  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_marks_add_resistance, riis_resistance_init
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: result                    !< Of riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
@@ -75,7 +75,7 @@ subroutine riisf_add_moving_resistance(result, resistance, half_thickness, rim, 
   made%resistance = resistance
   made%half_thickness = half_thickness
   made%rim = rim
-  status = riis_mark_result_add_resistance(c_handle_of(result), made, int(n_nodes, int64), coefficient, momentum)
+  status = riis_marks_add_resistance(c_handle_of(result), made, int(n_nodes, int64), coefficient, momentum)
 end subroutine riisf_add_moving_resistance
 
 !> Does the same.
@@ -83,7 +83,7 @@ subroutine riisf_add_moving_resistance_64(result, resistance, half_thickness, ri
     status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_mark_result_add_resistance, riis_resistance_init
+  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_marks_add_resistance, riis_resistance_init
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: result                    !< Of riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
@@ -101,7 +101,7 @@ subroutine riisf_add_moving_resistance_64(result, resistance, half_thickness, ri
   made%resistance = resistance
   made%half_thickness = half_thickness
   made%rim = rim
-  status = riis_mark_result_add_resistance(c_handle_of(result), made, int(n_nodes, int64), coefficient, momentum)
+  status = riis_marks_add_resistance(c_handle_of(result), made, int(n_nodes, int64), coefficient, momentum)
 end subroutine riisf_add_moving_resistance_64
 
 !> Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface). Ranks add theirs by a reduction.
@@ -109,7 +109,7 @@ end subroutine riisf_add_moving_resistance_64
 subroutine riisf_add_reaction(result, resistance, half_thickness, rim, n_nodes, velocity, weight, force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_mark_result_add_reaction, riis_resistance_init
+  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_marks_add_reaction, riis_resistance_init
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_nodes or riisf_mark_with_fields.
@@ -129,14 +129,14 @@ subroutine riisf_add_reaction(result, resistance, half_thickness, rim, n_nodes, 
   made%resistance = resistance
   made%half_thickness = half_thickness
   made%rim = rim
-  status = riis_mark_result_add_reaction(c_handle_of(result), made, int(n_nodes, int64), velocity, weight, force)
+  status = riis_marks_add_reaction(c_handle_of(result), made, int(n_nodes, int64), velocity, weight, force)
 end subroutine riisf_add_reaction
 
 !> Does the same.
 subroutine riisf_add_reaction_64(result, resistance, half_thickness, rim, n_nodes, velocity, weight, force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_mark_result_add_reaction, riis_resistance_init
+  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_marks_add_reaction, riis_resistance_init
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_nodes or riisf_mark_with_fields.
@@ -156,7 +156,7 @@ subroutine riisf_add_reaction_64(result, resistance, half_thickness, rim, n_node
   made%resistance = resistance
   made%half_thickness = half_thickness
   made%rim = rim
-  status = riis_mark_result_add_reaction(c_handle_of(result), made, int(n_nodes, int64), velocity, weight, force)
+  status = riis_marks_add_reaction(c_handle_of(result), made, int(n_nodes, int64), velocity, weight, force)
 end subroutine riisf_add_reaction_64
 
 !> Sums a value, such as the pressure, over the nodes at a distance from inner to outer, by side. Nodes whose closest point
@@ -166,7 +166,7 @@ subroutine riisf_band_sums(result, inner, outer, n_nodes, value, weight, sum_of_
     status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_band_sums, riis_status, RIIS_OK, riis_mark_result_band_sums
+  use riis_c, only: riis_band_sums, riis_status, RIIS_OK, riis_marks_get_band_sums
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: result                    !< Of riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
@@ -181,7 +181,7 @@ subroutine riisf_band_sums(result, inner, outer, n_nodes, value, weight, sum_of_
   integer(int64), intent(inout) :: n_in_band(2)           !< How many nodes. INTEGER*8.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_band_sums) :: sums
-  status = riis_mark_result_band_sums(c_handle_of(result), inner, outer, int(n_nodes, int64), value, weight, sums, &
+  status = riis_marks_get_band_sums(c_handle_of(result), inner, outer, int(n_nodes, int64), value, weight, sums, &
     c_sizeof(sums))
   if (status /= RIIS_OK) return
   sum_of_values = sums%sum
@@ -194,7 +194,7 @@ subroutine riisf_band_sums_64(result, inner, outer, n_nodes, value, weight, sum_
     status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_band_sums, riis_status, RIIS_OK, riis_mark_result_band_sums
+  use riis_c, only: riis_band_sums, riis_status, RIIS_OK, riis_marks_get_band_sums
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: result                    !< Of riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
@@ -209,7 +209,7 @@ subroutine riisf_band_sums_64(result, inner, outer, n_nodes, value, weight, sum_
   integer(int64), intent(inout) :: n_in_band(2)           !< How many nodes. INTEGER*8.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_band_sums) :: sums
-  status = riis_mark_result_band_sums(c_handle_of(result), inner, outer, int(n_nodes, int64), value, weight, sums, &
+  status = riis_marks_get_band_sums(c_handle_of(result), inner, outer, int(n_nodes, int64), value, weight, sums, &
     c_sizeof(sums))
   if (status /= RIIS_OK) return
   sum_of_values = sums%sum

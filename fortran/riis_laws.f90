@@ -4,7 +4,7 @@
 !! The same arguments give the same bits, and nothing is kept between calls. Times, pressures and flows have the solver's
 !! units. The pressure difference is that upstream less that downstream, and flow is positive downstream, so both open a
 !! valve. Laws and states are variables like others, without anything to create or destroy. A structure constructor makes a
-!! law: riis_opening_switch(opening_seconds=0.04d0, closing_seconds=0.04d0) has defaults for the rest. A state can be copied
+!! law: riis_opening_switch(opening_duration=0.04d0, closing_duration=0.04d0) has defaults for the rest. A state can be copied
 !! by =, for a step that may be taken again. A restart file holds it as it is, by an unformatted WRITE or in full precision,
 !! and the law goes on with the same bits.
 module riis_laws
@@ -29,24 +29,24 @@ module riis_laws
   !! of fifth degree: neither the rate nor its derivative jumps.
   type :: riis_opening_times
     real(c_double) :: opening_start = no_value   !< When the valve begins to open. No default, as for the next three.
-    real(c_double) :: opening_seconds = no_value !< How long that takes, > 0.
-    real(c_double) :: closing_start = no_value   !< When it begins to close, at least opening_start + opening_seconds.
-    real(c_double) :: closing_seconds = no_value !< How long that takes, > 0.
+    real(c_double) :: opening_duration = no_value !< How long that takes, > 0.
+    real(c_double) :: closing_start = no_value   !< When it begins to close, at least opening_start + opening_duration.
+    real(c_double) :: closing_duration = no_value !< How long that takes, > 0.
     real(c_double) :: closed = 0                 !< The opening when closed, 0 to 1.
     real(c_double) :: open = 1                   !< The opening when open, 0 to 1.
     real(c_double) :: period = 0                 !< > 0: it repeats, not before it has closed. 0: it opens once.
   end type riis_opening_times
 
   !> A valve that opens when the pressure difference exceeds a value, and closes when the flow falls below one. An aortic
-  !! valve in SI units: opening_seconds 0.04, closing_seconds 0.04, open_above 0, close_below 0 (the flow reverses),
-  !! filter_seconds 0.002, dwell_seconds 0.02.
+  !! valve in SI units: opening_duration 0.04, closing_duration 0.04, open_above 0, close_below 0 (the flow reverses),
+  !! filter_time 0.002, dwell_time 0.02.
   type :: riis_opening_switch
-    real(c_double) :: opening_seconds = no_value !< From closed to open, > 0. No default, as for the next.
-    real(c_double) :: closing_seconds = no_value !< From open to closed, > 0.
+    real(c_double) :: opening_duration = no_value !< From closed to open, > 0. No default, as for the next.
+    real(c_double) :: closing_duration = no_value !< From open to closed, > 0.
     real(c_double) :: open_above = 0             !< Pressure difference.
     real(c_double) :: close_below = 0            !< Flow.
-    real(c_double) :: filter_seconds = 0         !< Time constant of a filter of first order on both, >= 0. 0: no filter.
-    real(c_double) :: dwell_seconds = 0          !< The least time from one turn to the next, >= 0.
+    real(c_double) :: filter_time = 0         !< Time constant of a filter of first order on both, >= 0. 0: no filter.
+    real(c_double) :: dwell_time = 0          !< The least time from one turn to the next, >= 0.
   end type riis_opening_switch
 
   !> The state of a switch. It begins as a closed valve at time 0.
@@ -149,9 +149,9 @@ contains
     code = riis_opening_times_init(law, c_sizeof(law))
     if (code == RIIS_OK) then
       law%opening_start = times%opening_start
-      law%opening_seconds = times%opening_seconds
+      law%opening_duration = times%opening_duration
       law%closing_start = times%closing_start
-      law%closing_seconds = times%closing_seconds
+      law%closing_duration = times%closing_duration
       law%closed = times%closed
       law%open = times%open
       law%period = times%period
@@ -176,12 +176,12 @@ contains
     code = riis_opening_switch_init(made, c_sizeof(made))
     if (code == RIIS_OK) code = riis_opening_switch_state_init(before, c_sizeof(before))
     if (code == RIIS_OK) then
-      made%opening_seconds = law%opening_seconds
-      made%closing_seconds = law%closing_seconds
+      made%opening_duration = law%opening_duration
+      made%closing_duration = law%closing_duration
       made%open_above = law%open_above
       made%close_below = law%close_below
-      made%filter_seconds = law%filter_seconds
-      made%dwell_seconds = law%dwell_seconds
+      made%filter_time = law%filter_time
+      made%dwell_time = law%dwell_time
       before%time = state%time
       before%opening = state%opening
       before%rate = state%rate

@@ -7,7 +7,7 @@ module riis_leaking
   use riis_support
   use riis_surfaces, only: riis_surface
   use riis_meshes, only: riis_mesh
-  use riis_marking, only: riis_mark_result
+  use riis_marking, only: riis_marks
   implicit none
   private
   public :: riis_find_leaks
@@ -28,7 +28,7 @@ contains
   subroutine find_leaks_logical(surface, mesh, result, leaks, node_mask, n_threads, status)
     class(riis_surface), intent(in) :: surface              !< The surface of the marking.
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
-    class(riis_mark_result), intent(inout) :: result        !< From riis_mark_nodes; its leaking edges are replaced.
+    class(riis_marks), intent(inout) :: result        !< From riis_mark_nodes; its leaking edges are replaced.
     type(riis_leaks), intent(inout) :: leaks                !< The summary; left alone on an error.
     logical, intent(in), optional :: node_mask(:)           !< (n_nodes), as in the marking: edges to nodes with .false. are no
                                                             !! paths; copied. Default: all nodes.
@@ -46,7 +46,7 @@ contains
   subroutine find_leaks_int8(surface, mesh, result, leaks, node_mask, n_threads, status)
     class(riis_surface), intent(in) :: surface              !< The surface of the marking.
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
-    class(riis_mark_result), intent(inout) :: result        !< From riis_mark_nodes; its leaking edges are replaced.
+    class(riis_marks), intent(inout) :: result        !< From riis_mark_nodes; its leaking edges are replaced.
     type(riis_leaks), intent(inout) :: leaks                !< The summary; left alone on an error.
     integer(int8), intent(in), contiguous :: node_mask(:)   !< (n_nodes): edges to nodes with 0 are no paths.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
@@ -61,7 +61,7 @@ contains
   subroutine find_leaks_int32(surface, mesh, result, leaks, node_mask, n_threads, status)
     class(riis_surface), intent(in) :: surface              !< The surface of the marking.
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
-    class(riis_mark_result), intent(inout) :: result        !< From riis_mark_nodes; its leaking edges are replaced.
+    class(riis_marks), intent(inout) :: result        !< From riis_mark_nodes; its leaking edges are replaced.
     type(riis_leaks), intent(inout) :: leaks                !< The summary; left alone on an error.
     integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): edges to nodes with 0 are no paths.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
@@ -78,7 +78,7 @@ contains
   subroutine find(surface, mesh, result, leaks, mask, n_threads, code)
     class(riis_surface), intent(in) :: surface
     class(riis_mesh), intent(in) :: mesh
-    class(riis_mark_result), intent(inout) :: result
+    class(riis_marks), intent(inout) :: result
     type(riis_leaks), intent(inout) :: leaks
     integer(int8), intent(in), contiguous, optional, target :: mask(:)
     class(*), intent(in), optional :: n_threads

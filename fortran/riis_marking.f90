@@ -10,7 +10,7 @@ module riis_marking
   use riis_meshes, only: riis_mesh
   implicit none
   private
-  public :: riis_mark_result, riis_mark_fields, riis_mark_nodes
+  public :: riis_marks, riis_mark_fields, riis_mark_nodes
 
   !> Pointers to the fields of the closest points that riis_mark_nodes kept, by %marked_fields or
   !! %within_limit_fields. The result owns the arrays; they count from 1. The size of a field that was not requested is 0.
@@ -30,7 +30,7 @@ module riis_marking
   !> The nodes that a marking found, with their distances. It is empty until riis_mark_nodes and after %destroy, which must
   !! be called. Use the same variable every time step: its memory is kept. Any number of threads may read it at once. One
   !! thread may write it while no other reads it.
-  type :: riis_mark_result
+  type :: riis_marks
     private
     type(c_ptr) :: handle = c_null_ptr
   contains
@@ -60,7 +60,7 @@ module riis_marking
     procedure, private, non_overridable :: dense_int8 => result_dense_int8
     procedure, private, non_overridable :: dense_int32 => result_dense_int32
     procedure, private, non_overridable :: dense_logical => result_dense_logical
-  end type riis_mark_result
+  end type riis_marks
 
   !> Finds every node whose distance to the surface is at most the half thickness (marked) or the distance limit.
   interface riis_mark_nodes
@@ -89,7 +89,7 @@ contains
   subroutine mark_nodes_logical(surface, mesh, result, distance_limit, node_mask, search, n_threads, status, fields)
     class(riis_surface), intent(in) :: surface              !< Created. Other calls under way may share it.
     class(riis_mesh), intent(in) :: mesh                    !< Created. Other calls under way may share it.
-    class(riis_mark_result), intent(inout) :: result        !< Empty, or from a call before.
+    class(riis_marks), intent(inout) :: result        !< Empty, or from a call before.
     real(c_double), intent(in), optional :: distance_limit  !< Nodes get their distance up to here, from the half thickness to
                                                             !! 1e60. Default RIIS_AUTO: the half thickness.
     logical, intent(in), optional :: node_mask(:)           !< (n_nodes): nodes with .false. are left out; copied. Default:
@@ -111,7 +111,7 @@ contains
   subroutine mark_nodes_int8(surface, mesh, result, distance_limit, node_mask, search, n_threads, status, fields)
     class(riis_surface), intent(in) :: surface              !< Created. Other calls under way may share it.
     class(riis_mesh), intent(in) :: mesh                    !< Created. Other calls under way may share it.
-    class(riis_mark_result), intent(inout) :: result        !< Empty, or from a call before.
+    class(riis_marks), intent(inout) :: result        !< Empty, or from a call before.
     real(c_double), intent(in), optional :: distance_limit  !< Nodes get their distance up to here, from the half thickness to
                                                             !! 1e60. Default RIIS_AUTO: the half thickness.
     integer(int8), intent(in), contiguous :: node_mask(:)   !< (n_nodes): nodes with 0 are left out.
@@ -130,7 +130,7 @@ contains
   subroutine mark_nodes_int32(surface, mesh, result, distance_limit, node_mask, search, n_threads, status, fields)
     class(riis_surface), intent(in) :: surface              !< Created. Other calls under way may share it.
     class(riis_mesh), intent(in) :: mesh                    !< Created. Other calls under way may share it.
-    class(riis_mark_result), intent(inout) :: result        !< Empty, or from a call before.
+    class(riis_marks), intent(inout) :: result        !< Empty, or from a call before.
     real(c_double), intent(in), optional :: distance_limit  !< Nodes get their distance up to here, from the half thickness to
                                                             !! 1e60. Default RIIS_AUTO: the half thickness.
     integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): nodes with 0 are left out.
@@ -151,7 +151,7 @@ contains
   subroutine mark(surface, mesh, result, distance_limit, mask, search, n_threads, fields, code)
     class(riis_surface), intent(in) :: surface
     class(riis_mesh), intent(in) :: mesh
-    class(riis_mark_result), intent(inout) :: result
+    class(riis_marks), intent(inout) :: result
     real(c_double), intent(in), optional :: distance_limit
     integer(int8), intent(in), contiguous, optional, target :: mask(:)
     class(*), intent(in), optional :: search, n_threads, fields
@@ -170,14 +170,14 @@ contains
       code = check_size(size(mask, kind=int64), mesh%n_nodes(), 'node_mask', 'nodes')
       if (size(mask, kind=int64) > 0) options%node_mask = c_loc(mask)
     end if
-    if (code == RIIS_OK .and. was_empty) code = riis_mark_result_create(result%handle)
+    if (code == RIIS_OK .and. was_empty) code = riis_marks_create(result%handle)
     if (code == RIIS_OK) code = c_mark_nodes(surface%c_handle(), mesh%c_handle(), options, result%handle)
-    if (code /= RIIS_OK .and. was_empty) call riis_mark_result_destroy(result%handle) ! empty as before
+    if (code /= RIIS_OK .and. was_empty) call riis_marks_destroy(result%handle) ! empty as before
   end subroutine mark
 
   !> Returns the number of marked nodes.
   function result_n_marked(this, status) result(n)
-    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: this             !< From riis_mark_nodes.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int64) :: n                                     !< 0 on an error.
     integer(riis_status) :: code
@@ -189,7 +189,7 @@ contains
 
   !> Returns the number of nodes within the distance limit, marked or not.
   function result_n_within_limit(this, status) result(n)
-    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: this             !< From riis_mark_nodes.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int64) :: n                                     !< 0 on an error.
     integer(riis_status) :: code
@@ -201,7 +201,7 @@ contains
 
   ! The library's list of the marked nodes, or of those within the limit.
   function get_list(this, within_limit, list) result(code)
-    class(riis_mark_result), intent(in) :: this
+    class(riis_marks), intent(in) :: this
     logical, intent(in) :: within_limit
     type(node_list), intent(out) :: list
     integer(riis_status) :: code
@@ -243,7 +243,7 @@ contains
   !! riis_mark_nodes with the result or its destruction. Do not write to them. Without marked nodes, and on an error, their
   !! sizes are 0.
   subroutine result_marked(this, node_id, distance, triangle_id, leaflet_id, status)
-    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: this             !< From riis_mark_nodes.
     integer(int64), pointer, intent(out), optional :: node_id(:) !< (n), ascending, from 0: node_id + 1 is the column of xyz.
     real(c_double), pointer, intent(out), optional :: distance(:) !< (n), mesh units.
     integer(int64), pointer, intent(out), optional :: triangle_id(:) !< (n), from 0: the closest triangle.
@@ -258,7 +258,7 @@ contains
 
   !> Does the same for all nodes within the distance limit, marked or not.
   subroutine result_within_limit(this, node_id, distance, triangle_id, leaflet_id, status)
-    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: this             !< From riis_mark_nodes.
     integer(int64), pointer, intent(out), optional :: node_id(:) !< (n), ascending, from 0: node_id + 1 is the column of xyz.
     real(c_double), pointer, intent(out), optional :: distance(:) !< (n), mesh units.
     integer(int64), pointer, intent(out), optional :: triangle_id(:) !< (n), from 0: the closest triangle.
@@ -275,7 +275,7 @@ contains
   !! to exactly the size that is needed, (0) for none, unless it has that size. Errors: RIIS_LIMIT_EXCEEDED for a node that
   !! integer(int32) cannot count; the arrays are left alone on an error.
   subroutine result_marked_int32(this, node_num, distance, triangle_id, leaflet_id, status)
-    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: this             !< From riis_mark_nodes.
     integer(int32), allocatable, intent(inout) :: node_num(:)  !< (n), ascending, from 1: the column of xyz.
     real(c_double), allocatable, intent(inout), optional :: distance(:) !< (n), mesh units.
     integer(int64), allocatable, intent(inout), optional :: triangle_id(:) !< (n), from 0: the closest triangle.
@@ -308,7 +308,7 @@ contains
 
   !> Does the same for integer(int64).
   subroutine result_marked_int64(this, node_num, distance, triangle_id, leaflet_id, status)
-    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: this             !< From riis_mark_nodes.
     integer(int64), allocatable, intent(inout) :: node_num(:)  !< (n), ascending, from 1: the column of xyz.
     real(c_double), allocatable, intent(inout), optional :: distance(:) !< (n), mesh units.
     integer(int64), allocatable, intent(inout), optional :: triangle_id(:) !< (n), from 0: the closest triangle.
@@ -337,7 +337,7 @@ contains
 
   !> Does the same for all nodes within the distance limit, marked or not.
   subroutine result_within_int32(this, node_num, distance, triangle_id, leaflet_id, status)
-    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: this             !< From riis_mark_nodes.
     integer(int32), allocatable, intent(inout) :: node_num(:)  !< (n), ascending, from 1: the column of xyz.
     real(c_double), allocatable, intent(inout), optional :: distance(:) !< (n), mesh units.
     integer(int64), allocatable, intent(inout), optional :: triangle_id(:) !< (n), from 0: the closest triangle.
@@ -370,7 +370,7 @@ contains
 
   !> Does the same for integer(int64).
   subroutine result_within_int64(this, node_num, distance, triangle_id, leaflet_id, status)
-    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: this             !< From riis_mark_nodes.
     integer(int64), allocatable, intent(inout) :: node_num(:)  !< (n), ascending, from 1: the column of xyz.
     real(c_double), allocatable, intent(inout), optional :: distance(:) !< (n), mesh units.
     integer(int64), allocatable, intent(inout), optional :: triangle_id(:) !< (n), from 0: the closest triangle.
@@ -438,7 +438,7 @@ contains
   !! copies sections that are not contiguous there and back. Errors: RIIS_INVALID_ARGUMENT for another size, or a
   !! far_distance that looks near; nothing is then written.
   subroutine result_dense_int8(this, mark, distance, triangle_id, leaflet_id, far_distance, status)
-    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: this             !< From riis_mark_nodes.
     integer(int8), intent(inout), optional :: mark(:) !< (n_nodes): 1 for marked nodes, 0 for others; not copied.
     real(c_double), intent(inout), optional :: distance(:) !< (n_nodes): for nodes within the distance limit, else
                                                             !! far_distance.
@@ -460,9 +460,9 @@ contains
     if (code == RIIS_OK .and. n < 0) code = refuse('none of mark, distance, triangle_id and leaflet_id is given')
     if (code == RIIS_OK) then
       if (present(far_distance)) then
-        code = riis_mark_result_dense(this%handle, n, far_distance, mark, distance, triangle_id, leaflet_id)
+        code = riis_marks_get_dense(this%handle, n, far_distance, mark, distance, triangle_id, leaflet_id)
       else
-        code = riis_mark_result_dense(this%handle, n, RIIS_FAR_DISTANCE, mark, distance, triangle_id, leaflet_id)
+        code = riis_marks_get_dense(this%handle, n, RIIS_FAR_DISTANCE, mark, distance, triangle_id, leaflet_id)
       end if
     end if
     call finish(code, status)
@@ -481,7 +481,7 @@ contains
 
   !> Does the same with marks in another kind of integer, which are converted.
   subroutine result_dense_int32(this, mark, distance, triangle_id, leaflet_id, far_distance, status)
-    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: this             !< From riis_mark_nodes.
     integer(int32), intent(inout) :: mark(:)                !< (n_nodes): 1 for marked nodes, 0 for others.
     real(c_double), intent(inout), optional :: distance(:) !< (n_nodes): for nodes within the distance limit, else
                                                             !! far_distance.
@@ -504,7 +504,7 @@ contains
 
   !> Does the same with logical marks, which are converted.
   subroutine result_dense_logical(this, mark, distance, triangle_id, leaflet_id, far_distance, status)
-    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: this             !< From riis_mark_nodes.
     logical, intent(inout) :: mark(:)                       !< (n_nodes): .true. for marked nodes.
     real(c_double), intent(inout), optional :: distance(:) !< (n_nodes): for nodes within the distance limit, else
                                                             !! far_distance.
@@ -528,7 +528,7 @@ contains
   !> Points to the result's own fields of the marked nodes, in the order of %marked: no copy. Valid until the next
   !! riis_mark_nodes with the result or its destruction; not to be written to. On an error all sizes are 0.
   subroutine result_marked_fields(this, fields, status)
-    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: this             !< From riis_mark_nodes.
     type(riis_mark_fields), intent(inout) :: fields         !< Every component is set.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(c_mark_fields) :: made
@@ -546,7 +546,7 @@ contains
 
   !> The same for all nodes within the distance limit, in the order of %within_limit.
   subroutine result_within_limit_fields(this, fields, status)
-    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: this             !< From riis_mark_nodes.
     type(riis_mark_fields), intent(inout) :: fields         !< Every component is set.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(c_mark_fields) :: made
@@ -614,7 +614,7 @@ contains
   !! Errors: RIIS_INVALID_ARGUMENT for an argument out of range, another number of nodes, or a field that the result lacks;
   !! the arrays are then as they were.
   subroutine result_add_resistance(this, resistance, coefficient, momentum, half_thickness, rim, status)
-    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: this             !< From riis_mark_nodes.
     real(c_double), intent(in) :: resistance                !< R, 0 to 1e60, mass / (length time): kg/(m s).
     real(c_double), intent(inout), optional :: coefficient(:) !< (n_nodes): K is added.
     real(c_double), intent(inout), optional :: momentum(:, :) !< (3, n_nodes): K u_surface is added; needs
@@ -639,9 +639,9 @@ contains
     ! An absent array of rank 2 is not passed on: gfortran would compute its size for a copy, from bounds that nobody set.
     if (code == RIIS_OK) then
       if (present(momentum)) then
-        code = riis_mark_result_add_resistance(this%handle, made, n, coefficient, momentum)
+        code = riis_marks_add_resistance(this%handle, made, n, coefficient, momentum)
       else
-        code = riis_mark_result_add_resistance(this%handle, made, n, coefficient)
+        code = riis_marks_add_resistance(this%handle, made, n, coefficient)
       end if
     end if
     call finish(code, status)
@@ -650,7 +650,7 @@ contains
   !> Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface). Ranks add theirs by a reduction.
   !! u_surface counts where the marking had RIIS_FIELD_VELOCITY, and is 0 otherwise. Errors: as of %add_resistance.
   subroutine result_add_reaction(this, resistance, velocity, weight, force, half_thickness, rim, status)
-    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: this             !< From riis_mark_nodes.
     real(c_double), intent(in) :: resistance                !< R, 0 to 1e60, mass / (length time): kg/(m s).
     real(c_double), intent(in) :: velocity(:, :) !< (3, n_nodes), of the flow.
     real(c_double), intent(in) :: weight(:)     !< (n_nodes), the volume that a node stands for; 0 for the nodes of
@@ -673,7 +673,7 @@ contains
     call get_resistance(resistance, half_thickness, rim, made, code)
     if (code == RIIS_OK) then
       sum_of_forces = force
-      code = riis_mark_result_add_reaction(this%handle, made, n, velocity, weight, sum_of_forces)
+      code = riis_marks_add_reaction(this%handle, made, n, velocity, weight, sum_of_forces)
     end if
     if (code == RIIS_OK) force = sum_of_forces
     call finish(code, status)
@@ -683,7 +683,7 @@ contains
   !! is on the rim, or that are on neither side, are left out. With an open valve the two sides have no meaning. Errors:
   !! RIIS_INVALID_ARGUMENT for a distance out of range, another number of nodes, or a field that the result lacks.
   subroutine result_band_sums(this, inner, outer, value, weight, sums, status)
-    class(riis_mark_result), intent(in) :: this             !< Of a call of riis_mark_nodes with RIIS_FIELD_SIDE + RIIS_FIELD_RIM.
+    class(riis_marks), intent(in) :: this             !< Of a call of riis_mark_nodes with RIIS_FIELD_SIDE + RIIS_FIELD_RIM.
     real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
     real(c_double), intent(in) :: outer                     !< Mesh units, at most the distance limit of the marking.
     real(c_double), intent(in) :: value(:)      !< (n_nodes).
@@ -697,18 +697,18 @@ contains
     code = check_created(this%handle, 'the result')
     if (code == RIIS_OK) code = check_size(size(weight, kind=int64), n, 'weight', 'values')
     if (code == RIIS_OK) &
-      code = riis_mark_result_band_sums(this%handle, inner, outer, n, value, weight, sums, c_sizeof(sums))
+      code = riis_marks_get_band_sums(this%handle, inner, outer, n, value, weight, sums, c_sizeof(sums))
     call finish(code, status)
   end subroutine result_band_sums
 
   !> Tells how the last marking went.
   subroutine result_get_stats(this, stats, status)
-    class(riis_mark_result), intent(in) :: this             !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: this             !< From riis_mark_nodes.
     type(riis_mark_stats), intent(inout) :: stats           !< Left alone on an error.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = check_created(this%handle, 'the result')
-    if (code == RIIS_OK) code = riis_mark_result_stats(this%handle, stats, c_sizeof(stats))
+    if (code == RIIS_OK) code = riis_marks_get_stats(this%handle, stats, c_sizeof(stats))
     call finish(code, status)
   end subroutine result_get_stats
 
@@ -716,7 +716,7 @@ contains
   !! valid until the next riis_find_leaks or riis_mark_nodes with the result, or its destruction. Do not write to them.
   !! Without such edges, and on an error, their sizes are 0.
   subroutine result_leaking_edges(this, node_id, length, distance, status)
-    class(riis_mark_result), intent(in) :: this             !< From riis_find_leaks.
+    class(riis_marks), intent(in) :: this             !< From riis_find_leaks.
     integer(int64), pointer, intent(out), optional :: node_id(:, :) !< (2, n), from 0: node_id + 1 are columns of xyz.
     real(c_double), pointer, intent(out), optional :: length(:) !< (n), mesh units.
     real(c_double), pointer, intent(out), optional :: distance(:) !< (n): the distance of its nearer node, mesh units.
@@ -747,28 +747,28 @@ contains
 
   !> Tells whether the result was made by a marking and not destroyed.
   pure function result_is_created(this) result(is_created)
-    class(riis_mark_result), intent(in) :: this             !< Any.
+    class(riis_marks), intent(in) :: this             !< Any.
     logical :: is_created                                   !< .false. for an empty one.
     is_created = c_associated(this%handle)
   end function result_is_created
 
   !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
   function result_c_handle(this) result(handle)
-    class(riis_mark_result), intent(in) :: this             !< Any.
+    class(riis_marks), intent(in) :: this             !< Any.
     type(c_ptr) :: handle                                   !< c_null_ptr for an empty one.
     handle = this%handle
   end function result_c_handle
 
   !> Frees the memory of the result, which is then empty and can be used again. Nothing happens to an empty one.
   subroutine result_destroy(this)
-    class(riis_mark_result), intent(inout) :: this          !< Any.
-    call riis_mark_result_destroy(this%handle)
+    class(riis_marks), intent(inout) :: this          !< Any.
+    call riis_marks_destroy(this%handle)
   end subroutine result_destroy
 
   !> Stops the program unless both are empty.
   impure elemental subroutine result_assign(left, right)
-    class(riis_mark_result), intent(inout) :: left          !< Empty.
-    class(riis_mark_result), intent(in) :: right            !< Empty.
-    call refuse_copy(left%handle, right%handle, 'riis_mark_result')
+    class(riis_marks), intent(inout) :: left          !< Empty.
+    class(riis_marks), intent(in) :: right            !< Empty.
+    call refuse_copy(left%handle, right%handle, 'riis_marks')
   end subroutine result_assign
 end module riis_marking

@@ -360,7 +360,7 @@ contains
     integer(riis_status) :: code
     code = check_created(this%handle, 'the mesh')
     if (code == RIIS_OK) code = check_created(adjacency%c_handle(), 'adjacency')
-    if (code == RIIS_OK) code = riis_adjacency_csr(adjacency%c_handle(), csr, c_sizeof(csr))
+    if (code == RIIS_OK) code = riis_adjacency_get_csr(adjacency%c_handle(), csr, c_sizeof(csr))
     if (code == RIIS_OK) code = riis_mesh_set_adjacency(this%handle, csr)
     call finish(code, status)
   end subroutine mesh_adjacency_handle

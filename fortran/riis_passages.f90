@@ -8,7 +8,7 @@ module riis_passages
   use riis_support
   use riis_surfaces, only: riis_surface
   use riis_meshes, only: riis_mesh
-  use riis_marking, only: riis_mark_result
+  use riis_marking, only: riis_marks
   implicit none
   private
   public :: riis_label_open_regions, riis_find_passage
@@ -34,7 +34,7 @@ contains
   !! the result was never marked with, or was marked with another mesh. The array is then as it was.
   subroutine label_open_regions_logical(mesh, result, region_num, n_regions, node_mask, n_threads, status)
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
-    class(riis_mark_result), intent(in) :: result           !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: result           !< From riis_mark_nodes.
     integer(int64), intent(inout), contiguous :: region_num(:) !< (n_nodes): the lowest node of the node's region, counted
                                                             !! from 1; 0 for nodes in no region.
     integer(int64), intent(inout), optional :: n_regions    !< How many there are.
@@ -53,7 +53,7 @@ contains
   !> Does the same with a mask of bytes. Only a section that is not contiguous is copied.
   subroutine label_open_regions_int8(mesh, result, region_num, n_regions, node_mask, n_threads, status)
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
-    class(riis_mark_result), intent(in) :: result           !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: result           !< From riis_mark_nodes.
     integer(int64), intent(inout), contiguous :: region_num(:) !< (n_nodes): the lowest node of the node's region, counted
                                                             !! from 1; 0 for nodes in no region.
     integer(int64), intent(inout), optional :: n_regions    !< How many there are.
@@ -69,7 +69,7 @@ contains
   !> Does the same with a mask of integers, which is copied.
   subroutine label_open_regions_int32(mesh, result, region_num, n_regions, node_mask, n_threads, status)
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
-    class(riis_mark_result), intent(in) :: result           !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: result           !< From riis_mark_nodes.
     integer(int64), intent(inout), contiguous :: region_num(:) !< (n_nodes): the lowest node of the node's region, counted
                                                             !! from 1; 0 for nodes in no region.
     integer(int64), intent(inout), optional :: n_regions    !< How many there are.
@@ -258,7 +258,7 @@ contains
   ! The common part of all specifics; does nothing after an error.
   subroutine label(mesh, result, region_num, n_regions, mask, n_threads, code)
     class(riis_mesh), intent(in) :: mesh
-    class(riis_mark_result), intent(in) :: result
+    class(riis_marks), intent(in) :: result
     integer(int64), intent(inout), contiguous :: region_num(:)
     integer(int64), intent(inout), optional :: n_regions
     integer(int8), intent(in), contiguous, optional, target :: mask(:)

@@ -71,7 +71,7 @@ contains
   !! RIIS_INVALID_ARGUMENT for an option out of range; RIIS_INVALID_PARAMETER for parameters that do not go together;
   !! RIIS_LIMIT_EXCEEDED where the tolerance needs more than 16,777,216 triangles, or does not hold on fixed triangles.
   subroutine surface_create(this, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, status, distance, distance_tolerance, n_threads, triangulation)
+      flip_normals, status, distance, measure_tolerance, n_threads, triangulation)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units, 1e-50 to 1e50: nodes within it are marked.
@@ -85,8 +85,8 @@ contains
     logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over. Default .false.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int32), intent(in), optional :: distance        !< RIIS_DISTANCE_*: how distances are measured, from then on.
-                                                            !! Default RIIS_DISTANCE_TRIANGLES.
-    real(c_double), intent(in), optional :: distance_tolerance !< Of the other distances: a share of half_thickness, 1e-6 to
+                                                            !! Default RIIS_MEASURE_TRIANGLES.
+    real(c_double), intent(in), optional :: measure_tolerance !< Of the other distances: a share of half_thickness, 1e-6 to
                                                             !! 1. Default RIIS_AUTO: tolerance.
     integer(int32), intent(in), optional :: n_threads       !< Threads that make the surface, from then on: 1 to 1024. Default 0:
                                                             !! as many as pay.
@@ -100,7 +100,7 @@ contains
     call create_options(this, options, code)
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
     call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code, distance, distance_tolerance, n_threads, triangulation)
+      flip_normals, code, distance, measure_tolerance, n_threads, triangulation)
     if (code == RIIS_OK) code = riis_surface_create(valve%c_handle(), options, this%handle)
     if (code == RIIS_OK) this%options = options
     call finish(code, status)
@@ -110,7 +110,7 @@ contains
   !! RIIS_AUTO, the default, follows the scale. Pointers got from the surface before end. The errors are those of %create,
   !! and RIIS_INVALID_PARAMETER naming a parameter that moved on fixed triangles; the surface is then as it was.
   subroutine surface_update(this, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, status, distance, distance_tolerance, n_threads, triangulation)
+      flip_normals, status, distance, measure_tolerance, n_threads, triangulation)
     class(riis_surface), intent(inout) :: this              !< Created.
     class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
@@ -122,7 +122,7 @@ contains
     logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int32), intent(in), optional :: distance        !< RIIS_DISTANCE_*.
-    real(c_double), intent(in), optional :: distance_tolerance !< 1e-6 to 1, or RIIS_AUTO.
+    real(c_double), intent(in), optional :: measure_tolerance !< 1e-6 to 1, or RIIS_AUTO.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     integer(int32), intent(in), optional :: triangulation   !< RIIS_TRIANGULATION_*.
     type(riis_surface_options) :: options
@@ -131,7 +131,7 @@ contains
     call update_options(this, options, code)
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
     call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code, distance, distance_tolerance, n_threads, triangulation)
+      flip_normals, code, distance, measure_tolerance, n_threads, triangulation)
     if (code == RIIS_OK) code = riis_surface_update(this%handle, valve%c_handle(), options)
     if (code == RIIS_OK) this%options = options
     call finish(code, status)
@@ -142,7 +142,7 @@ contains
   !! call to call. A valve at rest is its own state before. Errors: as of %update; RIIS_INVALID_ARGUMENT for seconds out of
   !! range; RIIS_INVALID_PARAMETER for a valve_before of another kind or build.
   subroutine surface_update_moving(this, valve, valve_before, seconds, half_thickness, tolerance, scale, rotation_axis, &
-      rotation_angle, translation, flip_normals, distance, distance_tolerance, n_threads, scale_before, &
+      rotation_angle, translation, flip_normals, distance, measure_tolerance, n_threads, scale_before, &
       rotation_axis_before, rotation_angle_before, translation_before, status, triangulation)
     class(riis_surface), intent(inout) :: this              !< Created.
     class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
@@ -158,7 +158,7 @@ contains
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
     integer(int32), intent(in), optional :: distance        !< RIIS_DISTANCE_*.
-    real(c_double), intent(in), optional :: distance_tolerance !< 1e-6 to 1, or RIIS_AUTO.
+    real(c_double), intent(in), optional :: measure_tolerance !< 1e-6 to 1, or RIIS_AUTO.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     integer(int32), intent(in), optional :: triangulation   !< RIIS_TRIANGULATION_*.
     real(c_double), intent(in), optional :: scale_before    !< At the state before. Default: as now; so the next three.
@@ -173,7 +173,7 @@ contains
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
     if (code == RIIS_OK) code = check_created(valve_before%c_handle(), 'valve_before')
     call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code, distance, distance_tolerance, n_threads, triangulation)
+      flip_normals, code, distance, measure_tolerance, n_threads, triangulation)
     if (code == RIIS_OK) then
       before = options
       if (present(scale_before)) before%scale = scale_before
@@ -670,14 +670,14 @@ contains
 
   ! Sets the options that are present; does nothing after an error.
   subroutine set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code, distance, distance_tolerance, n_threads, triangulation, skip_zero_area)
+      flip_normals, code, distance, measure_tolerance, n_threads, triangulation, skip_zero_area)
     type(riis_surface_options), intent(inout) :: options
     real(c_double), intent(in), optional :: half_thickness, tolerance, scale, rotation_axis(:), rotation_angle, &
       translation(:)
     logical, intent(in), optional :: flip_normals, skip_zero_area
     integer(riis_status), intent(inout) :: code
     integer(int32), intent(in), optional :: distance, n_threads, triangulation
-    real(c_double), intent(in), optional :: distance_tolerance
+    real(c_double), intent(in), optional :: measure_tolerance
     if (code /= RIIS_OK) return
     if (present(half_thickness)) options%half_thickness = half_thickness
     if (present(tolerance)) options%tolerance = tolerance
@@ -685,7 +685,7 @@ contains
     if (present(rotation_angle)) options%rotation_angle = rotation_angle
     if (present(flip_normals)) options%flip_normals = merge(1, 0, flip_normals)
     if (present(distance)) options%distance = distance
-    if (present(distance_tolerance)) options%distance_tolerance = distance_tolerance
+    if (present(measure_tolerance)) options%measure_tolerance = measure_tolerance
     if (present(n_threads)) options%n_threads = n_threads
     if (present(triangulation)) options%triangulation = triangulation
     if (present(skip_zero_area)) options%zero_area = merge(RIIS_ZERO_AREA_SKIP, RIIS_ZERO_AREA_REFUSE, skip_zero_area)

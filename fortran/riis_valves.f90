@@ -271,7 +271,7 @@ contains
     integer(riis_status) :: code
     n = 0
     code = check_created(this%handle, 'the valve')
-    if (code == RIIS_OK) code = riis_valve_n_parameters(this%handle, n)
+    if (code == RIIS_OK) code = riis_valve_get_n_parameters(this%handle, n)
     call finish(code, status)
   end function valve_n_parameters
 
@@ -295,10 +295,10 @@ contains
     integer(riis_status) :: code
     code = check_created(this%handle, 'the valve')
     n = 0
-    if (code == RIIS_OK) code = riis_valve_n_parameters(this%handle, n)
+    if (code == RIIS_OK) code = riis_valve_get_n_parameters(this%handle, n)
     if (code == RIIS_OK .and. (number < 1 .or. number > n)) &
       code = refuse('number is ' // text_of(number) // '; the valve has the parameters 1 to ' // text_of(n))
-    if (code == RIIS_OK) code = riis_valve_parameter(this%handle, number - 1, parameter, c_sizeof(parameter))
+    if (code == RIIS_OK) code = riis_valve_get_parameter(this%handle, number - 1, parameter, c_sizeof(parameter))
     if (code == RIIS_OK) then
       info%name = riis_c_text(parameter%name)
       info%unit = riis_c_text(parameter%unit)

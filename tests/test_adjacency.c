@@ -51,7 +51,7 @@ static void tidy_pairs(pair_list *list) {
 
 static riis_csr rows_of(const riis_adjacency *adjacency) {
   riis_csr csr;
-  CHECK_OK(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+  CHECK_OK(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
   return csr;
 }
 
@@ -142,9 +142,9 @@ static void *as_bits(const int64_t *from, int64_t n, int bits, int64_t base) {
   return narrow;
 }
 
-static riis_cells cells_init(void) {
-  riis_cells cells;
-  CHECK_OK(riis_cells_init(&cells, sizeof cells));
+static riis_mesh_cells cells_init(void) {
+  riis_mesh_cells cells;
+  CHECK_OK(riis_mesh_cells_init(&cells, sizeof cells));
   return cells;
 }
 
@@ -165,7 +165,7 @@ static void cells_of_every_kind(void **state) {
             const int n_outside = n_owned();
             void *nodes = as_bits(list.nodes, list.offsets[list.n_cells], bits, base);
             void *offsets = as_bits(list.offsets, list.n_cells + 1, bits, 0);
-            riis_cells cells = cells_init();
+            riis_mesh_cells cells = cells_init();
             cells.n_nodes = n_nodes;
             cells.n_cells = list.n_cells;
             cells.node_ids = nodes;
@@ -204,7 +204,7 @@ static void one_cell_of_each_kind(void **state) {
   const int32_t ids[8] = {0, 1, 2, 3, 4, 5, 6, 7};
   for (int k = 0; k < 4; ++k) {
     const int owned_before = n_owned();
-    riis_cells cells = cells_init();
+    riis_mesh_cells cells = cells_init();
     cells.n_nodes = 10;
     cells.n_cells = 1;
     cells.node_ids = ids;
@@ -223,7 +223,7 @@ static void cells_that_are_refused(void **state) {
   (void)state;
   int32_t ids[12] = {0, 1, 2, 3, 1, 2, 3, 4, 2, 3, 4, 5}, offsets[4] = {0, 4, 8, 12};
   riis_adjacency *adjacency = NULL;
-  riis_cells good = cells_init(), cells;
+  riis_mesh_cells good = cells_init(), cells;
   assert_int_equal(good.struct_size, sizeof good);
   assert_int_equal(good.nodes_per_cell, 4);
   assert_int_equal(good.id_bits, 32);
@@ -274,8 +274,8 @@ static void cells_that_are_refused(void **state) {
   riis_adjacency_destroy(&adjacency);
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "cells|NULL", riis_adjacency_create_from_cells(NULL, &adjacency));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "adjacency|NULL", riis_adjacency_create_from_cells(&good, NULL));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "cells|NULL", riis_cells_init(NULL, sizeof cells));
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "cells is 8", riis_cells_init(&cells, 8));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "cells|NULL", riis_mesh_cells_init(NULL, sizeof cells));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "cells is 8", riis_mesh_cells_init(&cells, 8));
   assert_null(adjacency); /* written on success only */
 #undef REFUSED_WITH
 }
@@ -287,7 +287,7 @@ static void wildest_integers_are_refused(void **state) {
   for (int base = 0; base < 2; ++base) {
     const int owned_before = n_owned();
     riis_adjacency *adjacency = NULL;
-    riis_cells cells = cells_init();
+    riis_mesh_cells cells = cells_init();
     cells.n_nodes = 6;
     cells.n_cells = 1;
     cells.node_ids = ids;
@@ -295,8 +295,8 @@ static void wildest_integers_are_refused(void **state) {
     cells.index_base = base;
     CHECK_REFUSED(RIIS_INVALID_MESH, "node 3 of cell 0 is -9223372036854775808",
                   riis_adjacency_create_from_cells(&cells, &adjacency));
-    riis_faces faces;
-    CHECK_OK(riis_faces_init(&faces, sizeof faces));
+    riis_mesh_faces faces;
+    CHECK_OK(riis_mesh_faces_init(&faces, sizeof faces));
     faces.n_cells = 3;
     faces.n_faces = 1;
     faces.owner = ids;
@@ -323,7 +323,7 @@ static void wildest_integers_are_refused(void **state) {
   }
   const int64_t wild_offsets[3] = {0, 4, INT64_MIN};
   riis_adjacency *adjacency = NULL;
-  riis_cells cells = cells_init();
+  riis_mesh_cells cells = cells_init();
   cells.n_nodes = 6;
   cells.n_cells = 2;
   cells.node_ids = (const int64_t[8]){0, 1, 2, 3, 0, 1, 2, 3};
@@ -334,9 +334,9 @@ static void wildest_integers_are_refused(void **state) {
 
 /* --- Faces ----------------------------------------------------------------------------------------------------------- */
 
-static riis_faces faces_init(void) {
-  riis_faces faces;
-  CHECK_OK(riis_faces_init(&faces, sizeof faces));
+static riis_mesh_faces faces_init(void) {
+  riis_mesh_faces faces;
+  CHECK_OK(riis_mesh_faces_init(&faces, sizeof faces));
   return faces;
 }
 
@@ -367,7 +367,7 @@ static void faces_in_every_layout(void **state) {
           for (int64_t f = 0; f < n_faces; ++f)
             for (int e = 0; e < 2; ++e) laid_out[stride == 2 ? 2 * f + e : e * n_faces + f] = ends[2 * f + e];
           char *numbers = as_bits(laid_out, 2 * n_faces, bits, base);
-          riis_faces faces = faces_init();
+          riis_mesh_faces faces = faces_init();
           faces.n_cells = n_cells;
           faces.n_faces = n_faces;
           faces.owner = n_faces ? numbers : NULL;
@@ -396,12 +396,12 @@ static void nothing_makes_empty_rows(void **state) {
   for (int64_t n_nodes = 0; n_nodes <= 3; n_nodes += 3) {
     riis_adjacency *adjacency = NULL;
     pair_list none = {0};
-    riis_cells cells = cells_init();
+    riis_mesh_cells cells = cells_init();
     cells.n_nodes = n_nodes;
     CHECK_OK(riis_adjacency_create_from_cells(&cells, &adjacency));
     check_rows(adjacency, n_nodes, &none);
     riis_adjacency_destroy(&adjacency);
-    riis_faces faces = faces_init();
+    riis_mesh_faces faces = faces_init();
     faces.n_cells = n_nodes;
     CHECK_OK(riis_adjacency_create_from_faces(&faces, &adjacency));
     check_rows(adjacency, n_nodes, &none);
@@ -413,7 +413,7 @@ static void faces_that_are_refused(void **state) {
   (void)state;
   int32_t owner[3] = {0, 1, 2}, neighbor[3] = {1, 2, -1};
   riis_adjacency *adjacency = NULL;
-  riis_faces good = faces_init(), faces;
+  riis_mesh_faces good = faces_init(), faces;
   assert_int_equal(good.struct_size, sizeof good);
   assert_int_equal(good.stride, 1);
   assert_int_equal(good.id_bits, 32);
@@ -449,8 +449,8 @@ static void faces_that_are_refused(void **state) {
   owner[1] = 1;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "faces|NULL", riis_adjacency_create_from_faces(NULL, &adjacency));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "adjacency|NULL", riis_adjacency_create_from_faces(&good, NULL));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "faces|NULL", riis_faces_init(NULL, sizeof faces));
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "faces is 0", riis_faces_init(&faces, 0));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "faces|NULL", riis_mesh_faces_init(NULL, sizeof faces));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "faces is 0", riis_mesh_faces_init(&faces, 0));
   assert_null(adjacency);
 #undef REFUSED_WITH
 }

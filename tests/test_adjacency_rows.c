@@ -12,10 +12,10 @@ static void handles_of_adjacencies(void **state) {
   riis_adjacency *adjacency = NULL;
   riis_csr csr;
   CHECK_OK(riis_adjacency_create_from_grid(3, 2, 1, 0, &adjacency));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "adjacency|NULL", riis_adjacency_csr(NULL, &csr, sizeof csr));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "csr|NULL", riis_adjacency_csr(adjacency, NULL, sizeof csr));
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "csr is 48", riis_adjacency_csr(adjacency, &csr, 48));
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "csr is 64", riis_adjacency_csr(adjacency, &csr, 64));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "adjacency|NULL", riis_adjacency_get_csr(NULL, &csr, sizeof csr));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "csr|NULL", riis_adjacency_get_csr(adjacency, NULL, sizeof csr));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "csr is 48", riis_adjacency_get_csr(adjacency, &csr, 48));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "csr is 64", riis_adjacency_get_csr(adjacency, &csr, 64));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "csr|NULL", riis_csr_init(NULL, sizeof csr));
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "csr is -8", riis_csr_init(&csr, -8));
   /* A mesh in its place, and it in a mesh's. */
@@ -23,8 +23,8 @@ static void handles_of_adjacencies(void **state) {
   riis_mesh *mesh = NULL;
   CHECK_OK(riis_mesh_create(6, xyz, xyz + 1, xyz + 2, 3, &mesh));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "adjacency is a handle of another kind",
-                riis_adjacency_csr((const riis_adjacency *)(const void *)mesh, &csr, sizeof csr));
-  CHECK_OK(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+                riis_adjacency_get_csr((const riis_adjacency *)(const void *)mesh, &csr, sizeof csr));
+  CHECK_OK(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "mesh is a handle of another kind",
                 riis_mesh_set_adjacency((riis_mesh *)(void *)adjacency, &csr));
   riis_adjacency *wrong = (riis_adjacency *)(void *)mesh;
@@ -40,7 +40,7 @@ static void handles_of_adjacencies(void **state) {
 
 /* 1 if the mesh can be searched along an adjacency. */
 static int has_adjacency(const riis_surface *surface, const riis_mesh *mesh) {
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_mark_options options = mark_options();
   options.search = RIIS_SEARCH_NEIGHBOR;
   options.n_threads = 1;
@@ -133,7 +133,7 @@ static void when_an_adjacency_goes(void **state) {
   /* Columns 4 and 5 are ghosts; the rest of the rows is the node itself, and again. */
   int64_t offsets[n + 1] = {1, 4, 4, 7, 8}, columns[7] = {5, 6, 1, 3, 3, 2, 4};
   riis_csr csr;
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_mark_options options = mark_options();
   riis_mesh *mesh = mesh_of(n, xyz);
   CHECK_OK(riis_csr_init(&csr, sizeof csr));

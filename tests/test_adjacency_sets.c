@@ -86,8 +86,8 @@ static void rows_are_those_of_a_set(void **state) {
     for (int64_t i = 0; i < mesh.offsets[mesh.n_cells]; ++i) put(nodes, i, mesh.nodes[i] + base, bits);
     const int first = base && below(2);
     for (int64_t c = 0; c <= mesh.n_cells; ++c) put(offsets, c, mesh.offsets[c] + first, bits);
-    riis_cells cells;
-    CHECK_OK(riis_cells_init(&cells, sizeof cells));
+    riis_mesh_cells cells;
+    CHECK_OK(riis_mesh_cells_init(&cells, sizeof cells));
     cells.n_nodes = mesh.n_nodes;
     cells.n_cells = mesh.n_cells;
     cells.node_ids = nodes;
@@ -121,8 +121,8 @@ static void nothing_makes_empty_rows_in_each_width(void **state) {
   for (int64_t n_nodes = 0; n_nodes <= 5000; n_nodes += 5000)
     for (int width = 0; width < 2; ++width)
       for (int n_threads = 1; n_threads <= 3; ++n_threads) {
-        riis_cells cells;
-        CHECK_OK(riis_cells_init(&cells, sizeof cells));
+        riis_mesh_cells cells;
+        CHECK_OK(riis_mesh_cells_init(&cells, sizeof cells));
         cells.n_nodes = n_nodes;
         wide_rows rows = {0};
         CHECK_OK(rows_with_limits(&cells, n_threads, -1, width ? 0 : -1, &rows));
@@ -138,8 +138,8 @@ static void the_first_wrong_cell_is_named(void **state) {
   enum { n_cells = 20000 };
   int32_t *nodes = own(calloc(4 * n_cells, sizeof *nodes)), *offsets = own(calloc(n_cells + 1, sizeof *offsets));
   for (int c = 0; c < n_cells; ++c) offsets[c + 1] = 4 * (c + 1);
-  riis_cells cells;
-  CHECK_OK(riis_cells_init(&cells, sizeof cells));
+  riis_mesh_cells cells;
+  CHECK_OK(riis_mesh_cells_init(&cells, sizeof cells));
   cells.n_nodes = 1;
   cells.n_cells = n_cells;
   cells.node_ids = nodes;

@@ -52,9 +52,15 @@ static void triangles_carry_patch_leaflet_u_and_v(void **state) {
   const int64_t *vertex_id, *triangle_id;
   const int32_t *leaflet_id, *patch_id;
   int64_t per_patch[12] = {0};
-  CHECK_OK(riis_surface_vertices(surface, &n_vertices, &xyz));
-  CHECK_OK(riis_surface_vertex_parameters(surface, &n_uv, &uv));
-  CHECK_OK(riis_surface_triangles(surface, &n_triangles, &vertex_id, &triangle_id, &leaflet_id, &patch_id));
+  n_vertices = triangles_of(surface).n_vertices;
+  xyz = triangles_of(surface).xyz;
+  n_uv = triangles_of(surface).n_vertices;
+  uv = triangles_of(surface).uv;
+  n_triangles = triangles_of(surface).n_triangles;
+  vertex_id = triangles_of(surface).vertex_id;
+  triangle_id = triangles_of(surface).triangle_id;
+  leaflet_id = triangles_of(surface).leaflet_id;
+  patch_id = triangles_of(surface).patch_id;
   assert_int_equal(n_uv, n_vertices);
   assert_int_equal(n_triangles, info_of(surface).n_triangles);
   assert_int_equal(n_vertices, info_of(surface).n_vertices);
@@ -118,8 +124,10 @@ static void normals_point_downstream(void **state) {
     const int64_t *id;
     const int32_t *leaflet_id;
     double outwards[3] = {0, 0, 0}, upwards[3] = {0, 0, 0};
-    CHECK_OK(riis_surface_vertices(surface, NULL, &xyz));
-    CHECK_OK(riis_surface_triangles(surface, &n, &id, NULL, &leaflet_id, NULL));
+    xyz = triangles_of(surface).xyz;
+    n = triangles_of(surface).n_triangles;
+    id = triangles_of(surface).vertex_id;
+    leaflet_id = triangles_of(surface).leaflet_id;
     for (int64_t i = 0; i < n; ++i) {
       const double *a = xyz + 3 * id[3 * i], *b = xyz + 3 * id[3 * i + 1], *c = xyz + 3 * id[3 * i + 2];
       const double normal[3] = {(b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]),
@@ -151,8 +159,10 @@ static void placement_is_applied_last(void **state) {
   riis_surface *plain = aortic_surface(NULL), *placed = aortic_surface(&options);
   int64_t n, n_placed;
   const double *a, *b;
-  CHECK_OK(riis_surface_vertices(plain, &n, &a));
-  CHECK_OK(riis_surface_vertices(placed, &n_placed, &b));
+  n = triangles_of(plain).n_vertices;
+  a = triangles_of(plain).xyz;
+  n_placed = triangles_of(placed).n_vertices;
+  b = triangles_of(placed).xyz;
   assert_int_equal(n, n_placed);
   for (int64_t i = 0; i < 3 * n; i += 3) {
     CHECK_NEAR(b[i], 0.01 * a[i] + 5, 1e-14);
@@ -168,8 +178,11 @@ static void three_cusps_are_three_pieces(void **state) {
   const double *xyz;
   const int64_t *id;
   const int32_t *leaflet_id;
-  CHECK_OK(riis_surface_vertices(surface, &n_vertices, &xyz));
-  CHECK_OK(riis_surface_triangles(surface, &n, &id, NULL, &leaflet_id, NULL));
+  n_vertices = triangles_of(surface).n_vertices;
+  xyz = triangles_of(surface).xyz;
+  n = triangles_of(surface).n_triangles;
+  id = triangles_of(surface).vertex_id;
+  leaflet_id = triangles_of(surface).leaflet_id;
   /* No vertex of one cusp touches another's: the radii differ at the commissures. Smallest gap at each. */
   double gap = INFINITY;
   int32_t *of_vertex = own(malloc((size_t)n_vertices * sizeof *of_vertex));
@@ -213,9 +226,10 @@ static void halves_meet_to_the_last_bit(void **state) {
     int64_t n, n_edges = 0;
     const double *xyz, *uv;
     const int64_t *id;
-    CHECK_OK(riis_surface_vertices(surface, NULL, &xyz));
-    CHECK_OK(riis_surface_vertex_parameters(surface, NULL, &uv));
-    CHECK_OK(riis_surface_triangles(surface, &n, &id, NULL, NULL, NULL));
+    xyz = triangles_of(surface).xyz;
+    uv = triangles_of(surface).uv;
+    n = triangles_of(surface).n_triangles;
+    id = triangles_of(surface).vertex_id;
     double(*edges)[6] = own(malloc((size_t)n * 3 * sizeof *edges));
     for (int64_t i = 0; i < 3 * n; ++i) {
       const int64_t a = id[i], b = id[i % 3 == 2 ? i - 2 : i + 1];
@@ -318,7 +332,7 @@ static void every_parameter_by_name(void **state) {
   const int n_scalars = sizeof table / sizeof *table, n_vectors = sizeof vectors / sizeof *vectors;
   int64_t n = 0;
   riis_valve *valve = new_valve("aortic");
-  CHECK_OK(riis_valve_n_parameters(valve, &n));
+  CHECK_OK(riis_valve_get_n_parameters(valve, &n));
   assert_int_equal(n, n_scalars + n_vectors + 1); /* and the opening */
   for (int i = 0; i < n_scalars + n_vectors; ++i) {
     const char *name = i < n_scalars ? table[i].name : vectors[i - n_scalars].name;
@@ -346,7 +360,7 @@ static void every_parameter_by_name(void **state) {
   for (int64_t i = 0; i < n; ++i) {
     riis_parameter parameter;
     double values[3];
-    CHECK_OK(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
+    CHECK_OK(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
     CHECK_OK(riis_valve_get(valve, parameter.name, parameter.n_values, values));
     for (int64_t k = 0; k < parameter.n_values; ++k) {
       CHECK_SAME(values[k], parameter.default_values[k]);

@@ -20,12 +20,12 @@ static void defaults_are_as_documented(void **state) {
   riis_valve *valve = new_valve("bileaflet");
   const bileaflet expected = bileaflet_defaults();
   int64_t n;
-  CHECK_OK(riis_valve_n_parameters(valve, &n));
+  CHECK_OK(riis_valve_get_n_parameters(valve, &n));
   assert_int_equal(n, n_bileaflet_fields);
   for (int i = 0; i < n_bileaflet_fields; ++i) {
     riis_parameter parameter;
     double value;
-    CHECK_OK(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
+    CHECK_OK(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
     assert_string_equal(parameter.name, bileaflet_fields[i].name);
     assert_int_equal(parameter.n_values, 1);
     CHECK_OK(riis_valve_get(valve, parameter.name, 1, &value));
@@ -90,7 +90,7 @@ static void leaflets_have_their_distances(void **state) {
 static void other_distances_are_right_too(void **state) {
   (void)state;
   const bileaflet of = bileaflet_defaults();
-  for (int32_t method = RIIS_DISTANCE_SAMPLING; method <= RIIS_DISTANCE_MINIMIZATION; ++method) {
+  for (int32_t method = RIIS_MEASURE_SAMPLING; method <= RIIS_MEASURE_MINIMIZATION; ++method) {
     riis_surface_options options = surface_options();
     options.distance = method;
     const riis_surface *surface = bileaflet_surface(&of, &options);
@@ -99,7 +99,7 @@ static void other_distances_are_right_too(void **state) {
       random_point(&of, p);
       const double off = closest_to(surface, p[0], p[1], p[2]).distance - to_bileaflet(&of, p);
       CHECK_AT_MOST(-0.1 * 0.005, off + 1e-9);
-      if (method == RIIS_DISTANCE_SAMPLING) CHECK_AT_MOST(off, 0.005 + 1e-9);
+      if (method == RIIS_MEASURE_SAMPLING) CHECK_AT_MOST(off, 0.005 + 1e-9);
     }
   }
 }

@@ -83,11 +83,11 @@ static void vertices_and_closest_points_turn_exactly(void **state) {
     riis_mark_options mark = mark_options();
     mark.fields = RIIS_FIELD_POINT | RIIS_FIELD_VELOCITY;
     mark.distance_limit = 1e3;
-    riis_mark_result *result = new_result();
+    riis_marks *result = new_result();
     CHECK_OK(riis_mark_nodes(surface, mesh_of(n_points, xyz), &mark, result));
     const found_nodes found = within_in(result);
-    riis_mark_fields fields;
-    CHECK_OK(riis_mark_result_within_limit_fields(result, &fields, sizeof fields));
+    riis_mark_list fields;
+    CHECK_OK(riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, &fields, sizeof fields));
     assert_int_equal(found.n, n_points);
     for (int64_t i = 0; i < n_points; ++i) {
       if (found.leaflet_id[i] == RIIS_LEAFLET_HOUSING) continue;
@@ -145,7 +145,7 @@ static int leaks(const bileaflet *of, double spacing, double half_thickness) {
   riis_surface_options options = surface_options();
   options.half_thickness = half_thickness;
   const riis_surface *surface = bileaflet_surface(of, &options);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   CHECK_OK(riis_mark_nodes(surface, mesh_of(mesh.n, mesh.xyz), NULL, result));
   const found_nodes marked = marked_in(result);
   char *is_closed = own(calloc((size_t)mesh.n, 1));
@@ -194,10 +194,10 @@ static int rim_at(const riis_surface *surface, const double *p) {
   riis_mark_options mark = mark_options();
   mark.fields = RIIS_FIELD_RIM | RIIS_FIELD_SIDE;
   mark.distance_limit = 10;
-  riis_mark_result *result = new_result();
-  riis_mark_fields fields;
+  riis_marks *result = new_result();
+  riis_mark_list fields;
   CHECK_OK(riis_mark_nodes(surface, mesh_of(1, p), &mark, result));
-  CHECK_OK(riis_mark_result_within_limit_fields(result, &fields, sizeof fields));
+  CHECK_OK(riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, &fields, sizeof fields));
   assert_int_equal(fields.n_nodes, 1);
   return fields.rim[0];
 }

@@ -15,8 +15,9 @@ static void single_equals_the_oracle(riis_surface *surface, int n_points, double
   const double *xyz;
   const int64_t *vertex_id;
   const riis_surface_info info = info_of(surface);
-  CHECK_OK(riis_surface_vertices(surface, NULL, &xyz));
-  CHECK_OK(riis_surface_triangles(surface, &n, &vertex_id, NULL, NULL, NULL));
+  xyz = triangles_of(surface).xyz;
+  n = triangles_of(surface).n_triangles;
+  vertex_id = triangles_of(surface).vertex_id;
   double size = 0;
   for (int c = 0; c < 3; ++c) size = fmax(size, fmax(fabs(info.lower[c]), fabs(info.upper[c])));
   for (int i = 0; i < n_points; ++i) {
@@ -73,8 +74,9 @@ static void far_points_equal_the_oracle(void **state) {
   int64_t n, triangle;
   const double *xyz;
   const int64_t *vertex_id;
-  CHECK_OK(riis_surface_vertices(surface, NULL, &xyz));
-  CHECK_OK(riis_surface_triangles(surface, &n, &vertex_id, NULL, NULL, NULL));
+  xyz = triangles_of(surface).xyz;
+  n = triangles_of(surface).n_triangles;
+  vertex_id = triangles_of(surface).vertex_id;
   for (int power = 1; power <= 59; power += 2) {
     const double r = pow(10, power), p[3] = {r, -0.3 * r, 0.7 * r};
     const riis_closest closest = closest_to(surface, p[0], p[1], p[2]);
@@ -124,8 +126,8 @@ static void batches_equal_single_queries(void **state) {
   few.distance = only_distance;
   for (int threads = 0; threads <= 4; ++threads) {
     options.n_threads = threads;
-    CHECK_OK(riis_closest_points(surface, n, xyz, xyz + 1, xyz + 2, 3, threads ? &options : NULL, &arrays));
-    CHECK_OK(riis_closest_points(surface, n, x, y, z, 1, &options, &few));
+    CHECK_OK(closest_points_of(surface, n, xyz, xyz + 1, xyz + 2, 3, threads ? &options : NULL, &arrays));
+    CHECK_OK(closest_points_of(surface, n, x, y, z, 1, &options, &few));
     for (int i = 0; i < n; ++i) {
       const riis_closest one = closest_to(surface, x[i], y[i], z[i]);
       CHECK_SAME(distance[i], one.distance);
@@ -145,7 +147,7 @@ static void batches_equal_single_queries(void **state) {
   static int64_t limited_triangle[n];
   CHECK_OK(riis_closest_arrays_init(&few, sizeof few));
   few.distance = limited, few.triangle_id = limited_triangle;
-  CHECK_OK(riis_closest_points(surface, n, x, y, z, 1, &options, &few));
+  CHECK_OK(closest_points_of(surface, n, x, y, z, 1, &options, &few));
   int n_far = 0;
   for (int i = 0; i < n; ++i) {
     const int far = distance[i] > 0.3;
@@ -157,9 +159,9 @@ static void batches_equal_single_queries(void **state) {
   /* An infinite limit counts as none. */
   options.distance_limit = INFINITY;
   options.far_distance = RIIS_FAR_DISTANCE;
-  CHECK_OK(riis_closest_points(surface, n, x, y, z, 1, &options, &few));
+  CHECK_OK(closest_points_of(surface, n, x, y, z, 1, &options, &few));
   assert_memory_equal(limited, distance, sizeof limited);
-  CHECK_OK(riis_closest_points(surface, 0, NULL, NULL, NULL, 1, NULL, &few)); /* nothing to do */
+  CHECK_OK(closest_points_of(surface, 0, NULL, NULL, NULL, 1, NULL, &few)); /* nothing to do */
 }
 
 /* The results of a single query fit together: the point is on the triangle and at the distance, the normal is the triangle's, and
@@ -171,8 +173,10 @@ static void closest_is_consistent(void **state) {
   const double *xyz;
   const int64_t *vertex_id;
   const int32_t *leaflet_id;
-  CHECK_OK(riis_surface_vertices(surface, NULL, &xyz));
-  CHECK_OK(riis_surface_triangles(surface, &n, &vertex_id, NULL, &leaflet_id, NULL));
+  xyz = triangles_of(surface).xyz;
+  n = triangles_of(surface).n_triangles;
+  vertex_id = triangles_of(surface).vertex_id;
+  leaflet_id = triangles_of(surface).leaflet_id;
   for (int trial = 0; trial < 3000; ++trial) {
     const double p[3] = {random_between(&rng, -1.6, 1.6), random_between(&rng, -1.6, 1.6),
                          random_between(&rng, -1.1, 0.2)};

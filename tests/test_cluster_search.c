@@ -81,7 +81,7 @@ static void nodes_that_differ_by_next_to_nothing(void **state) {
     enum { n = 700 };
     for (int i = 0; i < 3 * n; ++i) xyz[i] = (double)(random_bits(&rng) % 3) * steps[k];
     riis_mesh *mesh = mesh_of(n, xyz);
-    riis_mark_result *result = new_result();
+    riis_marks *result = new_result();
     riis_mark_options of_clusters = mark_options();
     of_clusters.search = RIIS_SEARCH_CLUSTERS;
     CHECK_OK(riis_mesh_prepare(mesh, 1));
@@ -364,7 +364,7 @@ static void what_options_say(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   for (int i = 0; i < 300; ++i) point_near(surface, 0.2, xyz + 3 * i);
   riis_mesh *mesh = mesh_of(100, xyz);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_mark_options options = mark_options();
   assert_int_equal(options.instructions, RIIS_INSTRUCTIONS_AUTO);
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));

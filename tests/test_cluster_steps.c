@@ -49,7 +49,7 @@ static void nodes_that_moved_without_a_word(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
   riis_mark_options options = mark_options();
-  riis_mark_result *result = new_result(), *expected = new_result();
+  riis_marks *result = new_result(), *expected = new_result();
   for (int trial = 0; trial < fewer_if_sanitized(40); ++trial) {
     const int owned_before = n_owned();
     const double far = trial % 4 ? random_power_of_ten(&rng, -12, 50) : 0;
@@ -71,7 +71,7 @@ static void non_finite_coordinates(void **state) {
   enum { n = 3000 };
   riis_surface *surface = aortic_surface(NULL);
   for (int i = 0; i < n; ++i) point_near(surface, 0.2, xyz + 3 * i);
-  riis_mark_result *result = new_result(), *kept = new_result();
+  riis_marks *result = new_result(), *kept = new_result();
   riis_mark_options options = mark_options();
   options.search = RIIS_SEARCH_CLUSTERS;
   const double spoilt[] = {NAN, INFINITY, -INFINITY, 1e61};
@@ -111,7 +111,7 @@ static void non_finite_coordinates(void **state) {
 }
 
 static int32_t search_of(const riis_surface *surface, const riis_mesh *mesh, int32_t asked_for) {
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_mark_options options = mark_options();
   options.search = asked_for;
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
@@ -159,17 +159,17 @@ static void what_auto_is(void **state) {
 /* --- Threads --------------------------------------------------------------------------------------------------------- */
 
 /* 1 if a marking of a mesh that may be new to all is not the expected one. */
-static int marks_wrong(const riis_surface *surface, riis_mesh *mesh, const riis_mark_result *expected, int n_threads,
+static int marks_wrong(const riis_surface *surface, riis_mesh *mesh, const riis_marks *expected, int n_threads,
                        int prepares) {
   riis_mark_options options = {0};
-  riis_mark_result *result = NULL;
-  int wrong = riis_mark_options_init(&options, sizeof options) || riis_mark_result_create(&result);
+  riis_marks *result = NULL;
+  int wrong = riis_mark_options_init(&options, sizeof options) || riis_marks_create(&result);
   options.search = RIIS_SEARCH_CLUSTERS;
   options.n_threads = n_threads;
   if (prepares) wrong = wrong || riis_mesh_prepare(mesh, n_threads);
   for (int step = 0; step < 2; ++step)
     wrong = wrong || riis_mark_nodes(surface, mesh, &options, result) || !same_results(result, expected);
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
   return wrong;
 }
 
@@ -189,7 +189,7 @@ static void several_callers_of_one_mesh(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.1, 0.2);
   riis_mesh *mesh = mesh_of(nodes.n, nodes.xyz);
-  riis_mark_result *expected = new_result();
+  riis_marks *expected = new_result();
   riis_mark_options options = mark_options();
   options.search = RIIS_SEARCH_EXHAUSTIVE;
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, expected));
@@ -223,7 +223,7 @@ static void a_mesh_that_threads_sort_together(void **state) {
       point_near(surface, 0.2, many + 3 * i);
     else
       for (int c = 0; c < 3; ++c) many[3 * i + c] = i % 8 == 1 ? 1.25 : random_between(&rng, -8, 8);
-  riis_mark_result *one = new_result(), *result = new_result();
+  riis_marks *one = new_result(), *result = new_result();
   riis_mark_options options = mark_options();
   options.search = RIIS_SEARCH_EXHAUSTIVE;
   for (int threads = 1; threads <= 3; ++threads) {

@@ -98,7 +98,7 @@ static riis_valve *valve_of(const char *kind) { return new_valve(kind); }
 static riis_surface *measured(const riis_valve *valve, int32_t distance, double tolerance) {
   riis_surface_options options = surface_options();
   options.distance = distance;
-  options.distance_tolerance = tolerance;
+  options.measure_tolerance = tolerance;
   return new_surface(valve, &options);
 }
 
@@ -173,7 +173,7 @@ static void sampling_is_within_its_bound(void **state) {
       const int owned_before = n_owned();
       const reference *of = &references[i];
       const double bound = tolerances[k] * half_thickness;
-      riis_surface *surface = measured(of->valve, RIIS_DISTANCE_SAMPLING, tolerances[k]);
+      riis_surface *surface = measured(of->valve, RIIS_MEASURE_SAMPLING, tolerances[k]);
       double largest = 0, largest_at_surface = 0;
       for (int n = 0; n < 1500; ++n) {
         double p[3];
@@ -208,7 +208,7 @@ static void samples_are_as_many_as_the_rule_says(void **state) {
   (void)state;
   riis_valve *valve = rectangle();
   riis_set_log(keep_message, NULL);
-  riis_surface *surface = measured(valve, RIIS_DISTANCE_SAMPLING, 0.5); /* 0.05, steps of sqrt(2) 0.05 */
+  riis_surface *surface = measured(valve, RIIS_MEASURE_SAMPLING, 0.5); /* 0.05, steps of sqrt(2) 0.05 */
   riis_set_log(NULL, NULL);
   assert_string_equal(last_message, "distances by sampling: 480 samples of 1 patches"); /* (29 + 1) (15 + 1) */
   const double step[2] = {2.0 / 29, 1.0 / 15};
@@ -227,7 +227,7 @@ static void nearest_samples_are_found(void **state) {
   random_source rng = random_start("nearest_samples_are_found");
   for (int of = 0; of < n_references; ++of) {
     const int owned_before = n_owned();
-    riis_surface *surface = measured(references[of].valve, RIIS_DISTANCE_SAMPLING, of == 0 ? 0.4425 : 0.5);
+    riis_surface *surface = measured(references[of].valve, RIIS_MEASURE_SAMPLING, of == 0 ? 0.4425 : 0.5);
     const double *xyz;
     const int64_t n_samples = samples_of(surface, &xyz);
     assert_true(n_samples > 500);
@@ -256,7 +256,7 @@ static void nearest_samples_are_found(void **state) {
 static void sampling_is_lipschitz(void **state) {
   (void)state;
   random_source rng = random_start("sampling_is_lipschitz");
-  riis_surface *surface = measured(references[3].valve, RIIS_DISTANCE_SAMPLING, 0.2);
+  riis_surface *surface = measured(references[3].valve, RIIS_MEASURE_SAMPLING, 0.2);
   for (int n = 0; n < 2000; ++n) {
     double p[3], q[3];
     random_point(&rng, surface, 0.2, p);
@@ -307,7 +307,7 @@ static void minimisation_is_never_below(void **state) {
     for (int k = 0; k < 2; ++k) {
       const int owned_before = n_owned();
       const reference *of = &references[i];
-      riis_surface *surface = measured(of->valve, RIIS_DISTANCE_MINIMIZATION, tolerances[k]);
+      riis_surface *surface = measured(of->valve, RIIS_MEASURE_MINIMIZATION, tolerances[k]);
       const int n_points = 1000;
       int n_off = 0;
       double largest = 0;
@@ -339,13 +339,13 @@ static void minimisation_ends_in_local_minima(void **state) {
   riis_valve *valve = hairpin();
   riis_surface_options options = surface_options();
   options.half_thickness = 0.5;
-  options.distance_tolerance = 0.01;
+  options.measure_tolerance = 0.01;
   int64_t n_marked[3];
   double distance[3];
   for (int32_t method = 0; method < 3; ++method) {
     const int owned_before = n_owned();
     options.distance = method;
-    riis_mark_result *result = new_result();
+    riis_marks *result = new_result();
     riis_surface *surface = new_surface(valve, &options);
     distance[method] = closest_to(surface, between_arms[0], between_arms[1], between_arms[2]).distance;
     riis_mesh *mesh = mesh_of(1, between_arms);
@@ -353,12 +353,12 @@ static void minimisation_ends_in_local_minima(void **state) {
     n_marked[method] = marked_in(result).n;
     free_owned_after(owned_before);
   }
-  CHECK_NEAR(distance[RIIS_DISTANCE_TRIANGLES], 0.25, 0.005);
-  CHECK_NEAR(distance[RIIS_DISTANCE_SAMPLING], 0.25, 0.005);
-  CHECK_NEAR(distance[RIIS_DISTANCE_MINIMIZATION], 0.8, 0.005);
-  assert_int_equal(n_marked[RIIS_DISTANCE_TRIANGLES], 1);
-  assert_int_equal(n_marked[RIIS_DISTANCE_SAMPLING], 1);
-  assert_int_equal(n_marked[RIIS_DISTANCE_MINIMIZATION], 0);
+  CHECK_NEAR(distance[RIIS_MEASURE_TRIANGLES], 0.25, 0.005);
+  CHECK_NEAR(distance[RIIS_MEASURE_SAMPLING], 0.25, 0.005);
+  CHECK_NEAR(distance[RIIS_MEASURE_MINIMIZATION], 0.8, 0.005);
+  assert_int_equal(n_marked[RIIS_MEASURE_TRIANGLES], 1);
+  assert_int_equal(n_marked[RIIS_MEASURE_SAMPLING], 1);
+  assert_int_equal(n_marked[RIIS_MEASURE_MINIMIZATION], 0);
 }
 
 /* The patch whose box is nearest need not have the nearest point. Here that box holds the query's point. */
@@ -367,7 +367,7 @@ static void all_near_patches_are_asked(void **state) {
   /* A slope through [0,1]^3, and a floor below it. */
   const double sides[24] = {0, 0, 0, 1, 0, 1, 0, 1, 0, 1, 1, 1, 0, 0, -0.3, 1, 0, -0.3, 0, 1, -0.3, 1, 1, -0.3};
   riis_valve *valve = patches_between(2, 1, sides);
-  riis_surface *surface = measured(valve, RIIS_DISTANCE_MINIMIZATION, 0.001);
+  riis_surface *surface = measured(valve, RIIS_MEASURE_MINIMIZATION, 0.001);
   const riis_closest below = closest_to(surface, 0.9, 0.5, 0.1), above = closest_to(surface, 0.1, 0.5, 0.3);
   CHECK_NEAR(below.distance, 0.4, 1e-4);
   assert_int_equal(below.leaflet_id, 8);
@@ -380,7 +380,7 @@ static void placement_and_normals(void **state) {
   (void)state;
   random_source rng = random_start("placement_and_normals");
   riis_valve *valve = valve_of("aortic");
-  for (int32_t method = RIIS_DISTANCE_SAMPLING; method <= RIIS_DISTANCE_MINIMIZATION; ++method)
+  for (int32_t method = RIIS_MEASURE_SAMPLING; method <= RIIS_MEASURE_MINIMIZATION; ++method)
     for (int32_t flip = 0; flip < 2; ++flip) {
       const int owned_before = n_owned();
       riis_surface_options options = surface_options();
@@ -389,7 +389,7 @@ static void placement_and_normals(void **state) {
       options.rotation_angle = 50;
       options.translation[1] = -7;
       options.flip_normals = flip;
-      options.tolerance = options.distance_tolerance = 0.02;
+      options.tolerance = options.measure_tolerance = 0.02;
       riis_surface *triangles = new_surface(valve, &options);
       options.distance = method;
       riis_surface *other = new_surface(valve, &options);
@@ -408,7 +408,7 @@ static void placement_and_normals(void **state) {
 }
 
 static void mark(const riis_surface *surface, const riis_mesh *mesh, int32_t search, int32_t n_threads, double limit,
-                 const uint8_t *mask, riis_mark_result *result) {
+                 const uint8_t *mask, riis_marks *result) {
   riis_mark_options options = mark_options();
   options.search = search;
   options.n_threads = n_threads;
@@ -425,9 +425,9 @@ static void searches_agree(void **state) {
   riis_valve *hairpin_valve = hairpin();
   const riis_valve *valves[3] = {references[2].valve, references[3].valve, hairpin_valve};
   for (int of = 0; of < 3; ++of)
-    for (int32_t method = RIIS_DISTANCE_SAMPLING; method <= RIIS_DISTANCE_MINIMIZATION; ++method) {
+    for (int32_t method = RIIS_MEASURE_SAMPLING; method <= RIIS_MEASURE_MINIMIZATION; ++method) {
       const int owned_before = n_owned();
-      riis_surface *surface = measured(valves[of], method, method == RIIS_DISTANCE_SAMPLING ? 0.2 : 0.01);
+      riis_surface *surface = measured(valves[of], method, method == RIIS_MEASURE_SAMPLING ? 0.2 : 0.01);
       test_mesh nodes = lattice_around(surface, is_sanitized() ? 0.15 : 0.11, 0.2);
       riis_mesh *mesh = mesh_from(&nodes);
       uint8_t *mask = own(malloc((size_t)nodes.n));
@@ -437,7 +437,7 @@ static void searches_agree(void **state) {
         const int n_outside = n_owned();
         const double limit = limits[k / 2];
         const uint8_t *which = k % 2 ? mask : NULL;
-        riis_mark_result *expected = new_result(), *result = new_result();
+        riis_marks *expected = new_result(), *result = new_result();
         mark(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, limit, which, expected);
         assert_int_equal(stats_of(expected).instructions, RIIS_INSTRUCTIONS_BASELINE);
         /* One query per node gives the expected result. */
@@ -491,9 +491,9 @@ static void local_minima_dismiss_no_group(void **state) {
   const double xyz[6] = {-0.1, 1, 0.9, 0.6, 1, 0.9};
   const int32_t offsets[3] = {0, 0, 0};
   riis_valve *valve = hairpin();
-  riis_surface *surface = measured(valve, RIIS_DISTANCE_MINIMIZATION, 0.01);
+  riis_surface *surface = measured(valve, RIIS_MEASURE_MINIMIZATION, 0.01);
   assert_true(closest_to(surface, 0.25, 1, 0.9).distance > 0.7 && closest_to(surface, -0.1, 1, 0.9).distance < 0.1);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_csr csr;
   CHECK_OK(riis_csr_init(&csr, sizeof csr));
   csr.n_rows = 2;
@@ -513,7 +513,7 @@ static void batches_agree(void **state) {
   static double xyz[3 * n_points], distance[n_points], point[3 * n_points], normal[3 * n_points];
   static int64_t triangle_id[n_points];
   static int32_t leaflet_id[n_points];
-  for (int32_t method = RIIS_DISTANCE_SAMPLING; method <= RIIS_DISTANCE_MINIMIZATION; ++method) {
+  for (int32_t method = RIIS_MEASURE_SAMPLING; method <= RIIS_MEASURE_MINIMIZATION; ++method) {
     const int owned_before = n_owned();
     riis_surface *surface = measured(references[2].valve, method, 0.1);
     for (int i = 0; i < n_points; ++i) random_point(&rng, surface, 0.5, xyz + 3 * i);
@@ -525,7 +525,7 @@ static void batches_agree(void **state) {
     arrays.triangle_id = triangle_id, arrays.leaflet_id = leaflet_id;
     for (options.n_threads = 1; options.n_threads <= 3; ++options.n_threads) {
       options.distance_limit = options.n_threads == 3 ? 0.3 : RIIS_AUTO;
-      CHECK_OK(riis_closest_points(surface, n_points, xyz, xyz + 1, xyz + 2, 3, &options, &arrays));
+      CHECK_OK(closest_points_of(surface, n_points, xyz, xyz + 1, xyz + 2, 3, &options, &arrays));
       int n_far = 0;
       for (int i = 0; i < n_points; ++i) {
         const riis_closest one = closest_to(surface, xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
@@ -561,40 +561,40 @@ static void what_has_no_meaning_is_refused(void **state) {
   }
 
   riis_valve *valve = rectangle();
-  surface = measured(valve, RIIS_DISTANCE_SAMPLING, 0.1);
+  surface = measured(valve, RIIS_MEASURE_SAMPLING, 0.1);
   /* The surface's own options are refused for arrays, and leave the surface as it was. */
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.distance is 1",
                 riis_surface_update_from_arrays(surface, &triangle, NULL));
   options = surface_options();
-  options.distance = RIIS_DISTANCE_SAMPLING;
-  options.distance_tolerance = 1e-4; /* 2 / 1e-10 */
-  CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "16777216 samples|1e-05, which is distance_tolerance * half_thickness",
+  options.measure = RIIS_MEASURE_SAMPLING;
+  options.measure_tolerance = 1e-4; /* 2 / 1e-10 */
+  CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "16777216 samples|1e-05, which is measure_tolerance * half_thickness",
                 riis_surface_update(surface, valve, &options));
   CHECK_NEAR(closest_to(surface, 1, 0.5, 3).distance, 3, 0.01);
   riis_valve *curved = cylinder();
-  options.distance = RIIS_DISTANCE_MINIMIZATION;
-  options.distance_tolerance = 1e-6;
+  options.measure = RIIS_MEASURE_MINIMIZATION;
+  options.measure_tolerance = 1e-6;
   options.half_thickness = 1e-8;
   options.tolerance = 1;
-  CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "with a tenth of distance_tolerance",
+  CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "with a tenth of measure_tolerance",
                 riis_surface_update(surface, curved, &options));
   free_one_owned(curved);
   options.half_thickness = 1e-4;
   options.translation[0] = 1e4;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT,
-                "options.translation moves the valve by 10000|distance_tolerance * half_thickness, 1e-10",
+                "options.translation moves the valve by 10000|measure_tolerance * half_thickness, 1e-10",
                 riis_surface_update(surface, valve, &options));
 
   riis_closest_arrays arrays;
   CHECK_OK(riis_closest_arrays_init(&arrays, sizeof arrays));
   arrays.side = &side;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "arrays.side is given|by sampling",
-                riis_closest_points(surface, 1, xyz, xyz + 1, xyz + 2, 3, NULL, &arrays));
+                closest_points_of(surface, 1, xyz, xyz + 1, xyz + 2, 3, NULL, &arrays));
   arrays.side = NULL;
   arrays.barycentric = barycentric;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "arrays.barycentric is given|by sampling",
-                riis_closest_points(surface, 1, xyz, xyz + 1, xyz + 2, 3, NULL, &arrays));
-  riis_mark_result *result = new_result();
+                closest_points_of(surface, 1, xyz, xyz + 1, xyz + 2, 3, NULL, &arrays));
+  riis_marks *result = new_result();
   riis_mark_options marking = mark_options();
   marking.search = RIIS_SEARCH_CLUSTERS;
   riis_mesh *mesh = mesh_of(3, xyz);
@@ -606,10 +606,10 @@ static void what_has_no_meaning_is_refused(void **state) {
 static void options_stay_and_default(void **state) {
   (void)state;
   riis_valve *valve = valve_of("mitral");
-  riis_surface *surface = measured(valve, RIIS_DISTANCE_SAMPLING, 0.2);
+  riis_surface *surface = measured(valve, RIIS_MEASURE_SAMPLING, 0.2);
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.3));
   CHECK_OK(riis_surface_update(surface, valve, NULL));
-  riis_surface *twin = measured(valve, RIIS_DISTANCE_SAMPLING, 0.2);
+  riis_surface *twin = measured(valve, RIIS_MEASURE_SAMPLING, 0.2);
   random_source rng = random_start("options_stay_and_default");
   for (int n = 0; n < 100; ++n) {
     double p[3];
@@ -626,8 +626,8 @@ static void options_stay_and_default(void **state) {
   assert_true(closest_to(surface, 0, 0, 0).triangle_id >= 0);
   /* RIIS_AUTO stands for the tolerance. */
   options = surface_options();
-  assert_true(options.distance == RIIS_DISTANCE_TRIANGLES && options.distance_tolerance == RIIS_AUTO);
-  options.distance = RIIS_DISTANCE_SAMPLING;
+  assert_true(options.distance == RIIS_MEASURE_TRIANGLES && options.measure_tolerance == RIIS_AUTO);
+  options.measure = RIIS_MEASURE_SAMPLING;
   options.tolerance = 0.2;
   CHECK_OK(riis_surface_update(surface, valve, &options));
   for (int n = 0; n < 100; ++n) {

@@ -28,7 +28,7 @@ static riis_surface *moving_surface(void) {
   return surface;
 }
 
-static void check_nothing_found(const riis_mark_result *result, int32_t search) {
+static void check_nothing_found(const riis_marks *result, int32_t search) {
   riis_mark_stats stats = stats_of(result);
   assert_int_equal(stats.n_nodes, 0);
   assert_int_equal(stats.n_marked, 0);
@@ -41,10 +41,10 @@ static void check_nothing_found(const riis_mark_result *result, int32_t search) 
   assert_true(stats.search > RIIS_SEARCH_AUTO && stats.search <= RIIS_SEARCH_CLUSTERS);
   assert_true(stats.instructions > RIIS_INSTRUCTIONS_AUTO);
   const found_nodes lists[2] = {marked_in(result), within_in(result)};
-  riis_mark_fields fields[2];
+  riis_mark_list fields[2];
   memset(fields, 0x55, sizeof fields);
-  CHECK_OK(riis_mark_result_marked_fields(result, fields, sizeof *fields));
-  CHECK_OK(riis_mark_result_within_limit_fields(result, fields + 1, sizeof *fields));
+  CHECK_OK(riis_marks_get_list(result, RIIS_LIST_MARKED, fields, sizeof *fields));
+  CHECK_OK(riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, fields + 1, sizeof *fields));
   for (int i = 0; i < 2; ++i) {
     assert_int_equal(lists[i].n, 0);
     assert_true(!lists[i].node_id && !lists[i].distance && !lists[i].triangle_id && !lists[i].leaflet_id);
@@ -52,11 +52,11 @@ static void check_nothing_found(const riis_mark_result *result, int32_t search) 
     assert_true(!fields[i].point && !fields[i].normal && !fields[i].barycentric && !fields[i].uv);
     assert_true(!fields[i].velocity && !fields[i].side && !fields[i].rim && !fields[i].patch_id);
   }
-  CHECK_OK(riis_mark_result_dense(result, 0, RIIS_FAR_DISTANCE, NULL, NULL, NULL, NULL));
+  CHECK_OK(dense_of(result, 0, RIIS_FAR_DISTANCE, NULL, NULL, NULL, NULL));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_nodes is 1;|0 nodes",
-                riis_mark_result_dense(result, 1, RIIS_FAR_DISTANCE, NULL, NULL, NULL, NULL));
+                dense_of(result, 1, RIIS_FAR_DISTANCE, NULL, NULL, NULL, NULL));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_nodes is -1;",
-                riis_mark_result_dense(result, -1, RIIS_FAR_DISTANCE, NULL, NULL, NULL, NULL));
+                dense_of(result, -1, RIIS_FAR_DISTANCE, NULL, NULL, NULL, NULL));
 }
 
 static void meshes_may_be_empty(void **state) {
@@ -96,9 +96,9 @@ static void adjacencies_may_be_empty(void **state) {
   csr.n_all = -1;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "csr.n_all is -1", riis_mesh_set_adjacency(mesh, &csr));
 
-  riis_cells cells;
+  riis_mesh_cells cells;
   riis_adjacency *adjacency = NULL;
-  CHECK_OK(riis_cells_init(&cells, sizeof cells));
+  CHECK_OK(riis_mesh_cells_init(&cells, sizeof cells));
   for (int64_t n_nodes = 0; n_nodes <= 5; n_nodes += 5) /* without cells, or without nodes also */
     for (int32_t base = 0; base < 2; ++base)
       for (int with_offsets = 0; with_offsets < 2; ++with_offsets) {
@@ -109,7 +109,7 @@ static void adjacencies_may_be_empty(void **state) {
         cells.n_threads = 1 + with_offsets;
         CHECK_OK(riis_adjacency_create_from_cells(&cells, &adjacency));
         own(adjacency);
-        CHECK_OK(riis_adjacency_csr(adjacency, &own, sizeof own));
+        CHECK_OK(riis_adjacency_get_csr(adjacency, &own, sizeof own));
         assert_int_equal(own.n_rows, n_nodes);
         const int64_t *offsets = own.offsets;
         for (int64_t i = 0; i <= n_nodes; ++i) assert_int_equal(offsets[i], own.index_base);
@@ -117,7 +117,7 @@ static void adjacencies_may_be_empty(void **state) {
         CHECK_OK(riis_mesh_set_adjacency(mesh, NULL));
         free_one_owned(adjacency);
       }
-  CHECK_OK(riis_cells_init(&cells, sizeof cells));
+  CHECK_OK(riis_mesh_cells_init(&cells, sizeof cells));
   cells.n_nodes = -1;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "cells.n_nodes is -1", riis_adjacency_create_from_cells(&cells, &adjacency));
   cells.n_nodes = 4, cells.n_cells = -1;
@@ -128,13 +128,13 @@ static void adjacencies_may_be_empty(void **state) {
   cells.node_ids = ids, cells.n_nodes = 0;
   CHECK_REFUSED(RIIS_INVALID_MESH, "node 0 of cell 0 is 0", riis_adjacency_create_from_cells(&cells, &adjacency));
 
-  riis_faces faces;
-  CHECK_OK(riis_faces_init(&faces, sizeof faces));
+  riis_mesh_faces faces;
+  CHECK_OK(riis_mesh_faces_init(&faces, sizeof faces));
   for (int64_t n_cells = 0; n_cells <= 5; n_cells += 5) {
     faces.n_cells = n_cells;
     CHECK_OK(riis_adjacency_create_from_faces(&faces, &adjacency));
     own(adjacency);
-    CHECK_OK(riis_adjacency_csr(adjacency, &own, sizeof own));
+    CHECK_OK(riis_adjacency_get_csr(adjacency, &own, sizeof own));
     assert_int_equal(own.n_rows, n_cells);
     if (n_cells == 0) CHECK_OK(riis_mesh_set_adjacency(mesh, &own));
     CHECK_OK(riis_mesh_set_adjacency(mesh, NULL));
@@ -154,7 +154,7 @@ static void every_search_finds_all_of_nothing(void **state) {
   (void)state;
   riis_surface *surface = moving_surface();
   const riis_csr csr = empty_csr();
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   for (int32_t search = RIIS_SEARCH_AUTO; search <= RIIS_SEARCH_CLUSTERS; ++search)
     for (int kind = 0; kind < 16; ++kind) {
       riis_mesh *mesh = empty_mesh();
@@ -182,12 +182,12 @@ static void every_search_finds_all_of_nothing(void **state) {
 static void other_distances_find_nothing_too(void **state) {
   (void)state;
   riis_mesh *mesh = empty_mesh();
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_surface_options options = surface_options();
   riis_mark_options mark = mark_options();
-  options.distance_tolerance = 0.5;
+  options.measure_tolerance = 0.5;
   mark.fields = RIIS_FIELD_POINT | RIIS_FIELD_NORMAL | RIIS_FIELD_PATCH;
-  for (options.distance = RIIS_DISTANCE_SAMPLING; options.distance <= RIIS_DISTANCE_MINIMIZATION; ++options.distance) {
+  for (options.measure = RIIS_MEASURE_SAMPLING; options.distance <= RIIS_MEASURE_MINIMIZATION; ++options.distance) {
     CHECK_OK(riis_mark_nodes(aortic_surface(&options), mesh, &mark, result));
     check_nothing_found(result, RIIS_SEARCH_EXHAUSTIVE);
   }
@@ -202,7 +202,7 @@ static void nodes_come_and_go(void **state) {
   for (int32_t search = RIIS_SEARCH_AUTO; search <= RIIS_SEARCH_CLUSTERS; ++search) {
     if (search == RIIS_SEARCH_PAPER) continue;
     riis_mesh *mesh = empty_mesh();
-    riis_mark_result *result = new_result(), *expected = new_result();
+    riis_marks *result = new_result(), *expected = new_result();
     riis_mark_options options = mark_options();
     options.fields = 255;
     options.distance_limit = 0.2;
@@ -230,7 +230,7 @@ static void nothing_leaks(void **state) {
   riis_surface *surface = moving_surface();
   riis_mesh *mesh = empty_mesh();
   const riis_csr csr = empty_csr();
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_leaks leaks;
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "mesh has no adjacency",
@@ -249,15 +249,15 @@ static void nothing_leaks(void **state) {
     const double *length = &leaks.seconds, *distance = length;
     CHECK_OK(riis_mark_result_leaking_edges(result, &n, &ids, &length, &distance));
     assert_true(n == 0 && !ids && !length && !distance);
-    CHECK_OK(riis_label_open_regions(mesh, &options, result, 0, NULL, &n));
+    CHECK_OK(riis_label_open_regions(mesh, result, &options, 0, NULL, &n));
     assert_int_equal(n, 0);
   }
   const int64_t node = 0;
   riis_passage passage;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "from[0] is 0|0 nodes",
-                riis_find_passage(surface, mesh, NULL, 1, &node, 1, &node, &passage, sizeof passage));
+                find_passage_between(surface, mesh, NULL, 1, &node, 1, &node, &passage, sizeof passage));
   /* What an empty result is not of: a marking. */
-  riis_mark_result *empty = new_result();
+  riis_marks *empty = new_result();
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "never marked",
                 riis_find_leaks(surface, mesh, NULL, empty, &leaks, sizeof leaks));
 }
@@ -266,7 +266,7 @@ static void sums_over_no_nodes(void **state) {
   (void)state;
   riis_surface *surface = moving_surface();
   riis_mesh *mesh = empty_mesh();
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_mark_options options = mark_options();
   riis_resistance resistance;
   double nothing = 4, force[3] = {1, 2, 3};
@@ -276,17 +276,17 @@ static void sums_over_no_nodes(void **state) {
   resistance.resistance = 1;
   for (int32_t rim = RIIS_RIM_ROUND; rim <= RIIS_RIM_CUT; ++rim) {
     resistance.rim = rim;
-    CHECK_OK(riis_mark_result_add_resistance(result, &resistance, 0, NULL, NULL));
-    CHECK_OK(riis_mark_result_add_resistance(result, &resistance, 0, &nothing, &nothing));
-    CHECK_OK(riis_mark_result_add_reaction(result, &resistance, 0, &nothing, &nothing, force));
-    CHECK_OK(riis_mark_result_add_reaction(result, &resistance, 0, NULL, NULL, force));
+    CHECK_OK(add_resistance_to(result, &resistance, 0, NULL, NULL));
+    CHECK_OK(add_resistance_to(result, &resistance, 0, &nothing, &nothing));
+    CHECK_OK(add_reaction_to(result, &resistance, 0, &nothing, &nothing, force));
+    CHECK_OK(add_reaction_to(result, &resistance, 0, NULL, NULL, force));
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "force is NULL",
-                  riis_mark_result_add_reaction(result, &resistance, 0, NULL, NULL, NULL));
+                  add_reaction_to(result, &resistance, 0, NULL, NULL, NULL));
   }
   assert_true(nothing == 4 && force[0] == 1 && force[1] == 2 && force[2] == 3);
   riis_band_sums sums;
   memset(&sums, 0x55, sizeof sums);
-  CHECK_OK(riis_mark_result_band_sums(result, 0, 0.1, 0, NULL, NULL, &sums, sizeof sums));
+  CHECK_OK(band_sums_of(result, 0, 0.1, 0, NULL, NULL, &sums, sizeof sums));
   for (int side = 0; side < 2; ++side)
     assert_true(sums.sum[side] == 0 && sums.weight[side] == 0 && sums.n_nodes[side] == 0);
 }
@@ -302,7 +302,7 @@ static void no_warning_of_proportions(void **state) {
   int n_warnings = 0;
   riis_surface *surface = moving_surface();
   riis_mesh *mesh = empty_mesh();
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_set_log(nobody_is_warned, &n_warnings);
   for (int i = 0; i < 3; ++i) CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
   riis_set_log(NULL, NULL);

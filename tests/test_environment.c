@@ -32,9 +32,12 @@ static uint64_t digest_of_a_step(int threads) {
   options.n_threads = threads;
   options.distance_limit = 0.3;
   riis_mesh *mesh = mesh_of(n, nodes);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-  CHECK_OK(riis_mark_result_within_limit(result, &n_listed, &node_id, &distance, &triangle_id, NULL));
+  n_listed = within_list(result).n_nodes;
+  node_id = within_list(result).node_id;
+  distance = within_list(result).distance;
+  triangle_id = within_list(result).triangle_id;
   for (int64_t i = 0; i < n_listed; ++i) {
     uint64_t bits;
     memcpy(&bits, distance + i, sizeof bits);
@@ -109,11 +112,11 @@ static void works_inside_a_parallel_region(void **state) {
   int64_t counts[8];
 #pragma omp parallel for num_threads(4)
   for (int i = 0; i < 8; ++i) {
-    riis_mark_result *result = NULL;
+    riis_marks *result = NULL;
     counts[i] = -1;
-    if (riis_mark_result_create(&result) == RIIS_OK && riis_mark_nodes(surface, mesh, NULL, result) == RIIS_OK)
+    if (riis_marks_create(&result) == RIIS_OK && riis_mark_nodes(surface, mesh, NULL, result) == RIIS_OK)
       riis_mark_result_marked(result, &counts[i], NULL, NULL, NULL, NULL);
-    riis_mark_result_destroy(&result);
+    riis_marks_destroy(&result);
     /* The first query of a side, in any thread, makes the data that sides need. */
     riis_closest closest;
     if (riis_closest_point(surface, nodes + 3 * i, &closest, sizeof closest) != RIIS_OK) counts[i] = -2;

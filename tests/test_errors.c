@@ -27,13 +27,13 @@ static void version_is_the_headers(void **state) {
   (void)state;
   int32_t major = -1, minor = -1, patch = -1;
   char text[32];
-  riis_version(&major, &minor, &patch);
+  riis_get_version(&major, &minor, &patch);
   assert_int_equal(major, RIIS_VERSION_MAJOR);
   assert_int_equal(minor, RIIS_VERSION_MINOR);
   assert_int_equal(patch, RIIS_VERSION_PATCH);
   snprintf(text, sizeof text, "%d.%d.%d", major, minor, patch);
   assert_string_equal(riis_version_string(), text);
-  riis_version(NULL, NULL, NULL);
+  riis_get_version(NULL, NULL, NULL);
 }
 
 static void null_arguments_are_named(void **state) {
@@ -41,7 +41,7 @@ static void null_arguments_are_named(void **state) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   riis_surface_arrays arrays = triangle_arrays(4, xyz, 1, ids);
   riis_closest_arrays out;
   double values[3] = {0, 0, 0};
@@ -49,7 +49,7 @@ static void null_arguments_are_named(void **state) {
   CHECK_OK(riis_valve_create("aortic", &valve));
   CHECK_OK(riis_surface_create(valve, NULL, &surface));
   CHECK_OK(riis_mesh_create(4, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  CHECK_OK(riis_mark_result_create(&result));
+  CHECK_OK(riis_marks_create(&result));
   CHECK_OK(riis_closest_arrays_init(&out, sizeof out));
 #define NULL_IS_NAMED(name, call) CHECK_REFUSED(RIIS_INVALID_ARGUMENT, name " is NULL", call)
   NULL_IS_NAMED("kind", riis_valve_create(NULL, &valve));
@@ -61,10 +61,10 @@ static void null_arguments_are_named(void **state) {
   NULL_IS_NAMED("valve", riis_valve_get(NULL, "xq", 1, values));
   NULL_IS_NAMED("name", riis_valve_get(valve, NULL, 1, values));
   NULL_IS_NAMED("values", riis_valve_get(valve, "xq", 1, NULL));
-  NULL_IS_NAMED("valve", riis_valve_n_parameters(NULL, &n));
-  NULL_IS_NAMED("n_parameters", riis_valve_n_parameters(valve, NULL));
-  NULL_IS_NAMED("valve", riis_valve_parameter(NULL, 0, NULL, 72));
-  NULL_IS_NAMED("parameter", riis_valve_parameter(valve, 0, NULL, 72));
+  NULL_IS_NAMED("valve", riis_valve_get_n_parameters(NULL, &n));
+  NULL_IS_NAMED("n_parameters", riis_valve_get_n_parameters(valve, NULL));
+  NULL_IS_NAMED("valve", riis_valve_get_parameter(NULL, 0, NULL, 72));
+  NULL_IS_NAMED("parameter", riis_valve_get_parameter(valve, 0, NULL, 72));
   NULL_IS_NAMED("options", riis_surface_options_init(NULL, 96));
   NULL_IS_NAMED("arrays", riis_surface_arrays_init(NULL, 88));
   NULL_IS_NAMED("options", riis_closest_options_init(NULL, 32));
@@ -86,43 +86,43 @@ static void null_arguments_are_named(void **state) {
   NULL_IS_NAMED("surface", riis_closest_point(NULL, values, NULL, 96));
   NULL_IS_NAMED("point", riis_closest_point(surface, NULL, NULL, 96));
   NULL_IS_NAMED("closest", riis_closest_point(surface, values, NULL, 96));
-  NULL_IS_NAMED("surface", riis_closest_points(NULL, 1, xyz, xyz, xyz, 1, NULL, &out));
-  NULL_IS_NAMED("y", riis_closest_points(surface, 1, xyz, NULL, xyz, 1, NULL, &out));
-  NULL_IS_NAMED("arrays", riis_closest_points(surface, 1, xyz, xyz, xyz, 1, NULL, NULL));
+  NULL_IS_NAMED("surface", closest_points_of(NULL, 1, xyz, xyz, xyz, 1, NULL, &out));
+  NULL_IS_NAMED("y", closest_points_of(surface, 1, xyz, NULL, xyz, 1, NULL, &out));
+  NULL_IS_NAMED("arrays", closest_points_of(surface, 1, xyz, xyz, xyz, 1, NULL, NULL));
   NULL_IS_NAMED("x", riis_mesh_create(4, NULL, xyz, xyz, 1, &mesh));
   NULL_IS_NAMED("y", riis_mesh_create(4, xyz, NULL, xyz, 1, &mesh));
   NULL_IS_NAMED("z", riis_mesh_create(4, xyz, xyz, NULL, 1, &mesh));
   NULL_IS_NAMED("mesh", riis_mesh_create(4, xyz, xyz, xyz, 1, NULL));
   NULL_IS_NAMED("mesh", riis_mesh_update(NULL, 4, xyz, xyz, xyz, 1));
-  NULL_IS_NAMED("result", riis_mark_result_create(NULL));
+  NULL_IS_NAMED("result", riis_marks_create(NULL));
   NULL_IS_NAMED("surface", riis_mark_nodes(NULL, mesh, NULL, result));
   NULL_IS_NAMED("mesh", riis_mark_nodes(surface, NULL, NULL, result));
   NULL_IS_NAMED("result", riis_mark_nodes(surface, mesh, NULL, NULL));
   NULL_IS_NAMED("result", riis_mark_result_marked(NULL, &n, NULL, NULL, NULL, NULL));
   NULL_IS_NAMED("result", riis_mark_result_within_limit(NULL, &n, NULL, NULL, NULL, NULL));
-  NULL_IS_NAMED("result", riis_mark_result_dense(NULL, 4, 1e30, NULL, NULL, NULL, NULL));
-  NULL_IS_NAMED("result", riis_mark_result_stats(NULL, NULL, 56));
-  NULL_IS_NAMED("stats", riis_mark_result_stats(result, NULL, 56));
+  NULL_IS_NAMED("result", dense_of(NULL, 4, 1e30, NULL, NULL, NULL, NULL));
+  NULL_IS_NAMED("result", riis_marks_get_stats(NULL, NULL, 56));
+  NULL_IS_NAMED("stats", riis_marks_get_stats(result, NULL, 56));
   NULL_IS_NAMED("surface", riis_find_leaks(NULL, mesh, NULL, result, NULL, 72));
   NULL_IS_NAMED("mesh", riis_find_leaks(surface, NULL, NULL, result, NULL, 72));
   NULL_IS_NAMED("result", riis_find_leaks(surface, mesh, NULL, NULL, NULL, 72));
   NULL_IS_NAMED("leaks", riis_find_leaks(surface, mesh, NULL, result, NULL, 72));
   NULL_IS_NAMED("result", riis_mark_result_leaking_edges(NULL, &n, NULL, NULL, NULL));
-  NULL_IS_NAMED("mesh", riis_label_open_regions(NULL, NULL, result, 4, &n, NULL));
+  NULL_IS_NAMED("mesh", riis_label_open_regions(NULL, result, NULL, 4, &n, NULL));
   NULL_IS_NAMED("result", riis_label_open_regions(mesh, NULL, NULL, 4, &n, NULL));
-  NULL_IS_NAMED("surface", riis_find_passage(NULL, mesh, NULL, 1, &n, 1, &n, NULL, 56));
-  NULL_IS_NAMED("mesh", riis_find_passage(surface, NULL, NULL, 1, &n, 1, &n, NULL, 56));
-  NULL_IS_NAMED("passage", riis_find_passage(surface, mesh, NULL, 1, &n, 1, &n, NULL, 56));
+  NULL_IS_NAMED("surface", find_passage_between(NULL, mesh, NULL, 1, &n, 1, &n, NULL, 56));
+  NULL_IS_NAMED("mesh", find_passage_between(surface, NULL, NULL, 1, &n, 1, &n, NULL, 56));
+  NULL_IS_NAMED("passage", find_passage_between(surface, mesh, NULL, 1, &n, 1, &n, NULL, 56));
   /* Destroying takes NULL, a NULL handle, and a handle, and leaves NULL. */
   riis_valve_destroy(NULL);
   riis_surface_destroy(NULL);
   riis_mesh_destroy(NULL);
-  riis_mark_result_destroy(NULL);
+  riis_marks_destroy(NULL);
   for (int twice = 0; twice < 2; ++twice) {
     riis_valve_destroy(&valve);
     riis_surface_destroy(&surface);
     riis_mesh_destroy(&mesh);
-    riis_mark_result_destroy(&result);
+    riis_marks_destroy(&result);
     assert_true(!valve && !surface && !mesh && !result);
   }
 }
@@ -133,15 +133,15 @@ static void swapped_handles_are_refused(void **state) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   CHECK_OK(riis_valve_create("aortic", &valve));
   CHECK_OK(riis_surface_create(valve, NULL, &surface));
   CHECK_OK(riis_mesh_create(4, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  CHECK_OK(riis_mark_result_create(&result));
+  CHECK_OK(riis_marks_create(&result));
   riis_surface *no_surface = (void *)mesh;
   riis_mesh *no_mesh = (void *)surface;
   riis_valve *no_valve = (void *)surface;
-  riis_mark_result *no_result = (void *)mesh;
+  riis_marks *no_result = (void *)mesh;
 #define IS_OF_ANOTHER_KIND(name, call) CHECK_REFUSED(RIIS_INVALID_ARGUMENT, name " is a handle of another kind", call)
   IS_OF_ANOTHER_KIND("surface", riis_mark_nodes(no_surface, no_mesh, NULL, result));
   IS_OF_ANOTHER_KIND("mesh", riis_mark_nodes(surface, no_mesh, NULL, result));
@@ -150,10 +150,10 @@ static void swapped_handles_are_refused(void **state) {
   IS_OF_ANOTHER_KIND("mesh", riis_find_leaks(surface, no_mesh, NULL, result, NULL, 72));
   IS_OF_ANOTHER_KIND("result", riis_find_leaks(surface, mesh, NULL, no_result, NULL, 72));
   IS_OF_ANOTHER_KIND("result", riis_mark_result_leaking_edges(no_result, NULL, NULL, NULL, NULL));
-  IS_OF_ANOTHER_KIND("mesh", riis_label_open_regions(no_mesh, NULL, result, 4, NULL, NULL));
-  IS_OF_ANOTHER_KIND("result", riis_label_open_regions(mesh, NULL, no_result, 4, NULL, NULL));
-  IS_OF_ANOTHER_KIND("surface", riis_find_passage(no_surface, mesh, NULL, 1, NULL, 1, NULL, NULL, 56));
-  IS_OF_ANOTHER_KIND("mesh", riis_find_passage(surface, no_mesh, NULL, 1, NULL, 1, NULL, NULL, 56));
+  IS_OF_ANOTHER_KIND("mesh", riis_label_open_regions(no_mesh, result, NULL, 4, NULL, NULL));
+  IS_OF_ANOTHER_KIND("result", riis_label_open_regions(mesh, no_result, NULL, 4, NULL, NULL));
+  IS_OF_ANOTHER_KIND("surface", find_passage_between(no_surface, mesh, NULL, 1, NULL, 1, NULL, NULL, 56));
+  IS_OF_ANOTHER_KIND("mesh", find_passage_between(surface, no_mesh, NULL, 1, NULL, 1, NULL, NULL, 56));
   IS_OF_ANOTHER_KIND("valve", riis_surface_create(no_valve, NULL, &no_surface));
   IS_OF_ANOTHER_KIND("valve", riis_valve_set_scalar(no_valve, "xq", 0));
   IS_OF_ANOTHER_KIND("surface", riis_surface_update(no_surface, valve, NULL));
@@ -162,7 +162,7 @@ static void swapped_handles_are_refused(void **state) {
   IS_OF_ANOTHER_KIND("mesh", riis_mesh_update(no_mesh, 4, xyz, xyz, xyz, 1));
   riis_surface_destroy(&no_surface);
   assert_true((void *)no_surface == (void *)mesh); /* left alone */
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
   riis_mesh_destroy(&mesh);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);
@@ -176,7 +176,7 @@ static void parameters_are_refused_by_name(void **state) {
   assert_null(valve);
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "''", riis_valve_create("", &valve));
   valve = new_valve("aortic");
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'root_radios'|aortic|riis_valve_parameter",
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'root_radios'|aortic|riis_valve_get_parameter",
                 riis_valve_set_scalar(valve, "root_radios", 1));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'.leaflet_angle'", riis_valve_set_scalar(valve, ".leaflet_angle", 1));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'right.'", riis_valve_set_scalar(valve, "right.", 1));
@@ -199,8 +199,8 @@ static void parameters_are_refused_by_name(void **state) {
                 riis_valve_get(valve, "translation", 3, values));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'xq'|not 2", riis_valve_get(valve, "xq", 2, values));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'nothing'", riis_valve_get(valve, "nothing", 1, values));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "parameter_id is -1|0 to 42", riis_valve_parameter(valve, -1, NULL, 72));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "parameter_id is 43", riis_valve_parameter(valve, 43, NULL, 72));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "parameter_id is -1|0 to 42", riis_valve_get_parameter(valve, -1, NULL, 72));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "parameter_id is 43", riis_valve_get_parameter(valve, 43, NULL, 72));
   /* No refused call changed the valve. */
   CHECK_OK(riis_valve_get(valve, "root_radius", 1, values));
   CHECK_SAME(values[0], 1.29);
@@ -245,9 +245,9 @@ static void surface_options_are_refused_by_name(void **state) {
   OPTION_IS_REFUSED(distance, 3, "options.distance is 3|RIIS_DISTANCE_*");
   OPTION_IS_REFUSED(n_threads, -1, "options.n_threads is -1");
   OPTION_IS_REFUSED(n_threads, 1025, "options.n_threads is 1025|1024");
-  OPTION_IS_REFUSED(distance_tolerance, 0, "distance_tolerance is 0|1e-06 to 1");
-  OPTION_IS_REFUSED(distance_tolerance, 1.5, "distance_tolerance is 1.5");
-  OPTION_IS_REFUSED(distance_tolerance, NAN, "distance_tolerance is nan");
+  OPTION_IS_REFUSED(measure_tolerance, 0, "measure_tolerance is 0|1e-06 to 1");
+  OPTION_IS_REFUSED(measure_tolerance, 1.5, "measure_tolerance is 1.5");
+  OPTION_IS_REFUSED(measure_tolerance, NAN, "measure_tolerance is nan");
   /* So far away, rounding would flatten the valve. */
   OPTION_IS_REFUSED(translation[1], 1e14, "translation moves the valve by 1e+14|tolerance * half_thickness, 0.005");
   options = surface_options();
@@ -275,7 +275,7 @@ static void surface_arrays_are_refused_by_name(void **state) {
   ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.z = NULL, "arrays.z is NULL");
   ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.vertex_ids = NULL, "arrays.vertex_ids is NULL");
   ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.stride = 0, "arrays.stride is 0");
-  ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.vertex_id_bits = 16, "arrays.vertex_id_bits is 16");
+  ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.id_bits = 16, "arrays.id_bits is 16");
   ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.index_base = 2, "arrays.index_base is 2");
   ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.corners_per_face = 5, "arrays.corners_per_face is 5");
   ARRAYS_ARE_REFUSED(RIIS_INVALID_ARGUMENT, arrays.reserved = 1, "arrays.reserved is 1");
@@ -332,38 +332,38 @@ static void points_and_meshes_are_refused_by_name(void **state) {
   CHECK_REFUSED(RIIS_INVALID_MESH, "y of node 2 is -2e+60", riis_mesh_create(4, nodes, nodes + 1, nodes + 2, 3, &mesh));
   assert_null(mesh);
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "y of point 2 is -2e+60",
-                riis_closest_points(surface, 4, nodes, nodes + 1, nodes + 2, 3, NULL, &out));
+                closest_points_of(surface, 4, nodes, nodes + 1, nodes + 2, 3, NULL, &out));
   for (int i = 0; i < 4; ++i) CHECK_SAME(distance[i], -9);
   const double not_a_point[3] = {0, 0, NAN};
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "z of point 0 is nan",
                 riis_closest_point(surface, not_a_point, &closest, sizeof closest));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_points is -1",
-                riis_closest_points(surface, -1, xyz, xyz, xyz, 1, NULL, &out));
+                closest_points_of(surface, -1, xyz, xyz, xyz, 1, NULL, &out));
   options.n_threads = 1025;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_threads is 1025",
-                riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
+                closest_points_of(surface, 1, xyz, xyz, xyz, 1, &options, &out));
   options.n_threads = 0;
   options.reserved = 7;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "reserved is 7",
-                riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
+                closest_points_of(surface, 1, xyz, xyz, xyz, 1, &options, &out));
   options.reserved = 0;
   options.distance_limit = -2;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "distance_limit is -2",
-                riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
+                closest_points_of(surface, 1, xyz, xyz, xyz, 1, &options, &out));
   options.distance_limit = NAN;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "distance_limit is nan",
-                riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
+                closest_points_of(surface, 1, xyz, xyz, xyz, 1, &options, &out));
   options.distance_limit = 5;
   options.far_distance = 5;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "far_distance is 5",
-                riis_closest_points(surface, 1, xyz, xyz, xyz, 1, &options, &out));
+                closest_points_of(surface, 1, xyz, xyz, xyz, 1, &options, &out));
 }
 
 static void marking_options_are_refused_by_name(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
   riis_mesh *mesh = mesh_of(4, xyz);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
 #define MARK_OPTION_IS_REFUSED(field, value, text)                                                \
   do {                                                                                            \
     riis_mark_options options = mark_options();                                                   \

@@ -23,16 +23,16 @@ enum {
   of_moving = of_valves | RIIS_FIELD_VELOCITY
 };
 
-static riis_mark_fields marked_fields(const riis_mark_result *result) {
-  riis_mark_fields fields;
-  CHECK_OK(riis_mark_result_marked_fields(result, &fields, sizeof fields));
+static riis_mark_list marked_fields(const riis_marks *result) {
+  riis_mark_list fields;
+  CHECK_OK(riis_marks_get_list(result, RIIS_LIST_MARKED, &fields, sizeof fields));
   assert_int_equal(fields.n_nodes, marked_in(result).n);
   return fields;
 }
 
-static riis_mark_fields within_fields(const riis_mark_result *result) {
-  riis_mark_fields fields;
-  CHECK_OK(riis_mark_result_within_limit_fields(result, &fields, sizeof fields));
+static riis_mark_list within_fields(const riis_marks *result) {
+  riis_mark_list fields;
+  CHECK_OK(riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, &fields, sizeof fields));
   assert_int_equal(fields.n_nodes, within_in(result).n);
   return fields;
 }
@@ -41,7 +41,7 @@ static int same_array(const void *a, const void *b, int64_t n, size_t size) {
   return (!a && !b) || (a && b && memcmp(a, b, (size_t)n * size) == 0);
 }
 
-static int same_fields(riis_mark_fields a, riis_mark_fields b) {
+static int same_fields(riis_mark_list a, riis_mark_list b) {
   const int64_t n = a.n_nodes;
   return n == b.n_nodes && same_array(a.point, b.point, 3 * n, 8) && same_array(a.normal, b.normal, 3 * n, 8) &&
          same_array(a.barycentric, b.barycentric, 3 * n, 8) && same_array(a.uv, b.uv, 2 * n, 8) &&
@@ -50,7 +50,7 @@ static int same_fields(riis_mark_fields a, riis_mark_fields b) {
 }
 
 /* Which arrays there are, as a sum. */
-static int32_t arrays_in(riis_mark_fields f) {
+static int32_t arrays_in(riis_mark_list f) {
   return (f.point ? RIIS_FIELD_POINT : 0) | (f.normal ? RIIS_FIELD_NORMAL : 0) |
          (f.barycentric ? RIIS_FIELD_BARYCENTRIC : 0) | (f.side ? RIIS_FIELD_SIDE : 0) | (f.rim ? RIIS_FIELD_RIM : 0) |
          (f.uv ? RIIS_FIELD_UV : 0) | (f.velocity ? RIIS_FIELD_VELOCITY : 0) | (f.patch_id ? RIIS_FIELD_PATCH : 0);
@@ -59,9 +59,9 @@ static int32_t arrays_in(riis_mark_fields f) {
 static int is_bit(int32_t fields) { return fields && !(fields & (fields - 1)); }
 
 /* The same part of the fields as their result has of the nodes. */
-static void check_part(const riis_mark_result *result) {
+static void check_part(const riis_marks *result) {
   const found_nodes all = within_in(result), some = marked_in(result);
-  const riis_mark_fields of_all = within_fields(result), of_some = marked_fields(result);
+  const riis_mark_list of_all = within_fields(result), of_some = marked_fields(result);
   if (some.n == 0) return;
   assert_int_equal(arrays_in(of_all), arrays_in(of_some));
   for (int64_t from = 0, to = 0; to < some.n; ++to, ++from) {
@@ -93,7 +93,7 @@ static int64_t next_of(int64_t k) { return k % 3 == 2 ? k - 2 : k + 1; }
 
 static rims new_rims(const riis_surface *surface) {
   rims made = {surface_content_of(surface), NULL, NULL, NULL};
-  CHECK_OK(riis_surface_triangles(surface, NULL, NULL, &made.triangle_id, NULL, NULL));
+  made.triangle_id = triangles_of(surface).triangle_id;
   made.edge = own(calloc((size_t)made.c.n_triangles, 3));
   made.corner = own(calloc((size_t)made.c.n_triangles, 3));
   return made;
@@ -158,8 +158,8 @@ static int is_rim(const rims *r, int64_t triangle, const double *w) {
 /* Compares all fields of the nodes within the limit with single queries and with the rim. Velocities are those of the closest
  * triangle, but for places that are equally near. */
 static void check_fields(const riis_surface *surface, const double *xyz, const rims *r,
-                         const riis_mark_result *result) {
-  const riis_mark_fields f = within_fields(result);
+                         const riis_marks *result) {
+  const riis_mark_list f = within_fields(result);
   const found_nodes nodes = within_in(result);
   const double *velocity = velocity_of(surface), fastest = f.velocity ? largest_velocity(&r->c, velocity) : 0;
   for (int64_t i = 0; i < nodes.n; ++i) {
@@ -224,7 +224,7 @@ static void check_all_ways(const riis_surface *surface, const rims *r, int32_t f
   const double half_thickness = info_of(surface).half_thickness;
   test_mesh nodes = nodes_near(surface, 300 + any_of(400), 2 * half_thickness);
   riis_mesh *mesh = mesh_from(&nodes);
-  riis_mark_result *expected = new_result(), *result = new_result();
+  riis_marks *expected = new_result(), *result = new_result();
   riis_mark_options options = mark_options();
   options.fields = fields;
   options.n_threads = 1;
@@ -361,7 +361,7 @@ static void valves_have_a_rim_all_around_and_none_inside(void **state) {
     int64_t n_rim = 0, n_inside = 0, n_free = 0, n_free_closed = 0;
     const char *kind = is_mitral ? "mitral" : "aortic";
     riis_valve *valve = new_valve(kind), *open = new_valve(kind);
-    riis_mark_result *result = new_result();
+    riis_marks *result = new_result();
     if (!is_mitral) CHECK_OK(riis_valve_set_scalar(open, "leaflet_angle", 40));
     CHECK_OK(riis_valve_set_open_state(valve, open));
     riis_surface_options options = surface_options();
@@ -379,7 +379,7 @@ static void valves_have_a_rim_all_around_and_none_inside(void **state) {
       mark.fields = of_valves;
       mark.n_threads = 1;
       CHECK_OK(riis_mark_nodes(surface, mesh, &mark, result));
-      const riis_mark_fields f = marked_fields(result);
+      const riis_mark_list f = marked_fields(result);
       const found_nodes nodes = marked_in(result);
       assert_int_equal(nodes.n, n);
       for (int64_t k = 0; k < n; ++k) {
@@ -422,13 +422,13 @@ static void no_other_patch_touches_the_rim(void **state) {
       const double opening = is_mitral ? between(0.05, 1) : 0;
       CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
       riis_surface *surface = new_surface(valve, &options);
-      riis_mark_result *result = new_result();
+      riis_marks *result = new_result();
       riis_mark_options mark = mark_options();
       const surface_content c = surface_content_of(surface);
       const riis_mesh *mesh = mesh_of(9 * c.n_triangles, beyond_edges(&c, 1e-3));
       mark.fields = RIIS_FIELD_RIM | RIIS_FIELD_POINT | RIIS_FIELD_BARYCENTRIC | RIIS_FIELD_PATCH;
       CHECK_OK(riis_mark_nodes(surface, mesh, &mark, result));
-      const riis_mark_fields f = marked_fields(result);
+      const riis_mark_list f = marked_fields(result);
       for (int64_t k = 0; k < f.n_nodes; ++k) {
         const double *w = f.barycentric + 3 * k, *p = f.point + 3 * k;
         const double middle = fmax(w[0], fmax(w[1], w[2]));
@@ -487,24 +487,24 @@ static void parameters_turn_as_the_header_says(void **state) {
 
 static void other_distances_have_fields_of_patches(void **state) {
   (void)state;
-  for (int32_t distance = RIIS_DISTANCE_SAMPLING; distance <= RIIS_DISTANCE_MINIMIZATION; ++distance)
+  for (int32_t measure = RIIS_MEASURE_SAMPLING; distance <= RIIS_MEASURE_MINIMIZATION; ++distance)
     for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
       riis_valve *valve = new_valve(is_mitral ? "mitral" : "aortic");
       riis_surface_options options = surface_options();
       options.distance = distance;
-      options.distance_tolerance = 0.5;
+      options.measure_tolerance = 0.5;
       options.flip_normals = is_mitral;
       riis_surface *surface = new_surface(valve, &options);
       CHECK_OK(riis_surface_update_moving(surface, valve, valve, 1, NULL, NULL));
       test_mesh nodes = nodes_near(surface, 200, 0.2);
       riis_mesh *mesh = mesh_from(&nodes);
-      riis_mark_result *result = new_result(), *other = new_result();
+      riis_marks *result = new_result(), *other = new_result();
       riis_mark_options mark = mark_options();
       mark.fields = of_patches;
       mark.distance_limit = 0.15;
       mark.n_threads = 1;
       CHECK_OK(riis_mark_nodes(surface, mesh, &mark, result));
-      const riis_mark_fields f = within_fields(result);
+      const riis_mark_list f = within_fields(result);
       const found_nodes found = within_in(result);
       assert_true(found.n > 50);
       assert_int_equal(arrays_in(f), of_patches);
@@ -529,7 +529,7 @@ static void other_distances_have_fields_of_patches(void **state) {
           continue;
         }
         snprintf(text, sizeof text, "options.fields is %d,|distances are by %s|RIIS_FIELD_NORMAL and RIIS_FIELD_PATCH",
-                 field, distance == RIIS_DISTANCE_SAMPLING ? "sampling" : "minimi");
+                 field, distance == RIIS_MEASURE_SAMPLING ? "sampling" : "minimi");
         CHECK_REFUSED(RIIS_INVALID_ARGUMENT, text, riis_mark_nodes(surface, mesh, &mark, other));
       }
     }
@@ -547,7 +547,7 @@ static void fields_are_refused_by_name(void **state) {
   CHECK_OK(riis_surface_update_moving(surface, valve, valve, 1, NULL, NULL));
   test_mesh nodes = nodes_near(surface, 300, 0.1);
   riis_mesh *mesh = mesh_from(&nodes);
-  riis_mark_result *result = new_result(), *expected = new_result();
+  riis_marks *result = new_result(), *expected = new_result();
   riis_mark_options options = mark_options();
   options.fields = of_moving;
   assert_int_equal(of_moving, 255);
@@ -575,15 +575,15 @@ static void fields_are_refused_by_name(void **state) {
   FIELDS_REFUSED(RIIS_FIELD_UV, "options.fields is 32,|RIIS_FIELD_UV|from arrays");
   FIELDS_REFUSED(RIIS_FIELD_VELOCITY, "options.fields is 64,|RIIS_FIELD_VELOCITY");
 
-  riis_mark_fields f;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "result is NULL", riis_mark_result_marked_fields(NULL, &f, sizeof f));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "result is NULL", riis_mark_result_within_limit_fields(NULL, &f, sizeof f));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "fields is NULL", riis_mark_result_marked_fields(result, NULL, sizeof f));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "fields is NULL", riis_mark_result_within_limit_fields(result, NULL, sizeof f));
+  riis_mark_list f;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "result is NULL", riis_marks_get_list(NULL, RIIS_LIST_MARKED, &f, sizeof f));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "result is NULL", riis_marks_get_list(NULL, RIIS_LIST_WITHIN_LIMIT, &f, sizeof f));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "fields is NULL", riis_marks_get_list(result, RIIS_LIST_MARKED, NULL, sizeof f));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "fields is NULL", riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, NULL, sizeof f));
   static const int64_t sizes[] = {0, -8, sizeof f - 8, sizeof f + 8};
   for (int i = 0; i < 4; ++i) {
-    CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "fields", riis_mark_result_marked_fields(result, &f, sizes[i]));
-    CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "fields", riis_mark_result_within_limit_fields(result, &f, sizes[i]));
+    CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "fields", riis_marks_get_list(result, RIIS_LIST_MARKED, &f, sizes[i]));
+    CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "fields", riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, &f, sizes[i]));
   }
 }
 
@@ -593,7 +593,7 @@ static void what_is_not_asked_for_is_null(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = nodes_near(surface, 300, 0.1);
   riis_mesh *mesh = mesh_from(&nodes);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_mark_options options = mark_options();
   assert_int_equal(marked_fields(result).n_nodes, 0);
   assert_int_equal(arrays_in(marked_fields(result)) | arrays_in(within_fields(result)), 0);

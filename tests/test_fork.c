@@ -89,7 +89,7 @@ typedef struct scene {
   riis_surface *surface;
   test_mesh nodes;
   riis_mesh *mesh;
-  riis_mark_result *result; /* by one thread, or by several */
+  riis_marks *result; /* by one thread, or by several */
   double *k;
 } scene;
 
@@ -105,7 +105,7 @@ static scene scene_by(int32_t n_threads) {
   return s;
 }
 
-static riis_status mark(const scene *s, int32_t search, int32_t n_threads, riis_mark_result *result) {
+static riis_status mark(const scene *s, int32_t search, int32_t n_threads, riis_marks *result) {
   riis_mark_options options;
   riis_status status = riis_mark_options_init(&options, sizeof options);
   options.search = search;
@@ -120,12 +120,12 @@ static int with_status(const scene *s, int32_t n_threads, riis_status expected, 
   riis_crossing_options of_crossings;
   riis_closest_options of_points;
   riis_closest_arrays found;
-  riis_cells cells;
-  riis_faces faces;
+  riis_mesh_cells cells;
+  riis_mesh_faces faces;
   riis_leaks leaks;
   riis_passage passage;
   riis_crossings crossings;
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   riis_adjacency *adjacency[3] = {NULL};
   static const int32_t ids[4] = {0, 1, 2, 3};
   const int64_t first = 0, last = s->nodes.n - 1;
@@ -136,9 +136,9 @@ static int with_status(const scene *s, int32_t n_threads, riis_status expected, 
   riis_crossing_options_init(&of_crossings, sizeof of_crossings);
   riis_closest_options_init(&of_points, sizeof of_points);
   riis_closest_arrays_init(&found, sizeof found);
-  riis_cells_init(&cells, sizeof cells);
-  riis_faces_init(&faces, sizeof faces);
-  riis_mark_result_create(&result);
+  riis_mesh_cells_init(&cells, sizeof cells);
+  riis_mesh_faces_init(&faces, sizeof faces);
+  riis_marks_create(&result);
   options.n_threads = of_surface.n_threads = of_crossings.n_threads = of_points.n_threads = n_threads;
   cells.n_threads = faces.n_threads = n_threads;
   cells.n_nodes = 4, cells.n_cells = 1, cells.node_ids = ids;
@@ -150,18 +150,17 @@ static int with_status(const scene *s, int32_t n_threads, riis_status expected, 
     EXPECT(mark(s, search, n_threads, result));
   EXPECT(riis_mesh_prepare(s->mesh, n_threads));
   EXPECT(riis_find_leaks(s->surface, s->mesh, &options, s->result, &leaks, sizeof leaks));
-  EXPECT(riis_label_open_regions(s->mesh, &options, s->result, s->nodes.n, label, NULL));
-  EXPECT(riis_find_passage(s->surface, s->mesh, &options, 1, &first, 1, &last, &passage, sizeof passage));
+  EXPECT(riis_label_open_regions(s->mesh, s->result, &options, s->nodes.n, label, NULL));
+  EXPECT(find_passage_between(s->surface, s->mesh, &options, 1, &first, 1, &last, &passage, sizeof passage));
   EXPECT(riis_find_crossings(s->surface, &of_crossings, &crossings, sizeof crossings));
-  EXPECT(riis_closest_points(s->surface, s->nodes.n, s->nodes.xyz, s->nodes.xyz + 1, s->nodes.xyz + 2, 3, &of_points,
-                             &found));
+  EXPECT(closest_points_of(s->surface, s->nodes.n, s->nodes.xyz, s->nodes.xyz + 1, s->nodes.xyz + 2, 3, &of_points, &found));
   EXPECT(riis_adjacency_create_from_cells(&cells, &adjacency[0]));
   EXPECT(riis_adjacency_create_from_faces(&faces, &adjacency[1]));
   EXPECT(riis_adjacency_create_from_grid(30, 40, 50, n_threads, &adjacency[2]));
   EXPECT(riis_surface_update(s->surface, s->valve, &of_surface));
 #undef EXPECT
   for (int i = 0; i < 3; ++i) riis_adjacency_destroy(&adjacency[i]);
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
   free(label);
   free(distance);
   return n_as_expected;
@@ -172,9 +171,9 @@ static riis_status use_result(const scene *s) {
   riis_resistance resistance;
   riis_status status = riis_resistance_init(&resistance, sizeof resistance);
   resistance.resistance = 1;
-  if (!status) status = riis_mark_result_add_resistance(s->result, &resistance, s->nodes.n, s->k, NULL);
+  if (!status) status = add_resistance_to(s->result, &resistance, s->nodes.n, s->k, NULL);
   return status ? status
-                : riis_mark_result_dense(s->result, s->nodes.n, RIIS_FAR_DISTANCE, NULL, s->k, NULL, NULL);
+                : dense_of(s->result, s->nodes.n, RIIS_FAR_DISTANCE, NULL, s->k, NULL, NULL);
 }
 
 /* What a child checks. Returns 0 if all is right. */
@@ -200,12 +199,12 @@ static int all_have(const scene *s, int32_t n_threads, riis_status expected, con
 }
 
 static int marks_are_as_before(const scene *s, int32_t n_threads, int32_t *n_ran) {
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   riis_mark_stats stats;
-  const int is_right = !riis_mark_result_create(&result) && !mark(s, RIIS_SEARCH_CLUSTERS, n_threads, result) &&
-                       same_results(s->result, result) && !riis_mark_result_stats(result, &stats, sizeof stats);
+  const int is_right = !riis_marks_create(&result) && !mark(s, RIIS_SEARCH_CLUSTERS, n_threads, result) &&
+                       same_results(s->result, result) && !riis_marks_get_stats(result, &stats, sizeof stats);
   if (is_right) *n_ran = stats.n_threads;
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
   return is_right;
 }
 

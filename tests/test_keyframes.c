@@ -58,8 +58,10 @@ static riis_keyframes *keyframes_of(const swing *s) {
 static void check_height(const riis_surface *surface, double height, double speed) {
   const double *xyz, *velocity;
   int64_t n;
-  CHECK_OK(riis_surface_vertices(surface, &n, &xyz));
-  CHECK_OK(riis_surface_vertex_velocities(surface, &n, &velocity));
+  n = triangles_of(surface).n_vertices;
+  xyz = triangles_of(surface).xyz;
+  n = triangles_of(surface).n_vertices;
+  velocity = triangles_of(surface).velocity;
   assert_int_equal(n, n_vertices);
   for (int64_t i = 0; i < n; ++i) {
     CHECK_NEAR(xyz[3 * i + 2], height, 1e-13);
@@ -133,8 +135,8 @@ static void frames_repeat_and_are_placed(void **state) {
       const double t = random_between(&rng, 0, 1);
       const double *xyz, *velocity;
       CHECK_OK(riis_surface_update_from_keyframes(a, keyframes, t, t, NULL));
-      CHECK_OK(riis_surface_vertices(a, NULL, &xyz));
-      CHECK_OK(riis_surface_vertex_velocities(a, NULL, &velocity));
+      xyz = triangles_of(a).xyz;
+      velocity = triangles_of(a).velocity;
       CHECK_OK(riis_surface_update_from_keyframes(b, keyframes, t - 3, t - 3, NULL));
       check_height(b, 5 + 2 * xyz[2], 2 * velocity[2]);
       if (interpolation == RIIS_INTERPOLATION_LINEAR) {
@@ -144,7 +146,7 @@ static void frames_repeat_and_are_placed(void **state) {
       /* The rate of the cubic is its derivative. */
       const double h = 1e-6, rate = velocity[2];
       CHECK_OK(riis_surface_update_from_keyframes(a, keyframes, t + h, t - h, NULL));
-      CHECK_OK(riis_surface_vertex_velocities(a, NULL, &velocity));
+      velocity = triangles_of(a).velocity;
       CHECK_NEAR(velocity[2], rate, 1e-4);
     }
     riis_surface_destroy(&a);

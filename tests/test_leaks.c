@@ -143,10 +143,10 @@ static int64_t expected_leaks(const whole_case *c, const uint8_t *marks, uint8_t
 
 /* The oracle's marks. The result's marks replace them if rounding decides. */
 static void expected_marks(const whole_case *c, const double *xyz, const riis_surface *surface,
-                           const riis_mark_result *result, uint8_t *marks) {
+                           const riis_marks *result, uint8_t *marks) {
   const surface_content all = surface_content_of(surface);
   int64_t nearest = 0;
-  CHECK_OK(riis_mark_result_dense(result, c->n_nodes, 2e60, marks, NULL, NULL, NULL));
+  CHECK_OK(dense_of(result, c->n_nodes, 2e60, marks, NULL, NULL, NULL));
   for (int64_t i = 0; i < c->n_nodes; ++i) {
     const long double d = oracle_distance(xyz + 3 * i, all.n_triangles, all.vertex_id, all.xyz, &nearest);
     if (c->is_masked && !c->mask[i])
@@ -190,7 +190,7 @@ static void check_list(const whole_case *c, const double *xyz, const riis_surfac
 static int64_t n_leaks_with(const whole_case *c, const riis_mesh *mesh, double half_thickness) {
   const int owned_before = n_owned();
   riis_surface *surface = surface_of_case(c, half_thickness);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_mark_options options = mark_options();
   if (c->is_masked) options.node_mask = c->mask;
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
@@ -206,7 +206,7 @@ static int64_t check_case(const whole_case *c) {
   test_mesh nodes = {c->n_nodes, xyz, (int64_t *)c->offsets, (int64_t *)c->columns};
   riis_surface *surface = surface_of_case(c, c->half_thickness);
   riis_mesh *mesh = mesh_with_rows(&nodes, c->n_nodes + 4);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_mark_options options = mark_options();
   if (c->is_masked) options.node_mask = c->mask;
   options.n_threads = (int32_t)random_integer(1, 3);
@@ -287,7 +287,7 @@ static void threads_do_not_matter(void **state) {
   thin.half_thickness = 0.03;
   riis_surface *surface = aortic_surface(&thin);
   riis_mesh *mesh = mesh_with_rows(&nodes, 0);
-  riis_mark_result *one = new_result(), *many = new_result();
+  riis_marks *one = new_result(), *many = new_result();
   riis_mark_options options = mark_options();
   options.n_threads = 1;
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, one));

@@ -27,13 +27,15 @@ static void aortic_marks_equal_the_oracle(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   double *xyz = random_nodes(n, 1.6, -1.2, 0.3);
   riis_mesh *mesh = mesh_of(n, xyz);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   int64_t n_triangles;
   const double *vertices;
   const int64_t *vertex_id;
   const int32_t *leaflet_id;
-  CHECK_OK(riis_surface_vertices(surface, NULL, &vertices));
-  CHECK_OK(riis_surface_triangles(surface, &n_triangles, &vertex_id, NULL, &leaflet_id, NULL));
+  vertices = triangles_of(surface).xyz;
+  n_triangles = triangles_of(surface).n_triangles;
+  vertex_id = triangles_of(surface).vertex_id;
+  leaflet_id = triangles_of(surface).leaflet_id;
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
   const found_nodes marked = marked_in(result);
   int64_t at = 0;
@@ -86,7 +88,7 @@ static void lattice_around_a_rectangle_is_counted(void **state) {
     expected += dx * dx + dy * dy + p[2] * p[2] <= 0.25;
   }
   riis_mesh *mesh = mesh_of(n, xyz);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
   assert_int_equal(marked_in(result).n, expected);
   assert_true(expected > 500);
@@ -98,7 +100,7 @@ static void wider_limit_lists_more_and_marks_the_same(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   double *xyz = random_nodes(n, 1.6, -1.2, 0.3);
   riis_mesh *mesh = mesh_of(n, xyz);
-  riis_mark_result *narrow = new_result(), *wide = new_result();
+  riis_marks *narrow = new_result(), *wide = new_result();
   riis_mark_options options = mark_options();
   options.distance_limit = 0.25;
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, narrow));
@@ -126,7 +128,7 @@ static void wider_limit_lists_more_and_marks_the_same(void **state) {
   static int64_t triangle_id[n];
   static int32_t leaflet_id[n];
   memset(mark, 77, sizeof mark);
-  CHECK_OK(riis_mark_result_dense(wide, n, RIIS_FAR_DISTANCE, mark, distance, triangle_id, leaflet_id));
+  CHECK_OK(dense_of(wide, n, RIIS_FAR_DISTANCE, mark, distance, triangle_id, leaflet_id));
   for (int64_t i = 0, at = 0; i < n; ++i) {
     const int listed = at < c.n && c.node_id[at] == i;
     CHECK_SAME(distance[i], listed ? c.distance[at] : 1e30);
@@ -136,13 +138,13 @@ static void wider_limit_lists_more_and_marks_the_same(void **state) {
     at += listed;
   }
   /* Any of the arrays may be given alone. Any far value that cannot be taken for a near distance is accepted. */
-  CHECK_OK(riis_mark_result_dense(wide, n, NAN, NULL, distance, NULL, NULL));
+  CHECK_OK(dense_of(wide, n, NAN, NULL, distance, NULL, NULL));
   assert_true(isnan(distance[0]) || within_in(wide).node_id[0] == 0);
-  CHECK_OK(riis_mark_result_dense(wide, n, -1, mark, NULL, NULL, NULL));
+  CHECK_OK(dense_of(wide, n, -1, mark, NULL, NULL, NULL));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "far_distance is 0.25|limit 0.25",
-                riis_mark_result_dense(wide, n, 0.25, mark, NULL, NULL, NULL));
+                dense_of(wide, n, 0.25, mark, NULL, NULL, NULL));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_nodes is 19999|20000",
-                riis_mark_result_dense(wide, n - 1, 1e30, mark, NULL, NULL, NULL));
+                dense_of(wide, n - 1, 1e30, mark, NULL, NULL, NULL));
 }
 
 static void mask_leaves_nodes_out(void **state) {
@@ -152,7 +154,7 @@ static void mask_leaves_nodes_out(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   double *xyz = random_nodes(n, 1.6, -1.2, 0.3);
   riis_mesh *mesh = mesh_of(n, xyz);
-  riis_mark_result *all = new_result(), *some = new_result();
+  riis_marks *all = new_result(), *some = new_result();
   riis_mark_options options = mark_options();
   for (int i = 0; i < n; ++i) mask[i] = (uint8_t)(random_bits(&rng) % 3); /* 0, 1, 2: anything but 0 counts */
   options.node_mask = mask;
@@ -172,7 +174,8 @@ static void mask_leaves_nodes_out(void **state) {
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, some));
   const int64_t *node_id = (const int64_t *)&options;
   int64_t n_marked = -1;
-  CHECK_OK(riis_mark_result_marked(some, &n_marked, &node_id, NULL, NULL, NULL));
+  n_marked = marked_list(some).n_nodes;
+  node_id = marked_list(some).node_id;
   assert_int_equal(n_marked, 0);
   assert_null(node_id);
 }
@@ -183,7 +186,7 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   double *xyz = random_nodes(n, 1.6, -1.2, 0.3);
   riis_mesh *mesh = mesh_of(n, xyz);
-  riis_mark_result *one = new_result(), *many = new_result();
+  riis_marks *one = new_result(), *many = new_result();
   riis_mark_options options = mark_options();
   options.distance_limit = 0.2;
   options.n_threads = 1;
@@ -209,7 +212,7 @@ static void coordinates_may_move_and_results_are_reused(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   double *xyz = random_nodes(n, 1.6, -1.2, 0.3);
   riis_mesh *mesh = mesh_of(n, xyz);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   assert_int_equal(marked_in(result).n, 0); /* never marked with */
   assert_int_equal(stats_of(result).n_nodes, 0);
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
@@ -251,7 +254,7 @@ static void separate_coordinate_arrays_are_the_same_mesh(void **state) {
   riis_mesh *a = mesh_of(n, xyz), *b = NULL;
   CHECK_OK(riis_mesh_create(n, x, y, z, 1, &b));
   own(b);
-  riis_mark_result *of_a = new_result(), *of_b = new_result();
+  riis_marks *of_a = new_result(), *of_b = new_result();
   CHECK_OK(riis_mark_nodes(surface, a, NULL, of_a));
   CHECK_OK(riis_mark_nodes(surface, b, NULL, of_b));
   const found_nodes l = marked_in(of_a), m = marked_in(of_b);

@@ -176,9 +176,9 @@ static compared compare(const states *now, const states *before, double seconds,
   }
   if (n_points > 0) {
     double *xyz = own(malloc((size_t)n_points * 3 * sizeof *xyz));
-    riis_mark_result *result = new_result();
+    riis_marks *result = new_result();
     riis_mark_options mark = mark_options();
-    riis_mark_fields fields;
+    riis_mark_list fields;
     for (int64_t i = 0; i < n_points; ++i) {
       const double *vertex = c.xyz + 3 * c.vertex_id[random_bits(&rng) % (uint64_t)(3 * c.n_triangles)];
       for (int k = 0; k < 3; ++k) xyz[3 * i + k] = vertex[k] + random_between(&rng, -0.1, 0.1);
@@ -188,7 +188,7 @@ static compared compare(const states *now, const states *before, double seconds,
     mark.distance_limit = 0.5;
     mark.n_threads = 1;
     CHECK_OK(riis_mark_nodes(surface, mesh, &mark, result));
-    CHECK_OK(riis_mark_result_within_limit_fields(result, &fields, sizeof fields));
+    CHECK_OK(riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, &fields, sizeof fields));
     assert_int_equal(fields.n_nodes, n_points);
     const double *at_vertices = velocity_of(surface), half_thickness = info_of(surface).half_thickness;
     for (int64_t i = 0; i < n_points; ++i) {

@@ -56,11 +56,11 @@ static void parameters_are_the_papers(void **state) {
   int64_t n;
   double values[3];
   riis_valve *valve = new_valve("mitral");
-  CHECK_OK(riis_valve_n_parameters(valve, &n));
+  CHECK_OK(riis_valve_get_n_parameters(valve, &n));
   assert_int_equal(n, n_scalars + 1); /* 18, as the paper says: its table's parameters, its t and the translation */
   for (int i = 0; i < n_scalars; ++i) {
     riis_parameter parameter;
-    CHECK_OK(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
+    CHECK_OK(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
     assert_string_equal(parameter.name, table[i].name);
     CHECK_SAME(parameter.default_values[0], table[i].value);
     CHECK_OK(riis_valve_get(valve, table[i].name, 1, values));

@@ -93,7 +93,7 @@ static int64_t end_to_count(void) {
 }
 
 static int64_t allocations_of_a_step(const riis_surface *surface, const riis_mesh *mesh,
-                                     const riis_mark_options *options, riis_mark_result *result) {
+                                     const riis_mark_options *options, riis_marks *result) {
   begin_to_count();
   const riis_status status = riis_mark_nodes(surface, mesh, options, result);
   const int64_t n = end_to_count();
@@ -106,7 +106,7 @@ typedef struct moving_valve {
   riis_valve *now, *before;
   riis_surface *surface;
   riis_mesh *mesh;
-  riis_mark_result *result;
+  riis_marks *result;
   riis_mark_options options;
   double *k, *k_u;
   int64_t n_nodes;
@@ -153,8 +153,7 @@ static int64_t allocations_of_a_cycle(moving_valve *valve) {
         has_velocity ? riis_surface_update_moving(valve->surface, valve->now, valve->before, 0.02, NULL, NULL)
                      : riis_surface_update(valve->surface, valve->now, NULL);
     const riis_status marked = riis_mark_nodes(valve->surface, valve->mesh, &valve->options, valve->result);
-    const riis_status added = riis_mark_result_add_resistance(valve->result, &resistance, valve->n_nodes, valve->k,
-                                                              has_velocity ? valve->k_u : NULL);
+    const riis_status added = add_resistance_to(valve->result, &resistance, valve->n_nodes, valve->k, has_velocity ? valve->k_u : NULL);
     n += end_to_count();
     CHECK_OK(moved);
     CHECK_OK(marked);
@@ -173,7 +172,7 @@ static void a_steady_step_allocates_nothing(void **state) {
     for (int32_t search = RIIS_SEARCH_EXHAUSTIVE; search <= RIIS_SEARCH_CLUSTERS; ++search) {
       const int owned_before = n_owned();
       riis_mesh *mesh = mesh_from(&nodes);
-      riis_mark_result *result = new_result();
+      riis_marks *result = new_result();
       riis_mark_options options = mark_options();
       options.search = search;
       options.n_threads = 1;

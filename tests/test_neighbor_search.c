@@ -16,8 +16,8 @@ static random_source rng;
 /* How many nodes the paper's algorithm misses, which it must not hide. */
 static int64_t missed_by_the_paper(const riis_surface *surface, const riis_mesh *mesh, const uint8_t *mask) {
   const int owned_before = n_owned();
-  riis_mark_result *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, mask);
-  riis_mark_result *all = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 2, mask);
+  riis_marks *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, mask);
+  riis_marks *all = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 2, mask);
   assert_int_equal(stats_of(paper).search, RIIS_SEARCH_PAPER);
   assert_int_equal(stats_of(paper).complete, 0);
   const int64_t missed = marked_in(all).n - marked_in(paper).n;
@@ -44,7 +44,7 @@ static void three_separate_cusps(void **state) {
   /* One start finds one cusp. */
   const int64_t missed = missed_by_the_paper(surface, mesh, NULL);
   assert_true(missed > stats.n_marked / 2 && missed < stats.n_marked);
-  riis_mark_result *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, NULL);
+  riis_marks *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, NULL);
   const found_nodes found = marked_in(paper);
   for (int64_t i = 0; i < found.n; ++i) assert_int_equal(found.leaflet_id[i], found.leaflet_id[0]);
   /* A walk that starts at these nodes leaves the others to the proof. */
@@ -126,7 +126,7 @@ static void isolated_nodes(void **state) {
   riis_csr csr = csr_of(&nodes);
   csr.columns = NULL;
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   const riis_mark_stats first = check_same_as_exhaustive(surface, mesh, mark_options(), result);
   assert_true(first.n_marked > 1000);
   assert_true(first.n_unreached > first.n_marked / 2); /* each start's walk has one step */
@@ -198,7 +198,7 @@ static void mesh_of_one_node(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
   const double *vertices;
-  CHECK_OK(riis_surface_vertices(surface, NULL, &vertices));
+  vertices = triangles_of(surface).xyz;
   const double places[3][3] = {{vertices[0], vertices[1], vertices[2] + 0.05}, {0, 0, 50}, {1e60, -1e60, 1e60}};
   for (int k = 0; k < 3; ++k)
     for (int self = 0; self < 2; ++self) {
@@ -208,7 +208,7 @@ static void mesh_of_one_node(void **state) {
       test_mesh one = {1, xyz, offsets, columns};
       riis_mesh *mesh = mesh_from(&one);
       riis_mark_options options = mark_options();
-      riis_mark_result *result = new_result();
+      riis_marks *result = new_result();
       for (int again = 0; again < 2; ++again)
         assert_int_equal(check_same_as_exhaustive(surface, mesh, options, result).n_marked, k == 0);
       const uint8_t mask = 0;
@@ -327,13 +327,13 @@ static void masked_nodes_are_left_out(void **state) {
   test_mesh nodes = lattice_around(surface, 0.08, 0.15);
   riis_mesh *mesh = mesh_from(&nodes);
   uint8_t *mask = own(malloc((size_t)nodes.n));
-  riis_mark_result *reused = new_result();
+  riis_marks *reused = new_result();
   riis_mark_options options = mark_options();
   options.node_mask = mask;
   for (int trial = 0; trial < 9; ++trial) {
     const int owned_before = n_owned();
     for (int64_t i = 0; i < nodes.n; ++i) mask[i] = (uint8_t)(random_bits(&rng) % 8 >= (uint64_t)trial ? 200 : 0);
-    riis_mark_result *fresh = new_result();
+    riis_marks *fresh = new_result();
     check_same_as_exhaustive(surface, mesh, options, fresh);
     const riis_mark_stats stats =
         check_same_as_exhaustive(surface, mesh, options, reused); /* starts from the marking with another mask */
@@ -369,7 +369,7 @@ static void mask_that_cuts_the_band(void **state) {
   const riis_mark_stats stats = check_same_as_exhaustive(surface, mesh, options, NULL);
   const int64_t missed = missed_by_the_paper(surface, mesh, mask);
   assert_true(missed > stats.n_marked / 3 && missed < stats.n_marked);
-  riis_mark_result *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, mask);
+  riis_marks *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, mask);
   const found_nodes found = marked_in(paper);
   for (int64_t i = 0; i < found.n; ++i)
     assert_true(nodes.xyz[3 * found.node_id[i]] < wall); /* the first vertex's side */
@@ -383,7 +383,7 @@ static void limits_wider_than_the_half_thickness(void **state) {
   test_mesh nodes = lattice_around(surface, 0.25, 1);
   riis_mesh *mesh = mesh_from(&nodes);
   static const double limits[7] = {0.1, 0.11, 0.3, 5, 0.2, 1e60, 0.1};
-  riis_mark_result *reused = new_result();
+  riis_marks *reused = new_result();
   for (int k = 0; k < 7; ++k) {
     riis_mark_options options = mark_options();
     options.distance_limit = limits[k];
@@ -406,17 +406,17 @@ static void paper_finds_the_piece_that_it_starts_in(void **state) {
     for (int64_t i = 0; i < 3 * nodes.n; ++i)
       nodes.xyz[i] += random_between(&rng, -0.02, 0.02); /* so no two nodes are equally near */
     riis_mesh *mesh = mesh_from(&nodes);
-    riis_mark_result *all = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, NULL);
-    riis_mark_result *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, NULL);
+    riis_marks *all = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, NULL);
+    riis_marks *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, NULL);
     const double *vertices;
     const int64_t *vertex_id;
-    CHECK_OK(riis_surface_vertices(surface, NULL, &vertices));
-    CHECK_OK(riis_surface_triangles(surface, NULL, &vertex_id, NULL, NULL, NULL));
+    vertices = triangles_of(surface).xyz;
+    vertex_id = triangles_of(surface).vertex_id;
     const double *first = vertices + 3 * vertex_id[0];
     uint8_t *marked = own(calloc((size_t)nodes.n, 1));
     int64_t *queue = own(malloc((size_t)nodes.n * sizeof *queue)), n_queued = 0, start = 0;
     double least = INFINITY;
-    CHECK_OK(riis_mark_result_dense(all, nodes.n, 1e30, marked, NULL, NULL, NULL));
+    CHECK_OK(dense_of(all, nodes.n, 1e30, marked, NULL, NULL, NULL));
     for (int64_t i = 0; i < nodes.n; ++i) {
       double sum = 0;
       for (int c = 0; c < 3; ++c) sum += (nodes.xyz[3 * i + c] - first[c]) * (nodes.xyz[3 * i + c] - first[c]);
@@ -440,7 +440,7 @@ static void auto_is_never_incomplete(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.2, 0.2);
   riis_mesh *mesh = mesh_from(&nodes);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_mark_options options = mark_options();
   assert_int_equal(options.search, RIIS_SEARCH_AUTO);
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));

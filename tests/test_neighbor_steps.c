@@ -26,7 +26,7 @@ static void a_valve_moves(void **state) {
   riis_surface *surface = mitral_surface(0);
   test_mesh nodes = lattice_around(surface, 0.12, 0.8);
   riis_mesh *mesh = mesh_from(&nodes);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_valve *valve = new_valve("mitral");
   int64_t n_unreached = 0, n_marked = 0;
   for (int step = 0; step < 20; ++step) {
@@ -49,7 +49,7 @@ static void a_valve_jumps(void **state) {
   const double lower[3] = {-1.7, -1.7, -1.6}, upper[3] = {9, 1.7, 0.6};
   test_mesh nodes = lattice(counts, lower, upper);
   riis_mesh *mesh = mesh_from(&nodes);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_surface_options options = surface_options();
   static const double x[10] = {0, 7, 0, 100, 0.01, 0, 4, 4.5, -50, 7}; /* also where there is no mesh */
   for (int step = 0; step < 10; ++step) {
@@ -73,7 +73,7 @@ static void a_result_goes_from_mesh_to_mesh(void **state) {
       c.xyz[3 * i + k] = c.xyz[3 * j + k], c.xyz[3 * j + k] = swap;
     }
   riis_mesh *mesh[3] = {mesh_from(&a), mesh_from(&b), mesh_from(&c)};
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   for (int step = 0; step < 30; ++step) {
     riis_mark_options options = mark_options();
     options.n_threads = 1 + (int)(random_bits(&rng) % 3);
@@ -91,7 +91,7 @@ static void many_steps(void **state) {
   riis_surface *surface = aortic_band(0.1);
   test_mesh nodes = lattice_around(surface, 0.3, 0.2);
   riis_mesh *mesh = mesh_from(&nodes);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_mark_options options = mark_options();
   options.n_threads = 1;
   for (int step = 0; step < 600; ++step) check_same_as_exhaustive(surface, mesh, options, result);
@@ -102,7 +102,7 @@ static void nodes_move(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.12, 0.3);
   riis_mesh *mesh = mesh_from(&nodes);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   double *moved = own(malloc((size_t)nodes.n * 3 * sizeof *moved));
   for (int step = 0; step < 12; ++step) {
     const double shift = step < 8 ? 0.03 * step : 1000 * (step % 2),
@@ -136,10 +136,10 @@ static void non_finite_coordinates_are_refused(void **state) {
   static const double bad[3] = {NAN, INFINITY, -INFINITY};
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.13, 0.15);
-  riis_mark_result *expected = NULL;
+  riis_marks *expected = NULL;
   for (int trial = 0; trial < 36; ++trial) {
     riis_mesh *mesh = mesh_from(&nodes);
-    riis_mark_result *result = new_result();
+    riis_marks *result = new_result();
     riis_mark_options options = mark_options();
     options.search = RIIS_SEARCH_NEIGHBOR;
     options.n_threads = 1 + trial % 2;
@@ -174,7 +174,7 @@ static void a_refused_update_forgets_where_nodes_were(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.13, 0.15);
   riis_mesh *mesh = mesh_from(&nodes);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_mark_options options = mark_options();
   options.search = RIIS_SEARCH_NEIGHBOR;
   for (int64_t i = 0; i < nodes.n; ++i) nodes.xyz[3 * i] += 50;
@@ -189,7 +189,7 @@ static void a_refused_update_forgets_where_nodes_were(void **state) {
   CHECK_REFUSED(RIIS_INVALID_MESH, "x of node 1 is nan", riis_mark_nodes(surface, mesh, &options, result));
   nodes.xyz[3] = good;
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-  riis_mark_result *expected = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, NULL);
+  riis_marks *expected = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, NULL);
   assert_true(stats_of(expected).n_marked > 0 && same_results(result, expected));
 }
 

@@ -23,14 +23,14 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
   static const int32_t searches[2] = {RIIS_SEARCH_NEIGHBOR, RIIS_SEARCH_PAPER};
   for (int k = 0; k < 2; ++k) {
     const int owned_before = n_owned();
-    riis_mark_result *one = marked_by(surface, mesh, searches[k], 1, NULL);
+    riis_marks *one = marked_by(surface, mesh, searches[k], 1, NULL);
     assert_int_equal(stats_of(one).n_threads, 1);
     assert_true(stats_of(one).n_marked > 5000);
     int32_t most[5] = {0};
     for (int repeat = 0; repeat < fewer_if_sanitized(3); ++repeat)
       for (int threads = 1; threads <= 4; ++threads) {
         const int n_outside = n_owned();
-        riis_mark_result *many = marked_by(surface, mesh, searches[k], threads, NULL);
+        riis_marks *many = marked_by(surface, mesh, searches[k], threads, NULL);
         const riis_mark_stats stats = stats_of(many);
         assert_true(same_results(one, many));
         assert_int_equal(stats.n_queries, stats_of(one).n_queries);
@@ -42,7 +42,7 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
     /* They really ran. The paper's is nothing but the walk, which a second thread joins when the system lets it. */
     for (int repeat = 0; repeat < 500 && most[2] < 2; ++repeat) {
       const int n_outside = n_owned();
-      riis_mark_result *two = marked_by(surface, mesh, searches[k], 2, NULL);
+      riis_marks *two = marked_by(surface, mesh, searches[k], 2, NULL);
       most[2] = stats_of(two).n_threads;
       assert_true(same_results(one, two));
       free_owned_after(n_outside);
@@ -51,11 +51,11 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
     free_owned_after(owned_before);
   }
   /* A mesh's first search also makes its balls, with any number of threads. */
-  riis_mark_result *one = marked_by(surface, mesh, RIIS_SEARCH_NEIGHBOR, 1, NULL);
+  riis_marks *one = marked_by(surface, mesh, RIIS_SEARCH_NEIGHBOR, 1, NULL);
   for (int threads = 1; threads <= 4; ++threads) {
     const int owned_before = n_owned();
     riis_mesh *fresh = mesh_from(&nodes);
-    riis_mark_result *many = marked_by(surface, fresh, RIIS_SEARCH_NEIGHBOR, threads, NULL);
+    riis_marks *many = marked_by(surface, fresh, RIIS_SEARCH_NEIGHBOR, threads, NULL);
     assert_true(same_results(one, many));
     assert_int_equal(stats_of(many).n_queries, stats_of(one).n_queries);
     free_owned_after(owned_before);
@@ -63,23 +63,23 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
 }
 
 /* Returns 1 if any of several markings with a result of its own is not the expected one. */
-static int marks_wrong(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_result *expected,
+static int marks_wrong(const riis_surface *surface, const riis_mesh *mesh, const riis_marks *expected,
                        int n_threads) {
   riis_mark_options options = {0};
-  riis_mark_result *result = NULL;
-  int wrong = riis_mark_options_init(&options, sizeof options) || riis_mark_result_create(&result);
+  riis_marks *result = NULL;
+  int wrong = riis_mark_options_init(&options, sizeof options) || riis_marks_create(&result);
   options.search = RIIS_SEARCH_NEIGHBOR;
   options.n_threads = n_threads;
   for (int step = 0; step < 3; ++step)
     wrong = wrong || riis_mark_nodes(surface, mesh, &options, result) || !same_results(result, expected);
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
   return wrong;
 }
 
 typedef struct caller {
   const riis_surface *surface;
   const riis_mesh *mesh;
-  const riis_mark_result *expected;
+  const riis_marks *expected;
   pthread_barrier_t *barrier;
   int n_threads, is_wrong;
 } caller;
@@ -97,7 +97,7 @@ static void several_caller_threads_at_once(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.1, 0.2);
   riis_mesh *mesh = mesh_from(&nodes);
-  riis_mark_result *expected = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, NULL);
+  riis_marks *expected = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, NULL);
   free_one_owned(mesh);
   for (int n_callers = 2; n_callers <= 4; n_callers += 2)
     for (int n_threads = 1; n_threads <= 3; ++n_threads)
@@ -124,7 +124,7 @@ static void inside_the_callers_openmp(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.1, 0.2);
   riis_mesh *mesh = mesh_from(&nodes);
-  riis_mark_result *expected = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, NULL);
+  riis_marks *expected = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, NULL);
   for (int n_threads = 0; n_threads <= 3; ++n_threads)
     for (int nested = 1; nested <= 2; ++nested) { /* also regions within regions */
       const int levels = omp_get_max_active_levels();
@@ -196,8 +196,8 @@ typedef struct reported_threads {
 
 static reported_threads threads_of(const riis_surface *surface, const test_mesh *nodes, int32_t search) {
   riis_mesh *mesh = mesh_from(nodes);
-  riis_mark_result *found = marked_by(surface, mesh, search, 0, NULL);
-  riis_mark_result *by_two = marked_by(surface, mesh, search, 2, NULL);
+  riis_marks *found = marked_by(surface, mesh, search, 0, NULL);
+  riis_marks *by_two = marked_by(surface, mesh, search, 2, NULL);
   const reported_threads reported = {stats_of(found).n_threads, stats_of(by_two).n_threads};
   assert_true(same_results(found, by_two));
   return reported;

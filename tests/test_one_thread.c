@@ -107,10 +107,10 @@ static void surfaces_of_valves(void **state) {
 static void other_distances(void **state) {
   (void)state;
   const double point[3] = {0.3, 0.2, 0.1};
-  for (int32_t distance = RIIS_DISTANCE_SAMPLING; distance <= RIIS_DISTANCE_MINIMIZATION; ++distance) {
+  for (int32_t measure = RIIS_MEASURE_SAMPLING; distance <= RIIS_MEASURE_MINIMIZATION; ++distance) {
     riis_surface_options options = options_with(n_threads_asked, RIIS_TRIANGULATION_ADAPTED, 0.05);
     options.distance = distance;
-    options.distance_tolerance = 0.5;
+    options.measure_tolerance = 0.5;
     riis_surface *surface = NULL;
     riis_closest closest;
     CALL_ALONE(riis_surface_create(new_valve("aortic"), &options, &surface));
@@ -146,15 +146,15 @@ static void surfaces_from_arrays(void **state) {
 
 /* Makes adjacencies of all kinds. The last is the lattice's own. */
 static riis_adjacency *make_adjacencies(void) {
-  riis_cells cells;
-  riis_faces faces;
+  riis_mesh_cells cells;
+  riis_mesh_faces faces;
   riis_adjacency *made[3] = {NULL, NULL, NULL};
-  CHECK_OK(riis_faces_init(&faces, sizeof faces));
+  CHECK_OK(riis_mesh_faces_init(&faces, sizeof faces));
   faces.n_cells = n_nodes, faces.n_faces = n_faces, faces.owner = owner, faces.neighbor = neighbor;
   faces.id_bits = 64, faces.n_threads = n_threads_asked;
   CALL_ALONE(riis_adjacency_create_from_faces(&faces, made));
   own(made[0]);
-  CHECK_OK(riis_cells_init(&cells, sizeof cells));
+  CHECK_OK(riis_mesh_cells_init(&cells, sizeof cells));
   cells.n_nodes = n_nodes, cells.n_cells = fill_cells(), cells.node_ids = corners_of_cells, cells.nodes_per_cell = 8;
   cells.id_bits = 64, cells.n_threads = n_threads_asked;
   CALL_ALONE(riis_adjacency_create_from_cells(&cells, made + 1));
@@ -173,12 +173,12 @@ static void check_markings(int64_t side) {
   CALL_ALONE(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
   own(mesh);
   riis_csr csr;
-  CHECK_OK(riis_adjacency_csr(make_adjacencies(), &csr, sizeof csr));
+  CHECK_OK(riis_adjacency_get_csr(make_adjacencies(), &csr, sizeof csr));
   CALL_ALONE(riis_mesh_set_adjacency(mesh, &csr));
   CALL_ALONE(riis_mesh_prepare(mesh, n_threads_asked));
   CALL_ALONE(riis_mesh_update(mesh, n_nodes, xyz, xyz + 1, xyz + 2, 3));
 
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_mark_options options = mark_options();
   options.n_threads = n_threads_asked;
   options.fields = 255;
@@ -193,8 +193,8 @@ static void check_markings(int64_t side) {
   riis_resistance resistance;
   CHECK_OK(riis_resistance_init(&resistance, sizeof resistance));
   resistance.resistance = 1;
-  CALL_ALONE(riis_mark_result_add_resistance(result, &resistance, n_nodes, k, k_u));
-  CALL_ALONE(riis_mark_result_dense(result, n_nodes, RIIS_FAR_DISTANCE, NULL, distance, NULL, NULL));
+  CALL_ALONE(add_resistance_to(result, &resistance, n_nodes, k, k_u));
+  CALL_ALONE(dense_of(result, n_nodes, RIIS_FAR_DISTANCE, NULL, distance, NULL, NULL));
 
   options.search = RIIS_SEARCH_AUTO;
   options.fields = 0;
@@ -202,8 +202,8 @@ static void check_markings(int64_t side) {
   riis_passage passage;
   const int64_t first = 0, last = n_nodes - 1;
   CALL_ALONE(riis_find_leaks(surface, mesh, &options, result, &leaks, sizeof leaks));
-  CALL_ALONE(riis_label_open_regions(mesh, &options, result, n_nodes, label, NULL));
-  CALL_ALONE(riis_find_passage(surface, mesh, &options, 1, &first, 1, &last, &passage, sizeof passage));
+  CALL_ALONE(riis_label_open_regions(mesh, result, &options, n_nodes, label, NULL));
+  CALL_ALONE(find_passage_between(surface, mesh, &options, 1, &first, 1, &last, &passage, sizeof passage));
 
   riis_closest_options of_points;
   riis_closest_arrays found;
@@ -212,7 +212,7 @@ static void check_markings(int64_t side) {
   of_points.n_threads = n_threads_asked;
   found.distance = distance;
   const int64_t n_points = n_threads_asked ? n_nodes : 2000;
-  CALL_ALONE(riis_closest_points(surface, n_points, xyz, xyz + 1, xyz + 2, 3, &of_points, &found));
+  CALL_ALONE(closest_points_of(surface, n_points, xyz, xyz + 1, xyz + 2, 3, &of_points, &found));
 }
 
 static void markings(void **state) {

@@ -13,13 +13,13 @@
 #include "flood_fill.h"
 
 /* Labels with 1, 2 and 4 threads, and returns the number of regions. */
-static int64_t check_labels(const test_mesh *graph, const riis_mesh *mesh, const riis_mark_result *result,
+static int64_t check_labels(const test_mesh *graph, const riis_mesh *mesh, const riis_marks *result,
                             const uint8_t *mask) {
   const test_mesh rows = both_ways(graph);
   const size_t n = (size_t)graph->n;
   int64_t *expected = own(malloc(n * sizeof *expected)), *label = own(malloc(n * sizeof *label));
   uint8_t *is_open = own(malloc(n));
-  CHECK_OK(riis_mark_result_dense(result, graph->n, 2e60, is_open, NULL, NULL, NULL));
+  CHECK_OK(dense_of(result, graph->n, 2e60, is_open, NULL, NULL, NULL));
   for (size_t i = 0; i < n; ++i) is_open[i] = !is_open[i] && (!mask || mask[i]);
   const int64_t n_regions = flood_fill(&rows, is_open, expected);
   static const int32_t threads[] = {1, 2, 4};
@@ -29,7 +29,7 @@ static int64_t check_labels(const test_mesh *graph, const riis_mesh *mesh, const
     options.node_mask = mask;
     options.n_threads = threads[t];
     memset(label, 0x5a, n * sizeof *label);
-    CHECK_OK(riis_label_open_regions(mesh, &options, result, graph->n, label, t == 2 ? NULL : &found));
+    CHECK_OK(riis_label_open_regions(mesh, result, &options, graph->n, label, t == 2 ? NULL : &found));
     assert_memory_equal(label, expected, n * sizeof *label);
     if (t < 2) assert_int_equal(found, n_regions);
   }
@@ -46,7 +46,7 @@ static void graphs_are_labelled_as_the_flood_fill_does(void **state) {
     const test_mesh graph = random_graph(n, random_between(&rng, 0.5, 2.5));
     riis_surface *surface = random_surface();
     riis_mesh *mesh = mesh_of_graph(&graph);
-    riis_mark_result *result = new_result();
+    riis_marks *result = new_result();
     riis_mark_options options = mark_options();
     uint8_t *mask = own(malloc((size_t)n));
     for (int64_t i = 0; i < n; ++i) mask[i] = !one_in(5);
@@ -80,7 +80,7 @@ static void chains_are_labelled_as_the_flood_fill_does(void **state) {
     set_rows(&chain, n_pairs, pairs);
     if (trial % 2) shuffle(&chain);
     riis_mesh *mesh = mesh_of_graph(&chain);
-    riis_mark_result *result = new_result();
+    riis_marks *result = new_result();
     CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
     const int64_t n_regions = check_labels(&chain, mesh, result, NULL);
     assert_true(trial < 2 ? n_regions == 1 : n_regions > 20);
@@ -101,7 +101,7 @@ static void meshes_round_valves_are_labelled_as_the_flood_fill_does(void **state
     double spacing;
     const test_mesh nodes = random_mesh(trial % n_kinds, 30000, info.lower, info.upper, &spacing);
     riis_mesh *mesh = mesh_from(&nodes);
-    riis_mark_result *result = new_result();
+    riis_marks *result = new_result();
     CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
     assert_true(marked_in(result).n > 0);
     check_labels(&nodes, mesh, result, NULL);
@@ -119,11 +119,11 @@ static void rows_that_count_from_1_give_the_same_labels(void **state) {
   CHECK_OK(riis_csr_init(&csr, sizeof csr));
   csr.n_rows = 5, csr.offsets = offsets, csr.columns = columns, csr.index_base = 1;
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   CHECK_OK(riis_mark_nodes(far_surface(), mesh, NULL, result));
   static const int64_t expected[5] = {0, 1, 0, 1, 0};
   int64_t label[5], n_regions = 0;
-  CHECK_OK(riis_label_open_regions(mesh, NULL, result, 5, label, &n_regions));
+  CHECK_OK(riis_label_open_regions(mesh, result, NULL, 5, label, &n_regions));
   assert_memory_equal(label, expected, sizeof label);
   assert_int_equal(n_regions, 2);
 }
@@ -136,11 +136,11 @@ static void what_makes_no_sense_is_refused(void **state) {
   riis_csr csr = csr_of(&nodes);
   csr.n_rows = 3, csr.offsets = none;
   CHECK_OK(riis_mesh_set_adjacency(fewer, &csr));
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   int64_t *label = own(malloc((size_t)nodes.n * sizeof *label));
   memset(label, 0x5a, (size_t)nodes.n * sizeof *label);
 #define REFUSED(status, parts, mesh, options, n, label) \
-  CHECK_REFUSED(status, parts, riis_label_open_regions(mesh, options, result, n, label, NULL))
+  CHECK_REFUSED(status, parts, riis_label_open_regions(mesh, result, options, n, label, NULL))
   REFUSED(RIIS_INVALID_ARGUMENT, "result was never marked with|riis_mark_nodes", mesh, NULL, nodes.n, label);
   CHECK_OK(riis_mark_nodes(far_surface(), mesh, NULL, result));
   REFUSED(RIIS_INVALID_ARGUMENT, "mesh has no adjacency|riis_mesh_set_adjacency", bare, NULL, nodes.n, label);

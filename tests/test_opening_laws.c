@@ -233,9 +233,9 @@ static riis_opening_times some_times(void) {
   riis_opening_times times;
   CHECK_OK(riis_opening_times_init(&times, sizeof times));
   times.opening_start = 0.45;
-  times.opening_seconds = 0.05;
+  times.opening_duration = 0.05;
   times.closing_start = 0.9;
-  times.closing_seconds = 0.1;
+  times.closing_duration = 0.1;
   return times;
 }
 
@@ -275,14 +275,14 @@ static void bad_times_are_refused(void **state) {
   CHECK_OK(riis_opening_times_init(&times, sizeof times));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "times.opening_start is nan", riis_opening_from_times(&times, 0, &got, NULL));
   times = some_times();
-  times.opening_seconds = 0;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "times.opening_seconds is 0", riis_opening_from_times(&times, 0, &got, NULL));
+  times.opening_duration = 0;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "times.opening_duration is 0", riis_opening_from_times(&times, 0, &got, NULL));
   times = some_times();
   times.closing_start = 0.47;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "times.closing_start is 0.47", riis_opening_from_times(&times, 0, &got, NULL));
   times = some_times();
-  times.closing_seconds = -1;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "times.closing_seconds is -1", riis_opening_from_times(&times, 0, &got, NULL));
+  times.closing_duration = -1;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "times.closing_duration is -1", riis_opening_from_times(&times, 0, &got, NULL));
   times = some_times();
   times.period = 0.5;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "times.period is 0.5|0.55", riis_opening_from_times(&times, 0, &got, NULL));
@@ -296,8 +296,8 @@ static void bad_times_are_refused(void **state) {
 static riis_opening_switch some_switch(void) {
   riis_opening_switch law;
   CHECK_OK(riis_opening_switch_init(&law, sizeof law));
-  law.opening_seconds = 0.04;
-  law.closing_seconds = 0.08;
+  law.opening_duration = 0.04;
+  law.closing_duration = 0.08;
   return law;
 }
 
@@ -349,13 +349,13 @@ static void an_opening_rounds_to_at_most_one(void **state) {
 static void a_filter_and_a_dwell_keep_noise_out(void **state) {
   (void)state;
   riis_opening_switch law = some_switch();
-  law.filter_seconds = 0.01;
+  law.filter_time = 0.01;
   riis_opening_switch_state now = closed_switch();
   CHECK_OK(riis_opening_switch_advance(&law, &now, 0, -1, 0, &now));
   CHECK_OK(riis_opening_switch_advance(&law, &now, 0.01, 1, 0, &now));
   CHECK_NEAR(now.pressure_difference, -1 + (1 - exp(-1)) * 2, 1e-14);
-  law.filter_seconds = 0;
-  law.dwell_seconds = 0.1;
+  law.filter_time = 0;
+  law.dwell_time = 0.1;
   now = closed_switch();
   int turns = 0;
   for (int i = 1; i <= 1000; ++i) {
@@ -384,7 +384,7 @@ static void check_restart(driven_step *advance, void *state, void *kept, size_t 
 
 static void step_of_the_switch(void *state, double time) {
   riis_opening_switch law = some_switch();
-  law.filter_seconds = 0.003;
+  law.filter_time = 0.003;
   CHECK_OK(riis_opening_switch_advance(&law, state, time, sin(20 * time), cos(21 * time), state));
 }
 
@@ -525,7 +525,7 @@ static void bad_laws_and_states_are_refused(void **state) {
   CHECK_OK(riis_opening_switch_init(&law, sizeof law));
   riis_opening_switch_state before = closed_switch(), now = closed_switch();
   now.time = 42;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "law.opening_seconds is nan",
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "law.opening_duration is nan",
                 riis_opening_switch_advance(&law, &before, 1, 0, 0, &now));
   law = some_switch();
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "law", riis_opening_switch_advance(NULL, &before, 1, 0, 0, &now));
@@ -541,8 +541,8 @@ static void bad_laws_and_states_are_refused(void **state) {
   before = closed_switch();
   before.phase = 5;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "before.phase is 5", riis_opening_switch_advance(&law, &before, 1, 0, 0, &now));
-  law.dwell_seconds = -1;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "law.dwell_seconds is -1",
+  law.dwell_time = -1;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "law.dwell_time is -1",
                 riis_opening_switch_advance(&law, &before, 1, 0, 0, &now));
   CHECK_NEAR(now.time, 42, 0);
 

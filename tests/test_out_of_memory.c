@@ -50,7 +50,7 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
   const live before = live_now();
   world w = {.scenario = s};
   s->make(&w);
-  assert_int_equal(riis_mark_result_create(NULL), RIIS_INVALID_ARGUMENT); /* leaves a message of its own */
+  assert_int_equal(riis_marks_create(NULL), RIIS_INVALID_ARGUMENT); /* leaves a message of its own */
   memory_fail(whose, n, and_all_after);
   riis_status status = s->call(&w);
   const int64_t n_failed = memory_stop_failing();
@@ -180,17 +180,17 @@ static void requests_beyond_any_memory_are_refused(void **state) {
   const int64_t n = INT64_C(1) << 56;
   const int32_t ids[4] = {0, 1, 2, 3};
   riis_adjacency *adjacency = NULL;
-  riis_cells cells;
-  riis_faces between;
+  riis_mesh_cells cells;
+  riis_mesh_faces between;
   CHECK_REFUSED(RIIS_OUT_OF_MEMORY, "out of memory", riis_adjacency_create_from_grid(n, 1, 1, 2, &adjacency));
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "more than memory can hold",
                 riis_adjacency_create_from_grid(INT64_C(1) << 30, INT64_C(1) << 30, 4, 2, &adjacency));
-  CHECK_OK(riis_cells_init(&cells, sizeof cells));
+  CHECK_OK(riis_mesh_cells_init(&cells, sizeof cells));
   cells.n_nodes = n;
   cells.n_cells = 1;
   cells.node_ids = ids;
   CHECK_REFUSED(RIIS_OUT_OF_MEMORY, "out of memory", riis_adjacency_create_from_cells(&cells, &adjacency));
-  CHECK_OK(riis_faces_init(&between, sizeof between));
+  CHECK_OK(riis_mesh_faces_init(&between, sizeof between));
   between.n_cells = n;
   between.n_faces = 1;
   between.owner = ids;

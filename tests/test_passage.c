@@ -76,7 +76,7 @@ static riis_passage passage_of(const riis_surface *surface, const riis_mesh *mes
                                const ends *e) {
   riis_passage found;
   memset(&found, 0x5a, sizeof found);
-  CHECK_OK(riis_find_passage(surface, mesh, options, e->n_from, e->from, e->n_to, e->to, &found, sizeof found));
+  CHECK_OK(find_passage_between(surface, mesh, options, e->n_from, e->from, e->n_to, e->to, &found, sizeof found));
   assert_true(found.seconds >= 0);
   return found;
 }
@@ -193,10 +193,10 @@ static void the_distance_is_what_just_closes(void **state) {
     for (int closes = 0; closes < 2; ++closes) {
       options.half_thickness = closes ? found.distance : nextafter(found.distance, 0);
       CHECK_OK(riis_surface_update_from_arrays(surface, &arrays, &options));
-      riis_mark_result *result = new_result();
+      riis_marks *result = new_result();
       int64_t *label = own(malloc((size_t)nodes.n * sizeof *label));
       CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
-      CHECK_OK(riis_label_open_regions(mesh, NULL, result, nodes.n, label, NULL));
+      CHECK_OK(riis_label_open_regions(mesh, result, NULL, nodes.n, label, NULL));
       int joined = 0;
       for (int64_t i = 0; i < e.n_from; ++i)
         for (int64_t k = 0; k < e.n_to; ++k)
@@ -362,9 +362,9 @@ static void other_distances_have_passages(void **state) {
   const ends e = {1, 1, {node_at(&nodes, 0, 0, -1)}, {node_at(&nodes, 0, 0, 1.5)}};
   riis_surface_options options = surface_options();
   riis_passage by_triangles = {0};
-  for (options.distance = RIIS_DISTANCE_TRIANGLES; options.distance <= RIIS_DISTANCE_MINIMIZATION; ++options.distance) {
+  for (options.measure = RIIS_MEASURE_TRIANGLES; options.distance <= RIIS_MEASURE_MINIMIZATION; ++options.distance) {
     const riis_passage found = passage_of(new_surface(aortic_with_free_edges_at(0), &options), mesh, NULL, &e);
-    if (options.distance == RIIS_DISTANCE_TRIANGLES) by_triangles = found;
+    if (options.distance == RIIS_MEASURE_TRIANGLES) by_triangles = found;
     assert_int_equal(found.state, RIIS_PASSAGE_OPEN);
     CHECK_NEAR(found.distance, by_triangles.distance, 0.01); /* twice the tolerance */
   }
@@ -384,7 +384,7 @@ static void what_makes_no_sense_is_refused(void **state) {
   riis_passage found;
   memset(&found, 0x5a, sizeof found);
 #define REFUSED(status, parts, mesh, options, n_from, from, n_to, to) \
-  CHECK_REFUSED(status, parts, riis_find_passage(surface, mesh, options, n_from, from, n_to, to, &found, sizeof found))
+  CHECK_REFUSED(status, parts, find_passage_between(surface, mesh, options, n_from, from, n_to, to, &found, sizeof found))
   REFUSED(RIIS_INVALID_ARGUMENT, "mesh has no adjacency|riis_mesh_set_adjacency", bare, NULL, 1, good, 1, good + 1);
   REFUSED(RIIS_INVALID_ARGUMENT, "n_from is 0|at least 1", mesh, NULL, 0, good, 1, good + 1);
   REFUSED(RIIS_INVALID_ARGUMENT, "n_to is -3|at least 1", mesh, NULL, 1, good, -3, good + 1);
@@ -403,9 +403,9 @@ static void what_makes_no_sense_is_refused(void **state) {
   options.n_threads = -1;
   REFUSED(RIIS_INVALID_ARGUMENT, "options.n_threads is -1", mesh, &options, 1, good, 1, good + 1);
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "passage is 48|56",
-                riis_find_passage(surface, mesh, NULL, 1, good, 1, good + 1, &found, 48));
+                find_passage_between(surface, mesh, NULL, 1, good, 1, good + 1, &found, 48));
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "passage is 64|56",
-                riis_find_passage(surface, mesh, NULL, 1, good, 1, good + 1, &found, 64));
+                find_passage_between(surface, mesh, NULL, 1, good, 1, good + 1, &found, 64));
   nodes.xyz[20] = NAN;
   REFUSED(RIIS_INVALID_MESH, "z of node 6 is nan", mesh, NULL, 1, good, 1, good + 1);
   assert_int_equal(found.node_id, 0x5a5a5a5a5a5a5a5a);

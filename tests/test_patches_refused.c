@@ -193,9 +193,9 @@ static void opening_is_the_only_parameter(void **state) {
   double value = -1;
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'patches' is not a kind of valve", riis_valve_create("patches", &none));
   assert_null(none);
-  CHECK_OK(riis_valve_n_parameters(valve, &n));
+  CHECK_OK(riis_valve_get_n_parameters(valve, &n));
   assert_int_equal(n, 1);
-  CHECK_OK(riis_valve_parameter(valve, 0, &parameter, sizeof parameter));
+  CHECK_OK(riis_valve_get_parameter(valve, 0, &parameter, sizeof parameter));
   assert_string_equal(parameter.name, "opening");
   assert_int_equal(parameter.n_values, 1);
   CHECK_SAME(parameter.default_values[0], 0);

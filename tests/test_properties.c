@@ -19,9 +19,9 @@ static void distances(const riis_surface *surface, const double *xyz, double lim
   riis_mark_options options = mark_options();
   options.distance_limit = limit;
   riis_mesh *mesh = mesh_of(n, xyz);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-  CHECK_OK(riis_mark_result_dense(result, n, 1e30, NULL, distance, NULL, leaflet_id));
+  CHECK_OK(dense_of(result, n, 1e30, NULL, distance, NULL, leaflet_id));
   free_owned_after(owned_before);
 }
 

@@ -55,7 +55,7 @@ static riis_mesh *cube(double centre, double side) {
 static void mark(const riis_surface *surface, const riis_mesh *mesh) {
   riis_mark_options options = mark_options();
   options.n_threads = 1;
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
   free_one_owned(result);
 }
@@ -156,13 +156,13 @@ typedef struct pair {
 static void *mark_by_thread(void *argument) {
   pair *const shared = argument;
   riis_mark_options options;
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   shared->status = riis_mark_options_init(&options, sizeof options);
   options.n_threads = 1;
-  if (!shared->status) shared->status = riis_mark_result_create(&result);
+  if (!shared->status) shared->status = riis_marks_create(&result);
   for (int step = 0; step < 20 && !shared->status; ++step)
     shared->status = riis_mark_nodes(shared->surface, shared->mesh, &options, result);
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
   return NULL;
 }
 

@@ -96,13 +96,13 @@ static double integral_of(const riis_surface *surface, const riis_resistance *re
     volume *= nodes.xyz[3 * i + c] - nodes.xyz[c];
   }
   const riis_mesh *mesh = mesh_of(nodes.n, nodes.xyz);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_mark_options options = mark_options();
   options.fields = RIIS_FIELD_RIM;
   options.search = RIIS_SEARCH_CLUSTERS;
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
   double *k = own(calloc((size_t)nodes.n, sizeof *k));
-  CHECK_OK(riis_mark_result_add_resistance(result, resistance, nodes.n, k, NULL));
+  CHECK_OK(add_resistance_to(result, resistance, nodes.n, k, NULL));
   for (int64_t i = 0; i < nodes.n; ++i) sum += k[i];
   free_owned_after(owned_before);
   return sum * volume;
@@ -148,7 +148,7 @@ typedef struct flow {
   riis_surface *surface;
   test_mesh nodes;
   riis_mesh *mesh;
-  riis_mark_result *result;
+  riis_marks *result;
   double *velocity, *value, *weight;
 } flow;
 
@@ -176,9 +176,9 @@ static flow random_flow(int32_t fields, double limit) {
   return f;
 }
 
-static riis_mark_fields fields_of(const flow *f) {
-  riis_mark_fields fields;
-  CHECK_OK(riis_mark_result_within_limit_fields(f->result, &fields, sizeof fields));
+static riis_mark_list fields_of(const flow *f) {
+  riis_mark_list fields;
+  CHECK_OK(riis_marks_get_list(f->result, RIIS_LIST_WITHIN_LIMIT, &fields, sizeof fields));
   return fields;
 }
 
@@ -201,7 +201,7 @@ static void sums_are_those_of_plain_loops(void **state) {
     double force[3], expected_force[3], scale = 0;
     for (int c = 0; c < 3; ++c) force[c] = expected_force[c] = between(-1, 1);
     const found_nodes within = within_in(f.result);
-    const riis_mark_fields fields = fields_of(&f);
+    const riis_mark_list fields = fields_of(&f);
     int64_t n_resisting = 0;
     for (int64_t j = 0; j < within.n; ++j) {
       const int64_t i = within.node_id[j];
@@ -217,23 +217,23 @@ static void sums_are_those_of_plain_loops(void **state) {
       }
     }
     assert_true(n_resisting > 50 || trial == 5);
-    CHECK_OK(riis_mark_result_add_resistance(f.result, &resistance, n, k, moves ? momentum : NULL));
+    CHECK_OK(add_resistance_to(f.result, &resistance, n, k, moves ? momentum : NULL));
     if (!moves) memcpy(momentum, expected + n, (size_t)n * 3 * sizeof *k);
     const double largest = resistance.resistance / (eps * eps);
     for (int64_t i = 0; i < n; ++i) CHECK_NEAR(k[i], expected[i], 1e-14 * (1 + largest));
     for (int64_t i = 0; i < 3 * n; ++i)
       CHECK_NEAR(momentum[i], expected[n + i], 1e-14 * (1 + fabs(expected[n + i]) + largest));
-    CHECK_OK(riis_mark_result_add_reaction(f.result, &resistance, n, f.velocity, f.weight, force));
+    CHECK_OK(add_reaction_to(f.result, &resistance, n, f.velocity, f.weight, force));
     for (int c = 0; c < 3; ++c) CHECK_NEAR(force[c], expected_force[c], 1e-12 * (1 + scale));
 
     /* One without the other, and neither. */
     double *alone = own(calloc((size_t)n * 3, sizeof *alone)), *both = own(calloc((size_t)n * 4, sizeof *both));
-    CHECK_OK(riis_mark_result_add_resistance(f.result, &resistance, n, NULL, NULL));
-    CHECK_OK(riis_mark_result_add_resistance(f.result, &resistance, n, both, moves ? both + n : NULL));
-    CHECK_OK(riis_mark_result_add_resistance(f.result, &resistance, n, alone, NULL));
+    CHECK_OK(add_resistance_to(f.result, &resistance, n, NULL, NULL));
+    CHECK_OK(add_resistance_to(f.result, &resistance, n, both, moves ? both + n : NULL));
+    CHECK_OK(add_resistance_to(f.result, &resistance, n, alone, NULL));
     assert_memory_equal(alone, both, (size_t)n * sizeof *alone);
     memset(alone, 0, (size_t)n * 3 * sizeof *alone);
-    if (moves) CHECK_OK(riis_mark_result_add_resistance(f.result, &resistance, n, NULL, alone));
+    if (moves) CHECK_OK(add_resistance_to(f.result, &resistance, n, NULL, alone));
     assert_memory_equal(alone, both + n, (size_t)n * 3 * sizeof *alone);
 
     /* Momentum is K times the surface's velocity. */
@@ -255,16 +255,16 @@ static void ranks_add_up(void **state) {
     riis_resistance resistance = resistance_of(3);
     double whole[3] = {0, 0, 0}, parts[3] = {0, 0, 0}, halves[3] = {0, 0, 0}, scale = 0;
     riis_band_sums all, of_rank[2];
-    CHECK_OK(riis_mark_result_add_reaction(f.result, &resistance, n, f.velocity, f.weight, whole));
-    CHECK_OK(riis_mark_result_band_sums(f.result, 0, 0.2, n, f.value, f.weight, &all, sizeof all));
+    CHECK_OK(add_reaction_to(f.result, &resistance, n, f.velocity, f.weight, whole));
+    CHECK_OK(band_sums_of(f.result, 0, 0.2, n, f.value, f.weight, &all, sizeof all));
     /* Weights of 0 for the other rank's. */
     double *weight = own(malloc((size_t)n * sizeof *weight));
     uint8_t *rank = own(malloc((size_t)n));
     for (int64_t i = 0; i < n; ++i) rank[i] = random_bits(&rng) & 1, scale += 300 * f.weight[i];
     for (int r = 0; r < 2; ++r) {
       for (int64_t i = 0; i < n; ++i) weight[i] = rank[i] == r ? f.weight[i] : 0;
-      CHECK_OK(riis_mark_result_add_reaction(f.result, &resistance, n, f.velocity, weight, parts));
-      CHECK_OK(riis_mark_result_band_sums(f.result, 0, 0.2, n, f.value, weight, of_rank + r, sizeof all));
+      CHECK_OK(add_reaction_to(f.result, &resistance, n, f.velocity, weight, parts));
+      CHECK_OK(band_sums_of(f.result, 0, 0.2, n, f.value, weight, of_rank + r, sizeof all));
     }
     for (int c = 0; c < 3; ++c) CHECK_NEAR(parts[c], whole[c], 1e-13 * scale);
     for (int side = 0; side < 2; ++side) {
@@ -282,11 +282,11 @@ static void ranks_add_up(void **state) {
         memcpy(velocity + 3 * m, f.velocity + 3 * i, 24);
         own[m++] = f.weight[i];
       }
-      riis_mark_result *result = new_result();
+      riis_marks *result = new_result();
       riis_mark_options options = mark_options();
       options.fields = RIIS_FIELD_VELOCITY;
       CHECK_OK(riis_mark_nodes(f.surface, mesh_of(m, of_mesh), &options, result));
-      CHECK_OK(riis_mark_result_add_reaction(result, &resistance, m, velocity, own, halves));
+      CHECK_OK(add_reaction_to(result, &resistance, m, velocity, own, halves));
     }
     for (int c = 0; c < 3; ++c) CHECK_NEAR(halves[c], whole[c], 1e-13 * scale);
     free_owned_after(owned_before);
@@ -300,14 +300,14 @@ static void two_surfaces_add_up(void **state) {
   riis_surface_options options = surface_options();
   options.rotation_angle = 90, options.rotation_axis[0] = 1;
   riis_surface *other = aortic_surface(&options);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   CHECK_OK(riis_mark_nodes(other, f.mesh, NULL, result));
   double *sum = own(calloc((size_t)n * 12, sizeof *sum)), *one = sum + 4 * n, *two = sum + 8 * n;
   riis_resistance a = resistance_of(2), b = resistance_of(5);
-  CHECK_OK(riis_mark_result_add_resistance(f.result, &a, n, one, one + n));
-  CHECK_OK(riis_mark_result_add_resistance(result, &b, n, two, NULL)); /* a valve at rest */
-  CHECK_OK(riis_mark_result_add_resistance(f.result, &a, n, sum, sum + n));
-  CHECK_OK(riis_mark_result_add_resistance(result, &b, n, sum, NULL));
+  CHECK_OK(add_resistance_to(f.result, &a, n, one, one + n));
+  CHECK_OK(add_resistance_to(result, &b, n, two, NULL)); /* a valve at rest */
+  CHECK_OK(add_resistance_to(f.result, &a, n, sum, sum + n));
+  CHECK_OK(add_resistance_to(result, &b, n, sum, NULL));
   int64_t n_both = 0;
   for (int64_t i = 0; i < 4 * n; ++i) {
     CHECK_SAME(sum[i], one[i] + two[i]);
@@ -323,7 +323,7 @@ static void band_sums_are_those_of_a_plain_loop(void **state) {
     const int owned_before = n_owned();
     flow f = random_flow(all_fields, 0.25);
     const found_nodes within = within_in(f.result);
-    const riis_mark_fields fields = fields_of(&f);
+    const riis_mark_list fields = fields_of(&f);
     for (int i = 0; i < 5; ++i) {
       double inner = i ? between(0, 0.25) : 0, outer = i > 1 ? between(inner, 0.25) : 0.25;
       if (i == 4) inner = outer = within.distance[random_bits(&rng) % (uint64_t)within.n]; /* both ends belong to it */
@@ -341,7 +341,7 @@ static void band_sums_are_those_of_a_plain_loop(void **state) {
         scale += 100 * f.weight[node];
       }
       memset(&sums, 0x55, sizeof sums);
-      CHECK_OK(riis_mark_result_band_sums(f.result, inner, outer, f.nodes.n, f.value, f.weight, &sums, sizeof sums));
+      CHECK_OK(band_sums_of(f.result, inner, outer, f.nodes.n, f.value, f.weight, &sums, sizeof sums));
       for (int band = 0; band < 2; ++band) {
         assert_int_equal(sums.n_nodes[band], expected.n_nodes[band]);
         CHECK_NEAR(sums.sum[band], expected.sum[band], 1e-13 * scale);
@@ -361,7 +361,7 @@ static void a_jump_of_pressure_is_measured(void **state) {
   riis_surface *surface = surface_of(disc, 100, 10, 0.1);
   test_mesh nodes = lattice_around(surface, 0.05, 0.2);
   riis_mesh *mesh = mesh_from(&nodes);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_mark_options options = mark_options();
   options.fields = RIIS_FIELD_SIDE | RIIS_FIELD_RIM;
   options.distance_limit = 0.2;
@@ -374,7 +374,7 @@ static void a_jump_of_pressure_is_measured(void **state) {
     weight[i] = between(0.5, 1);
   }
   riis_band_sums sums;
-  CHECK_OK(riis_mark_result_band_sums(result, 0.1, 0.2, nodes.n, pressure, weight, &sums, sizeof sums));
+  CHECK_OK(band_sums_of(result, 0.1, 0.2, nodes.n, pressure, weight, &sums, sizeof sums));
   /* The disc's triangles turn so that their normals are along the frame's third axis, or all against it. */
   const double mean[2] = {sums.sum[0] / sums.weight[0], sums.sum[1] / sums.weight[1]};
   const int turned = mean[0] < mean[1];
@@ -403,10 +403,10 @@ static void refusals_leave_the_arrays(void **state) {
   } while (0)
 #define CALLS_REFUSED(status, parts)                                                                      \
   do {                                                                                                    \
-    CHECK_REFUSED(status, parts, riis_mark_result_add_resistance(f.result, &resistance, n, k, momentum)); \
+    CHECK_REFUSED(status, parts, add_resistance_to(f.result, &resistance, n, k, momentum)); \
     UNCHANGED();                                                                                          \
     CHECK_REFUSED(status, parts,                                                                          \
-                  riis_mark_result_add_reaction(f.result, &resistance, n, f.velocity, f.weight, force));  \
+                  add_reaction_to(f.result, &resistance, n, f.velocity, f.weight, force));  \
     UNCHANGED();                                                                                          \
   } while (0)
 #define CHANGED_IS_REFUSED(change, parts)        \
@@ -442,38 +442,38 @@ static void refusals_leave_the_arrays(void **state) {
 
   resistance = resistance_of(1);
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_nodes is 7;|a mesh with",
-                riis_mark_result_add_resistance(f.result, &resistance, 7, k, momentum));
+                add_resistance_to(f.result, &resistance, 7, k, momentum));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_nodes is -1;",
-                riis_mark_result_add_reaction(f.result, &resistance, -1, f.velocity, f.weight, force));
+                add_reaction_to(f.result, &resistance, -1, f.velocity, f.weight, force));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_nodes is 0;",
-                riis_mark_result_band_sums(f.result, 0, 0.1, 0, f.value, f.weight, &sums, sizeof sums));
+                band_sums_of(f.result, 0, 0.1, 0, f.value, f.weight, &sums, sizeof sums));
   UNCHANGED();
 
   /* Fields that the result lacks. */
   const char *lacks = "options.fields = 0";
   resistance.rim = RIIS_RIM_CUT;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "RIIS_RIM_CUT needs RIIS_FIELD_RIM|options.fields = 0",
-                riis_mark_result_add_resistance(bare.result, &resistance, m, k, NULL));
+                add_resistance_to(bare.result, &resistance, m, k, NULL));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "RIIS_FIELD_RIM",
-                riis_mark_result_add_reaction(bare.result, &resistance, m, bare.velocity, bare.weight, force));
+                add_reaction_to(bare.result, &resistance, m, bare.velocity, bare.weight, force));
   resistance.rim = RIIS_RIM_ROUND;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "momentum needs RIIS_FIELD_VELOCITY|options.fields = 0",
-                riis_mark_result_add_resistance(bare.result, &resistance, m, k, momentum));
+                add_resistance_to(bare.result, &resistance, m, k, momentum));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "needs RIIS_FIELD_SIDE",
-                riis_mark_result_band_sums(bare.result, 0, 0.1, m, bare.value, bare.weight, &sums, sizeof sums));
+                band_sums_of(bare.result, 0, 0.1, m, bare.value, bare.weight, &sums, sizeof sums));
   assert_non_null(strstr(riis_last_error(), lacks));
   riis_mark_options options = mark_options();
   options.fields = RIIS_FIELD_SIDE;
   CHECK_OK(riis_mark_nodes(bare.surface, bare.mesh, &options, bare.result));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "needs RIIS_FIELD_RIM|options.fields = 8",
-                riis_mark_result_band_sums(bare.result, 0, 0.1, m, bare.value, bare.weight, &sums, sizeof sums));
+                band_sums_of(bare.result, 0, 0.1, m, bare.value, bare.weight, &sums, sizeof sums));
   UNCHANGED();
 
   /* Bands. */
 #define BAND_REFUSED(inner, outer, parts)                                                                        \
   do {                                                                                                           \
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts,                                                                  \
-                  riis_mark_result_band_sums(f.result, inner, outer, n, f.value, f.weight, &sums, sizeof sums)); \
+                  band_sums_of(f.result, inner, outer, n, f.value, f.weight, &sums, sizeof sums)); \
     UNCHANGED();                                                                                                 \
   } while (0)
   BAND_REFUSED(0.15, 0.1, "inner is 0.15;|outer, which is 0.1");
@@ -485,25 +485,25 @@ static void refusals_leave_the_arrays(void **state) {
   static const int64_t sum_sizes[] = {0, 40, 56};
   for (int i = 0; i < 3; ++i)
     CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "struct size of sums",
-                  riis_mark_result_band_sums(f.result, 0, 0.1, n, f.value, f.weight, &sums, sum_sizes[i]));
+                  band_sums_of(f.result, 0, 0.1, n, f.value, f.weight, &sums, sum_sizes[i]));
   UNCHANGED();
 
   /* NULLs. */
   const void *no_result = f.mesh;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "result is NULL",
-                riis_mark_result_add_resistance(NULL, &resistance, n, k, momentum));
+                add_resistance_to(NULL, &resistance, n, k, momentum));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "result is a handle of another kind",
-                riis_mark_result_add_resistance(no_result, &resistance, n, k, momentum));
+                add_resistance_to(no_result, &resistance, n, k, momentum));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance is NULL",
-                riis_mark_result_add_resistance(f.result, NULL, n, k, momentum));
+                add_resistance_to(f.result, NULL, n, k, momentum));
 #define REACTION_REFUSED(parts, ...) \
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts, riis_mark_result_add_reaction(__VA_ARGS__))
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts, riis_marks_add_reaction(__VA_ARGS__))
   REACTION_REFUSED("result is NULL", NULL, &resistance, n, f.velocity, f.weight, force);
   REACTION_REFUSED("resistance is NULL", f.result, NULL, n, f.velocity, f.weight, force);
   REACTION_REFUSED("velocity is NULL", f.result, &resistance, n, NULL, f.weight, force);
   REACTION_REFUSED("weight is NULL", f.result, &resistance, n, f.velocity, NULL, force);
   REACTION_REFUSED("force is NULL", f.result, &resistance, n, f.velocity, f.weight, NULL);
-#define SUMS_REFUSED(parts, ...) CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts, riis_mark_result_band_sums(__VA_ARGS__))
+#define SUMS_REFUSED(parts, ...) CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts, riis_marks_get_band_sums(__VA_ARGS__))
   SUMS_REFUSED("result is NULL", NULL, 0, 0.1, n, f.value, f.weight, &sums, sizeof sums);
   SUMS_REFUSED("value is NULL", f.result, 0, 0.1, n, NULL, f.weight, &sums, sizeof sums);
   SUMS_REFUSED("weight is NULL", f.result, 0, 0.1, n, f.value, NULL, &sums, sizeof sums);
@@ -511,9 +511,9 @@ static void refusals_leave_the_arrays(void **state) {
   UNCHANGED();
 
   /* A result that was never marked with. */
-  riis_mark_result *empty = new_result();
+  riis_marks *empty = new_result();
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "result was never marked with",
-                riis_mark_result_add_resistance(empty, &resistance, 0, k, NULL));
+                add_resistance_to(empty, &resistance, 0, k, NULL));
   REACTION_REFUSED("result was never marked with", empty, &resistance, 0, f.velocity, f.weight, force);
   SUMS_REFUSED("needs RIIS_FIELD_SIDE", empty, 0, 0, 0, f.value, f.weight, &sums, sizeof sums);
   UNCHANGED();

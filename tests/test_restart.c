@@ -28,8 +28,8 @@ static void advance(laws *state, double time) {
   riis_opening_switch by_switch;
   riis_opening_angle by_angle;
   CHECK_OK(riis_opening_switch_init(&by_switch, sizeof by_switch));
-  by_switch.opening_seconds = by_switch.closing_seconds = 0.1;
-  by_switch.filter_seconds = 0.005;
+  by_switch.opening_duration = by_switch.closing_duration = 0.1;
+  by_switch.filter_time = 0.005;
   CHECK_OK(riis_opening_angle_init(&by_angle, sizeof by_angle));
   by_angle.pressure_gain = 5500;
   by_angle.flow_gain = 2;
@@ -71,14 +71,14 @@ static void move(const moving_valve *valve, double opening) {
   CHECK_OK(riis_valve_set_scalar(valve->before, "opening", opening));
 }
 
-static void add_resistance(const moving_valve *valve, const riis_mesh *mesh, riis_mark_result *result, double *fields) {
+static void add_resistance(const moving_valve *valve, const riis_mesh *mesh, riis_marks *result, double *fields) {
   riis_mark_options options = mark_options();
   options.fields = RIIS_FIELD_VELOCITY;
   CHECK_OK(riis_mark_nodes(valve->surface, mesh, &options, result));
   riis_resistance resistance;
   CHECK_OK(riis_resistance_init(&resistance, sizeof resistance));
   resistance.resistance = 1e4;
-  CHECK_OK(riis_mark_result_add_resistance(result, &resistance, n_nodes, fields, fields + n_nodes));
+  CHECK_OK(add_resistance_to(result, &resistance, n_nodes, fields, fields + n_nodes));
 }
 
 /* Goes on from the state before the first of the steps to the last. `fields` has K and K u_surface of every step. */
@@ -87,8 +87,8 @@ static void run(laws *state, int first, int last, double *fields, const double *
   const moving_valve aortic = valve_at("aortic", state->aortic.opening, 0.8),
                      mitral = valve_at("mitral", state->mitral.opening, -0.8);
   riis_mesh *mesh = mesh_of(n_nodes, xyz);
-  riis_mark_result *result = NULL;
-  CHECK_OK(riis_mark_result_create(&result));
+  riis_marks *result = NULL;
+  CHECK_OK(riis_marks_create(&result));
   own(result);
   for (int i = first; i <= last; ++i) {
     advance(state, i * dt);

@@ -36,8 +36,9 @@ static brute_force brute_force_of(const riis_surface *surface) {
   brute_force b;
   const int64_t *vertex_id;
   const double *vertices;
-  CHECK_OK(riis_surface_vertices(surface, NULL, &vertices));
-  CHECK_OK(riis_surface_triangles(surface, &b.n, &vertex_id, NULL, NULL, NULL));
+  vertices = triangles_of(surface).xyz;
+  b.n = triangles_of(surface).n_triangles;
+  vertex_id = triangles_of(surface).vertex_id;
   b.corners = own(malloc((size_t)b.n * 9 * sizeof(double)));
   b.boxes = own(malloc((size_t)b.n * 6 * sizeof(double)));
   b.blocks = own(malloc((size_t)(b.n / per_block + 1) * 6 * sizeof(double)));
@@ -169,7 +170,7 @@ static struct totals {
 
 /* Compares a share of the nodes with brute force. */
 static void compare_with_brute_force(const riis_surface *surface, const test_mesh *nodes, const uint8_t *mask,
-                                     const riis_mark_result *result, double limit, int64_t n_wanted) {
+                                     const riis_marks *result, double limit, int64_t n_wanted) {
   const int owned_before = n_owned();
   const double half_thickness = info_of(surface).half_thickness;
   brute_force b = brute_force_of(surface);
@@ -177,7 +178,7 @@ static void compare_with_brute_force(const riis_surface *surface, const test_mes
   for (int64_t k = 0; k < 9 * b.n; ++k) size = fmax(size, fabs(b.corners[k]));
   uint8_t *mark = own(malloc((size_t)nodes->n));
   double *distance = own(malloc((size_t)nodes->n * sizeof *distance));
-  CHECK_OK(riis_mark_result_dense(result, nodes->n, 1e30, mark, distance, NULL, NULL));
+  CHECK_OK(dense_of(result, nodes->n, 1e30, mark, distance, NULL, NULL));
   const int64_t stride = n_wanted < nodes->n ? nodes->n / n_wanted : 1, first = random_integer(0, stride - 1);
   int64_t pairs = 0, within = 0, undecided = 0, bad_distances = 0, bad_marks = 0;
   double largest = 0;
@@ -215,7 +216,7 @@ static void compare_with_brute_force(const riis_surface *surface, const test_mes
 
 /* Checks that clusters with every instruction set give the exhaustive search's result, bit by bit. */
 static void compare_clusters(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *asked,
-                             const riis_mark_result *exhaustive, riis_mark_result *clustered) {
+                             const riis_marks *exhaustive, riis_marks *clustered) {
   riis_mark_options options = *asked;
   options.search = RIIS_SEARCH_CLUSTERS;
   for (options.instructions = RIIS_INSTRUCTIONS_BASELINE; options.instructions <= RIIS_INSTRUCTIONS_AVX512;
@@ -259,7 +260,7 @@ static void one_case(int kind, int64_t n_nodes, int64_t n_compared) {
   place(&where, &nodes);
 
   riis_mesh *mesh = mesh_from(&nodes);
-  riis_mark_result *neighbor = new_result(), *exhaustive = new_result(), *clustered = new_result();
+  riis_marks *neighbor = new_result(), *exhaustive = new_result(), *clustered = new_result();
   uint8_t *mask = NULL;
   for (int64_t step = 0, n_steps = random_integer(1, 4); step < n_steps; ++step) {
     update_surface(&surface, &s, &options);
@@ -355,8 +356,9 @@ static void boxes_leave_nothing_out(void **state) {
     int64_t n_triangles;
     const int64_t *vertex_id;
     const double *vertices;
-    CHECK_OK(riis_surface_vertices(surface, NULL, &vertices));
-    CHECK_OK(riis_surface_triangles(surface, &n_triangles, &vertex_id, NULL, NULL, NULL));
+    vertices = triangles_of(surface).xyz;
+    n_triangles = triangles_of(surface).n_triangles;
+    vertex_id = triangles_of(surface).vertex_id;
     for (int k = 0; k < 40; ++k) {
       double p[3];
       int64_t triangle;

@@ -490,10 +490,10 @@ static void a_turned_cusp_crosses(void **state) {
   CHECK_OK(riis_valve_set(valve, "right.rotation", 3, rotation));
   riis_surface_options options = surface_options();
   riis_crossings by_triangles = {0};
-  for (options.distance = RIIS_DISTANCE_TRIANGLES; options.distance <= RIIS_DISTANCE_MINIMIZATION; ++options.distance) {
+  for (options.measure = RIIS_MEASURE_TRIANGLES; options.distance <= RIIS_MEASURE_MINIMIZATION; ++options.distance) {
     riis_surface *surface = new_surface(valve, &options);
     const riis_crossings crossings = crossings_of(surface, 1e-6, 0);
-    if (options.distance == RIIS_DISTANCE_TRIANGLES) by_triangles = crossings;
+    if (options.distance == RIIS_MEASURE_TRIANGLES) by_triangles = crossings;
     assert_memory_equal(&crossings, &by_triangles, offsetof(riis_crossings, seconds));
     assert_true(crossings.n_pairs > 10 && crossings.depth > 1e-3);
     assert_true(crossings.leaflet_id[0] != crossings.leaflet_id[1]);

@@ -75,7 +75,7 @@ static content random_content(riis_valve *const *valves) {
     CHECK_OK(riis_valve_set_scalar(c.valve, "opening", random_between(&rng, 0, 1)));
     if (any_of(4) == 0) c.options.tolerance = 1;
     if (any_of(8) == 0) c.options.tolerance = 0.01;
-    if (any_of(6) == 0) c.options.distance = RIIS_DISTANCE_SAMPLING, c.options.distance_tolerance = 0.2;
+    if (any_of(6) == 0) c.options.measure = RIIS_MEASURE_SAMPLING, c.options.measure_tolerance = 0.2;
     if (any_of(6) == 0) c.options.tolerance = c.options.half_thickness = 1e-5; /* too fine */
   } else {
     change_soup();
@@ -102,7 +102,7 @@ static void check_closest(const riis_surface *updated, const riis_surface *fresh
   }
 }
 
-static void check_marks(const riis_surface *updated, const riis_surface *fresh, riis_mark_result *result) {
+static void check_marks(const riis_surface *updated, const riis_surface *fresh, riis_marks *result) {
   const int owned_before = n_owned();
   enum { n = 600 };
   static double xyz[3 * n];
@@ -110,7 +110,7 @@ static void check_marks(const riis_surface *updated, const riis_surface *fresh, 
   for (int i = 0; i < n; ++i)
     for (int c = 0; c < 3; ++c)
       xyz[3 * i + c] = all.xyz[3 * all.vertex_id[3 * (i % all.n_triangles)] + c] + 0.3 * random_between(&rng, -1, 1);
-  riis_mark_result *expected = new_result();
+  riis_marks *expected = new_result();
   riis_mark_options options = mark_options();
   riis_mesh *mesh = mesh_of(n, xyz);
   options.search = RIIS_SEARCH_EXHAUSTIVE;
@@ -128,7 +128,7 @@ static void an_updated_surface_is_a_fresh_one(void **state) {
   (void)state;
   riis_valve *valves[2] = {new_valve("aortic"), new_valve("mitral")}, *open = new_valve("aortic");
   riis_surface *updated = NULL, *last = NULL; /* a fresh one of what it should be */
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   CHECK_OK(riis_valve_set_scalar(open, "leaflet_angle", 40));
   CHECK_OK(riis_valve_set_open_state(valves[0], open));
   int n_updates = 0, n_refused = 0;

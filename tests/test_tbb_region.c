@@ -17,7 +17,7 @@ static const int32_t thread_counts[] = {1, 2, 4};
 typedef struct work {
   const riis_surface *surface;
   const riis_mesh *mesh;
-  const riis_mark_result *expected;
+  const riis_marks *expected;
   int32_t n_threads; /* 0: each of the counts, task by task */
   int is_wrong[n_tasks];
 } work;
@@ -26,24 +26,24 @@ typedef struct work {
 static void mark(void *data, int task) {
   work *w = data;
   riis_mark_options options = {0};
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   riis_mark_stats stats = {0};
-  int wrong = riis_mark_options_init(&options, sizeof options) || riis_mark_result_create(&result);
+  int wrong = riis_mark_options_init(&options, sizeof options) || riis_marks_create(&result);
   options.search = RIIS_SEARCH_NEIGHBOR;
   options.n_threads = w->n_threads ? w->n_threads : thread_counts[task % 3];
   for (int step = 0; step < 2; ++step)
     wrong = wrong || riis_mark_nodes(w->surface, w->mesh, &options, result) || !same_results(result, w->expected) ||
-            riis_mark_result_stats(result, &stats, sizeof stats) || stats.search != RIIS_SEARCH_NEIGHBOR ||
+            riis_marks_get_stats(result, &stats, sizeof stats) || stats.search != RIIS_SEARCH_NEIGHBOR ||
             !stats.complete || stats.n_threads < 1 || stats.n_threads > options.n_threads;
   w->is_wrong[task] = wrong;
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
 }
 
 static void expect_same_as_outside(int region) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.09, 0.2);
   riis_mesh *mesh = mesh_from(&nodes);
-  riis_mark_result *expected = new_result();
+  riis_marks *expected = new_result();
   riis_mark_options options = mark_options();
   options.search = RIIS_SEARCH_NEIGHBOR;
   options.n_threads = 1;

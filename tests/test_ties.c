@@ -17,9 +17,9 @@ static random_source rng;
 static int64_t any_of(int64_t n) { return (int64_t)(random_bits(&rng) % (uint64_t)n); }
 static double between(double low, double high) { return random_between(&rng, low, high); }
 
-static riis_mark_fields fields_in(const riis_mark_result *result) {
-  riis_mark_fields fields;
-  CHECK_OK(riis_mark_result_within_limit_fields(result, &fields, sizeof fields));
+static riis_mark_list fields_in(const riis_marks *result) {
+  riis_mark_list fields;
+  CHECK_OK(riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, &fields, sizeof fields));
   return fields;
 }
 
@@ -67,12 +67,12 @@ static test_mesh symmetric_cells(const riis_surface *surface, double spacing) {
   return mesh;
 }
 
-static riis_mark_result *marked(const riis_surface *surface, riis_mesh *mesh, int32_t fields, int32_t search) {
+static riis_marks *marked(const riis_surface *surface, riis_mesh *mesh, int32_t fields, int32_t search) {
   riis_mark_options options = mark_options();
   options.fields = fields;
   options.search = search;
   options.n_threads = 1;
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
   return result;
 }
@@ -84,13 +84,13 @@ typedef struct tie_counts {
 } tie_counts;
 
 /* Compares velocities with the oracle, and adds up the ties. */
-static void check_velocities(const riis_surface *surface, const test_mesh *mesh, const riis_mark_result *result,
+static void check_velocities(const riis_surface *surface, const test_mesh *mesh, const riis_marks *result,
                              tie_counts *counts) {
   const surface_content content = surface_content_of(surface);
   const double *velocity = velocity_of(surface), half_thickness = info_of(surface).half_thickness,
                largest = largest_velocity(&content, velocity);
   const found_nodes nodes = within_in(result);
-  const riis_mark_fields fields = fields_in(result);
+  const riis_mark_list fields = fields_in(result);
   for (int64_t i = 0; i < nodes.n; ++i) {
     const double *p = mesh->xyz + 3 * nodes.node_id[i], *v = fields.velocity + 3 * i;
     const tied_velocity expected = tied_velocity_at(&content, velocity, p, nodes.distance[i], half_thickness);
@@ -108,12 +108,12 @@ static void check_velocities(const riis_surface *surface, const test_mesh *mesh,
 }
 
 /* Other searches, threads and instructions give the same bits, and a marking without velocity all else. */
-static void check_searches(const riis_surface *surface, const test_mesh *from, const riis_mark_result *expected) {
+static void check_searches(const riis_surface *surface, const test_mesh *from, const riis_marks *expected) {
   static const int32_t searches[] = {RIIS_SEARCH_EXHAUSTIVE, RIIS_SEARCH_NEIGHBOR, RIIS_SEARCH_CLUSTERS};
   const int64_t n = within_in(expected).n;
-  const riis_mark_fields fields = fields_in(expected);
+  const riis_mark_list fields = fields_in(expected);
   riis_mesh *mesh = mesh_from(from);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   for (int k = 0; k < 12; ++k) {
     riis_mark_options options = mark_options();
     options.search = searches[k % 3];
@@ -127,9 +127,9 @@ static void check_searches(const riis_surface *surface, const test_mesh *from, c
     assert_memory_equal(fields.velocity, fields_in(result).velocity, (size_t)n * 24);
   }
   const int32_t others = RIIS_FIELD_POINT | RIIS_FIELD_NORMAL | RIIS_FIELD_BARYCENTRIC | RIIS_FIELD_SIDE;
-  const riis_mark_result *without = marked(surface, mesh, others, RIIS_SEARCH_CLUSTERS),
+  const riis_marks *without = marked(surface, mesh, others, RIIS_SEARCH_CLUSTERS),
                          *with = marked(surface, mesh, others | RIIS_FIELD_VELOCITY, RIIS_SEARCH_CLUSTERS);
-  const riis_mark_fields a = fields_in(without), b = fields_in(with);
+  const riis_mark_list a = fields_in(without), b = fields_in(with);
   assert_true(same_results(without, with));
   assert_memory_equal(a.point, b.point, (size_t)n * 24);
   assert_memory_equal(a.normal, b.normal, (size_t)n * 24);
@@ -152,7 +152,7 @@ static void valves_have_the_means_of_their_leaflets(void **state) {
     test_mesh mesh = symmetric_cells(surface, between(0.09, 0.12));
     riis_surface *placed = moving_surface(kinds[trial % n_kinds], now, before, &options);
     place(mesh.n, mesh.xyz, options.rotation_angle, options.translation);
-    const riis_mark_result *result = marked(placed, mesh_from(&mesh), RIIS_FIELD_VELOCITY, RIIS_SEARCH_EXHAUSTIVE);
+    const riis_marks *result = marked(placed, mesh_from(&mesh), RIIS_FIELD_VELOCITY, RIIS_SEARCH_EXHAUSTIVE);
     check_velocities(placed, &mesh, result, &all);
     check_searches(placed, &mesh, result);
     free_owned_after(owned_before);
@@ -196,7 +196,7 @@ static void three_leaflets_of_arrays_count_alike(void **state) {
     int64_t *pairs = own(malloc((size_t)n_nodes * 2 * sizeof *pairs));
     for (int64_t i = 0; i + 1 < n_nodes; ++i) pairs[2 * i] = i, pairs[2 * i + 1] = i + 1;
     set_rows(&mesh, n_nodes - 1, pairs);
-    const riis_mark_result *result = marked(surface, mesh_from(&mesh), RIIS_FIELD_VELOCITY, RIIS_SEARCH_EXHAUSTIVE);
+    const riis_marks *result = marked(surface, mesh_from(&mesh), RIIS_FIELD_VELOCITY, RIIS_SEARCH_EXHAUSTIVE);
     if (within_in(result).n > 0) {
       check_velocities(surface, &mesh, result, &all);
       check_searches(surface, &mesh, result);
@@ -224,9 +224,9 @@ static term term_of(const riis_surface *surface, const test_mesh *mesh, int n_pa
   resistance.resistance = 1;
   for (int part = 0; part < n_parts; ++part) {
     const int64_t begin = mesh->n * part / n_parts, m = mesh->n * (part + 1) / n_parts - begin;
-    riis_mark_result *result =
+    riis_marks *result =
         marked(surface, mesh_of(m, xyz + 3 * begin), RIIS_FIELD_VELOCITY, part % 2 ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_AUTO);
-    CHECK_OK(riis_mark_result_add_resistance(result, &resistance, m, made.k + begin, made.ku + 3 * begin));
+    CHECK_OK(add_resistance_to(result, &resistance, m, made.k + begin, made.ku + 3 * begin));
   }
   return made;
 }
@@ -279,9 +279,7 @@ static void reaction_takes_the_means(void **state) {
   riis_resistance resistance;
   CHECK_OK(riis_resistance_init(&resistance, sizeof resistance));
   resistance.resistance = 1;
-  CHECK_OK(riis_mark_result_add_reaction(
-      marked(surface, mesh_of(mesh.n, mesh.xyz), RIIS_FIELD_VELOCITY, RIIS_SEARCH_AUTO), &resistance, mesh.n, flow,
-      weight, force));
+  CHECK_OK(add_reaction_to(marked(surface, mesh_of(mesh.n, mesh.xyz), RIIS_FIELD_VELOCITY, RIIS_SEARCH_AUTO), &resistance, mesh.n, flow, weight, force));
   for (int way = -1; way <= 1; ++way) {
     const term moved = term_of(surface, &mesh, 2, 1e-12 * way);
     for (size_t c = 0; c < 3; ++c) {
@@ -311,7 +309,7 @@ static void other_nodes_have_the_closest_triangle_s(void **state) {
     arrays.vx = velocity, arrays.vy = velocity + 1, arrays.vz = velocity + 2, arrays.velocity_stride = 3;
     const test_mesh from = symmetric_cells(surface, between(0.08, 0.12));
     riis_mesh *mesh = mesh_of(from.n, from.xyz);
-    const riis_mark_result *result = marked(surface, mesh, RIIS_FIELD_VELOCITY, RIIS_SEARCH_CLUSTERS),
+    const riis_marks *result = marked(surface, mesh, RIIS_FIELD_VELOCITY, RIIS_SEARCH_CLUSTERS),
                            *plain = marked(surface_from(&arrays, NULL), mesh, RIIS_FIELD_VELOCITY, RIIS_SEARCH_CLUSTERS);
     const found_nodes a = within_in(result), b = within_in(plain);
     assert_int_equal(a.n, b.n);
@@ -352,7 +350,7 @@ static void ties_end_at_a_millionth(void **state) {
     options.half_thickness = 1.5;
     riis_surface *surface = surface_from(&arrays, &options);
     const double p[3] = {0.25, 0.5, 1 - 0.5 * 1.5 * cases[k].nearer};
-    const riis_mark_result *result = marked(surface, mesh_of(1, p), RIIS_FIELD_VELOCITY, RIIS_SEARCH_CLUSTERS);
+    const riis_marks *result = marked(surface, mesh_of(1, p), RIIS_FIELD_VELOCITY, RIIS_SEARCH_CLUSTERS);
     assert_int_equal(within_in(result).n, 1);
     const double *v = fields_in(result).velocity, *of_closest = velocity + (cases[k].nearer < 0 ? 9 : 0);
     for (int c = 0; c < 3; ++c) {

@@ -144,9 +144,10 @@ static deviation measure_surface(const smooth_valve *smooth, const riis_surface 
   const double *xyz, *uv;
   const int64_t *id;
   const int32_t *patch_id;
-  CHECK_OK(riis_surface_vertices(surface, NULL, &xyz));
-  CHECK_OK(riis_surface_vertex_parameters(surface, NULL, &uv));
-  CHECK_OK(riis_surface_triangles(surface, NULL, &id, NULL, NULL, &patch_id));
+  xyz = triangles_of(surface).xyz;
+  uv = triangles_of(surface).uv;
+  id = triangles_of(surface).vertex_id;
+  patch_id = triangles_of(surface).patch_id;
   const int64_t every = 1 + d.n_triangles / 8000;
   for (int64_t t = 0; t < d.n_triangles; t += every) {
     static const double weights[4][3] = {{1.0 / 3, 1.0 / 3, 1.0 / 3}, {0.5, 0.5, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}};
@@ -252,7 +253,7 @@ static void every_quad_stays_within_its_own_bound(void **state) {
   riis_valve *valve = new_valve("mitral");
   for (int i = 0; i < 17; ++i) {
     riis_parameter parameter;
-    CHECK_OK(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
+    CHECK_OK(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
     names[i] = parameter.name;
   }
   for (int trial = 0; trial < 24; ++trial) {
@@ -287,8 +288,8 @@ static void so_it_does_for_other_aortic_valves(void **state) {
     riis_parameter parameter;
     int64_t n_parameters;
     riis_valve *valve = new_valve("aortic");
-    CHECK_OK(riis_valve_n_parameters(valve, &n_parameters));
-    CHECK_OK(riis_valve_parameter(valve, (int64_t)(random_bits(&rng) % (uint64_t)n_parameters), &parameter,
+    CHECK_OK(riis_valve_get_n_parameters(valve, &n_parameters));
+    CHECK_OK(riis_valve_get_parameter(valve, (int64_t)(random_bits(&rng) % (uint64_t)n_parameters), &parameter,
                                   sizeof parameter));
     const double value = parameter.default_values[0] * random_between(&rng, 0.67, 1.33);
     if (parameter.n_values == 1 && riis_valve_set_scalar(valve, parameter.name, value) == RIIS_OK &&
@@ -319,7 +320,7 @@ static riis_valve *random_mitral(mitral_parameters *parameters, random_source *r
     double *values = &parameters[k].anterior_ratio; /* doubles all, in the table's order */
     for (int i = 0; i < 16; ++i) {
       riis_parameter parameter;
-      CHECK_OK(riis_valve_parameter(valves[k], i, &parameter, sizeof parameter));
+      CHECK_OK(riis_valve_get_parameter(valves[k], i, &parameter, sizeof parameter));
       CHECK_SAME(parameter.default_values[0], values[i]);
       values[i] *= random_between(rng, 0.75, 1.25);
       CHECK_OK(riis_valve_set_scalar(valves[k], parameter.name, values[i]));

@@ -176,11 +176,11 @@ static int leaks_through(riis_valve *valve, double radius, double half_thickness
     nodes[3 * i + 2] = place_on_grid(i / n_across / n_across, 2, radius);
   }
   riis_mesh *mesh = mesh_of(n_nodes, nodes);
-  riis_mark_result *result = NULL;
-  CHECK_OK(riis_mark_result_create(&result));
+  riis_marks *result = NULL;
+  CHECK_OK(riis_marks_create(&result));
   own(result);
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
-  CHECK_OK(riis_mark_result_dense(result, n_nodes, 1e30, is_closed, NULL, NULL, NULL));
+  CHECK_OK(dense_of(result, n_nodes, 1e30, is_closed, NULL, NULL, NULL));
   free_one_owned(result);
   free_one_owned(mesh);
   free_one_owned(surface);
@@ -326,12 +326,12 @@ static void closed_free_edges_are_no_rims(void **state) {
     riis_mesh *mesh = mesh_of(1, opening ? open_probe : probe);
     riis_mark_options options = mark_options();
     options.fields = RIIS_FIELD_RIM | RIIS_FIELD_SIDE;
-    riis_mark_result *result = NULL;
-    riis_mark_fields fields;
-    CHECK_OK(riis_mark_result_create(&result));
+    riis_marks *result = NULL;
+    riis_mark_list fields;
+    CHECK_OK(riis_marks_create(&result));
     own(result);
     CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-    CHECK_OK(riis_mark_result_marked_fields(result, &fields, sizeof fields));
+    CHECK_OK(riis_marks_get_list(result, RIIS_LIST_MARKED, &fields, sizeof fields));
     assert_int_equal(fields.n_nodes, 1);
     assert_int_equal(fields.rim[0], opening);
     if (!opening) assert_int_equal(fields.side[0], 1); /* above the closed valve is downstream */
@@ -379,12 +379,12 @@ static void every_parameter_by_name(void **state) {
   const int n_parameters = sizeof table / sizeof *table;
   riis_valve *valve = new_valve("trileaflet");
   int64_t n;
-  CHECK_OK(riis_valve_n_parameters(valve, &n));
+  CHECK_OK(riis_valve_get_n_parameters(valve, &n));
   assert_int_equal(n, n_parameters);
   for (int i = 0; i < n_parameters; ++i) {
     riis_parameter parameter;
     double values[3] = {0, 0, 0};
-    CHECK_OK(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
+    CHECK_OK(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
     assert_string_equal(parameter.name, table[i].name);
     CHECK_OK(riis_valve_get(valve, table[i].name, table[i].n_values, values));
     assert_memory_equal(values, table[i].values, sizeof values);

@@ -23,7 +23,7 @@ static void every_layout_gives_the_same_surface(void **state) {
     riis_surface_arrays arrays = triangle_arrays(7, xyz, 3, ids);
     for (int i = 0; i < 9; ++i) ids32[i] = ids[i] + one_based, ids64[i] = ids[i] + one_based;
     arrays.index_base = one_based;
-    arrays.vertex_id_bits = wide ? 64 : 32;
+    arrays.id_bits = wide ? 64 : 32;
     arrays.vertex_ids = wide ? (const void *)ids64 : ids32;
     arrays.leaflet_id = leaflets;
     if (separate) arrays.x = x, arrays.y = y, arrays.z = z, arrays.stride = 1;
@@ -57,7 +57,7 @@ static void quads_are_cut_along_the_first_diagonal(void **state) {
   assert_int_equal(closest_to(surface, 0.1, 0.9, 1).triangle_id, 1);
   assert_int_equal(closest_to(surface, 0.1, 0.9, 1).leaflet_id, 0);
   const double *uv;
-  CHECK_OK(riis_surface_vertex_parameters(surface, NULL, &uv));
+  uv = triangles_of(surface).uv;
   assert_null(uv);
 }
 
@@ -92,7 +92,7 @@ static void zero_area_is_refused_or_skipped_with_ids_kept(void **state) {
   assert_int_equal(info_of(surface).n_triangles, 2);
   assert_int_equal(info_of(surface).n_zero_area, 3);
   const int64_t *triangle_id;
-  CHECK_OK(riis_surface_triangles(surface, NULL, NULL, &triangle_id, NULL, NULL));
+  triangle_id = triangles_of(surface).triangle_id;
   assert_int_equal(triangle_id[0], 0);
   assert_int_equal(triangle_id[1], 4);
   assert_int_equal(closest_to(surface, 0.1, 0.1, 7).triangle_id,

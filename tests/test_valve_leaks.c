@@ -100,10 +100,10 @@ static void valves_leak_where_the_loop_says(void **state) {
     riis_surface *surface = valve_surface(kinds[trial % 2], 0, (int32_t)(trial % 3));
     test_mesh nodes = mesh_round(surface, trial < 6 ? 0.27 : 0.24);
     riis_mesh *mesh = mesh_with_rows(&nodes, 0);
-    riis_mark_result *result = new_result();
+    riis_marks *result = new_result();
     uint8_t *marks = own(malloc((size_t)nodes.n));
     CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
-    CHECK_OK(riis_mark_result_dense(result, nodes.n, 1e30, marks, NULL, NULL, NULL));
+    CHECK_OK(dense_of(result, nodes.n, 1e30, marks, NULL, NULL, NULL));
     n_leaking[trial % 3] += check_against_valve(&nodes, surface, marks, leaks_of(surface, mesh, NULL, result));
     free_owned_after(owned_before);
   }
@@ -115,10 +115,10 @@ static void short_edges_do_not_leak(void **state) {
   (void)state;
   for (int trial = 0; trial < 4; ++trial) {
     const int owned_before = n_owned();
-    riis_surface *surface = valve_surface(trial % 2 ? "mitral" : "aortic", 0, RIIS_DISTANCE_TRIANGLES);
+    riis_surface *surface = valve_surface(trial % 2 ? "mitral" : "aortic", 0, RIIS_MEASURE_TRIANGLES);
     test_mesh nodes = mesh_round(surface, 0.2 * (1 - 1e-15));
     riis_mesh *mesh = mesh_with_rows(&nodes, 0);
-    riis_mark_result *result = new_result();
+    riis_marks *result = new_result();
     CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
     assert_int_equal(leaks_of(surface, mesh, NULL, result).sum.n_edges, 0);
     free_owned_after(owned_before);
@@ -150,7 +150,7 @@ static void what_the_papers_search_misses_leaks(void **state) {
   test_mesh nodes = column_of_nodes(121, -1, 0.1);
   riis_surface *surface = two_plates();
   riis_mesh *mesh = mesh_with_rows(&nodes, 0);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_mark_options options = mark_options();
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
   assert_int_equal(leaks_of(surface, mesh, &options, result).sum.n_edges, 0);
@@ -167,7 +167,7 @@ static void changes_are_seen(void **state) {
   test_mesh nodes = column_of_nodes(12, -0.5, 1);
   riis_surface *surface = two_plates();
   riis_mesh *mesh = mesh_with_rows(&nodes, 0);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
   leak_list list = leaks_of(surface, mesh, NULL, result);
   assert_int_equal(list.sum.n_edges, 2);
@@ -207,7 +207,7 @@ static void what_makes_no_sense_is_refused(void **state) {
   test_mesh nodes = column_of_nodes(12, -0.5, 1), fewer = column_of_nodes(5, 0, 1);
   riis_surface *surface = two_plates();
   riis_mesh *mesh = mesh_with_rows(&nodes, 0), *other = mesh_with_rows(&fewer, 0);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_leaks leaks;
   memset(&leaks, 0x5a, sizeof leaks);
 #define REFUSED(status, parts, a_mesh) \

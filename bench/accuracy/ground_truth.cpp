@@ -69,7 +69,7 @@ double norm(const double *p, Vec3 q) { return length(q - Vec3{p[0], p[1], p[2]})
 GroundTruth make_ground_truth(const PatchSet &patches, const TruthRequest &request) {
   const SmoothSurface smooth(patches);
   const Places places(patches, smooth);
-  const MeasuredSurface fine(patches, RIIS_DISTANCE_TRIANGLES, request.fine_tolerance);
+  const MeasuredSurface fine(patches, RIIS_MEASURE_TRIANGLES, request.fine_tolerance);
   GroundTruth truth{{}, {}, 0, 0, fine.size(), request.fine_tolerance, 0};
   const double error = request.fine_tolerance * half_thickness;
   const auto check = [&](double fine_distance, double true_distance) {

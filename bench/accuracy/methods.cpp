@@ -43,8 +43,8 @@ PatchSet patches_of(const Leaflet &leaflet) {
 }
 
 const char *name_of(std::int32_t method) {
-  return method == RIIS_DISTANCE_TRIANGLES  ? "triangulation"
-         : method == RIIS_DISTANCE_SAMPLING ? "sampling"
+  return method == RIIS_MEASURE_TRIANGLES  ? "triangulation"
+         : method == RIIS_MEASURE_SAMPLING ? "sampling"
                                             : "minimisation";
 }
 
@@ -53,7 +53,7 @@ MeasuredSurface::MeasuredSurface(const PatchSet &patches, std::int32_t method, d
   check(riis_surface_options_init(&options, sizeof options));
   options.half_thickness = half_thickness;
   options.distance = method;
-  (method == RIIS_DISTANCE_TRIANGLES ? options.tolerance : options.distance_tolerance) = tolerance;
+  (method == RIIS_MEASURE_TRIANGLES ? options.tolerance : options.measure_tolerance) = tolerance;
   const riis_valve valve{{}, Valve(fixed_patches_kind(), patches)};
   riis_surface *surface = nullptr;
   check(riis_surface_create(&valve, &options, &surface));

@@ -34,16 +34,16 @@ struct Setting {
 };
 const char *name_of(std::int32_t method);
 // Minimisation has the paper's settings, the others have 1, 2, 5 and 10 %.
-inline constexpr std::array<Setting, 10> settings{{{RIIS_DISTANCE_MINIMIZATION, 0.001, "0.001"},
-                                                   {RIIS_DISTANCE_MINIMIZATION, 0.01, "0.01"},
-                                                   {RIIS_DISTANCE_SAMPLING, 0.01, "1 %"},
-                                                   {RIIS_DISTANCE_SAMPLING, 0.02, "2 %"},
-                                                   {RIIS_DISTANCE_SAMPLING, 0.05, "5 %"},
-                                                   {RIIS_DISTANCE_SAMPLING, 0.1, "10 %"},
-                                                   {RIIS_DISTANCE_TRIANGLES, 0.01, "1 %"},
-                                                   {RIIS_DISTANCE_TRIANGLES, 0.02, "2 %"},
-                                                   {RIIS_DISTANCE_TRIANGLES, 0.05, "5 %"},
-                                                   {RIIS_DISTANCE_TRIANGLES, 0.1, "10 %"}}};
+inline constexpr std::array<Setting, 10> settings{{{RIIS_MEASURE_MINIMIZATION, 0.001, "0.001"},
+                                                   {RIIS_MEASURE_MINIMIZATION, 0.01, "0.01"},
+                                                   {RIIS_MEASURE_SAMPLING, 0.01, "1 %"},
+                                                   {RIIS_MEASURE_SAMPLING, 0.02, "2 %"},
+                                                   {RIIS_MEASURE_SAMPLING, 0.05, "5 %"},
+                                                   {RIIS_MEASURE_SAMPLING, 0.1, "10 %"},
+                                                   {RIIS_MEASURE_TRIANGLES, 0.01, "1 %"},
+                                                   {RIIS_MEASURE_TRIANGLES, 0.02, "2 %"},
+                                                   {RIIS_MEASURE_TRIANGLES, 0.05, "5 %"},
+                                                   {RIIS_MEASURE_TRIANGLES, 0.1, "10 %"}}};
 
 // The surface of patches. Failures throw std::runtime_error with the library's message.
 class MeasuredSurface {

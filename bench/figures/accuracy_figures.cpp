@@ -144,7 +144,7 @@ double quantile(const std::vector<double> &ascending, double share) {
 }
 
 Colour colour_of_method(std::int32_t method) {
-  return method == RIIS_DISTANCE_MINIMIZATION ? green : method == RIIS_DISTANCE_SAMPLING ? orange : blue;
+  return method == RIIS_MEASURE_MINIMIZATION ? green : method == RIIS_MEASURE_SAMPLING ? orange : blue;
 }
 
 }  // namespace
@@ -152,9 +152,9 @@ Colour colour_of_method(std::int32_t method) {
 Figure accuracy_figure() {
   Figure figure{"Errors of distances, painted", {}, 3, {}, {}, {}, {}};
   // At 10 % samples are far enough apart to be visible.
-  constexpr std::array<Setting, 3> painted{{{RIIS_DISTANCE_MINIMIZATION, 0.01, "0.01"},
-                                            {RIIS_DISTANCE_SAMPLING, 0.1, "10 %"},
-                                            {RIIS_DISTANCE_TRIANGLES, 0.1, "10 %"}}};
+  constexpr std::array<Setting, 3> painted{{{RIIS_MEASURE_MINIMIZATION, 0.01, "0.01"},
+                                            {RIIS_MEASURE_SAMPLING, 0.1, "10 %"},
+                                            {RIIS_MEASURE_TRIANGLES, 0.1, "10 %"}}};
   // A cusp, a part of it, and a mitral leaflet.
   for (const std::size_t row : {0, 1, 2}) {
     const std::size_t k = row / 2;
@@ -163,7 +163,7 @@ Figure accuracy_figure() {
     for (const Setting &setting : painted) {
       const MeasuredSurface surface(patches, setting.method, setting.tolerance);
       // Minimisation is slow, and has no pattern as fine as samples.
-      const double cell = setting.method == RIIS_DISTANCE_MINIMIZATION ? 0.007 : 0.0035;
+      const double cell = setting.method == RIIS_MEASURE_MINIMIZATION ? 0.007 : 0.0035;
       const Painting painting = row == 1
                                     ? Painter(smooth, surface, 0.001).part(smooth.image_of(0), {0, 0.3}, {0.6, 0.9})
                                     : Painter(smooth, surface, cell).everything();
@@ -227,7 +227,7 @@ Figure accuracy_distribution_figure() {
                                    (off ? " points 0.1, 0.5 and 1 half thickness off the surface, to either side."
                                         : " points of the surface.")});
   }
-  for (const std::int32_t method : {RIIS_DISTANCE_MINIMIZATION, RIIS_DISTANCE_SAMPLING, RIIS_DISTANCE_TRIANGLES})
+  for (const std::int32_t method : {RIIS_MEASURE_MINIMIZATION, RIIS_MEASURE_SAMPLING, RIIS_MEASURE_TRIANGLES})
     figure.key.push_back({colour_of_method(method), name_of(method)});
   figure.key.push_back({vermilion, "tolerance"});
   figure.caption =

@@ -88,14 +88,17 @@ Marks mark(const TetrahedralMesh &mesh, const char *kind, double opening, double
   Handle<riis_mesh, riis_mesh_destroy> nodes;
   const double *xyz = mesh.xyz.data();
   check(riis_mesh_create(static_cast<std::int64_t>(mesh.n_nodes()), xyz, xyz + 1, xyz + 2, 3, out(nodes)));
-  Handle<riis_mark_result, riis_mark_result_destroy> result;
-  check(riis_mark_result_create(out(result)));
+  Handle<riis_marks, riis_marks_destroy> result;
+  check(riis_marks_create(out(result)));
   check(riis_mark_nodes(surface.get(), nodes.get(), nullptr, result.get()));
   std::int64_t n_marked = 0;
   const std::int64_t *node_ids = nullptr;
   const double *distances = nullptr;
   const std::int32_t *leaflets = nullptr;
-  check(riis_mark_result_marked(result.get(), &n_marked, &node_ids, &distances, nullptr, &leaflets));
+  n_marked = marked_list(result.get()).n_nodes;
+  node_ids = marked_list(result.get()).node_id;
+  distances = marked_list(result.get()).distance;
+  leaflets = marked_list(result.get()).leaflet_id;
 
   std::vector<std::int32_t> leaflet(mesh.n_nodes(), -1);
   std::vector<double> distance(mesh.n_nodes(), std::numeric_limits<double>::infinity());

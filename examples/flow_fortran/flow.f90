@@ -15,8 +15,8 @@ program flow_through_valve
   type(flow), target :: fluid
   type(leaflets) :: valve
   type(circulation) :: heart
-  type(riis_opening_switch) :: law = riis_opening_switch(opening_seconds=0.04d0, closing_seconds=0.04d0, &
-    filter_seconds=0.002d0, dwell_seconds=0.05d0) ! opens by the pressure difference, closes as the flow reverses
+  type(riis_opening_switch) :: law = riis_opening_switch(opening_duration=0.04d0, closing_duration=0.04d0, &
+    filter_time=0.002d0, dwell_time=0.05d0) ! opens by the pressure difference, closes as the flow reverses
   type(riis_opening_switch_state) :: state
   integer :: table, frame, status
   real(dp) :: dt, flow_rate, p_up, p_down, force(3), jet, begin(2), seconds(2)

@@ -22,7 +22,7 @@ module flow_valve
     type(riis_valve) :: valve, before
     type(riis_surface) :: surface
     type(riis_mesh) :: faces
-    type(riis_mark_result) :: marks
+    type(riis_marks) :: marks
   contains
     procedure :: start, move, force, finish
   end type leaflets

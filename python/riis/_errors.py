@@ -103,11 +103,11 @@ def class_of(status: int) -> type[Error]:
 _NAMES = {
     "riis_find_crossings": "riis.find_crossings",
     "riis_mark_nodes": "riis.mark",
-    "riis_mark_result_band_sums": "MarkResult.band_sums",
+    "riis_marks_get_band_sums": "MarkResult.band_sums",
     "riis_mesh_set_adjacency": "Mesh.set_adjacency",
     "riis_surface_options": "riis.Surface",
     "riis_surface_update_moving": "Surface.update_moving",
-    "riis_valve_parameter": "Valve.parameters",
+    "riis_valve_get_parameter": "Valve.parameters",
     "riis_valve_set_open_state": "Valve.set_open_state",
 }
 # Fields of C's structs whose argument has another name in Python. Each other field has the name of its argument.
@@ -146,7 +146,7 @@ def _constant_of(match: re.Match[str]) -> str:
 
 
 _CHANGES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
-    (r"riis_valve_parameter and riis-mark --print-params list them", "Valve.parameters lists them"),
+    (r"riis_valve_get_parameter and riis-mark --print-params list them", "Valve.parameters lists them"),
     (rf"\boptions\.(fields|{'|'.join(WORDS)})( is | = )(\d+)", _word_of),
     (rf"\bRIIS_(FIELD|INTERPOLATION|PHASE|RIM|{'|'.join(WORDS).upper()})_([A-Z0-9_]+|\*)(?:, \d+)?", _constant_of),
     (r"\briis_[a-z_]+", lambda match: _NAMES.get(match[0], match[0])),

@@ -59,9 +59,9 @@ class OpeningTimes(_Timed):
     """
 
     opening_start: float
-    opening_seconds: float
+    opening_duration: float
     closing_start: float
-    closing_seconds: float
+    closing_duration: float
     closed: float = 0.0
     open: float = 1.0
     period: float = 0.0
@@ -69,9 +69,9 @@ class OpeningTimes(_Timed):
     def opening_and_rate(self, time: Any) -> tuple[Any, Any]:
         return _riis._opening_from_times(
             self.opening_start,
-            self.opening_seconds,
+            self.opening_duration,
             self.closing_start,
-            self.closing_seconds,
+            self.closing_duration,
             self.closed,
             self.open,
             self.period,
@@ -97,12 +97,12 @@ class OpeningSwitchState:
 class OpeningSwitch:
     """A valve that opens when the pressure difference exceeds a value, and closes when the flow falls below one."""
 
-    opening_seconds: float  #: from closed to open
-    closing_seconds: float  #: from open to closed
+    opening_duration: float  #: from closed to open
+    closing_duration: float  #: from open to closed
     open_above: float = 0.0  #: pressure difference
     close_below: float = 0.0  #: flow
-    filter_seconds: float = 0.0  #: time constant of a filter on both; 0: none
-    dwell_seconds: float = 0.0  #: the least time from one turn to the next
+    filter_time: float = 0.0  #: time constant of a filter on both; 0: none
+    dwell_time: float = 0.0  #: the least time from one turn to the next
 
     def advance(
         self, before: OpeningSwitchState, time: float, pressure_difference: float, flow: float

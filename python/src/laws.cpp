@@ -44,15 +44,15 @@ nb::object from_table(nb::handle keys_, nb::handle openings_, nb::handle period,
       time, [&](double t, double *opening, double *rate) { return riis_opening_from_table(&table, t, opening, rate); });
 }
 
-nb::object from_times(nb::handle opening_start, nb::handle opening_seconds, nb::handle closing_start,
-                      nb::handle closing_seconds, nb::handle closed, nb::handle open, nb::handle period,
+nb::object from_times(nb::handle opening_start, nb::handle opening_duration, nb::handle closing_start,
+                      nb::handle closing_duration, nb::handle closed, nb::handle open, nb::handle period,
                       nb::handle time) {
   riis_opening_times times;
   call_shortly(riis_opening_times_init(&times, sizeof times));
   times.opening_start = number(opening_start, "opening_start");
-  times.opening_seconds = number(opening_seconds, "opening_seconds");
+  times.opening_duration = number(opening_duration, "opening_duration");
   times.closing_start = number(closing_start, "closing_start");
-  times.closing_seconds = number(closing_seconds, "closing_seconds");
+  times.closing_duration = number(closing_duration, "closing_duration");
   times.closed = number(closed, "closed");
   times.open = number(open, "open");
   times.period = number(period, "period");
@@ -64,12 +64,12 @@ nb::object from_times(nb::handle opening_start, nb::handle opening_seconds, nb::
 template <class Struct>
 using Doubles = std::vector<std::pair<const char *, double Struct::*>>;
 
-const Doubles<riis_opening_switch> of_switch = {{"opening_seconds", &riis_opening_switch::opening_seconds},
-                                                {"closing_seconds", &riis_opening_switch::closing_seconds},
+const Doubles<riis_opening_switch> of_switch = {{"opening_duration", &riis_opening_switch::opening_duration},
+                                                {"closing_duration", &riis_opening_switch::closing_duration},
                                                 {"open_above", &riis_opening_switch::open_above},
                                                 {"close_below", &riis_opening_switch::close_below},
-                                                {"filter_seconds", &riis_opening_switch::filter_seconds},
-                                                {"dwell_seconds", &riis_opening_switch::dwell_seconds}};
+                                                {"filter_time", &riis_opening_switch::filter_time},
+                                                {"dwell_time", &riis_opening_switch::dwell_time}};
 const Doubles<riis_opening_switch_state> of_switch_state = {
     {"time", &riis_opening_switch_state::time},
     {"opening", &riis_opening_switch_state::opening},

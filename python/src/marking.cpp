@@ -92,7 +92,7 @@ nb::object mark(nb::handle surface_, nb::handle mesh_, nb::handle into, nb::hand
   };
   if (result.is_shared()) {  // arrays show the last marking
     MarkResult fresh;
-    call_shortly(riis_mark_result_create(&fresh.handle));
+    call_shortly(riis_marks_create(&fresh.handle));
     mark_into(fresh);
     result.take(fresh);
   } else {
@@ -193,7 +193,7 @@ void add_lists(nb::class_<Type> &type) {
 nb::object stats(MarkResult &result) {
   const Reading reading(result.usage, "marks");
   riis_mark_stats found;
-  call_shortly(riis_mark_result_stats(result.handle, &found, sizeof found));
+  call_shortly(riis_marks_get_stats(result.handle, &found, sizeof found));
   static const char *const searches[] = {"auto", "exhaustive", "neighbor", "paper", "clusters"};
   static const char *const instructions[] = {"auto", "baseline", "avx2", "avx512"};
   return record("MarkStats")(found.n_nodes, found.n_marked, found.n_within_limit, found.n_queries, found.seconds,
@@ -212,7 +212,7 @@ nb::object dense(MarkResult &result, nb::handle mark_, nb::handle distance, nb::
                triangles = output_of<std::int64_t>(triangle_id, "triangle_id", "int64", {n}),
                leaflets = output_of<std::int32_t>(leaflet_id, "leaflet_id", "int32", {n});
   call_library([&] {
-    return riis_mark_result_dense(result.handle, n, far, marks.data<std::uint8_t>(), distances.data<double>(),
+    return riis_marks_get_dense(result.handle, n, far, marks.data<std::uint8_t>(), distances.data<double>(),
                                   triangles.data<std::int64_t>(), leaflets.data<std::int32_t>());
   });
   return record("Dense")(marks.array, distances.array, triangles.array, leaflets.array);
@@ -248,7 +248,7 @@ MarkResult() is empty; riis.mark(..., into=result) fills it and reuses its memor
 read-only, without a copy, and kept alive. While any is alive, the next marking takes new memory, so they stay as they are.)");
   result.def("__init__", [](MarkResult *self) {
     new (self) MarkResult();
-    call_shortly(riis_mark_result_create(&self->handle));
+    call_shortly(riis_marks_create(&self->handle));
   });
   add_lists(result);
   nb::class_<WithinLimit> within(module, "WithinLimit",

@@ -60,7 +60,7 @@ void set_adjacency(Mesh &self, nb::handle adjacency, nb::handle offsets_, nb::ha
   if (nb::isinstance<Adjacency>(adjacency)) {
     Adjacency &made = object<Adjacency>(adjacency, "adjacency");
     const Reading reading(made.usage, "adjacency");
-    call_shortly(riis_adjacency_csr(made.handle, &csr, sizeof csr));
+    call_shortly(riis_adjacency_get_csr(made.handle, &csr, sizeof csr));
     kept = made.share();
   } else {
     if (!adjacency.is_none()) {
@@ -103,8 +103,8 @@ Adjacency *new_adjacency(const Make &make) {
 }
 
 Adjacency *from_cells(nb::handle nodes, nb::handle n_nodes, nb::handle offsets_, nb::handle index_base, nb::handle n_threads) {
-  riis_cells cells;
-  call_shortly(riis_cells_init(&cells, sizeof cells));
+  riis_mesh_cells cells;
+  call_shortly(riis_mesh_cells_init(&cells, sizeof cells));
   const Array ids = Array::of_integers(nodes, "cells");
   cells.n_nodes = integer(n_nodes, "n_nodes");
   cells.node_ids = ids.data<void>();
@@ -136,8 +136,8 @@ Adjacency *from_cells(nb::handle nodes, nb::handle n_nodes, nb::handle offsets_,
 }
 
 Adjacency *from_faces(nb::handle owner_, nb::handle neighbor_, nb::handle n_cells, nb::handle index_base, nb::handle n_threads) {
-  riis_faces faces;
-  call_shortly(riis_faces_init(&faces, sizeof faces));
+  riis_mesh_faces faces;
+  call_shortly(riis_mesh_faces_init(&faces, sizeof faces));
   const Array owner = Array::of_integers(owner_, "owner");
   owner.expect({-1});
   const Array neighbor = owner.bits() == 64 ? Array::of<std::int64_t>(neighbor_, "neighbor")
@@ -162,7 +162,7 @@ Adjacency *from_grid(nb::handle ni_, nb::handle nj_, nb::handle nk_, nb::handle 
 riis_csr rows_of(Adjacency &adjacency) {
   const Reading reading(adjacency.usage, "adjacency");
   riis_csr csr = empty_rows();
-  call_shortly(riis_adjacency_csr(adjacency.handle, &csr, sizeof csr));
+  call_shortly(riis_adjacency_get_csr(adjacency.handle, &csr, sizeof csr));
   return csr;
 }
 

@@ -14,7 +14,7 @@ NB_MODULE(_riis, module) {
       "version",
       [] {
         std::int32_t major = 0, minor = 0, patch = 0;
-        riis_version(&major, &minor, &patch);
+        riis_get_version(&major, &minor, &patch);
         return nb::make_tuple(major, minor, patch);
       },
       nb::sig("def version() -> tuple[int, int, int]"), "Returns the version of the C library as three numbers.");

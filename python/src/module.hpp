@@ -49,7 +49,7 @@ struct Mesh : Handle<riis_mesh, riis_mesh_destroy> {
   void close(const char *name);
 };
 
-struct MarkResult : Handle<riis_mark_result, riis_mark_result_destroy> {
+struct MarkResult : Handle<riis_marks, riis_marks_destroy> {
   static constexpr const char *python_name = "MarkResult";
   std::int64_t n_nodes = -1;   // of the last marking, -1 before the first
   std::int32_t n_threads = 0;  // that it requested

@@ -30,7 +30,7 @@ void add_to(MarkResult &result, nb::handle coefficient_, nb::handle momentum_, n
     coefficient.emplace(Array::of<double>(coefficient_, "coefficient", Access::write)).expect({n});
   if (!momentum_.is_none()) momentum.emplace(Array::of<double>(momentum_, "momentum", Access::write)).expect({n, 3});
   call_library([&] {
-    return riis_mark_result_add_resistance(result.handle, &model, n, coefficient ? coefficient->data<double>() : nullptr,
+    return riis_marks_add_resistance(result.handle, &model, n, coefficient ? coefficient->data<double>() : nullptr,
                                            momentum ? momentum->data<double>() : nullptr);
   });
 }
@@ -48,7 +48,7 @@ nb::object add_reaction(MarkResult &result, nb::handle velocity_, nb::handle wei
   const Array to = Array::of<double>(force, "force", Access::write);
   to.expect({3});
   call_library([&] {
-    return riis_mark_result_add_reaction(result.handle, &model, n, velocity.data<double>(), weight.data<double>(),
+    return riis_marks_add_reaction(result.handle, &model, n, velocity.data<double>(), weight.data<double>(),
                                          to.data<double>());
   });
   return force;
@@ -64,7 +64,7 @@ nb::object band_sums(MarkResult &result, nb::handle value_, nb::handle weight_, 
   const double inner = number(inner_, "inner"), outer = number(outer_, "outer");
   riis_band_sums sums;
   call_library([&] {
-    return riis_mark_result_band_sums(result.handle, inner, outer, n, value.data<double>(), weight.data<double>(), &sums,
+    return riis_marks_get_band_sums(result.handle, inner, outer, n, value.data<double>(), weight.data<double>(), &sums,
                                       sizeof sums);
   });
   return record("BandSums")(array_of(sums.sum, "float64"), array_of(sums.weight, "float64"), array_of(sums.n_nodes, "int64"));

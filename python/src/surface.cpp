@@ -10,7 +10,7 @@ namespace {
   "half_thickness: float | typing.Literal['auto'] | None = None, tolerance: float | None = None, scale: float " \
   "| None = None, rotation_axis: " RIIS_VECTOR ", rotation_angle: float | None = None, translation: "           \
   RIIS_VECTOR ", flip_normals: bool | None = None, distance: typing.Literal['triangles', 'sampling', "          \
-  "'minimization'] | None = None, distance_tolerance: float | typing.Literal['auto'] | None = None, "           \
+  "'minimization'] | None = None, measure_tolerance: float | typing.Literal['auto'] | None = None, "           \
   "triangulation: typing.Literal['adapted', 'fixed'] | None = None, zero_area: typing.Literal['refuse', "      \
   "'skip'] | None = None, n_threads: int | None = None"
 #define RIIS_POINTS "numpy.typing.NDArray[numpy.float64]"
@@ -228,7 +228,7 @@ rotation_angle      0, degrees
 translation         (0, 0, 0), mesh units
 flip_normals        False
 distance            'triangles'; the paper's 'sampling' and 'minimization' serve for comparison
-distance_tolerance  'auto': tolerance; for these two, in half thicknesses
+measure_tolerance  'auto': tolerance; for these two, in half thicknesses
 triangulation       'adapted', or 'fixed': the same triangles at every opening
 zero_area           'refuse' or 'skip' triangles without area, in from_arrays
 n_threads           0: 1 for 4096 triangles, at most 1 a processor

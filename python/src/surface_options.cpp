@@ -41,13 +41,13 @@ const Keyword keywords[] = {
     {"distance",
      [](riis_surface_options &o, nb::handle value, const char *name) {
        o.distance = choice(value, name,
-                           {{"triangles", RIIS_DISTANCE_TRIANGLES},
-                            {"sampling", RIIS_DISTANCE_SAMPLING},
-                            {"minimization", RIIS_DISTANCE_MINIMIZATION}});
+                           {{"triangles", RIIS_MEASURE_TRIANGLES},
+                            {"sampling", RIIS_MEASURE_SAMPLING},
+                            {"minimization", RIIS_MEASURE_MINIMIZATION}});
      },
      false},
-    {"distance_tolerance",
-     [](riis_surface_options &o, nb::handle value, const char *name) { o.distance_tolerance = number_or_auto(value, name); },
+    {"measure_tolerance",
+     [](riis_surface_options &o, nb::handle value, const char *name) { o.measure_tolerance = number_or_auto(value, name); },
      false},
     {"triangulation",
      [](riis_surface_options &o, nb::handle value, const char *name) {

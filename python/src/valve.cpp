@@ -7,13 +7,13 @@ namespace {
 
 std::int64_t n_parameters(const Valve &valve) {
   std::int64_t n = 0;
-  call_shortly(riis_valve_n_parameters(valve.handle, &n));
+  call_shortly(riis_valve_get_n_parameters(valve.handle, &n));
   return n;
 }
 
 riis_parameter parameter(const Valve &valve, std::int64_t id) {
   riis_parameter found;
-  call_shortly(riis_valve_parameter(valve.handle, id, &found, sizeof found));
+  call_shortly(riis_valve_get_parameter(valve.handle, id, &found, sizeof found));
   return found;
 }
 

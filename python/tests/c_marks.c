@@ -39,7 +39,7 @@ int main(int n_arguments, char **arguments) {
   riis_valve *valve = NULL, *before = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   riis_surface_options surface_options;
   riis_mark_options options;
   riis_resistance model;
@@ -63,7 +63,7 @@ int main(int n_arguments, char **arguments) {
   check(riis_surface_create(valve, &surface_options, &surface));
   check(riis_surface_update_moving(surface, valve, before, 0.05, NULL, NULL));
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  check(riis_mark_result_create(&result));
+  check(riis_marks_create(&result));
   check(riis_mark_options_init(&options, sizeof options));
   options.fields = RIIS_FIELD_NORMAL | RIIS_FIELD_VELOCITY;
   check(riis_mark_nodes(surface, mesh, &options, result));
@@ -71,7 +71,7 @@ int main(int n_arguments, char **arguments) {
   check(riis_mark_result_marked_fields(result, &fields, sizeof fields));
   check(riis_resistance_init(&model, sizeof model));
   model.resistance = 1e4;
-  check(riis_mark_result_add_resistance(result, &model, n_nodes, coefficient, momentum));
+  check(riis_marks_add_resistance(result, &model, n_nodes, coefficient, momentum));
 
   put(file, &n, 8, 1);
   put(file, node_id, 8, n);
@@ -83,7 +83,7 @@ int main(int n_arguments, char **arguments) {
   put(file, coefficient, 8, n_nodes);
   put(file, momentum, 8, 3 * n_nodes);
   require(fclose(file) == 0, "the output cannot be written");
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
   riis_mesh_destroy(&mesh);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&before);

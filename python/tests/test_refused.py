@@ -18,7 +18,7 @@ class Objects:
     def __init__(self):
         self.valve = riis.Valve("mitral", opening=0.3)
         self.surface = riis.Surface(self.valve, half_thickness=0.15)
-        self.sampled = riis.Surface(self.valve, distance="sampling", distance_tolerance=0.5)
+        self.sampled = riis.Surface(self.valve, distance="sampling", measure_tolerance=0.5)
         self.thin = riis.Surface(self.valve, half_thickness=0.005)
         self.xyz = numpy.random.default_rng(1).uniform(-1.0, 1.0, (60, 3))
         self.mesh = riis.Mesh(self.xyz)
@@ -283,7 +283,7 @@ REFUSED = {
     "keys": (Argument, "(?i)time", lambda o: riis.OpeningTable(numpy.array([1.0, 0.0]), numpy.zeros(2))(0.0)),
     "lengths of keys": (Argument, r"opening: its shape", lambda o: riis.OpeningTable(numpy.array([0.0]), numpy.zeros(2))(0.0)),
     "type of keys": (TypeError, "time: must be a numpy array", lambda o: riis.OpeningTable([0.0], [0.0])(0.0)),
-    "times": (Argument, "opening_seconds", lambda o: riis.OpeningTimes(0.0, 0.0, 1.0, 1.0)(0.0)),
+    "times": (Argument, "opening_duration", lambda o: riis.OpeningTimes(0.0, 0.0, 1.0, 1.0)(0.0)),
     "time": (TypeError, "time: must be a number, not str", lambda o: riis.OpeningTimes(0.0, 1.0, 2.0, 1.0)("now")),
     "NaN time": (Argument, "time", lambda o: riis.OpeningTimes(0.0, 1.0, 2.0, 1.0)(math.nan)),
     "time goes back": (Argument, "time", lambda o: riis.OpeningSwitch(1.0, 1.0).advance(riis.OpeningSwitchState(), -1.0, 0.0, 0.0)),

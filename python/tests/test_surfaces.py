@@ -137,7 +137,7 @@ def test_points_are_chosen_by_mask_or_ids(surface, xyz):
 def test_other_distances_are_the_paper_s(valve):
     exact = riis.Surface(valve).closest_point((0.0, 0.0, 0.5))
     for distance in "sampling", "minimization":
-        surface = riis.Surface(valve, distance=distance, distance_tolerance=0.1)
+        surface = riis.Surface(valve, distance=distance, measure_tolerance=0.1)
         assert abs(surface.closest_point((0.0, 0.0, 0.5)).distance - exact.distance) < 0.02
         with pytest.raises(riis.InvalidArgumentError, match="side"):
             surface.closest_points(numpy.zeros((1, 3)), side=True)

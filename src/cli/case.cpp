@@ -47,7 +47,7 @@ std::vector<std::string> names_of_case(const Case &all) {
     const std::vector<std::string> own = names_of_marks(valve.options.prefix, 0);
     names.insert(names.end(), own.begin(), own.end());
   }
-  if (all.has_resistance()) names.push_back(all.options.prefix + "_resistance");
+  if (all.has_resistance()) names.push_back(all.options.prefix + "_K");
   return names;
 }
 
@@ -83,8 +83,8 @@ void print_case(const Case &all, const std::vector<MovingValve> &valves, const R
 // Marks all valves and sets their arrays. Returns the most marked nodes of a valve.
 int64_t mark_valves(const Case &all, std::vector<MovingValve> &valves, const riis_mesh *mesh, riis_vtk_mesh *file) {
   int64_t n_nodes = 0, most = 0;
-  check(riis_vtk_mesh_nodes(file, &n_nodes, nullptr, nullptr));
-  ResistanceSum resistance(n_nodes, ResistanceSum::Momentum::no);
+  check(riis_vtk_mesh_get_nodes(file, &n_nodes, nullptr, nullptr));
+  ResistanceSum resistance(n_nodes, ResistanceSum::WithVelocity::no);
   std::vector<Warning> warnings;
   for (MovingValve &valve : valves) {
     valve.mark(mesh, 0);

@@ -12,7 +12,7 @@ namespace {
 const std::vector<std::string> table_keys = {"times", "openings", "period", "interpolation"};
 const std::vector<std::string> cycle_keys = {"file", "period", "interpolation"};
 const std::vector<std::string> ramp_keys = {
-    "opening_start", "opening_seconds", "closing_start", "closing_seconds", "closed", "open", "period"};
+    "opening_start", "opening_duration", "closing_start", "closing_duration", "closed", "open", "period"};
 
 OpeningLaw law_of_table(const CaseValues &values, OpeningTable table, const std::string &subject) {
   table.period = values.above_zero("period").value_or(0);
@@ -35,12 +35,12 @@ OpeningLaw law_of_ramps(const CaseValues &values) {
   const auto set = [&](const char *key, double &field) {
     if (const auto number = values.number(key)) field = *number;
   };
-  for (const char *key : {"opening_start", "opening_seconds", "closing_start", "closing_seconds"})
+  for (const char *key : {"opening_start", "opening_duration", "closing_start", "closing_duration"})
     static_cast<void>(values.needed(key));
   set("opening_start", times.opening_start);
-  set("opening_seconds", times.opening_seconds);
+  set("opening_duration", times.opening_duration);
   set("closing_start", times.closing_start);
-  set("closing_seconds", times.closing_seconds);
+  set("closing_duration", times.closing_duration);
   set("closed", times.closed);
   set("open", times.open);
   times.period = values.above_zero("period").value_or(0);

@@ -16,7 +16,7 @@ struct CaseOpening {
 };
 
 // A number, or an object: {"file"}, {"times", "openings"}, each with "period" and "interpolation", or {"opening_start",
-// "opening_seconds", "closing_start", "closing_seconds", "closed", "open", "period"}. in_folder makes a path relative to the
+// "opening_duration", "closing_start", "closing_duration", "closed", "open", "period"}. in_folder makes a path relative to the
 // case.
 CaseOpening case_opening(const CaseValues &valve, const std::function<std::string(const std::string &)> &in_folder);
 

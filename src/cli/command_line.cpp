@@ -33,12 +33,12 @@ const std::vector<std::string> distance_names = {"triangles", "sampling", "minim
 struct Texts {
   std::string scale, rotate, translate, half_thickness, distance_limit, far_distance, tolerance, threads, opening,
       resistance;
-  std::string distance_tolerance, unit, surface_unit, steps, time, period, state_count;
+  std::string measure_tolerance, unit, surface_unit, steps, time, period, state_count;
   SeriesTexts series;
   UrisTexts uris;
   std::string search = search_names[RIIS_SEARCH_AUTO];
   std::string triangulation = triangulation_names()[RIIS_TRIANGULATION_ADAPTED];
-  std::string distance = distance_names[RIIS_DISTANCE_TRIANGLES];
+  std::string distance = distance_names[RIIS_MEASURE_TRIANGLES];
   std::vector<std::string> pictures, views, check_leaks;
   bool skip_zero_area = false;
   bool flip_normals = false;
@@ -174,7 +174,7 @@ void declare_marking(CLI::App &app, Texts &texts) {
       ->check(CLI::IsMember(distance_names))
       ->group(group)
       ->excludes(app.get_option("--surface"));
-  app.add_option("--distance-tolerance", texts.distance_tolerance,
+  app.add_option("--distance-tolerance", texts.measure_tolerance,
                  "Tolerance of --distance sampling or minimization, in half thicknesses (default --tolerance)")
       ->type_name("F")
       ->group(group);
@@ -281,11 +281,11 @@ void parse_surface_options(const Texts &texts, riis_surface_options &options) {
   options.zero_area = texts.skip_zero_area ? RIIS_ZERO_AREA_SKIP : RIIS_ZERO_AREA_REFUSE;
   options.flip_normals = texts.flip_normals;
   options.triangulation = position_of(texts.triangulation, triangulation_names());
-  options.distance = position_of(texts.distance, distance_names);
-  if (!texts.distance_tolerance.empty()) {
-    if (options.distance == RIIS_DISTANCE_TRIANGLES)
+  options.measure = position_of(texts.distance, distance_names);
+  if (!texts.measure_tolerance.empty()) {
+    if (options.measure == RIIS_MEASURE_TRIANGLES)
       throw Refusal{exit_wrong_usage, "--distance-tolerance has no effect with --distance triangles: see --tolerance"};
-    options.distance_tolerance = parse_length(texts.distance_tolerance, "--distance-tolerance");
+    options.measure_tolerance = parse_length(texts.measure_tolerance, "--distance-tolerance");
   }
 }
 

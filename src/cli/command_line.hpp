@@ -46,7 +46,7 @@ struct TimeSpan {
 struct UrisOptions {
   std::string folder;  // "": not wanted
   std::optional<double> time_step;
-  std::optional<double> opening_seconds, closing_seconds;  // without a cycle
+  std::optional<double> opening_duration, closing_duration;  // without a cycle
   std::optional<TimeSpan> opening_span, closing_span;      // of the cycle
   double largest_edge = 0;                                 // 0: as the library cuts
 };

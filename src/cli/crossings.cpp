@@ -19,20 +19,27 @@ namespace {
 
 constexpr int n_openings = 101;
 
-riis_crossings crossings_of(const Options &options, riis_surface *surface) {
+// Returns the list without its arrays.
+riis_crossing_list crossings_of(const Options &options, const riis_surface *surface) {
   riis_crossing_options how;
-  riis_crossings found;
   check(riis_crossing_options_init(&how, sizeof how));
   how.n_threads = options.mark_options.n_threads;
-  check(riis_find_crossings(surface, &how, &found, sizeof found));
+  riis_crossings *handle = nullptr;
+  check(riis_crossings_create(&handle));
+  const Crossings crossings(handle);
+  check(riis_find_crossings(surface, &how, handle));
+  riis_crossing_list found;
+  check(riis_crossings_get_list(handle, &found, sizeof found));
+  found.triangle_id = nullptr;
+  found.point = found.depth = found.length = nullptr;
   return found;
 }
 
 // Crossings do not depend on how distances are measured, and triangles make the least work.
 riis_surface_options by_triangles(const Options &options) {
   riis_surface_options how = options.surface_options;
-  how.distance = RIIS_DISTANCE_TRIANGLES;
-  how.distance_tolerance = RIIS_AUTO;
+  how.measure = RIIS_MEASURE_TRIANGLES;
+  how.measure_tolerance = RIIS_AUTO;
   return how;
 }
 
@@ -71,32 +78,32 @@ std::string leaflet_text(const Options &options, int32_t leaflet) {
 // Not even --quiet silences this: such a valve cannot be built, and its normals contradict each other.
 void warn_of_crossings(const Options &options, const CrossingReport &report, const std::string &part,
                        const std::string &advice) {
-  const riis_crossings &found = report.found;
+  const riis_crossing_list &found = report.found;
   std::string at;
   if (report.opening) {
     char text[32];
     std::snprintf(text, sizeof text, " at opening %g", *report.opening);
     at = text;
   }
-  const bool is_one_leaflet = found.leaflet_id[0] == found.leaflet_id[1];
-  const std::string first = leaflet_text(options, found.leaflet_id[0]);
+  const bool is_one_leaflet = found.deepest_leaflet_id[0] == found.deepest_leaflet_id[1];
+  const std::string first = leaflet_text(options, found.deepest_leaflet_id[0]);
   const std::string who = is_one_leaflet
                               ? "leaflet " + first + " crosses itself"
-                              : "leaflets " + first + " and " + leaflet_text(options, found.leaflet_id[1]) + " cross";
+                              : "leaflets " + first + " and " + leaflet_text(options, found.deepest_leaflet_id[1]) + " cross";
   // A pair's intersection is about as long as an edge of the triangles there.
   warn(part + who + at + ": " + counted(found.n_pairs, "pair") +
-       " of triangles go through each other, along a length of " + shown(found.length) + "; the deepest is " +
-       shown(found.depth) + " deep, at " +
-       place_text(options, found.point, found.length / static_cast<double>(found.n_pairs)) + advice);
+       " of triangles go through each other, along a length of " + shown(found.total_length) + "; the deepest is " +
+       shown(found.deepest_depth) + " deep, at " +
+       place_text(options, found.deepest_point, found.total_length / static_cast<double>(found.n_pairs)) + advice);
 }
 
 bool has_default_values(const riis_valve *valve) {
   int64_t n = 0;
-  check(riis_valve_n_parameters(valve, &n));
+  check(riis_valve_get_n_parameters(valve, &n));
   for (int64_t i = 0; i < n; ++i) {
     riis_parameter parameter;
     double values[3];
-    check(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
+    check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
     check(riis_valve_get(valve, parameter.name, parameter.n_values, values));
     if (std::string(parameter.name) != "opening" &&
         !std::equal(values, values + parameter.n_values, parameter.default_values))
@@ -124,7 +131,7 @@ Surface surface_at(riis_valve *valve, double opening, const riis_surface_options
 
 }  // namespace
 
-void look_for_crossings(const Options &options, const riis_valve *valve, riis_surface *surface, Report &report) {
+void look_for_crossings(const Options &options, const riis_valve *valve, const riis_surface *surface, Report &report) {
   const Stage stage("looking for crossings", options.quiet);
   CrossingReport &crossings = report.crossings.emplace();
   const Valve copy = valve ? copy_of(valve) : nullptr;
@@ -151,8 +158,8 @@ std::optional<CrossingReport> check_shape(const Options &options, const riis_val
     if (!surface) continue;
     ++report.n_openings;
     report.opening = opening;
-    const riis_crossings found = crossings_of(options, surface.get());
-    if (found.depth <= depth_of_contacts(options, surface.get())) continue;
+    const riis_crossing_list found = crossings_of(options, surface.get());
+    if (found.deepest_depth <= depth_of_contacts(options, surface.get())) continue;
     report.found = found;
     warn_of_crossings(options, report, part.empty() ? "" : part + ": ",
                       "; change the sizes, and look at all openings by --check-crossing");

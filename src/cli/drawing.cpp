@@ -17,11 +17,11 @@ namespace {
 bool is_papers_aortic_valve(const Options &options, const riis_valve *valve) {
   if (!valve || options.valve != "aortic") return false;
   int64_t n_parameters = 0;
-  check(riis_valve_n_parameters(valve, &n_parameters));
+  check(riis_valve_get_n_parameters(valve, &n_parameters));
   for (int64_t i = 0; i < n_parameters; ++i) {
     riis_parameter parameter;
     double values[3] = {0, 0, 0};
-    check(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
+    check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
     check(riis_valve_get(valve, parameter.name, parameter.n_values, values));
     // The parameters of the open state do not matter at opening 0.
     const std::string_view name = parameter.name;
@@ -32,9 +32,10 @@ bool is_papers_aortic_valve(const Options &options, const riis_valve *valve) {
 }
 
 // Leaking edges are drawn red. A picture of a mesh without leaks says so if the edges of all cells are known.
-void show_leaks(const riis_mark_result *result, const LeakReport &leaks, riis_vtk_picture_options &how) {
+void show_leaks(const LeakReport &leaks, riis_vtk_picture_options &how) {
   static constexpr int64_t none = 0;
-  check(riis_mark_result_leaking_edges(result, &how.n_leaking_edges, &how.leaking_edges, nullptr, nullptr));
+  how.n_leaking_edges = leaks.found.n_edges;
+  how.leaking_edges = leaks.edges.empty() ? nullptr : leaks.edges.data();
   if (how.n_leaking_edges == 0 && leaks.has_all_edges()) how.leaking_edges = &none;
 }
 
@@ -65,7 +66,7 @@ std::string picture_title(const Options &options, const riis_valve *valve, const
 }
 
 void draw_pictures(const Options &options, const std::string &title, const std::vector<const char *> &names,
-                   const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_mark_result *result,
+                   const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_marks *result,
                    Report &report) {
   std::vector<int32_t> views;
   std::vector<const char *> paths;
@@ -83,7 +84,7 @@ void draw_pictures(const Options &options, const std::string &title, const std::
   how.leaflet_names = names.data();
   how.n_leaflet_names = view(names).size();
   how.unit = options.unit ? name_of(*options.unit) : nullptr;
-  if (result) show_leaks(result, report.leaks, how);
+  if (result) show_leaks(report.leaks, how);
   check(riis_vtk_draw_views(surface, mesh, &how, n_pictures, views.data(), paths.data()));
   report.written.insert(report.written.end(), paths.begin(), paths.end());
   report.seconds.picture = stage.seconds();

@@ -59,7 +59,7 @@ Series in time
   beat.pvd, which ParaView plays. --surface-output does the same with the triangles. With --triangulation fixed all times have
   the same triangles, so that K does not jump with them.
   Each mesh has the point arrays of a marked mesh, and riis_normal, riis_side and riis_velocity of the closest point. With
-  --resistance it has riis_resistance, K, and riis_momentum, K times that velocity. Velocities are means since the time before;
+  --resistance it has riis_K and riis_K_u_surface, K times that velocity. Velocities are means since the time before;
   the first time takes the length of the first step. Without --all-cells the meshes are the cells near the valve's whole
   motion, with the arrays riis_node_id and riis_cell_id, ids of the input from 0. All times have the same cells.
   A line on stderr tells the size of all files before they are written. Ctrl-C ends a series after the present step. A line
@@ -82,9 +82,9 @@ Cases
   "skip_zero_area", as the options of these names. "opening" is a number or one of
     {"file": "beat.csv", "period": 0.8, "interpolation": "cubic"}
     {"times": [0, 0.1, 0.4], "openings": [0, 1, 0], "period": 0.8, "interpolation": "linear"}
-    {"opening_start": 0.4, "opening_seconds": 0.05, "closing_start": 0.7, "closing_seconds": 0.05, "closed": 0, "open": 1,
+    {"opening_start": 0.4, "opening_duration": 0.05, "closing_start": 0.7, "closing_duration": 0.05, "closed": 0, "open": 1,
      "period": 0.8}
-  Each of several valves has its own arrays, NAME_marked and so on; riis_resistance and riis_momentum are sums over the valves.
+  Each of several valves has its own arrays, NAME_marked and so on; riis_K and riis_K_u_surface are sums over the valves.
   Without times there is one mesh, --output marked.vtu.
 
 Leaks

@@ -9,10 +9,9 @@
 namespace riis::cli {
 
 int32_t n_leaflets_of(const riis_surface *surface) {
-  int64_t n = 0;
-  const int32_t *leaflet_id = nullptr;
-  check(riis_surface_triangles(surface, &n, nullptr, nullptr, &leaflet_id, nullptr));
-  return n > 0 ? *std::max_element(leaflet_id, leaflet_id + n) + 1 : 0;
+  const riis_triangles triangles = triangles_of(surface);
+  const int32_t *const end = triangles.leaflet_id + triangles.n_triangles;
+  return triangles.n_triangles > 0 ? *std::max_element(triangles.leaflet_id, end) + 1 : 0;
 }
 
 std::vector<int32_t> first_leaflets(const std::vector<MovingValve> &valves) {
@@ -27,27 +26,22 @@ Surface joined_surface(const std::vector<MovingValve> &valves, const riis_surfac
   std::vector<int32_t> leaflets;
   const std::vector<int32_t> first = first_leaflets(valves);
   for (std::size_t valve = 0; valve < valves.size(); ++valve) {
-    int64_t n_vertices = 0, n_triangles = 0;
-    const double *vertices = nullptr;
-    const int64_t *vertex_id = nullptr;
-    const int32_t *leaflet_id = nullptr;
-    check(riis_surface_vertices(valves[valve].surface(), &n_vertices, &vertices));
-    check(riis_surface_triangles(valves[valve].surface(), &n_triangles, &vertex_id, nullptr, &leaflet_id, nullptr));
+    const riis_triangles triangles = triangles_of(valves[valve].surface());
     const int64_t before = view(xyz).size() / 3;
-    xyz.insert(xyz.end(), vertices, vertices + 3 * n_vertices);
-    for (int64_t i = 0; i < 3 * n_triangles; ++i) corners.push_back(before + vertex_id[i]);
-    for (int64_t i = 0; i < n_triangles; ++i) leaflets.push_back(first[valve] + leaflet_id[i]);
+    xyz.insert(xyz.end(), triangles.xyz, triangles.xyz + 3 * triangles.n_vertices);
+    for (int64_t i = 0; i < 3 * triangles.n_triangles; ++i) corners.push_back(before + triangles.vertex_id[i]);
+    for (int64_t i = 0; i < triangles.n_triangles; ++i) leaflets.push_back(first[valve] + triangles.leaflet_id[i]);
   }
   riis_surface_arrays arrays;
   check(riis_surface_arrays_init(&arrays, sizeof arrays));
   arrays.n_vertices = view(xyz).size() / 3;
   arrays.x = xyz.data();
-  arrays.y = arrays.x + 1;
-  arrays.z = arrays.x + 2;
+  arrays.y = xyz.data() + 1;
+  arrays.z = xyz.data() + 2;
   arrays.stride = 3;
   arrays.n_faces = view(leaflets).size();
   arrays.vertex_ids = corners.data();
-  arrays.vertex_id_bits = 64;
+  arrays.id_bits = 64;
   arrays.leaflet_id = leaflets.data();
   riis_surface *surface = nullptr;
   check(riis_surface_create_from_arrays(&arrays, options, &surface));

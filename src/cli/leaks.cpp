@@ -15,51 +15,53 @@
 namespace riis::cli {
 namespace {
 
-// Examines the edges that may leak. longer_than is the argument of riis_vtk_mesh_long_edges.
-riis_leaks leaks_of(const MarkedMesh &marked, const riis_mark_options &options, double longer_than,
-                    int64_t *n_cells_left_out) {
+// Examines the edges that may leak. longer_than is the argument of riis_vtk_mesh_create_long_edges.
+Leaks leaks_of(const MarkedMesh &marked, const riis_mark_options &options, double longer_than,
+               int64_t *n_cells_left_out) {
   riis_adjacency *handle = nullptr;
   check(
-      riis_vtk_mesh_long_edges(marked.file, marked.surface, longer_than, options.n_threads, n_cells_left_out, &handle));
+      riis_vtk_mesh_create_long_edges(marked.file, marked.surface, longer_than, options.n_threads, n_cells_left_out, &handle));
   const Adjacency adjacency(handle);
   riis_csr rows;
-  check(riis_adjacency_csr(adjacency.get(), &rows, sizeof rows));
+  check(riis_adjacency_get_csr(adjacency.get(), &rows, sizeof rows));
   check(riis_mesh_set_adjacency(marked.mesh, &rows));
-  riis_leaks leaks;
-  const riis_status status =
-      riis_find_leaks(marked.surface, marked.mesh, &options, marked.result, &leaks, sizeof leaks);
+  riis_leaks *leaks_handle = nullptr;
+  check(riis_leaks_create(&leaks_handle));
+  Leaks leaks(leaks_handle);
+  const riis_status status = riis_find_leaks(marked.surface, marked.mesh, marked.result, &options, leaks.get());
   check(riis_mesh_set_adjacency(marked.mesh, nullptr));  // before the rows go; changes no error message
   check(status);
   return leaks;
 }
 
 // Marks once more, with another half thickness, and finds what leaks then.
-riis_leaks leaks_with(const Options &options, const MarkedMesh &marked, double half_thickness) {
+Leaks leaks_with(const Options &options, const MarkedMesh &marked, double half_thickness) {
   riis_surface_options surface_options = options.surface_options;
   surface_options.half_thickness = half_thickness;
   riis_surface *surface_handle = nullptr;
   check(riis_surface_create(marked.valve, &surface_options, &surface_handle));
   const Surface surface(surface_handle);
-  riis_mark_result *result_handle = nullptr;
-  check(riis_mark_result_create(&result_handle));
-  const MarkResult result(result_handle);
+  riis_marks *result_handle = nullptr;
+  check(riis_marks_create(&result_handle));
+  const Marks result(result_handle);
   riis_mark_options mark_options = options.mark_options;
   mark_options.search = RIIS_SEARCH_AUTO;
   mark_options.distance_limit = RIIS_AUTO;
   check(riis_mark_nodes(surface.get(), marked.mesh, &mark_options, result.get()));
-  const bool is_by_triangles = options.surface_options.distance == RIIS_DISTANCE_TRIANGLES;
+  const bool is_by_triangles = options.surface_options.measure == RIIS_MEASURE_TRIANGLES;
   return leaks_of({surface.get(), marked.valve, marked.file, marked.mesh, result.get(), ""}, mark_options,
                   is_by_triangles ? 2 * half_thickness : 0, nullptr);
 }
 
 // The triangles of a valve follow the half thickness, so the number is tried. The triangles of a file stay. 0: none was found.
-double closing_half_thickness(const Options &options, const MarkedMesh &marked, const riis_leaks &leaks) {
+double closing_half_thickness(const Options &options, const MarkedMesh &marked, const riis_leak_list &leaks) {
   constexpr int n_tries = 8;
   double wanted = rounded_up(leaks.half_thickness);
   if (!marked.valve) return wanted;
   try {
     for (int i = 0; i < n_tries; ++i) {
-      const riis_leaks left = leaks_with(options, marked, wanted);
+      const Leaks handle = leaks_with(options, marked, wanted);
+      const riis_leak_list left = list_of(handle.get());
       if (left.n_edges == 0) return wanted;
       wanted = rounded_up(std::max(left.half_thickness, 1.01 * wanted));
     }
@@ -72,7 +74,7 @@ double closing_half_thickness(const Options &options, const MarkedMesh &marked, 
 // Not even --quiet silences this: the valve does not hold.
 void warn_of_leaks(const Options &options, const LeakReport &report, const std::string &surface,
                    double half_thickness) {
-  const riis_leaks &leaks = report.found;
+  const riis_leak_list &leaks = report.found;
   const bool is_one = leaks.n_edges == 1;
   const std::string length = shown(leaks.longest_length);
   const std::string text =
@@ -104,11 +106,16 @@ void look_for_leaks(const Options &options, const MarkedMesh &marked, Report &re
   const Stage stage("looking for leaks", options.quiet);
   LeakReport &leaks = report.leaks;
   // Short edges may also leak if marks may be missing, or if distances are not those to the triangles.
-  const bool is_by_triangles = options.surface_options.distance == RIIS_DISTANCE_TRIANGLES;
+  const bool is_by_triangles = options.surface_options.measure == RIIS_MEASURE_TRIANGLES;
   const bool only_long = report.marks.complete && is_by_triangles;
   const double half_thickness = report.surface.half_thickness;
-  leaks.found = leaks_of(marked, options.mark_options, only_long ? 2 * half_thickness : 0, &leaks.n_cells_left_out);
-  check(riis_vtk_mesh_volume_cells(marked.file, &leaks.n_volume_cells, nullptr));
+  const Leaks found =
+      leaks_of(marked, options.mark_options, only_long ? 2 * half_thickness : 0, &leaks.n_cells_left_out);
+  leaks.found = list_of(found.get());
+  leaks.edges.assign(leaks.found.node_id, leaks.found.node_id + 2 * leaks.found.n_edges);
+  leaks.found.node_id = nullptr;
+  leaks.found.length = leaks.found.distance = nullptr;
+  check(riis_vtk_mesh_get_volume_cells(marked.file, &leaks.n_volume_cells, nullptr));
   if (leaks.found.n_edges > 0 && !options.check_leaks) {
     if (report.marks.complete) leaks.closing_half_thickness = closing_half_thickness(options, marked, leaks.found);
     warn_of_leaks(options, leaks, marked.surface_name, half_thickness);

@@ -17,7 +17,7 @@ struct MarkedMesh {
   const riis_valve *valve;  // that the surface was made of; null for a surface from a file
   const riis_vtk_mesh *file;
   riis_mesh *mesh;  // loses its adjacency
-  riis_mark_result *result;
+  riis_marks *result;
   std::string surface_name = "the surface";  // in the warning
 };
 

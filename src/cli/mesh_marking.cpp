@@ -19,16 +19,16 @@ MeshFile read_mesh(const Options &options, Seconds &seconds) {
 Mesh borrow_nodes(const riis_vtk_mesh *file, const std::string &path) {
   int64_t n_nodes = 0;
   const double *xyz = nullptr;
-  check(riis_vtk_mesh_nodes(file, &n_nodes, nullptr, &xyz));
+  check(riis_vtk_mesh_get_nodes(file, &n_nodes, nullptr, &xyz));
   riis_mesh *mesh = nullptr;
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh), path);
   return Mesh(mesh);
 }
 
-MarkResult new_result() {
-  riis_mark_result *result = nullptr;
-  check(riis_mark_result_create(&result));
-  return MarkResult(result);
+Marks new_result() {
+  riis_marks *result = nullptr;
+  check(riis_marks_create(&result));
+  return Marks(result);
 }
 
 bool needs_adjacency(int32_t search) { return search == RIIS_SEARCH_NEIGHBOR || search == RIIS_SEARCH_PAPER; }
@@ -38,12 +38,16 @@ void rehearse_marking(const Options &options, const riis_surface *surface) {
   riis_mesh *mesh_handle = nullptr;
   check(riis_mesh_create(1, origin, origin + 1, origin + 2, 3, &mesh_handle));
   const Mesh mesh(mesh_handle);
-  const MarkResult result = new_result();
+  const Marks result = new_result();
   riis_mark_options mark_options = options.mark_options;
   if (needs_adjacency(mark_options.search)) mark_options.search = RIIS_SEARCH_EXHAUSTIVE;
   check(riis_mark_nodes(surface, mesh.get(), &mark_options, result.get()));
-  check(riis_mark_result_dense(result.get(), 1, options.far_distance, nullptr, nullptr, nullptr, nullptr));
-  ResistanceSum(1, ResistanceSum::Momentum::no).add(options, result.get());
+  riis_dense_arrays dense;
+  check(riis_dense_arrays_init(&dense, sizeof dense));
+  dense.n_nodes = 1;
+  dense.far_distance = options.far_distance;
+  check(riis_marks_get_dense(result.get(), &dense));
+  ResistanceSum(1, ResistanceSum::WithVelocity::no).add(options, result.get());
 }
 
 void warn_of_incomplete_marks() {
@@ -71,32 +75,37 @@ std::vector<std::string> names_of_marks(const std::string &prefix, int32_t field
   return names;
 }
 
-void set_marks(const Options &options, const riis_mark_result *result, int32_t fields, riis_vtk_mesh *file) {
-  check(riis_vtk_mesh_set_named_marks(file, result, options.far_distance, options.prefix.c_str()));
+void set_marks(const Options &options, const riis_marks *result, int32_t fields, riis_vtk_mesh *file) {
+  check(riis_vtk_mesh_set_marks(file, result, options.far_distance, options.prefix.c_str()));
   check(riis_vtk_mesh_set_fields(file, result, fields, options.prefix.c_str()));
 }
 
-ResistanceSum::ResistanceSum(int64_t n_nodes, Momentum momentum)
+ResistanceSum::ResistanceSum(int64_t n_nodes, WithVelocity with_velocity)
     : n_nodes_(n_nodes),
-      coefficient_(static_cast<std::size_t>(n_nodes), 0.0),
-      momentum_(momentum == Momentum::yes ? 3 * static_cast<std::size_t>(n_nodes) : 0, 0.0) {}
+      K_(static_cast<std::size_t>(n_nodes), 0.0),
+      K_u_surface_(with_velocity == WithVelocity::yes ? 3 * static_cast<std::size_t>(n_nodes) : 0, 0.0) {}
 
-void ResistanceSum::add(const Options &options, const riis_mark_result *result) {
+void ResistanceSum::add(const Options &options, const riis_marks *result) {
   if (!options.resistance) return;
   has_any_ = true;
   riis_resistance how;
   check(riis_resistance_init(&how, sizeof how));
-  how.resistance = *options.resistance;
-  check(riis_mark_result_add_resistance(result, &how, n_nodes_, coefficient_.data(),
-                                        momentum_.empty() ? nullptr : momentum_.data()),
-        "--resistance");
+  how.R = *options.resistance;
+  riis_resistance_arrays to;
+  check(riis_resistance_arrays_init(&to, sizeof to));
+  to.n_nodes = n_nodes_;
+  to.K = K_.data();
+  for (int c = 0; c < 3 && !K_u_surface_.empty(); ++c) to.K_u_surface[c] = K_u_surface_.data() + c;
+  to.K_u_surface_stride = 3;
+  check(riis_marks_add_resistance(result, &how, &to), "--resistance");
 }
 
 void ResistanceSum::set_arrays(const std::string &prefix, riis_vtk_mesh *file) const {
   if (!has_any_) return;
-  const std::string resistance = prefix + "_resistance", momentum = prefix + "_momentum";
-  check(riis_vtk_mesh_set_point_array(file, resistance.c_str(), n_nodes_, 1, coefficient_.data()));
-  if (!momentum_.empty()) check(riis_vtk_mesh_set_point_array(file, momentum.c_str(), n_nodes_, 3, momentum_.data()));
+  const std::string K = prefix + "_K", K_u_surface = prefix + "_K_u_surface";
+  check(riis_vtk_mesh_set_point_array(file, K.c_str(), n_nodes_, 1, K_.data()));
+  if (!K_u_surface_.empty())
+    check(riis_vtk_mesh_set_point_array(file, K_u_surface.c_str(), n_nodes_, 3, K_u_surface_.data()));
 }
 
 }  // namespace riis::cli

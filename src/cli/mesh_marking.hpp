@@ -16,7 +16,7 @@ namespace riis::cli {
 MeshFile read_mesh(const Options &options, Seconds &seconds);
 // Makes a mesh of the nodes of the file, which outlives the mesh. path names the file in refusals.
 Mesh borrow_nodes(const riis_vtk_mesh *file, const std::string &path);
-MarkResult new_result();
+Marks new_result();
 
 // Marks a single node, so that the library refuses bad options before a large mesh is read and marked.
 void rehearse_marking(const Options &options, const riis_surface *surface);
@@ -29,20 +29,20 @@ void check_new_arrays(const Options &options, const std::vector<std::string> &na
 
 // PREFIX_marked, PREFIX_distance, PREFIX_leaflet, and those of the fields.
 std::vector<std::string> names_of_marks(const std::string &prefix, int32_t fields);
-void set_marks(const Options &options, const riis_mark_result *result, int32_t fields, riis_vtk_mesh *file);
+void set_marks(const Options &options, const riis_marks *result, int32_t fields, riis_vtk_mesh *file);
 
 // K and K u_surface of every node, summed over the valves that have a resistance.
 class ResistanceSum {
  public:
-  enum class Momentum { no, yes };
-  ResistanceSum(int64_t n_nodes, Momentum momentum);
-  void add(const Options &options, const riis_mark_result *result);
-  // PREFIX_resistance and PREFIX_momentum; none if no valve had a resistance.
+  enum class WithVelocity { no, yes };
+  ResistanceSum(int64_t n_nodes, WithVelocity with_velocity);
+  void add(const Options &options, const riis_marks *result);
+  // PREFIX_K and PREFIX_K_u_surface; none if no valve had a resistance.
   void set_arrays(const std::string &prefix, riis_vtk_mesh *file) const;
 
  private:
   int64_t n_nodes_;
-  std::vector<double> coefficient_, momentum_;
+  std::vector<double> K_, K_u_surface_;
   bool has_any_ = false;
 };
 

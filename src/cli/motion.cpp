@@ -25,19 +25,18 @@ Motion read_motion(const Options &options) {
 std::vector<std::string> files_of(const riis_vtk_motion *motion) {
   int64_t n_files = 0;
   const char *const *paths = nullptr;
-  check(riis_vtk_motion_files(motion, &n_files, &paths));
+  check(riis_vtk_motion_get_files(motion, &n_files, &paths));
   return {paths, paths + n_files};
 }
 
 Keyframes keyframes_of(const Options &options, const riis_vtk_motion *motion) {
-  riis_surface_arrays faces;
+  riis_surface_arrays arrays;
   riis_keyframe_arrays frames;
-  check(riis_surface_arrays_init(&faces, sizeof faces));
-  check(riis_keyframe_arrays_init(&frames, sizeof frames));
-  check(riis_vtk_motion_arrays(motion, &faces, &frames));
+  check(riis_vtk_motion_get_arrays(motion, &arrays, sizeof arrays));
+  check(riis_vtk_motion_get_frames(motion, &frames, sizeof frames));
   frames.period = options.period;
   riis_keyframes *handle = nullptr;
-  check(riis_keyframes_create(&faces, &frames, &handle), options.surface);
+  check(riis_keyframes_create(&arrays, &frames, &handle), options.surface);
   return Keyframes(handle);
 }
 
@@ -75,7 +74,7 @@ KeyframeFiles read_keyframes(const Options &options, Seconds &seconds) {
 
 Surface surface_of_keyframes(const Options &options, const riis_keyframes *keyframes) {
   riis_surface *surface = nullptr;
-  check(riis_surface_create_from_keyframes(keyframes, *options.time, *options.time, &options.surface_options, &surface),
+  check(riis_surface_create_from_keyframes(keyframes, *options.time, 0, &options.surface_options, &surface),
         options.surface);
   return Surface(surface);
 }

@@ -44,7 +44,7 @@ void MovingValve::move_to(double time, double since) {
   if (is_at_rest_ && has_velocities_) return;
   if (source_.keyframes) {
     const riis_keyframes *frames = source_.keyframes.get();
-    check(riis_surface_update_from_keyframes(surface_.get(), frames, time, since, nullptr), options().surface);
+    check(riis_surface_update_from_keyframes(surface_.get(), frames, time, time - since, nullptr), options().surface);
     return;
   }
   opening_ = source_.law.at(time);
@@ -62,18 +62,17 @@ void MovingValve::mark(const riis_mesh *mesh, int32_t fields) {
 }
 
 double MovingValve::largest_speed() const {
-  int64_t n = 0;
-  const double *velocity = nullptr;
-  check(riis_surface_vertex_velocities(surface_.get(), &n, &velocity));
+  const riis_triangles triangles = triangles_of(surface_.get());
+  const double *velocity = triangles.velocity;
   double largest = 0;
-  for (int64_t i = 0; velocity && i < n; ++i)
+  for (int64_t i = 0; velocity && i < triangles.n_vertices; ++i)
     largest = std::max(largest, std::hypot(velocity[3 * i], velocity[3 * i + 1], velocity[3 * i + 2]));
   return largest;
 }
 
 riis_mark_stats MovingValve::stats() const {
   riis_mark_stats stats{};
-  check(riis_mark_result_stats(result_.get(), &stats, sizeof stats));
+  check(riis_marks_get_stats(result_.get(), &stats, sizeof stats));
   return stats;
 }
 

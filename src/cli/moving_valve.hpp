@@ -27,7 +27,7 @@ class MovingValve {
   const Options &options() const { return source_.options; }
   const ValveSource &source() const { return source_; }
   const riis_surface *surface() const { return surface_.get(); }
-  riis_mark_result *result() const { return result_.get(); }
+  riis_marks *result() const { return result_.get(); }
   double opening() const { return opening_; }  // 0 for a surface from a file
   double largest_speed() const;                // of a vertex
   riis_mark_stats stats() const;
@@ -39,7 +39,7 @@ class MovingValve {
   ValveSource &source_;
   Valve before_;
   Surface surface_;
-  MarkResult result_;
+  Marks result_;
   double opening_ = 0;
   bool is_at_rest_ = false, has_velocities_ = false;
 };

@@ -148,11 +148,11 @@ std::optional<Outline> closed_outline(const std::vector<Line> &lines) {
   return outline;
 }
 
-std::vector<PlaneTriangle> projected(const SurfaceArrays &surface) {
+std::vector<PlaneTriangle> projected(const riis_triangles &surface) {
   std::vector<PlaneTriangle> triangles(static_cast<std::size_t>(surface.n_triangles));
   for (std::int64_t i = 0; i < surface.n_triangles; ++i)
     for (std::int64_t k = 0; k < 3; ++k) {
-      const Point p = surface.vertex(surface.vertex_id[3 * i + k]);
+      const Point p = vertex_of(surface, surface.vertex_id[3 * i + k]);
       view(view(triangles)[i])[k] = {p[0], p[1]};
     }
   return triangles;

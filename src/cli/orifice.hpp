@@ -26,7 +26,7 @@ Outline circle(double radius, const PlanePoint &centre);
 // The projected lines. Nothing if they enclose no area or are not closed: each end must be that of an even number of lines.
 std::optional<Outline> closed_outline(const std::vector<Line> &lines);
 
-std::vector<PlaneTriangle> projected(const SurfaceArrays &surface);
+std::vector<PlaneTriangle> projected(const riis_triangles &surface);
 
 // The lines along x that areas are measured on, evenly spaced over the outline. On each line the uncovered parts have their
 // exact length. An edge along x is off by at most half a spacing, 1/4096 of the outline's height.

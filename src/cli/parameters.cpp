@@ -29,10 +29,10 @@ std::vector<double> numbers_of(const std::string &path, const std::string &name,
 
 bool is_cusp(const riis_valve *valve, const std::string &name) {
   int64_t n = 0;
-  check(riis_valve_n_parameters(valve, &n));
+  check(riis_valve_get_n_parameters(valve, &n));
   for (int64_t i = 0; i < n; ++i) {
     riis_parameter parameter{};
-    check(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
+    check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
     if (std::string(parameter.name).rfind(name + ".", 0) == 0) return true;
   }
   return false;
@@ -117,10 +117,10 @@ Row row_of(const riis_valve *valve, const riis_parameter &parameter) {
 std::string parameter_table(const riis_valve *valve) {
   std::vector<Row> rows = {{"name", "value", "unit", "range", "description"}};
   int64_t n = 0;
-  check(riis_valve_n_parameters(valve, &n));
+  check(riis_valve_get_n_parameters(valve, &n));
   for (int64_t i = 0; i < n; ++i) {
     riis_parameter parameter{};
-    check(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
+    check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
     rows.push_back(row_of(valve, parameter));
   }
   std::array<std::size_t, 5> widths{};
@@ -137,10 +137,10 @@ std::string parameter_table(const riis_valve *valve) {
 std::string json_template(const riis_valve *valve) {
   Json root = Json::object();
   int64_t n = 0;
-  check(riis_valve_n_parameters(valve, &n));
+  check(riis_valve_get_n_parameters(valve, &n));
   for (int64_t i = 0; i < n; ++i) {
     riis_parameter parameter{};
-    check(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
+    check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
     std::vector<double> values(static_cast<std::size_t>(parameter.n_values));
     check(riis_valve_get(valve, parameter.name, parameter.n_values, values.data()));
     const std::string name = parameter.name;

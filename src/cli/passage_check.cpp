@@ -28,10 +28,10 @@ class JoinedNodes {
  public:
   JoinedNodes(const MarkedMesh &marked, int32_t n_threads) : mesh_(marked.mesh) {
     riis_adjacency *handle = nullptr;
-    check(riis_vtk_mesh_nodes(marked.file, &n_, nullptr, &xyz_));
-    check(riis_vtk_mesh_adjacency(marked.file, n_threads, &handle));
+    check(riis_vtk_mesh_get_nodes(marked.file, &n_, nullptr, &xyz_));
+    check(riis_vtk_mesh_create_adjacency(marked.file, n_threads, &handle));
     adjacency_.reset(handle);
-    check(riis_adjacency_csr(adjacency_.get(), &rows_, sizeof rows_));
+    check(riis_adjacency_get_csr(adjacency_.get(), &rows_, sizeof rows_));
     check(riis_mesh_set_adjacency(mesh_, &rows_));
   }
   ~JoinedNodes() { riis_mesh_set_adjacency(mesh_, nullptr); }
@@ -99,10 +99,15 @@ riis_passage passage_of(const LeakCheck &asked, const riis_surface *surface, con
   riis_mark_options how = options;
   how.search = RIIS_SEARCH_AUTO;
   how.distance_limit = RIIS_AUTO;
+  riis_passage_ends sets;
+  check(riis_passage_ends_init(&sets, sizeof sets));
+  sets.n_from = sets.n_to = 1;
+  sets.from = &ends.from;
+  sets.to = &ends.to;
   riis_passage passage;
-  const riis_status status =
-      riis_find_passage(surface, mesh, &how, 1, &ends.from, 1, &ends.to, &passage, sizeof passage);
-  for (const auto &[argument, name] : {std::pair<std::string, const char *>{"from[0]", "FROM"}, {"to[0]", "TO"}}) {
+  const riis_status status = riis_find_passage(surface, mesh, &sets, &how, &passage, sizeof passage);
+  for (const auto &[argument, name] :
+       {std::pair<std::string, const char *>{"ends.from[0]", "FROM"}, {"ends.to[0]", "TO"}}) {
     const std::string text = riis_last_error();
     if (status == RIIS_INVALID_ARGUMENT && text.rfind(argument, 0) == 0)
       throw Refusal{asked.exit_code, asked.subject + ": " + name + text.substr(argument.size())};
@@ -174,7 +179,7 @@ void check_passage(const Options &options, const MarkedMesh &marked, Report &rep
   const LeakCheck &asked = *options.check_leaks;
   const JoinedNodes nodes(marked, options.mark_options.n_threads);
   LeakReport &leaks = report.leaks;
-  check(riis_vtk_mesh_volume_cells(marked.file, &leaks.n_volume_cells, &leaks.n_cells_left_out));
+  check(riis_vtk_mesh_get_volume_cells(marked.file, &leaks.n_volume_cells, &leaks.n_cells_left_out));
   const std::string unknown = why_unknown(leaks, options.mesh);
   const Ends ends{nodes.nearest(options, "FROM", asked.from, unknown), nodes.nearest(options, "TO", asked.to, unknown)};
   PassageReport passage;

@@ -43,13 +43,13 @@ bool coincide(const Line &a, const Line &b) {
   return true;
 }
 
-bool is_corner(const SurfaceArrays &surface, std::int64_t id) {
+bool is_corner(const riis_triangles &surface, std::int64_t id) {
   return surface.uv[2 * id] == 0 && surface.uv[2 * id + 1] == 0;
 }
 
 // A patch's vertices follow each other and begin at u = v = 0. Those of triangles without area are in no triangle, and belong
 // to the patch that begins before them.
-std::vector<std::int64_t> triangles_of_vertices(const SurfaceArrays &surface) {
+std::vector<std::int64_t> triangles_of_vertices(const riis_triangles &surface) {
   std::vector<std::int64_t> triangle(static_cast<std::size_t>(surface.n_vertices), nowhere);
   for (std::int64_t i = 0; i < 3 * surface.n_triangles; ++i) view(triangle)[surface.vertex_id[i]] = i / 3;
   const auto patch_of = [&](std::int64_t id) { return surface.patch_id[view(triangle)[id]]; };
@@ -119,13 +119,7 @@ class SidesByEnds {
 
 }  // namespace
 
-SurfaceArrays::SurfaceArrays(const riis_surface *surface) {
-  check(riis_surface_vertices(surface, &n_vertices, &xyz));
-  check(riis_surface_vertex_parameters(surface, &n_vertices, &uv));
-  check(riis_surface_triangles(surface, &n_triangles, &vertex_id, nullptr, &leaflet_id, &patch_id));
-}
-
-std::vector<PatchSides> sides_of_patches(const SurfaceArrays &surface) {
+std::vector<PatchSides> sides_of_patches(const riis_triangles &surface) {
   struct Found {
     std::int32_t leaflet_id;
     std::array<std::vector<Place>, n_sides> places;
@@ -136,10 +130,10 @@ std::vector<PatchSides> sides_of_patches(const SurfaceArrays &surface) {
     const double u = surface.uv[2 * id], v = surface.uv[2 * id + 1];
     Found &patch = found[surface.patch_id[view(triangle)[id]]];
     patch.leaflet_id = surface.leaflet_id[view(triangle)[id]];
-    if (v == 0) patch.places[side_v0].push_back({u, surface.vertex(id)});
-    if (v == 1) patch.places[side_v1].push_back({u, surface.vertex(id)});
-    if (u == 0) patch.places[side_u0].push_back({v, surface.vertex(id)});
-    if (u == 1) patch.places[side_u1].push_back({v, surface.vertex(id)});
+    if (v == 0) patch.places[side_v0].push_back({u, vertex_of(surface, id)});
+    if (v == 1) patch.places[side_v1].push_back({u, vertex_of(surface, id)});
+    if (u == 0) patch.places[side_u0].push_back({v, vertex_of(surface, id)});
+    if (u == 1) patch.places[side_u1].push_back({v, vertex_of(surface, id)});
   }
   std::vector<PatchSides> patches;
   for (auto &[patch_id, patch] : found) {
@@ -156,11 +150,11 @@ double line_length(const Line &line) {
   return length;
 }
 
-std::map<std::int32_t, double> areas_of_leaflets(const SurfaceArrays &surface) {
+std::map<std::int32_t, double> areas_of_leaflets(const riis_triangles &surface) {
   std::map<std::int32_t, double> areas;
   for (std::int64_t i = 0; i < surface.n_triangles; ++i) {
     const std::int64_t *id = surface.vertex_id + 3 * i;
-    const Point a = surface.vertex(id[0]), ab = minus(surface.vertex(id[1]), a), ac = minus(surface.vertex(id[2]), a);
+    const Point a = vertex_of(surface, id[0]), ab = minus(vertex_of(surface, id[1]), a), ac = minus(vertex_of(surface, id[2]), a);
     const Point twice{ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2], ab[0] * ac[1] - ab[1] * ac[0]};
     areas[surface.leaflet_id[i]] += 0.5 * std::sqrt(dot(twice, twice));
   }

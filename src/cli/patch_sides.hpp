@@ -16,16 +16,9 @@ namespace riis::cli {
 using Point = std::array<double, 3>;
 using Line = std::vector<Point>;
 
-// The arrays of a valve's surface, borrowed until its next update.
-struct SurfaceArrays {
-  std::int64_t n_vertices, n_triangles;
-  const double *xyz, *uv;
-  const std::int64_t *vertex_id;
-  const std::int32_t *leaflet_id, *patch_id;
-
-  explicit SurfaceArrays(const riis_surface *surface);
-  Point vertex(std::int64_t id) const { return {xyz[3 * id], xyz[3 * id + 1], xyz[3 * id + 2]}; }
-};
+inline Point vertex_of(const riis_triangles &surface, std::int64_t id) {
+  return {surface.xyz[3 * id], surface.xyz[3 * id + 1], surface.xyz[3 * id + 2]};
+}
 
 enum PatchSide : std::int32_t { side_v0, side_v1, side_u0, side_u1, n_sides };
 
@@ -35,11 +28,11 @@ struct PatchSides {
 };
 
 // Ascending by patch.
-std::vector<PatchSides> sides_of_patches(const SurfaceArrays &surface);
+std::vector<PatchSides> sides_of_patches(const riis_triangles &surface);
 
 double line_length(const Line &line);
 
-std::map<std::int32_t, double> areas_of_leaflets(const SurfaceArrays &surface);
+std::map<std::int32_t, double> areas_of_leaflets(const riis_triangles &surface);
 
 // The patches whose side v = 1 is a free edge: it has a length, and no other patch of its leaflet has it for a side.
 std::set<std::int32_t> free_edges(const std::vector<PatchSides> &patches);

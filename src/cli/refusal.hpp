@@ -26,7 +26,7 @@ inline std::string with_option_named(const std::string &text) {
       {"options.half_thickness ", "--half-thickness "},
       {"options.tolerance ", "--tolerance "},
       {"options.distance_limit ", "--distance-limit "},
-      {"options.distance_tolerance ", "--distance-tolerance "},
+      {"options.measure_tolerance ", "--distance-tolerance "},
       {"options.search ", "--search "},
       {"options.n_threads ", "--threads "},
       {"far_distance ", "--far-distance "},

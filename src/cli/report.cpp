@@ -28,9 +28,9 @@ const char *search_name(int32_t search) {
 
 const char *distance_name(int32_t distance) {
   switch (distance) {
-    case RIIS_DISTANCE_SAMPLING:
+    case RIIS_MEASURE_SAMPLING:
       return "sampling";
-    case RIIS_DISTANCE_MINIMIZATION:
+    case RIIS_MEASURE_MINIMIZATION:
       return "minimization";
     default:
       return "triangles";
@@ -53,7 +53,7 @@ void add_marks(const Report &report, std::ostringstream &out) {
     out << ", " << grouped(marks.n_within_limit) << " within " << report.distance_limit;
   }
   out << "\nsearch    " << search_name(marks.search) << ", " << counted(marks.n_threads, "thread");
-  if (report.distance != RIIS_DISTANCE_TRIANGLES) out << ", distances by " << distance_name(report.distance);
+  if (report.distance != RIIS_MEASURE_TRIANGLES) out << ", distances by " << distance_name(report.distance);
   if (marks.n_unreached > 0) out << ", " << counted(marks.n_unreached, "node") << " not reached from a neighbour";
   out << "\n";
   if (!marks.complete) out << "complete  unknown: nodes that are not connected to the search's one start are missing\n";
@@ -155,7 +155,7 @@ std::string line_of_passage(const LeakReport &leaks) {
 std::string json_of(const Report &report) {
   const riis_mark_stats &marks = report.marks;
   const Seconds &seconds = report.seconds;
-  const riis_leaks &leaks = report.leaks.found;
+  const riis_leak_list &leaks = report.leaks.found;
   const bool are_unknown = leaks.n_edges == 0 && !report.leaks.has_all_edges();
   const auto if_known = [&](const nlohmann::ordered_json &value) {
     return are_unknown ? nlohmann::ordered_json() : value;
@@ -205,13 +205,13 @@ std::string json_of(const Report &report) {
                     {"seconds_search", report.step->marking}};
   }
   if (report.crossings) {
-    const riis_crossings &found = report.crossings->found;
+    const riis_crossing_list &found = report.crossings->found;
     json["crossings"] = {{"n_openings", report.crossings->n_openings},
                          {"n_pairs", found.n_pairs},
-                         {"length", found.length},
-                         {"depth", found.depth},
-                         {"point", found.point},
-                         {"leaflets", found.leaflet_id}};
+                         {"length", found.total_length},
+                         {"depth", found.deepest_depth},
+                         {"point", found.deepest_point},
+                         {"leaflets", found.deepest_leaflet_id}};
     if (report.crossings->opening) json["crossings"]["opening"] = *report.crossings->opening;
   }
   return json.dump(2) + "\n";

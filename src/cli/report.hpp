@@ -33,7 +33,8 @@ struct PassageReport {
 };
 
 struct LeakReport {
-  riis_leaks found{};
+  riis_leak_list found{};             // its arrays are not kept
+  std::vector<int64_t> edges;         // (2, found.n_edges)
   double closing_half_thickness = 0;  // for the user to type; 0: none
   int64_t n_volume_cells = 0;
   int64_t n_cells_left_out = 0;          // cells of volume whose edges are not known
@@ -45,7 +46,7 @@ struct LeakReport {
 struct CrossingReport {
   int n_openings = 0;             // that were looked at; 0: the surface as it is
   std::optional<double> opening;  // of what was found
-  riis_crossings found{};
+  riis_crossing_list found{};  // its arrays are not kept
 };
 
 struct Report {
@@ -55,7 +56,7 @@ struct Report {
   std::string mesh_name;          // "": no mesh was marked
   int64_t n_cells = 0;
   double distance_limit = 0;
-  int32_t distance = RIIS_DISTANCE_TRIANGLES;
+  int32_t distance = RIIS_MEASURE_TRIANGLES;
   int64_t n_leaflets = 0;  // of a surface from a file, if --leaflets makes them; 0: not printed
   riis_surface_info surface{};
   riis_mark_stats marks{};

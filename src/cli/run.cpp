@@ -31,7 +31,7 @@ namespace {
 
 Mesh borrowed_nodes(const Options &options, const riis_vtk_mesh *file, Report &report) {
   const Stage stage("checking the nodes", options.quiet);
-  check(riis_vtk_mesh_nodes(file, nullptr, &report.n_cells, nullptr));
+  check(riis_vtk_mesh_get_nodes(file, nullptr, &report.n_cells, nullptr));
   Mesh mesh = borrow_nodes(file, options.mesh);
   report.seconds.mesh = stage.seconds();
   return mesh;
@@ -41,10 +41,10 @@ Mesh borrowed_nodes(const Options &options, const riis_vtk_mesh *file, Report &r
 Adjacency give_adjacency(const Options &options, const riis_vtk_mesh *file, riis_mesh *mesh, Report &report) {
   const Stage stage("finding the nodes' neighbours", options.quiet);
   riis_adjacency *handle = nullptr;
-  check(riis_vtk_mesh_adjacency(file, options.mark_options.n_threads, &handle), options.mesh);
+  check(riis_vtk_mesh_create_adjacency(file, options.mark_options.n_threads, &handle), options.mesh);
   Adjacency adjacency(handle);
   riis_csr rows;
-  check(riis_adjacency_csr(adjacency.get(), &rows, sizeof rows));
+  check(riis_adjacency_get_csr(adjacency.get(), &rows, sizeof rows));
   check(riis_mesh_set_adjacency(mesh, &rows), options.mesh);
   report.seconds.adjacency = stage.seconds();
   return adjacency;
@@ -52,32 +52,32 @@ Adjacency give_adjacency(const Options &options, const riis_vtk_mesh *file, riis
 
 std::vector<std::string> names_of_arrays(const Options &options) {
   std::vector<std::string> names = names_of_marks(options.prefix, 0);
-  if (options.resistance) names.push_back(options.prefix + "_resistance");
+  if (options.resistance) names.push_back(options.prefix + "_K");
   return names;
 }
 
 // Returns the marks, because pictures may need them under other names than the output.
-MarkResult mark(const Options &options, const riis_surface *surface, const riis_valve *valve, riis_vtk_mesh *file,
+Marks mark(const Options &options, const riis_surface *surface, const riis_valve *valve, riis_vtk_mesh *file,
                 Report &report) {
   Adjacency adjacency;  // outlives the mesh, which borrows it
   const Mesh mesh = borrowed_nodes(options, file, report);
   if (needs_adjacency(options.mark_options.search)) adjacency = give_adjacency(options, file, mesh.get(), report);
-  MarkResult result = new_result();
+  Marks result = new_result();
   {
     const Stage stage("marking", options.quiet);
     check(riis_mark_nodes(surface, mesh.get(), &options.mark_options, result.get()), options.mesh);
     report.seconds.search = stage.seconds();
   }
-  check(riis_mark_result_stats(result.get(), &report.marks, sizeof report.marks));
+  check(riis_marks_get_stats(result.get(), &report.marks, sizeof report.marks));
   set_marks(options, result.get(), 0, file);
-  ResistanceSum resistance(report.marks.n_nodes, ResistanceSum::Momentum::no);
+  ResistanceSum resistance(report.marks.n_nodes, ResistanceSum::WithVelocity::no);
   resistance.add(options, result.get());
   resistance.set_arrays(options.prefix, file);
   if (!report.marks.complete) warn_of_incomplete_marks();
   if (const auto warning = warning_of(situation_of(options, report.surface, report.marks, file))) warn({*warning});
   const double limit = options.mark_options.distance_limit;
   report.distance_limit = limit > 0 ? limit : report.surface.half_thickness;
-  report.distance = options.surface_options.distance;
+  report.distance = options.surface_options.measure;
   report.mesh_name = options.mesh;
   look_for_leaks(options, {surface, valve, file, mesh.get(), result.get(), "the surface"}, report);
   check_passage(options, {surface, valve, file, mesh.get(), result.get(), "the surface"}, report);
@@ -135,13 +135,13 @@ ExitCode run_single(const Options &options) {
   if (!options.mesh.empty()) rehearse_marking(options, surface.get());
   const MeshFile mesh = options.mesh.empty() ? nullptr : read_mesh(options, report.seconds);
   if (mesh) check_new_arrays(options, names_of_arrays(options), mesh.get());
-  const MarkResult result = mesh ? mark(options, surface.get(), valve, mesh.get(), report) : nullptr;
+  const Marks result = mesh ? mark(options, surface.get(), valve, mesh.get(), report) : nullptr;
   if (options.n_steps > 0) report.step = time_steps(options, source.valve.get(), mesh.get());
   write_files(options, surface.get(), mesh.get(), report);
   try {
     // The component draws the marks under these names. The file with the other names is written by now.
     if (result && !options.pictures.empty())
-      check(riis_vtk_mesh_set_marks(mesh.get(), result.get(), options.far_distance));
+      check(riis_vtk_mesh_set_marks(mesh.get(), result.get(), options.far_distance, nullptr));
     draw_pictures(options, picture_title(options, valve, report), leaflet_names(options), surface.get(), mesh.get(),
                   result.get(), report);
   } catch (const Refusal &) {

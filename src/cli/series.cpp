@@ -32,7 +32,7 @@ constexpr int32_t series_fields = RIIS_FIELD_NORMAL | RIIS_FIELD_SIDE | RIIS_FIE
 
 int64_t n_nodes_of(const riis_vtk_mesh *file) {
   int64_t n = 0;
-  check(riis_vtk_mesh_nodes(file, &n, nullptr, nullptr));
+  check(riis_vtk_mesh_get_nodes(file, &n, nullptr, nullptr));
   return n;
 }
 
@@ -44,8 +44,8 @@ std::vector<std::string> names_of_series(const Case &all) {
     names.insert(names.end(), own.begin(), own.end());
   }
   if (all.has_resistance()) {
-    names.push_back(all.options.prefix + "_resistance");
-    names.push_back(all.options.prefix + "_momentum");
+    names.push_back(all.options.prefix + "_K");
+    names.push_back(all.options.prefix + "_K_u_surface");
   }
   if (!all.options.series.all_cells) names.emplace_back("riis_node_id");
   return names;
@@ -80,7 +80,7 @@ class Writing {
     if (all_.options.quiet || !meshes_.is_wanted()) return;
     set_arrays(0);
     int64_t n_bytes = 0;
-    check(riis_vtk_mesh_file_size(part_, &n_bytes));
+    check(riis_vtk_mesh_get_file_size(part_, &n_bytes));
     const auto n = static_cast<double>(times().size());
     std::fprintf(stderr, "riis-mark: writing %s with %s of %s nodes, %s in all, to %s\n",
                  counted(view(times()).size(), "file").c_str(), grouped(n_nodes_of(part_)).c_str(),
@@ -122,7 +122,7 @@ class Writing {
   }
 
   void set_arrays(std::size_t step) {
-    ResistanceSum resistance(n_nodes_of(part_), ResistanceSum::Momentum::yes);
+    ResistanceSum resistance(n_nodes_of(part_), ResistanceSum::WithVelocity::yes);
     for (MovingValve &valve : valves_) {
       valve.move_to(times()[step], time_before(step));
       valve.mark(nodes_.get(), series_fields);

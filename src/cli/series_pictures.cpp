@@ -39,18 +39,14 @@ std::string fixed(double number, int decimals) {
 struct JoinedMarks {
   explicit JoinedMarks(std::size_t n) : marked(n, 0.0), distance(n, RIIS_FAR_DISTANCE), leaflet(n, -1.0) {}
 
-  void add(const riis_mark_result *result, int32_t first_leaflet) {
-    int64_t n = 0;
-    const int64_t *node_id = nullptr;
-    const double *distances = nullptr;
-    const int32_t *leaflet_id = nullptr;
-    check(riis_mark_result_marked(result, &n, &node_id, &distances, nullptr, &leaflet_id));
-    for (int64_t i = 0; i < n; ++i) {
-      const int64_t node = node_id[i];
-      if (view(distance)[node] <= distances[i]) continue;
+  void add(const riis_marks *result, int32_t first_leaflet) {
+    const riis_mark_list list = list_of(result, RIIS_LIST_MARKED);
+    for (int64_t i = 0; i < list.n_nodes; ++i) {
+      const int64_t node = list.node_id[i];
+      if (view(distance)[node] <= list.distance[i]) continue;
       view(marked)[node] = 1;
-      view(distance)[node] = distances[i];
-      view(leaflet)[node] = first_leaflet + leaflet_id[i];
+      view(distance)[node] = list.distance[i];
+      view(leaflet)[node] = first_leaflet + list.leaflet_id[i];
     }
   }
 
@@ -85,7 +81,7 @@ bool SeriesPictures::are_wanted(const Options &options) {
 
 void SeriesPictures::set_marks_of(std::vector<MovingValve> &valves) {
   int64_t n = 0;
-  check(riis_vtk_mesh_nodes(mesh_.get(), &n, nullptr, nullptr));
+  check(riis_vtk_mesh_get_nodes(mesh_.get(), &n, nullptr, nullptr));
   JoinedMarks marks(static_cast<std::size_t>(n));
   const std::vector<int32_t> first = first_leaflets(valves);
   for (std::size_t valve = 0; valve < valves.size(); ++valve) {

@@ -78,14 +78,14 @@ class OpeningValve {
     return disc.parameter.empty() ? std::nullopt : std::optional(disc);
   }
 
-  SurfaceArrays arrays() const { return SurfaceArrays(surface_.get()); }
+  riis_triangles arrays() const { return triangles_of(surface_.get()); }
 
  private:
   std::vector<riis_parameter> parameters() const {
     int64_t n = 0;
-    check(riis_valve_n_parameters(valve_.get(), &n));
+    check(riis_valve_get_n_parameters(valve_.get(), &n));
     std::vector<riis_parameter> all(static_cast<std::size_t>(n));
-    for (int64_t i = 0; i < n; ++i) check(riis_valve_parameter(valve_.get(), i, &view(all)[i], sizeof all[0]));
+    for (int64_t i = 0; i < n; ++i) check(riis_valve_get_parameter(valve_.get(), i, &view(all)[i], sizeof all[0]));
     return all;
   }
   // Returns the values in the unit of the surface.
@@ -136,7 +136,7 @@ class Measures {
 
   State at(double opening) {
     valve_.open_to(opening);
-    const SurfaceArrays surface = valve_.arrays();
+    const riis_triangles surface = valve_.arrays();
     const std::vector<PatchSides> patches = sides_of_patches(surface);
     State state{opening, {}, std::nullopt};
     for (const auto &[id, size] : sizes_of(surface, patches)) state.leaflets.push_back(size);
@@ -147,7 +147,7 @@ class Measures {
   // Returns the closed state's names, ids and disc, which all openings share.
   States frame() {
     valve_.open_to(0);
-    const SurfaceArrays surface = valve_.arrays();
+    const riis_triangles surface = valve_.arrays();
     const std::vector<PatchSides> patches = sides_of_patches(surface);
     const auto sizes = sizes_of(surface, patches);
     const auto outline = outline_of(patches);
@@ -162,7 +162,7 @@ class Measures {
   }
 
  private:
-  std::map<std::int32_t, LeafletSize> sizes_of(const SurfaceArrays &surface,
+  std::map<std::int32_t, LeafletSize> sizes_of(const riis_triangles &surface,
                                                const std::vector<PatchSides> &patches) const {
     std::map<std::int32_t, LeafletSize> sizes;
     for (const auto &[id, area] : areas_of_leaflets(surface)) sizes[id] = {0, area};

@@ -62,31 +62,31 @@ struct Steps {
   Adjacency adjacency;  // outlives the mesh, which borrows it
   Mesh mesh;
   Surface surface;
-  MarkResult result;
+  Marks result;
 };
 
 Steps prepared(const Options &options, const riis_valve *valve, const riis_vtk_mesh *file) {
   Steps steps;
   int64_t n_nodes = 0;
   const double *xyz = nullptr;
-  check(riis_vtk_mesh_nodes(file, &n_nodes, nullptr, &xyz));
+  check(riis_vtk_mesh_get_nodes(file, &n_nodes, nullptr, &xyz));
   riis_mesh *mesh = nullptr;
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh), options.mesh);
   steps.mesh.reset(mesh);
   const int32_t search = options.mark_options.search;
   if (search == RIIS_SEARCH_NEIGHBOR || search == RIIS_SEARCH_PAPER) {
     riis_adjacency *adjacency = nullptr;
-    check(riis_vtk_mesh_adjacency(file, options.mark_options.n_threads, &adjacency), options.mesh);
+    check(riis_vtk_mesh_create_adjacency(file, options.mark_options.n_threads, &adjacency), options.mesh);
     steps.adjacency.reset(adjacency);
     riis_csr rows;
-    check(riis_adjacency_csr(adjacency, &rows, sizeof rows));
+    check(riis_adjacency_get_csr(adjacency, &rows, sizeof rows));
     check(riis_mesh_set_adjacency(mesh, &rows), options.mesh);
   }
   riis_surface *surface = nullptr;
   check(riis_surface_create(valve, &options.surface_options, &surface));
   steps.surface.reset(surface);
-  riis_mark_result *result = nullptr;
-  check(riis_mark_result_create(&result));
+  riis_marks *result = nullptr;
+  check(riis_marks_create(&result));
   steps.result.reset(result);
   return steps;
 }
@@ -112,7 +112,7 @@ StepTimes time_steps(const Options &options, riis_valve *valve, const riis_vtk_m
     of_marking.push_back(marked - updated);
   }
   riis_mark_stats stats{};
-  check(riis_mark_result_stats(steps.result.get(), &stats, sizeof stats));
+  check(riis_marks_get_stats(steps.result.get(), &stats, sizeof stats));
   return {options.n_steps, stats.search, median(of_surface), median(of_marking)};
 }
 

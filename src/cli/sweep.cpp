@@ -23,11 +23,9 @@ void grow(Box &box, const riis_surface_info &surface) {
   }
 }
 
-void note_nodes(const riis_mark_result *result, std::vector<std::uint8_t> &is_near) {
-  int64_t n = 0;
-  const int64_t *node_id = nullptr;
-  check(riis_mark_result_within_limit(result, &n, &node_id, nullptr, nullptr, nullptr));
-  for (int64_t i = 0; i < n; ++i) view(is_near)[node_id[i]] = 1;
+void note_nodes(const riis_marks *result, std::vector<std::uint8_t> &is_near) {
+  const riis_mark_list within = list_of(result, RIIS_LIST_WITHIN_LIMIT);
+  for (int64_t i = 0; i < within.n_nodes; ++i) view(is_near)[within.node_id[i]] = 1;
 }
 
 void note_valve(const MovingValve &valve, std::size_t at, Sweep &sweep) {

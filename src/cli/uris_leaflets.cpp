@@ -73,10 +73,8 @@ UrisLeaflets::UrisLeaflets(const Options &options, const UrisMotion &motion)
 
 std::vector<double> UrisLeaflets::vertices_at(double opening) {
   open_to(opening);
-  std::int64_t n = 0;
-  const double *xyz = nullptr;
-  check(riis_surface_vertices(surface_.get(), &n, &xyz));
-  std::vector<double> all(xyz, xyz + 3 * n);
+  const riis_triangles triangles = triangles_of(surface_.get());
+  std::vector<double> all(triangles.xyz, triangles.xyz + 3 * triangles.n_vertices);
   net_.append_middles(all);
   for (double &x : all) x = std::nearbyint(x / grid_) * grid_;
   for (const UrisBox &box : boxes_) box.append_nodes(all);
@@ -100,14 +98,13 @@ std::vector<FinerTriangles::Triangle> UrisLeaflets::lasting_triangles(const Uris
   std::size_t n_frames = 0;
   for_all_frames(motion, [&](double opening) {
     open_to(opening);
-    std::int64_t n = 0;
-    const std::int64_t *vertex = nullptr, *id = nullptr;
-    const std::int32_t *leaflet = nullptr;
-    check(riis_surface_triangles(surface_.get(), &n, &vertex, &id, &leaflet, nullptr));
+    const riis_triangles triangles = triangles_of(surface_.get());
+    const std::int64_t n = triangles.n_triangles;
+    const std::int64_t *const vertex = triangles.vertex_id, *const id = triangles.triangle_id;
     if (n > 0 && id[n - 1] >= view(seen).size()) resize(seen, id[n - 1] + 1);
     for (std::int64_t i = 0; i < n; ++i) {
       Seen &of = view(seen)[id[i]];
-      of.triangle = {{vertex[3 * i], vertex[3 * i + 1], vertex[3 * i + 2]}, leaflet[i]};
+      of.triangle = {{vertex[3 * i], vertex[3 * i + 1], vertex[3 * i + 2]}, triangles.leaflet_id[i]};
       ++of.n_frames;
     }
     ++n_frames;

@@ -111,11 +111,11 @@ LawWithSpans law_of_seconds(const UrisOptions &uris) {
   riis_opening_times times;
   check(riis_opening_times_init(&times, sizeof times));
   // The valve is open at 0, so that both ends of both ramps are met exactly.
-  times.opening_start = -*uris.opening_seconds;
-  times.opening_seconds = *uris.opening_seconds;
+  times.opening_start = -*uris.opening_duration;
+  times.opening_duration = *uris.opening_duration;
   times.closing_start = 0;
-  times.closing_seconds = *uris.closing_seconds;
-  return {OpeningLaw(times, "--opening-seconds"), {{times.opening_start, 0}, {0, times.closing_seconds}}};
+  times.closing_duration = *uris.closing_duration;
+  return {OpeningLaw(times, "--opening-seconds"), {{times.opening_start, 0}, {0, times.closing_duration}}};
 }
 
 void check_way(const std::vector<double> &openings, bool opens, const TimeSpan &span) {

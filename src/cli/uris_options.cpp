@@ -51,16 +51,16 @@ void check_folder_name(const std::string &folder) {
 void check_motion(const Options &options) {
   const UrisOptions &uris = options.uris;
   const bool has_cycle = !options.series.cycle.empty();
-  if (has_cycle && (uris.opening_seconds || uris.closing_seconds))
-    refuse_uris(std::string(uris.opening_seconds ? "--opening-seconds" : "--closing-seconds") +
+  if (has_cycle && (uris.opening_duration || uris.closing_duration))
+    refuse_uris(std::string(uris.opening_duration ? "--opening-seconds" : "--closing-seconds") +
                 " has no effect with --cycle: see --opening-span and --closing-span");
   if (!has_cycle && (uris.opening_span || uris.closing_span))
     refuse_uris(std::string(uris.opening_span ? "--opening-span" : "--closing-span") + " needs --cycle");
   if (has_cycle) return;
-  if (!uris.opening_seconds && !uris.closing_seconds)
+  if (!uris.opening_duration && !uris.closing_duration)
     refuse_uris("--export-uris needs --opening-seconds and --closing-seconds, or --cycle");
-  if (!uris.opening_seconds) refuse_uris("--export-uris needs --opening-seconds");
-  if (!uris.closing_seconds) refuse_uris("--export-uris needs --closing-seconds");
+  if (!uris.opening_duration) refuse_uris("--export-uris needs --opening-seconds");
+  if (!uris.closing_duration) refuse_uris("--export-uris needs --closing-seconds");
 }
 
 }  // namespace
@@ -74,10 +74,10 @@ void declare_uris(CLI::App &app, UrisOptions &options, UrisTexts &texts) {
   app.add_option("--time-step", texts.time_step, "Time step of the solver, which plays a frame in each")
       ->type_name("DT")
       ->group(uris_group);
-  app.add_option("--opening-seconds", texts.opening_seconds, "Open from 0 to 1 in this time, by a smooth ramp")
+  app.add_option("--opening-seconds", texts.opening_duration, "Open from 0 to 1 in this time, by a smooth ramp")
       ->type_name("T")
       ->group(uris_group);
-  app.add_option("--closing-seconds", texts.closing_seconds, "Close from 1 to 0 in this time")
+  app.add_option("--closing-seconds", texts.closing_duration, "Close from 1 to 0 in this time")
       ->type_name("T")
       ->group(uris_group);
   app.add_option("--opening-span", texts.opening_span,
@@ -94,10 +94,10 @@ void declare_uris(CLI::App &app, UrisOptions &options, UrisTexts &texts) {
 
 void parse_uris(const UrisTexts &texts, UrisOptions &options) {
   if (!texts.time_step.empty()) options.time_step = parse_above_zero(texts.time_step, "--time-step");
-  if (!texts.opening_seconds.empty())
-    options.opening_seconds = parse_above_zero(texts.opening_seconds, "--opening-seconds");
-  if (!texts.closing_seconds.empty())
-    options.closing_seconds = parse_above_zero(texts.closing_seconds, "--closing-seconds");
+  if (!texts.opening_duration.empty())
+    options.opening_duration = parse_above_zero(texts.opening_duration, "--opening-seconds");
+  if (!texts.closing_duration.empty())
+    options.closing_duration = parse_above_zero(texts.closing_duration, "--closing-seconds");
   if (!texts.opening_span.empty()) options.opening_span = parse_span(texts.opening_span, "--opening-span");
   if (!texts.closing_span.empty()) options.closing_span = parse_span(texts.closing_span, "--closing-span");
   if (!texts.largest_edge.empty()) options.largest_edge = parse_above_zero(texts.largest_edge, "--largest-edge");

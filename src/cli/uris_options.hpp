@@ -15,7 +15,7 @@ class Option;
 namespace riis::cli {
 
 struct UrisTexts {
-  std::string time_step, opening_seconds, closing_seconds, opening_span, closing_span, largest_edge;
+  std::string time_step, opening_duration, closing_duration, opening_span, closing_span, largest_edge;
 };
 
 void declare_uris(CLI::App &app, UrisOptions &options, UrisTexts &texts);

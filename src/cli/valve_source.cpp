@@ -59,8 +59,7 @@ Surface surface_of_valve(const Options &options, const riis_valve *valve) {
 
 Surface surface_of_file(const Options &options, const riis_vtk_surface *file, FileVelocity velocity) {
   riis_surface_arrays arrays;
-  check(riis_surface_arrays_init(&arrays, sizeof arrays));
-  check(riis_vtk_surface_arrays(file, &arrays));
+  check(riis_vtk_surface_get_arrays(file, &arrays, sizeof arrays));
   std::vector<double> zeros;
   if (velocity == FileVelocity::zero) {
     zeros.resize(static_cast<std::size_t>(arrays.n_vertices), 0.0);
@@ -115,9 +114,8 @@ SurfaceFile read_surface(const Options &options, Seconds &seconds) {
   const char *path = options.surface.c_str();
   const bool by_pieces = options.leaflets == "connected";
   riis_vtk_surface *handle = nullptr;
-  const riis_status status = options.leaflets.empty() || by_pieces
-                                 ? riis_vtk_surface_read(path, &handle)
-                                 : riis_vtk_surface_read_with_leaflets(path, options.leaflets.c_str(), &handle);
+  const char *leaflets = options.leaflets.empty() || by_pieces ? nullptr : options.leaflets.c_str();
+  const riis_status status = riis_vtk_surface_read(path, leaflets, &handle);
   check_read(status, options.surface, Content::surface);
   SurfaceFile file(handle);
   if (by_pieces) check(riis_vtk_surface_number_pieces(file.get()));
@@ -132,10 +130,9 @@ Surface make_surface(const ValveSource &source, FileVelocity velocity) {
 }
 
 int64_t count_leaflets(const riis_surface *surface) {
-  int64_t n = 0;
-  const int32_t *leaflet_id = nullptr;
-  check(riis_surface_triangles(surface, &n, nullptr, nullptr, &leaflet_id, nullptr));
-  return static_cast<int64_t>(std::set<int32_t>(leaflet_id, leaflet_id + n).size());
+  const riis_triangles triangles = triangles_of(surface);
+  const std::set<int32_t> ids(triangles.leaflet_id, triangles.leaflet_id + triangles.n_triangles);
+  return static_cast<int64_t>(ids.size());
 }
 
 }  // namespace riis::cli

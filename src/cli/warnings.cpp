@@ -91,12 +91,12 @@ Situation situation_of(const Options &options, const riis_surface_info &surface,
                        const riis_vtk_mesh *mesh) {
   int64_t n_nodes = 0;
   const double *xyz = nullptr;
-  check(riis_vtk_mesh_nodes(mesh, &n_nodes, nullptr, &xyz));
+  check(riis_vtk_mesh_get_nodes(mesh, &n_nodes, nullptr, &xyz));
   Situation situation{options, n_nodes, marks.n_marked, box_of(n_nodes, xyz),
                       {},      0,       surface.area,   surface.half_thickness};
   std::copy_n(surface.lower, 3, situation.surface.lower);
   std::copy_n(surface.upper, 3, situation.surface.upper);
-  check(riis_vtk_mesh_median_edge(mesh, &situation.median_edge));
+  check(riis_vtk_mesh_get_median_edge(mesh, &situation.median_edge));
   return situation;
 }
 

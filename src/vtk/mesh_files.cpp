@@ -46,8 +46,8 @@ void check_adjacency(riis_status status, const std::string &structure) {
 // The core makes adjacencies from cells and the faces that join them. Here nodes stand for the cells and edges for the faces.
 riis_adjacency *adjacency_of_edges(std::int64_t n_nodes, const std::vector<std::int64_t> &edges,
                                    std::int32_t n_threads) {
-  riis_faces faces;
-  check_core(riis_faces_init(&faces, sizeof faces));
+  riis_mesh_faces faces;
+  check_core(riis_mesh_faces_init(&faces, sizeof faces));
   faces.n_cells = n_nodes;
   faces.n_faces = static_cast<std::int64_t>(edges.size() / 2);
   if (!edges.empty()) {
@@ -68,8 +68,8 @@ riis_adjacency *adjacency_of(vtkUnstructuredGrid *grid, std::int32_t n_threads) 
     return adjacency_of_edges(grid->GetNumberOfPoints(), volume_edges_of(grid).node_ids, n_threads);
   // Lists of cells are a third of the lists of their edges.
   const VolumeCells volumes = volume_cells_of(grid);
-  riis_cells cells;
-  check_core(riis_cells_init(&cells, sizeof cells));
+  riis_mesh_cells cells;
+  check_core(riis_mesh_cells_init(&cells, sizeof cells));
   cells.n_nodes = grid->GetNumberOfPoints();
   cells.n_cells = view(volumes.offsets).size() - 1;
   cells.node_ids = volumes.node_ids.data();
@@ -116,7 +116,7 @@ RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh) {
   *mesh = nullptr;
 }
 
-RIIS_API riis_status riis_vtk_mesh_nodes(const riis_vtk_mesh *mesh, int64_t *n_nodes, int64_t *n_cells,
+RIIS_API riis_status riis_vtk_mesh_get_nodes(const riis_vtk_mesh *mesh, int64_t *n_nodes, int64_t *n_cells,
                                          const double **xyz) {
   return guarded([&](const CaughtOutput &) {
     vtkUnstructuredGrid *grid = require(mesh, "mesh")->grid;
@@ -126,7 +126,7 @@ RIIS_API riis_status riis_vtk_mesh_nodes(const riis_vtk_mesh *mesh, int64_t *n_n
   });
 }
 
-RIIS_API riis_status riis_vtk_mesh_adjacency(const riis_vtk_mesh *mesh, int32_t n_threads, riis_adjacency **adjacency) {
+RIIS_API riis_status riis_vtk_mesh_create_adjacency(const riis_vtk_mesh *mesh, int32_t n_threads, riis_adjacency **adjacency) {
   return guarded([&](const CaughtOutput &) {
     require(mesh, "mesh");
     require(adjacency, "adjacency");
@@ -134,7 +134,7 @@ RIIS_API riis_status riis_vtk_mesh_adjacency(const riis_vtk_mesh *mesh, int32_t 
   });
 }
 
-RIIS_API riis_status riis_vtk_mesh_long_edges(const riis_vtk_mesh *mesh, const riis_surface *surface,
+RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, const riis_surface *surface,
                                               double longer_than, int32_t n_threads, int64_t *n_cells_left_out,
                                               riis_adjacency **adjacency) {
   return guarded([&](const CaughtOutput &) {
@@ -150,7 +150,7 @@ RIIS_API riis_status riis_vtk_mesh_long_edges(const riis_vtk_mesh *mesh, const r
   });
 }
 
-RIIS_API riis_status riis_vtk_mesh_volume_cells(const riis_vtk_mesh *mesh, int64_t *n_volume_cells,
+RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, int64_t *n_volume_cells,
                                                 int64_t *n_cells_left_out) {
   return guarded([&](const CaughtOutput &) {
     const VolumeCounts counts = count_volumes(require(mesh, "mesh")->grid);
@@ -159,23 +159,17 @@ RIIS_API riis_status riis_vtk_mesh_volume_cells(const riis_vtk_mesh *mesh, int64
   });
 }
 
-RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_mark_result *result, double far_distance) {
+RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_marks *marks, double far_distance,
+                                             const char *prefix) {
   return guarded([&](const CaughtOutput &) {
-    set_marks(require(mesh, "mesh")->grid, require(result, "result"), far_distance, default_prefix);
+    set_marks(require(mesh, "mesh")->grid, require(marks, "marks"), far_distance, prefix ? prefix : default_prefix);
   });
 }
 
-RIIS_API riis_status riis_vtk_mesh_set_named_marks(riis_vtk_mesh *mesh, const riis_mark_result *result,
-                                                   double far_distance, const char *prefix) {
-  return guarded([&](const CaughtOutput &) {
-    set_marks(require(mesh, "mesh")->grid, require(result, "result"), far_distance, require(prefix, "prefix"));
-  });
-}
-
-RIIS_API riis_status riis_vtk_mesh_set_fields(riis_vtk_mesh *mesh, const riis_mark_result *result, int32_t fields,
+RIIS_API riis_status riis_vtk_mesh_set_fields(riis_vtk_mesh *mesh, const riis_marks *marks, int32_t fields,
                                               const char *prefix) {
   return guarded([&](const CaughtOutput &) {
-    set_fields(require(mesh, "mesh")->grid, require(result, "result"), fields, require(prefix, "prefix"));
+    set_fields(require(mesh, "mesh")->grid, require(marks, "marks"), fields, require(prefix, "prefix"));
   });
 }
 
@@ -195,7 +189,7 @@ RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, co
   });
 }
 
-RIIS_API riis_status riis_vtk_mesh_median_edge(const riis_vtk_mesh *mesh, double *length) {
+RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, double *length) {
   return guarded([&](const CaughtOutput &) {
     require(mesh, "mesh");
     require(length, "length");

@@ -166,7 +166,7 @@ RIIS_API riis_status riis_vtk_mesh_extract(const riis_vtk_mesh *mesh, int64_t n_
   });
 }
 
-RIIS_API riis_status riis_vtk_mesh_file_size(const riis_vtk_mesh *mesh, int64_t *n_bytes) {
+RIIS_API riis_status riis_vtk_mesh_get_file_size(const riis_vtk_mesh *mesh, int64_t *n_bytes) {
   return guarded([&](const CaughtOutput &) {
     require(mesh, "mesh");
     *require(n_bytes, "n_bytes") = file_size_of(mesh->grid);

@@ -22,7 +22,6 @@ struct riis_vtk_motion {
 namespace riis::vtk {
 namespace {
 
-constexpr std::int64_t first_frames_size = 56;  // of riis_keyframe_arrays, in the first release that had it
 
 template <class... Parts>
 [[noreturn]] void refuse_argument(const Parts &...parts) {
@@ -101,7 +100,7 @@ RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const 
   });
 }
 
-RIIS_API riis_status riis_vtk_motion_files(const riis_vtk_motion *motion, int64_t *n_files, const char *const **paths) {
+RIIS_API riis_status riis_vtk_motion_get_files(const riis_vtk_motion *motion, int64_t *n_files, const char *const **paths) {
   return guarded([&](const CaughtOutput &) {
     require(motion, "motion");
     if (n_files) *n_files = riis::view(motion->paths).size();
@@ -122,15 +121,20 @@ RIIS_API void riis_vtk_motion_destroy(riis_vtk_motion **motion) {
   *motion = nullptr;
 }
 
-RIIS_API riis_status riis_vtk_motion_arrays(const riis_vtk_motion *motion, riis_surface_arrays *faces,
-                                            riis_keyframe_arrays *frames) {
+RIIS_API riis_status riis_vtk_motion_get_arrays(const riis_vtk_motion *motion, riis_surface_arrays *arrays,
+                                                int64_t struct_size) {
+  return guarded([&](const CaughtOutput &) {
+    give_arrays(require(motion, "motion")->frames.faces, arrays, struct_size);
+  });
+}
+
+RIIS_API riis_status riis_vtk_motion_get_frames(const riis_vtk_motion *motion, riis_keyframe_arrays *frames,
+                                                int64_t struct_size) {
   return guarded([&](const CaughtOutput &) {
     require(motion, "motion");
-    require(frames, "frames");
-    check_struct_size(frames->struct_size, first_frames_size, sizeof *frames, "frames");
-    point_at(motion->frames.faces, "faces", faces);
+    check_core(riis_keyframe_arrays_init(frames, struct_size));
     frames->n_keys = riis::view(motion->frames.times).size();
-    frames->n_vertices = faces->n_vertices;
+    frames->n_vertices = riis::view(motion->frames.faces.xyz).size() / 3;
     frames->time = motion->frames.times.data();
     frames->xyz = motion->frames.xyz.data();
   });

@@ -12,7 +12,7 @@
 namespace riis::vtk {
 namespace {
 
-constexpr std::int64_t first_size = 48;  // the struct's size in the first release that had it
+constexpr std::int64_t first_size = 80;  // the struct's size in the first release that had it
 constexpr std::int64_t size_here = sizeof(riis_vtk_picture_options);
 
 [[noreturn]] void refuse(const std::string &text) { fail(RIIS_INVALID_ARGUMENT, "options->" + text); }
@@ -52,7 +52,7 @@ void check_picture_options_size(std::int64_t size) { check_struct_size(size, fir
 
 const riis_vtk_picture_options &default_picture_options() {
   static const riis_vtk_picture_options defaults = {
-      size_here, RIIS_VTK_VIEW_OBLIQUE, 1600, 800, 0, nullptr, nullptr, 0, 0, nullptr, nullptr};
+      size_here, nullptr, nullptr, 0, nullptr, 0, nullptr, RIIS_VTK_VIEW_OBLIQUE, 1600, 800, 0};
   return defaults;
 }
 

@@ -25,11 +25,11 @@ vtkSmartPointer<Array> point_array(const std::string &name, vtkIdType n_points, 
   return array;
 }
 
-void check_is_of_mesh(const riis_mark_result *result, vtkIdType n_nodes) {
+void check_are_of_mesh(const riis_marks *marks, vtkIdType n_nodes) {
   riis_mark_stats stats{};
-  check_core(riis_mark_result_stats(result, &stats, sizeof stats));
+  check_core(riis_marks_get_stats(marks, &stats, sizeof stats));
   if (stats.n_nodes != n_nodes) {
-    fail(RIIS_INVALID_ARGUMENT, "result is of a mesh with " + std::to_string(stats.n_nodes) + " nodes, this mesh has " +
+    fail(RIIS_INVALID_ARGUMENT, "marks are of a mesh with " + std::to_string(stats.n_nodes) + " nodes, this mesh has " +
                                     std::to_string(n_nodes));
   }
 }
@@ -57,7 +57,7 @@ struct Within {
 template <class Array, class Value>
 void add_field(vtkUnstructuredGrid *grid, const std::string &name, const Within &within, int n_components,
                const Value *values, Value elsewhere) {
-  if (!values && within.n > 0) fail(RIIS_INVALID_ARGUMENT, "result lacks the field of " + name);
+  if (!values && within.n > 0) fail(RIIS_INVALID_ARGUMENT, "marks lack the field of " + name);
   const auto array = point_array<Array>(name, grid->GetNumberOfPoints(), n_components);
   Value *const to = array->GetPointer(0);
   std::fill_n(to, n_components * grid->GetNumberOfPoints(), elsewhere);
@@ -74,16 +74,22 @@ void check_fields(std::int32_t fields) {
 
 }  // namespace
 
-void set_marks(vtkUnstructuredGrid *grid, const riis_mark_result *result, double far_distance,
+void set_marks(vtkUnstructuredGrid *grid, const riis_marks *marks, double far_distance,
                const std::string &prefix) {
   check_name("prefix", prefix);
   const vtkIdType n = grid->GetNumberOfPoints();
-  check_is_of_mesh(result, n);
+  check_are_of_mesh(marks, n);
   const auto marked = point_array<vtkUnsignedCharArray>(prefix + "_marked", n);
   const auto distance = point_array<vtkDoubleArray>(prefix + "_distance", n);
   const auto leaflet = point_array<vtkTypeInt32Array>(prefix + "_leaflet", n);
-  check_core(riis_mark_result_dense(result, n, far_distance, marked->GetPointer(0), distance->GetPointer(0), nullptr,
-                                    leaflet->GetPointer(0)));
+  riis_dense_arrays to;
+  check_core(riis_dense_arrays_init(&to, sizeof to));
+  to.n_nodes = n;
+  to.far_distance = far_distance;
+  to.mark = marked->GetPointer(0);
+  to.distance = distance->GetPointer(0);
+  to.leaflet_id = leaflet->GetPointer(0);
+  check_core(riis_marks_get_dense(marks, &to));
   for (vtkDataArray *array : {static_cast<vtkDataArray *>(marked), static_cast<vtkDataArray *>(distance),
                               static_cast<vtkDataArray *>(leaflet)}) {
     grid->GetPointData()->AddArray(array);
@@ -104,15 +110,14 @@ void set_point_array(vtkUnstructuredGrid *grid, const std::string &name, std::in
   grid->GetPointData()->AddArray(array);
 }
 
-void set_fields(vtkUnstructuredGrid *grid, const riis_mark_result *result, std::int32_t fields,
+void set_fields(vtkUnstructuredGrid *grid, const riis_marks *marks, std::int32_t fields,
                 const std::string &prefix) {
   check_name("prefix", prefix);
   check_fields(fields);
-  check_is_of_mesh(result, grid->GetNumberOfPoints());
-  Within within;
-  riis_mark_fields of{};
-  check_core(riis_mark_result_within_limit(result, &within.n, &within.node_id, nullptr, nullptr, nullptr));
-  check_core(riis_mark_result_within_limit_fields(result, &of, sizeof of));
+  check_are_of_mesh(marks, grid->GetNumberOfPoints());
+  riis_mark_list of{};
+  check_core(riis_marks_get_list(marks, RIIS_LIST_WITHIN_LIMIT, &of, sizeof of));
+  const Within within{of.n_nodes, of.node_id};
   const auto add_doubles = [&](std::int32_t field, const char *name, int n_components, const double *values) {
     if (fields & field) add_field<vtkDoubleArray>(grid, prefix + name, within, n_components, values, 0.0);
   };

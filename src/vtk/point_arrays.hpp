@@ -12,11 +12,11 @@ class vtkUnstructuredGrid;
 namespace riis::vtk {
 
 // prefix_marked, prefix_distance, prefix_leaflet.
-void set_marks(vtkUnstructuredGrid *grid, const riis_mark_result *result, double far_distance,
+void set_marks(vtkUnstructuredGrid *grid, const riis_marks *result, double far_distance,
                const std::string &prefix);
 
 // An array for each of the fields, such as prefix_normal.
-void set_fields(vtkUnstructuredGrid *grid, const riis_mark_result *result, std::int32_t fields,
+void set_fields(vtkUnstructuredGrid *grid, const riis_marks *result, std::int32_t fields,
                 const std::string &prefix);
 
 // values is (n_components, n_nodes).

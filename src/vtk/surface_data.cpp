@@ -22,19 +22,17 @@ vtkSmartPointer<vtkPointSet> read_surface_data(const std::string &path, const Ca
   });
 }
 
-void point_at(const Faces &faces, const char *name, riis_surface_arrays *arrays) {
-  require(arrays, name);
-  // Callers of the first release lack the velocities, which the init function sets to NULL for the others.
-  check_struct_size(arrays->struct_size, offsetof(riis_surface_arrays, vx), sizeof *arrays, name);
+void give_arrays(const Faces &faces, riis_surface_arrays *arrays, std::int64_t struct_size) {
+  check_core(riis_surface_arrays_init(arrays, struct_size));
+  const double *const xyz = faces.xyz.data();
   arrays->n_vertices = static_cast<int64_t>(faces.xyz.size() / 3);
-  arrays->x = faces.xyz.data();
-  arrays->y = arrays->x + 1;
-  arrays->z = arrays->x + 2;
+  arrays->x = xyz;
+  arrays->y = xyz + 1;
+  arrays->z = xyz + 2;
   arrays->stride = 3;
   arrays->n_faces = static_cast<int64_t>(faces.vertex_ids.size()) / faces.corners_per_face;
   arrays->vertex_ids = faces.vertex_ids.data();
-  arrays->vertex_id_bits = 64;
-  arrays->index_base = 0;
+  arrays->id_bits = 64;
   arrays->corners_per_face = faces.corners_per_face;
   arrays->leaflet_id = faces.leaflet_id.empty() ? nullptr : faces.leaflet_id.data();
 }

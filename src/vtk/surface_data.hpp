@@ -18,8 +18,7 @@ namespace riis::vtk {
 // Reads a .vtp, .vtu or .stl file.
 vtkSmartPointer<vtkPointSet> read_surface_data(const std::string &path, const CaughtOutput &caught);
 
-// Points the caller's struct, which any release of riis.h may have compiled, at the faces. Fails if no init function filled it,
-// and calls it by its name among the arguments.
-void point_at(const Faces &faces, const char *name, riis_surface_arrays *arrays);
+// Fills the caller's struct, which any release of riis.h may have compiled, with the arrays of the faces.
+void give_arrays(const Faces &faces, riis_surface_arrays *arrays, std::int64_t struct_size);
 
 }  // namespace riis::vtk

@@ -18,40 +18,19 @@ struct riis_vtk_surface {
   riis::vtk::Faces faces;
 };
 
-namespace riis::vtk {
-namespace {
-
-void read_faces(const char *path, const char *leaflets, bool are_required, const CaughtOutput &caught,
-                riis_vtk_surface **surface) {
-  naming(path, [&] {
-    auto made = std::make_unique<riis_vtk_surface>();
-    made->faces = faces_of(path, read_surface_data(path, caught), leaflets, are_required);
-    *surface = made.release();
-  });
-}
-
-}  // namespace
-}  // namespace riis::vtk
-
 using namespace riis::vtk;
 
 extern "C" {
 
-RIIS_API riis_status riis_vtk_surface_read(const char *path, riis_vtk_surface **surface) {
+RIIS_API riis_status riis_vtk_surface_read(const char *path, const char *leaflets, riis_vtk_surface **surface) {
   return guarded([&](const CaughtOutput &caught) {
     require(path, "path");
     require(surface, "surface");
-    read_faces(path, leaflet_array, false, caught, surface);
-  });
-}
-
-RIIS_API riis_status riis_vtk_surface_read_with_leaflets(const char *path, const char *leaflets,
-                                                         riis_vtk_surface **surface) {
-  return guarded([&](const CaughtOutput &caught) {
-    require(path, "path");
-    require(leaflets, "leaflets");
-    require(surface, "surface");
-    read_faces(path, leaflets, true, caught, surface);
+    naming(path, [&] {
+      auto made = std::make_unique<riis_vtk_surface>();
+      made->faces = faces_of(path, read_surface_data(path, caught), leaflets ? leaflets : leaflet_array, leaflets != nullptr);
+      *surface = made.release();
+    });
   });
 }
 
@@ -68,10 +47,10 @@ RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface) {
   *surface = nullptr;
 }
 
-RIIS_API riis_status riis_vtk_surface_arrays(const riis_vtk_surface *surface, riis_surface_arrays *arrays) {
+RIIS_API riis_status riis_vtk_surface_get_arrays(const riis_vtk_surface *surface, riis_surface_arrays *arrays,
+                                                 int64_t struct_size) {
   return guarded([&](const CaughtOutput &) {
-    require(surface, "surface");
-    point_at(surface->faces, "arrays", arrays);
+    give_arrays(require(surface, "surface")->faces, arrays, struct_size);
   });
 }
 

@@ -28,27 +28,17 @@ vtkSmartPointer<Array> array_of(const char *name, const Value *values, int n_com
   return array;
 }
 
-void add_vertices(const riis_surface *surface, vtkPolyData *data) {
-  int64_t n = 0;
-  const double *xyz = nullptr;
-  const double *uv = nullptr, *velocity = nullptr;
-  check_core(riis_surface_vertices(surface, &n, &xyz));
-  check_core(riis_surface_vertex_parameters(surface, &n, &uv));
-  check_core(riis_surface_vertex_velocities(surface, &n, &velocity));
+void add_vertices(const riis_triangles &of, vtkPolyData *data) {
+  const int64_t n = of.n_vertices;
   vtkNew<vtkPoints> points;
-  points->SetData(array_of<vtkDoubleArray>("Points", xyz, 3, n));
+  points->SetData(array_of<vtkDoubleArray>("Points", of.xyz, 3, n));
   data->SetPoints(points);
-  if (uv) data->GetPointData()->AddArray(array_of<vtkDoubleArray>(uv_array, uv, 2, n));
-  if (velocity) data->GetPointData()->AddArray(array_of<vtkDoubleArray>(velocity_array, velocity, 3, n));
+  if (of.uv) data->GetPointData()->AddArray(array_of<vtkDoubleArray>(uv_array, of.uv, 2, n));
+  if (of.velocity) data->GetPointData()->AddArray(array_of<vtkDoubleArray>(velocity_array, of.velocity, 3, n));
 }
 
-void add_triangles(const riis_surface *surface, vtkPolyData *data) {
-  int64_t n = 0;
-  const int64_t *vertex_id = nullptr;
-  const int64_t *triangle_id = nullptr;
-  const int32_t *leaflet_id = nullptr;
-  const int32_t *patch_id = nullptr;
-  check_core(riis_surface_triangles(surface, &n, &vertex_id, &triangle_id, &leaflet_id, &patch_id));
+void add_triangles(const riis_triangles &of, vtkPolyData *data) {
+  const auto &[n_vertices, xyz, uv, velocity, n, vertex_id, triangle_id, leaflet_id, patch_id] = of;
   vtkNew<vtkCellArray> triangles;
   triangles->AllocateExact(n, 3 * n);
   for (int64_t i = 0; i < n; ++i) {
@@ -65,8 +55,10 @@ void add_triangles(const riis_surface *surface, vtkPolyData *data) {
 
 vtkSmartPointer<vtkPolyData> polydata_of(const riis_surface *surface) {
   const auto data = vtkSmartPointer<vtkPolyData>::New();
-  add_vertices(surface, data);
-  add_triangles(surface, data);
+  riis_triangles triangles{};
+  check_core(riis_surface_get_triangles(surface, &triangles, sizeof triangles));
+  add_vertices(triangles, data);
+  add_triangles(triangles, data);
   return data;
 }
 

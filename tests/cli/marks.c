@@ -14,19 +14,19 @@ void mark_by_c(const riis_valve *valve, const riis_surface_options *surface_opti
                double far_distance) {
   static double xyz[3 * n_box];
   riis_mesh *mesh = NULL;
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   riis_mark_options mark_options;
   assert_int_equal(shim_read_points(scratch_path("in.vtu"), NULL, NULL, NULL, xyz), 1);
   riis_surface_destroy(&by_c.surface);
   expect_fine(riis_surface_create(valve, surface_options, &by_c.surface));
   expect_fine(riis_mesh_create(n_box, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  expect_fine(riis_mark_result_create(&result));
+  expect_fine(riis_marks_create(&result));
   expect_fine(riis_mark_options_init(&mark_options, sizeof mark_options));
   mark_options.distance_limit = distance_limit;
   expect_fine(riis_mark_nodes(by_c.surface, mesh, &mark_options, result));
-  expect_fine(riis_mark_result_dense(result, n_box, far_distance, by_c.marked, by_c.distance, NULL, by_c.leaflet));
-  expect_fine(riis_mark_result_stats(result, &by_c.stats, sizeof by_c.stats));
-  riis_mark_result_destroy(&result);
+  expect_fine(dense_of(result, n_box, far_distance, by_c.marked, by_c.distance, NULL, by_c.leaflet));
+  expect_fine(riis_marks_get_stats(result, &by_c.stats, sizeof by_c.stats));
+  riis_marks_destroy(&result);
   riis_mesh_destroy(&mesh);
 }
 
@@ -71,8 +71,10 @@ void expect_surface_output(void) {
   int64_t n_vertices = 0, n_triangles = 0, n_points = 0, n_cells = 0;
   const double *xyz = NULL;
   const int64_t *vertex_id = NULL;
-  expect_fine(riis_surface_vertices(by_c.surface, &n_vertices, &xyz));
-  expect_fine(riis_surface_triangles(by_c.surface, &n_triangles, &vertex_id, NULL, NULL, NULL));
+  n_vertices = triangles_of(by_c.surface).n_vertices;
+  xyz = triangles_of(by_c.surface).xyz;
+  n_triangles = triangles_of(by_c.surface).n_triangles;
+  vertex_id = triangles_of(by_c.surface).vertex_id;
   char type[32];
   assert_int_equal(shim_read_points(scratch_path("out.vtp"), &n_points, &n_cells, type, NULL), 1);
   assert_string_equal(type, "double");

@@ -111,7 +111,7 @@ static void test_ramps(void **state) {
   double opening = 0, time = 0, found = 0;
   expect_fine(riis_opening_times_init(&ramps, sizeof ramps));
   ramps.opening_start = 0.4;
-  ramps.opening_seconds = ramps.closing_seconds = 0.06;
+  ramps.opening_duration = ramps.closing_duration = 0.06;
   ramps.closing_start = 0.72;
   ramps.period = 0.8;
   expect_fine(riis_opening_from_times(&ramps, 0.44, &opening, NULL));
@@ -222,7 +222,7 @@ static void test_refused_cases(void **state) {
   expect_case_refused("valve 0: opening: table.time of key 1 is 0",
                       "{\"valve\": \"mitral\", \"opening\": {\"times\": [0, 0], \"openings\": [0, 1]}}", "");
   expect_case_refused("opening: closing_start: it is missing",
-                      "{\"valve\": \"mitral\", \"opening\": {\"opening_start\": 0, \"opening_seconds\": 1}}", "");
+                      "{\"valve\": \"mitral\", \"opening\": {\"opening_start\": 0, \"opening_duration\": 1}}", "");
   expect_case_refused("opening: it has none of file, times and opening_start",
                       "{\"valve\": \"mitral\", \"opening\": {}}", "");
   expect_case_refused(

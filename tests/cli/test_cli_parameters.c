@@ -38,10 +38,10 @@ static void expect_template(const char *kind) {
   riis_valve *valve = NULL;
   int64_t n = 0;
   assert_int_equal(riis_valve_create(kind, &valve), RIIS_OK);
-  assert_int_equal(riis_valve_n_parameters(valve, &n), RIIS_OK);
+  assert_int_equal(riis_valve_get_n_parameters(valve, &n), RIIS_OK);
   for (int64_t i = 0; i < n; ++i) {
     riis_parameter parameter;
-    assert_int_equal(riis_valve_parameter(valve, i, &parameter, sizeof parameter), RIIS_OK);
+    assert_int_equal(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter), RIIS_OK);
     const char *dot = strrchr(parameter.name, '.');
     char quoted[80];
     snprintf(quoted, sizeof quoted, "\"%s\": ", dot ? dot + 1 : parameter.name);
@@ -198,14 +198,14 @@ static void expect_table(const char *kind) {
   riis_valve *valve = NULL;
   int64_t n = 0, n_lines = 0;
   assert_int_equal(riis_valve_create(kind, &valve), RIIS_OK);
-  assert_int_equal(riis_valve_n_parameters(valve, &n), RIIS_OK);
+  assert_int_equal(riis_valve_get_n_parameters(valve, &n), RIIS_OK);
   for (const char *c = program_out; *c; ++c) n_lines += *c == '\n';
   assert_int_equal(n_lines, n + 1);
   const char *line = strchr(program_out, '\n') + 1;
   for (int64_t i = 0; i < n; ++i, line = strchr(line, '\n') + 1) {
     riis_parameter parameter;
     char value[128] = "", range[64], name[64], shown_value[128], unit[16];
-    assert_int_equal(riis_valve_parameter(valve, i, &parameter, sizeof parameter), RIIS_OK);
+    assert_int_equal(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter), RIIS_OK);
     for (int64_t k = 0; k < parameter.n_values; ++k)
       snprintf(value + strlen(value), sizeof value - strlen(value), "%s%g", k ? "," : "", parameter.default_values[k]);
     snprintf(range, sizeof range, " %g to %g ", parameter.minimum, parameter.maximum);
@@ -240,7 +240,7 @@ static void test_near_names(void **state) {
               "--print-params", "--set", "leaflet_angel=60");
   RUN_REFUSED(1, "did you mean 'right.leaflet_angle'?", "--print-params", "--set", "right.leafletangle=60");
   RUN_REFUSED(1, "did you mean 'AP_diameter'?", "--print-params", "--valve", "mitral", "--set", "ap_diameter=3");
-  RUN_REFUSED(1, "'colour' is not a parameter of the aortic valve; riis_valve_parameter", "--print-params", "--set",
+  RUN_REFUSED(1, "'colour' is not a parameter of the aortic valve; riis_valve_get_parameter", "--print-params", "--set",
               "colour=3");
   scratch_write_text("p.json", "{\"rootradius\": 1}");
   RUN_REFUSED(1, "did you mean 'root_radius'?", "--print-params", "--params", scratch_path("p.json"));

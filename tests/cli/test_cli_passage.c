@@ -46,13 +46,13 @@ static riis_passage passage_by_c(void) {
   expect_fine(riis_valve_create("aortic", &valve));
   expect_fine(riis_surface_create(valve, NULL, &surface));
   expect_fine(riis_vtk_mesh_read(scratch_path("box.vtu"), &file));
-  expect_fine(riis_vtk_mesh_nodes(file, &n, NULL, &xyz));
-  expect_fine(riis_vtk_mesh_adjacency(file, 0, &adjacency));
-  expect_fine(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+  expect_fine(riis_vtk_mesh_get_nodes(file, &n, NULL, &xyz));
+  expect_fine(riis_vtk_mesh_create_adjacency(file, 0, &adjacency));
+  expect_fine(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
   expect_fine(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &mesh));
   expect_fine(riis_mesh_set_adjacency(mesh, &csr));
   const int64_t from = nearest(n, xyz, below), to = nearest(n, xyz, above);
-  expect_fine(riis_find_passage(surface, mesh, NULL, 1, &from, 1, &to, &passage, sizeof passage));
+  expect_fine(find_passage_between(surface, mesh, NULL, 1, &from, 1, &to, &passage, sizeof passage));
   riis_mesh_destroy(&mesh);
   riis_adjacency_destroy(&adjacency);
   riis_vtk_mesh_destroy(&file);

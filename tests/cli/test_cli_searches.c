@@ -50,14 +50,14 @@ static void test_distances(void **state) {
   (void)state;
   const char *methods[] = {"triangles", "sampling", "minimization"};
   double n_marked[3];
-  for (int32_t i = RIIS_DISTANCE_SAMPLING; i <= RIIS_DISTANCE_MINIMIZATION; ++i) {
+  for (int32_t i = RIIS_MEASURE_SAMPLING; i <= RIIS_MEASURE_MINIMIZATION; ++i) {
     riis_valve *valve = NULL;
     riis_surface_options options;
     expect_fine(riis_valve_create("aortic", &valve));
     expect_fine(riis_surface_options_init(&options, sizeof options));
     options.half_thickness = 0.2;
     options.distance = i;
-    options.distance_tolerance = 0.3;
+    options.measure_tolerance = 0.3;
     mark_by_c(valve, &options, RIIS_AUTO, RIIS_FAR_DISTANCE);
     riis_valve_destroy(&valve);
     const char *searches[] = {"auto", "neighbor"};
@@ -78,8 +78,8 @@ static void test_distances(void **state) {
   RUN_FINE(scratch_path("in.vtu"), "--half-thickness", "0.2", "--stats", "-");
   assert_true(json_has_text(program_out, "distance", "\"triangles\""));
   n_marked[0] = json_number(program_out, "n_marked");
-  assert_true(n_marked[RIIS_DISTANCE_SAMPLING] > 0 && n_marked[RIIS_DISTANCE_SAMPLING] < n_marked[0]);
-  assert_true(n_marked[RIIS_DISTANCE_MINIMIZATION] > 0 && n_marked[RIIS_DISTANCE_MINIMIZATION] <= n_marked[0]);
+  assert_true(n_marked[RIIS_MEASURE_SAMPLING] > 0 && n_marked[RIIS_MEASURE_SAMPLING] < n_marked[0]);
+  assert_true(n_marked[RIIS_MEASURE_MINIMIZATION] > 0 && n_marked[RIIS_MEASURE_MINIMIZATION] <= n_marked[0]);
 }
 
 static void test_table(void **state) {

@@ -151,10 +151,10 @@ static void expect_fields(int step, const char *path) {
   riis_valve *now = NULL, *before = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   riis_surface_options options;
   riis_mark_options how;
-  riis_mark_fields fields;
+  riis_mark_list fields;
   int64_t n = 0;
   const int64_t *node_id = NULL;
   expect_fine(riis_surface_options_init(&options, sizeof options));
@@ -168,12 +168,13 @@ static void expect_fields(int step, const char *path) {
       riis_surface_update_moving(surface, now, before, step > 0 ? times[step] - times[step - 1] : 0.1, NULL, NULL));
   assert_int_equal(shim_read_points(scratch_path("in.vtu"), NULL, NULL, NULL, xyz), 1);
   expect_fine(riis_mesh_create(n_box, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  expect_fine(riis_mark_result_create(&result));
+  expect_fine(riis_marks_create(&result));
   expect_fine(riis_mark_options_init(&how, sizeof how));
   how.fields = RIIS_FIELD_NORMAL | RIIS_FIELD_VELOCITY | RIIS_FIELD_SIDE;
   expect_fine(riis_mark_nodes(surface, mesh, &how, result));
-  expect_fine(riis_mark_result_within_limit(result, &n, &node_id, NULL, NULL, NULL));
-  expect_fine(riis_mark_result_within_limit_fields(result, &fields, sizeof fields));
+  n = within_list(result).n_nodes;
+  node_id = within_list(result).node_id;
+  expect_fine(riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, &fields, sizeof fields));
   assert_int_equal(read_array(path, "riis_normal", normal), 3 * n_box);
   assert_int_equal(read_array(path, "riis_velocity", velocity), 3 * n_box);
   assert_int_equal(read_array(path, "riis_momentum", momentum), 3 * n_box);
@@ -196,7 +197,7 @@ static void expect_fields(int step, const char *path) {
   for (int i = 0; i < n_box; ++i) n_still += side[i] == 0 && normal[3 * i] == 0 && velocity[3 * i] == 0;
   assert_true(n_still >= n_box - n);
   assert_true(step == 0 ? speed == 0 : speed > 1);
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
   riis_mesh_destroy(&mesh);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&before);
@@ -294,7 +295,8 @@ static void test_first_velocity(void **state) {
   expect_fine(riis_valve_set_scalar(before, "opening", 0.5));
   expect_fine(riis_surface_create(now, &options, &surface));
   expect_fine(riis_surface_update_moving(surface, now, before, 0.1, NULL, NULL));
-  expect_fine(riis_surface_vertex_velocities(surface, &n, &velocity));
+  n = triangles_of(surface).n_vertices;
+  velocity = triangles_of(surface).velocity;
   for (int64_t i = 0; i < n; ++i)
     expected = fmax(expected, hypot(hypot(velocity[3 * i], velocity[3 * i + 1]), velocity[3 * i + 2]));
   assert_true(time == 0 && opening == 0 && expected > 1);

@@ -116,8 +116,11 @@ static measured measure(const riis_valve *valve, double reach, int (*is_inside)(
   const double *xyz = NULL;
   measured found = {0, {0, 0, 0}};
   CHECK_OK(riis_surface_create(valve, NULL, &surface));
-  CHECK_OK(riis_surface_vertices(surface, &n_vertices, &xyz));
-  CHECK_OK(riis_surface_triangles(surface, &n, &vertex, NULL, &leaflet, NULL));
+  n_vertices = triangles_of(surface).n_vertices;
+  xyz = triangles_of(surface).xyz;
+  n = triangles_of(surface).n_triangles;
+  vertex = triangles_of(surface).vertex_id;
+  leaflet = triangles_of(surface).leaflet_id;
   for (int64_t i = 0; i < n; ++i) {
     const double *a = xyz + 3 * vertex[3 * i], *b = xyz + 3 * vertex[3 * i + 1], *c = xyz + 3 * vertex[3 * i + 2];
     double ab[3], ac[3];

@@ -51,8 +51,11 @@ static double *corners_of(const riis_surface *surface, int leaflet, int *n_found
   const int64_t *vertex = NULL;
   const int32_t *leaflet_id = NULL;
   const double *xyz = NULL;
-  CHECK_OK(riis_surface_vertices(surface, &n_vertices, &xyz));
-  CHECK_OK(riis_surface_triangles(surface, &n, &vertex, NULL, &leaflet_id, NULL));
+  n_vertices = triangles_of(surface).n_vertices;
+  xyz = triangles_of(surface).xyz;
+  n = triangles_of(surface).n_triangles;
+  vertex = triangles_of(surface).vertex_id;
+  leaflet_id = triangles_of(surface).leaflet_id;
   double *corners = calloc(9 * (size_t)n, sizeof *corners);
   *n_found = 0;
   for (int64_t i = 0; i < n; ++i) {
@@ -179,9 +182,9 @@ static void test_vtk(void **state) {
   const uris_face *face = &exported.face[1];
   riis_vtk_surface *file = NULL;
   riis_surface_arrays arrays;
-  CHECK_OK(riis_vtk_surface_read(scratch_path("by_vtk/posterior.vtu"), &file));
+  CHECK_OK(riis_vtk_surface_read(scratch_path("by_vtk/posterior.vtu"), NULL, &file));
   CHECK_OK(riis_surface_arrays_init(&arrays, sizeof arrays));
-  CHECK_OK(riis_vtk_surface_arrays(file, &arrays));
+  CHECK_OK(riis_vtk_surface_get_arrays(file, &arrays, sizeof arrays));
   assert_int_equal(arrays.n_vertices, face->n_nodes);
   assert_int_equal(arrays.n_faces, face->n_triangles);
   for (int i = 0; i < face->n_nodes; ++i) {
@@ -209,8 +212,11 @@ static void test_velocity(void **state) {
   const double *velocity = NULL;
   const int64_t *vertex = NULL;
   const int32_t *leaflet = NULL;
-  CHECK_OK(riis_surface_vertex_velocities(surface, &n_vertices, &velocity));
-  CHECK_OK(riis_surface_triangles(surface, &n, &vertex, NULL, &leaflet, NULL));
+  n_vertices = triangles_of(surface).n_vertices;
+  velocity = triangles_of(surface).velocity;
+  n = triangles_of(surface).n_triangles;
+  vertex = triangles_of(surface).vertex_id;
+  leaflet = triangles_of(surface).leaflet_id;
   int next[3] = {0, 0, 0};
   double fastest = 0, largest_difference = 0;
   for (int64_t i = 0; i < n; ++i) {

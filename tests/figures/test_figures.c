@@ -267,11 +267,11 @@ static void test_parameters_of_all_kinds(void **state) {
     riis_valve *valve = NULL;
     int64_t n = 0;
     assert_int_equal(riis_valve_create(all[k], &valve), RIIS_OK);
-    assert_int_equal(riis_valve_n_parameters(valve, &n), RIIS_OK);
+    assert_int_equal(riis_valve_get_n_parameters(valve, &n), RIIS_OK);
     for (int64_t i = 0; i < n; ++i) {
       riis_parameter parameter;
       char name[256];
-      assert_int_equal(riis_valve_parameter(valve, i, &parameter, sizeof parameter), RIIS_OK);
+      assert_int_equal(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter), RIIS_OK);
       snprintf(name, sizeof name, "<tr><td><code>%s</code></td>", parameter.name);
       const char *row = find(begin, end, name);
       if (!row) fail_msg("%s: %s is not in the table", all[k], parameter.name);

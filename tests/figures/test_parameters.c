@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The drawings of the parameters' meaning. Every parameter that riis_valve_parameter knows is named in its valve's drawing,
+ * The drawings of the parameters' meaning. Every parameter that riis_valve_get_parameter knows is named in its valve's drawing,
  * also in the drawing that the documents show. A drawing that would leave one out or show another value is refused. The test is
  * skipped where Python lacks matplotlib. */
 #include <ctype.h>
@@ -55,11 +55,11 @@ static void for_each_parameter(const char *kind, void (*visit)(const riis_parame
   riis_valve *valve = NULL;
   assert_int_equal(riis_valve_create(kind, &valve), RIIS_OK);
   int64_t n = 0;
-  assert_int_equal(riis_valve_n_parameters(valve, &n), RIIS_OK);
+  assert_int_equal(riis_valve_get_n_parameters(valve, &n), RIIS_OK);
   assert_true(n >= 8);
   for (int64_t i = 0; i < n; ++i) {
     riis_parameter parameter;
-    assert_int_equal(riis_valve_parameter(valve, i, &parameter, sizeof parameter), RIIS_OK);
+    assert_int_equal(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter), RIIS_OK);
     visit(&parameter, what);
   }
   riis_valve_destroy(&valve);

@@ -5,8 +5,8 @@ module box
   use, intrinsic :: iso_fortran_env, only: int64
   use checks
   use riis
-  use riis_c, only: c_mark_nodes => riis_mark_nodes, c_mark_result_create => riis_mark_result_create, &
-    c_mark_result_destroy => riis_mark_result_destroy, c_mark_result_marked => riis_mark_result_marked, &
+  use riis_c, only: c_mark_nodes => riis_mark_nodes, c_mark_result_create => riis_marks_create, &
+    c_mark_result_destroy => riis_marks_destroy, c_mark_result_marked => riis_mark_result_marked, &
     c_mesh_create => riis_mesh_create, c_mesh_destroy => riis_mesh_destroy
   implicit none
   private
@@ -69,7 +69,7 @@ contains
     type(riis_mesh), intent(in) :: mesh
     character(len=*), intent(in) :: what
     integer, intent(in), optional :: search
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     integer(int64), pointer :: node_id(:)
     real(c_double), pointer :: distance(:)
     logical :: is_same

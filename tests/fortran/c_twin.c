@@ -10,7 +10,7 @@ static riis_valve *valve, *thin_valve;
 static riis_surface *surface, *plate, *mitral, *opening, *patches, *thin, *moving, *framed, *crossed;
 static riis_mesh *mesh;
 static riis_adjacency *of_cells, *of_faces, *of_grid;
-static riis_mark_result *result, *leaking, *resisting;
+static riis_marks *result, *leaking, *resisting;
 static int64_t *region_labels;
 static void *memory[24];
 static int n_memory;
@@ -29,18 +29,18 @@ static void *allocate(int64_t n, size_t size) {
   } while (0)
 
 static riis_status describe_parameters(twin_numbers *numbers) {
-  TRY(riis_valve_n_parameters(valve, &numbers->n_parameters));
+  TRY(riis_valve_get_n_parameters(valve, &numbers->n_parameters));
   riis_parameter *parameters = allocate(numbers->n_parameters, sizeof *parameters);
   for (int64_t i = 0; i < numbers->n_parameters; ++i)
-    TRY(riis_valve_parameter(valve, i, &parameters[i], sizeof *parameters));
+    TRY(riis_valve_get_parameter(valve, i, &parameters[i], sizeof *parameters));
   numbers->parameters = parameters;
   return RIIS_OK;
 }
 
 static riis_status list_surface(const riis_surface *from, twin_surface *list) {
   TRY(riis_surface_get_info(from, &list->info, sizeof list->info));
-  TRY(riis_surface_vertices(from, NULL, &list->xyz));
-  TRY(riis_surface_vertex_parameters(from, NULL, &list->uv));
+  list->xyz = triangles_of(from).xyz;
+  list->uv = triangles_of(from).uv;
   return riis_surface_triangles(from, NULL, &list->vertex_id, &list->triangle_id, &list->leaflet_id, &list->patch_id);
 }
 
@@ -128,7 +128,7 @@ static riis_status make_plate(void) {
   arrays.z = z;
   arrays.n_faces = 2;
   arrays.vertex_ids = quads;
-  arrays.vertex_id_bits = 64;
+  arrays.id_bits = 64;
   arrays.index_base = 1;
   arrays.corners_per_face = 4;
   TRY(riis_surface_create_from_arrays(&arrays, NULL, &plate));
@@ -139,7 +139,7 @@ static riis_status make_plate(void) {
   options.flip_normals = 1;
   arrays.n_faces = 3;
   arrays.vertex_ids = triangles;
-  arrays.vertex_id_bits = 32;
+  arrays.id_bits = 32;
   arrays.index_base = 0;
   arrays.corners_per_face = 3;
   arrays.leaflet_id = leaflet_id;
@@ -162,7 +162,7 @@ static riis_status find_closest(int64_t n_nodes, const double *xyz, twin_numbers
   options.distance_limit = 12;
   options.far_distance = -1;
   options.n_threads = 2;
-  return riis_closest_points(plate, n_nodes, xyz, xyz + 1, xyz + 2, 3, &options, all);
+  return closest_points_of(plate, n_nodes, xyz, xyz + 1, xyz + 2, 3, &options, all);
 }
 
 static const uint8_t *mask_every_seventh(int64_t n_nodes) {
@@ -175,7 +175,7 @@ static riis_status mark(int64_t n_nodes, const double *xyz, twin_numbers *number
   TRY(riis_mesh_create(1, xyz, xyz + 1, xyz + 2, 3, &mesh));
   TRY(riis_mesh_update(mesh, n_nodes, xyz, xyz + 1, xyz + 2, 3));
   TRY(riis_mesh_prepare(mesh, 2));
-  TRY(riis_mark_result_create(&result));
+  TRY(riis_marks_create(&result));
   TRY(riis_mark_nodes(surface, mesh, NULL, result));
 
   riis_mark_options options;
@@ -187,21 +187,27 @@ static riis_status mark(int64_t n_nodes, const double *xyz, twin_numbers *number
   TRY(riis_mark_nodes(surface, mesh, &options, result));
 
   twin_list *list = &numbers->marked;
-  TRY(riis_mark_result_marked(result, &list->n, &list->node_id, &list->distance, &list->triangle_id,
-                              &list->leaflet_id));
+  list->n = marked_list(result).n_nodes;
+  list->node_id = marked_list(result).node_id;
+  list->distance = marked_list(result).distance;
+  list->triangle_id = marked_list(result).triangle_id;
+  list->leaflet_id = marked_list(result).leaflet_id;
   list = &numbers->within_limit;
-  TRY(riis_mark_result_within_limit(result, &list->n, &list->node_id, &list->distance, &list->triangle_id,
-                                    &list->leaflet_id));
+  list->n = within_list(result).n_nodes;
+  list->node_id = within_list(result).node_id;
+  list->distance = within_list(result).distance;
+  list->triangle_id = within_list(result).triangle_id;
+  list->leaflet_id = within_list(result).leaflet_id;
   uint8_t *dense_mark = allocate(n_nodes, sizeof *dense_mark);
   double *distance = allocate(n_nodes, sizeof *distance);
   int64_t *triangle_id = allocate(n_nodes, sizeof *triangle_id);
   int32_t *leaflet_id = allocate(n_nodes, sizeof *leaflet_id);
-  TRY(riis_mark_result_dense(result, n_nodes, RIIS_FAR_DISTANCE, dense_mark, distance, triangle_id, leaflet_id));
+  TRY(dense_of(result, n_nodes, RIIS_FAR_DISTANCE, dense_mark, distance, triangle_id, leaflet_id));
   numbers->dense_mark = dense_mark;
   numbers->dense_distance = distance;
   numbers->dense_triangle_id = triangle_id;
   numbers->dense_leaflet_id = leaflet_id;
-  return riis_mark_result_stats(result, &numbers->stats, sizeof numbers->stats);
+  return riis_marks_get_stats(result, &numbers->stats, sizeof numbers->stats);
 }
 
 /* Cuts every cube of the grid into six tetrahedra, each along a path from its first corner to its last. */
@@ -217,8 +223,8 @@ static riis_status make_cells(int64_t n) {
           for (int step = 0; step < 2; ++step, ++next) *next = next[-1] + paths[path][step];
           *next++ = (i + 1) + n * (j + 1 + n * (k + 1));
         }
-  riis_cells cells;
-  TRY(riis_cells_init(&cells, sizeof cells));
+  riis_mesh_cells cells;
+  TRY(riis_mesh_cells_init(&cells, sizeof cells));
   cells.n_nodes = n * n * n;
   cells.n_cells = n_cells;
   cells.node_ids = node_ids;
@@ -237,8 +243,8 @@ static riis_status make_faces(int64_t n) {
       owner[n_faces] = node;
       neighbor[n_faces] = is_last ? -1 : node + steps[axis];
     }
-  riis_faces faces;
-  TRY(riis_faces_init(&faces, sizeof faces));
+  riis_mesh_faces faces;
+  TRY(riis_mesh_faces_init(&faces, sizeof faces));
   faces.n_cells = n * n * n;
   faces.n_faces = n_faces;
   faces.owner = owner;
@@ -251,18 +257,18 @@ static riis_status make_faces(int64_t n) {
 static riis_status walk(const riis_adjacency *along, int32_t search, const uint8_t *node_mask, riis_csr *csr,
                         riis_mark_stats *stats) {
   riis_mark_options options;
-  riis_mark_result *walked = NULL;
-  TRY(riis_adjacency_csr(along, csr, sizeof *csr));
+  riis_marks *walked = NULL;
+  TRY(riis_adjacency_get_csr(along, csr, sizeof *csr));
   TRY(riis_mesh_set_adjacency(mesh, csr));
   TRY(riis_mark_options_init(&options, sizeof options));
   options.distance_limit = 2.5;
   options.node_mask = node_mask;
   options.search = search;
   options.n_threads = 2;
-  TRY(riis_mark_result_create(&walked));
+  TRY(riis_marks_create(&walked));
   TRY(riis_mark_nodes(surface, mesh, &options, walked));
-  TRY(riis_mark_result_stats(walked, stats, sizeof *stats));
-  riis_mark_result_destroy(&walked);
+  TRY(riis_marks_get_stats(walked, stats, sizeof *stats));
+  riis_marks_destroy(&walked);
   return riis_mesh_set_adjacency(mesh, NULL);
 }
 
@@ -276,9 +282,9 @@ static riis_status find_leaks(twin_leaks *leaks) {
   surface_options.half_thickness = 0.3;
   TRY(riis_valve_create("aortic", &thin_valve));
   TRY(riis_surface_create(thin_valve, &surface_options, &thin));
-  TRY(riis_adjacency_csr(of_cells, &csr, sizeof csr));
+  TRY(riis_adjacency_get_csr(of_cells, &csr, sizeof csr));
   TRY(riis_mesh_set_adjacency(mesh, &csr));
-  TRY(riis_mark_result_create(&leaking));
+  TRY(riis_marks_create(&leaking));
   TRY(riis_mark_nodes(thin, mesh, NULL, leaking));
   TRY(riis_mark_options_init(&options, sizeof options));
   options.n_threads = 2;
@@ -287,9 +293,9 @@ static riis_status find_leaks(twin_leaks *leaks) {
   const int64_t from = 0, to = csr.n_rows - 1;
   free(region_labels);
   region_labels = malloc((size_t)csr.n_rows * sizeof *region_labels);
-  TRY(riis_label_open_regions(mesh, &options, leaking, csr.n_rows, region_labels, &leaks->n_regions));
+  TRY(riis_label_open_regions(mesh, leaking, &options, csr.n_rows, region_labels, &leaks->n_regions));
   leaks->label = region_labels;
-  TRY(riis_find_passage(thin, mesh, &options, 1, &from, 1, &to, &leaks->passage, sizeof leaks->passage));
+  TRY(find_passage_between(thin, mesh, &options, 1, &from, 1, &to, &leaks->passage, sizeof leaks->passage));
   return riis_mesh_set_adjacency(mesh, NULL);
 }
 
@@ -344,17 +350,17 @@ static riis_status resist(int64_t n_nodes, const double *xyz, twin_motion *motio
   riis_valve_destroy(&now);
   riis_valve_destroy(&before);
   TRY(list_surface(moving, &motion->surface));
-  TRY(riis_surface_vertex_velocities(moving, NULL, &motion->vertex_velocity));
+  motion->vertex_velocity = triangles_of(moving).velocity;
 
   riis_mark_options mark_options;
   TRY(riis_mark_options_init(&mark_options, sizeof mark_options));
   mark_options.distance_limit = 2.5;
   mark_options.n_threads = 2;
   mark_options.fields = 255;
-  TRY(riis_mark_result_create(&resisting));
+  TRY(riis_marks_create(&resisting));
   TRY(riis_mark_nodes(moving, mesh, &mark_options, resisting));
-  TRY(riis_mark_result_marked_fields(resisting, &motion->marked, sizeof motion->marked));
-  TRY(riis_mark_result_within_limit_fields(resisting, &motion->within_limit, sizeof motion->within_limit));
+  TRY(riis_marks_get_list(resisting, RIIS_LIST_MARKED, &motion->marked, sizeof motion->marked));
+  TRY(riis_marks_get_list(resisting, RIIS_LIST_WITHIN_LIMIT, &motion->within_limit, sizeof motion->within_limit));
 
   riis_resistance resistance;
   TRY(riis_resistance_init(&resistance, sizeof resistance));
@@ -365,14 +371,13 @@ static riis_status resist(int64_t n_nodes, const double *xyz, twin_motion *motio
   double *momentum = allocate(3 * n_nodes, sizeof *momentum);
   for (int64_t i = 0; i < n_nodes; ++i) coefficient[i] = 0.25;
   for (int64_t i = 0; i < 3 * n_nodes; ++i) momentum[i] = -1;
-  TRY(riis_mark_result_add_resistance(resisting, &resistance, n_nodes, coefficient, momentum));
+  TRY(add_resistance_to(resisting, &resistance, n_nodes, coefficient, momentum));
   motion->coefficient = coefficient;
   motion->momentum = momentum;
   /* The flow is as fast as the coordinates are long, and every node weighs what stands in coefficient now. */
   for (int c = 0; c < 3; ++c) motion->force[c] = c;
-  TRY(riis_mark_result_add_reaction(resisting, &resistance, n_nodes, xyz, coefficient, motion->force));
-  return riis_mark_result_band_sums(resisting, 0.5, 2, n_nodes, coefficient, coefficient, &motion->sums,
-                                    sizeof motion->sums);
+  TRY(add_reaction_to(resisting, &resistance, n_nodes, xyz, coefficient, motion->force));
+  return band_sums_of(resisting, 0.5, 2, n_nodes, coefficient, coefficient, &motion->sums, sizeof motion->sums);
 }
 
 /* A square that is lifted by 1 and bent; made at its first frame, then updated. */
@@ -413,15 +418,15 @@ static riis_status open_by_laws(twin_laws *laws) {
   riis_opening_times times;
   TRY(riis_opening_times_init(&times, sizeof times));
   times.opening_start = 0.45;
-  times.opening_seconds = 0.05;
+  times.opening_duration = 0.05;
   times.closing_start = 0.95;
-  times.closing_seconds = 0.05;
+  times.closing_duration = 0.05;
   TRY(riis_opening_from_times(&times, 0.47, &laws->by_times[0], &laws->by_times[1]));
   riis_opening_switch by_switch;
   TRY(riis_opening_switch_init(&by_switch, sizeof by_switch));
   TRY(riis_opening_switch_state_init(&laws->by_switch, sizeof laws->by_switch));
-  by_switch.opening_seconds = 0.04;
-  by_switch.closing_seconds = 0.05;
+  by_switch.opening_duration = 0.04;
+  by_switch.closing_duration = 0.05;
   riis_opening_angle by_angle;
   TRY(riis_opening_angle_init(&by_angle, sizeof by_angle));
   TRY(riis_opening_angle_state_init(&laws->by_angle, sizeof laws->by_angle));
@@ -453,16 +458,16 @@ riis_status twin_run(int64_t per_side, const double *xyz, twin_numbers *numbers)
 }
 
 void twin_end(void) {
-  riis_mark_result_destroy(&resisting);
+  riis_marks_destroy(&resisting);
   riis_surface_destroy(&moving);
   riis_surface_destroy(&framed);
   riis_surface_destroy(&crossed);
-  riis_mark_result_destroy(&leaking);
+  riis_marks_destroy(&leaking);
   free(region_labels);
   region_labels = NULL;
   riis_surface_destroy(&thin);
   riis_valve_destroy(&thin_valve);
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
   riis_mesh_destroy(&mesh);
   riis_adjacency_destroy(&of_grid);
   riis_adjacency_destroy(&of_faces);

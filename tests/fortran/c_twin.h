@@ -51,7 +51,7 @@ typedef struct twin_crossings {
 typedef struct twin_motion {
   twin_surface surface;
   const double *vertex_velocity;
-  riis_mark_fields marked, within_limit;
+  riis_mark_list marked, within_limit;
   const double *coefficient, *momentum; /* (n_nodes), (3, n_nodes) */
   double force[3];
   riis_band_sums sums;

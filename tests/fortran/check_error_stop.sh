@@ -28,10 +28,10 @@ stops function 'riis: RIIS_INVALID_ARGUMENT: the result was not created, or was 
 stops valve 'riis: a riis_valve cannot be copied'
 stops surface 'riis: a riis_surface cannot be copied'
 stops keyframes 'riis: a riis_keyframes cannot be copied'
-stops law 'riis: RIIS_INVALID_ARGUMENT: times.opening_seconds is -1'
+stops law 'riis: RIIS_INVALID_ARGUMENT: times.opening_duration is -1'
 stops mesh 'riis: a riis_mesh cannot be copied'
 stops adjacency 'riis: a riis_adjacency cannot be copied'
-stops result 'riis: a riis_mark_result cannot be copied'
+stops result 'riis: a riis_marks cannot be copied'
 stops component 'riis: a riis_valve cannot be copied'
 stops overwrite 'riis: a riis_valve cannot be overwritten'
 exit $failed

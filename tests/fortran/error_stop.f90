@@ -13,7 +13,7 @@ program error_stop
   type(riis_keyframes) :: keyframes, other_keyframes
   type(riis_mesh) :: mesh, other_mesh
   type(riis_adjacency) :: adjacency, other_adjacency
-  type(riis_mark_result) :: result, other_result
+  type(riis_marks) :: result, other_result
   type(model) :: one, other
   real(c_double) :: xyz(3, 1)
   character(len=20) :: what

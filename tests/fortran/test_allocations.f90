@@ -17,7 +17,7 @@ program test_allocations
   end interface
   type(riis_valve) :: before
   type(riis_mesh) :: mesh
-  type(riis_mark_result) :: result
+  type(riis_marks) :: result
   type(riis_opening_switch_state) :: state
   type(riis_opening_angle_state) :: angle
   real(c_double), pointer :: coefficient(:), momentum(:, :), weight(:), distance(:) ! as many solvers have them

@@ -367,7 +367,7 @@ class Words(Planted):
         self.refused("  kind          -", "  kind          scalar",
                      "TABLE: riis_valve_create: 'scalar' does not suit 'const char *kind'")
         self.refused("  parameter_id  -", "  parameter_id  optional",
-                     "TABLE: riis_valve_parameter: 'optional' does not suit 'int64_t parameter_id': nothing but '-' and a text")
+                     "TABLE: riis_valve_get_parameter: 'optional' does not suit 'int64_t parameter_id': nothing but '-' and a text")
         self.refused("  rotation_angle  -", "  rotation_angle  (3)",
                      "TABLE: riis_surface_options: 'double rotation_angle' points to no")
         self.refused("  user_data  -  what", "  user_data  scalar  what", "TABLE: riis_log_function: only a text is wanted")

@@ -81,11 +81,11 @@ contains
       'RIIS_INVALID_STRUCT_SIZE', 'RIIS_INVALID_PARAMETER', 'RIIS_INVALID_SURFACE', 'RIIS_INVALID_MESH', &
       'RIIS_LIMIT_EXCEEDED', 'RIIS_OUT_OF_MEMORY', 'RIIS_FILE_ERROR', 'RIIS_UNAVAILABLE', 'RIIS_INTERNAL_ERROR']
 
-    call riis_version(major, minor, patch)
+    call riis_get_version(major, minor, patch)
     write (text, '(i0, ".", i0, ".", i0)') major, minor, patch
     call check(riis_c_text(riis_version_string()) == text, 'the version and its string agree: ' // trim(text))
     patch = -1
-    call riis_version(patch=patch) ! an argument that is left out is NULL
+    call riis_get_version(patch=patch) ! an argument that is left out is NULL
     call check(patch >= 0, 'the patch version alone')
     do i = 1, size(statuses)
       call check(riis_c_text(riis_status_name(statuses(i))) == names(i), 'the name of ' // names(i))
@@ -111,12 +111,12 @@ contains
     call check(c_associated(valve), 'a valve is made')
 
     n_parameters = 0
-    call check_ok(riis_valve_n_parameters(valve, n_parameters), 'count parameters')
+    call check_ok(riis_valve_get_n_parameters(valve, n_parameters), 'count parameters')
     call check(n_parameters == twin%n_parameters .and. n_parameters > 20, 'there are as many parameters as from C')
     call c_f_pointer(twin%parameters, from_c, [twin%n_parameters])
     n_found = 0
     do id = 0, n_parameters - 1
-      call check_ok(riis_valve_parameter(valve, id, parameter, c_sizeof(parameter)), 'describe a parameter')
+      call check_ok(riis_valve_get_parameter(valve, id, parameter, c_sizeof(parameter)), 'describe a parameter')
       call check_same_bytes(c_loc(parameter), c_loc(from_c(id + 1)), int(c_sizeof(parameter), c_int64_t), 'parameter')
       if (riis_c_text(parameter%name) /= rotation) cycle
       n_found = n_found + 1
@@ -125,9 +125,9 @@ contains
       call check(len(riis_c_text(parameter%description)) > 0, 'the description of ' // rotation)
     end do
     call check(n_found == 1, rotation // ' is there once')
-    call check_refused(riis_valve_parameter(valve, n_parameters, parameter, c_sizeof(parameter)), &
+    call check_refused(riis_valve_get_parameter(valve, n_parameters, parameter, c_sizeof(parameter)), &
       RIIS_INVALID_ARGUMENT, 'parameter_id')
-    call check_refused(riis_valve_parameter(valve, 0_c_int64_t, parameter, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, &
+    call check_refused(riis_valve_get_parameter(valve, 0_c_int64_t, parameter, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, &
       'struct size')
 
     ! Surfaces of the default valve, before it is changed.
@@ -150,7 +150,7 @@ contains
       rotation)
     call check_refused(riis_valve_get(valve, riis_c_string('translation'), 3_c_int64_t, values), &
       RIIS_INVALID_PARAMETER, 'translation')
-    call check_refused(riis_valve_n_parameters(c_null_ptr, n_parameters), RIIS_INVALID_ARGUMENT, 'valve')
+    call check_refused(riis_valve_get_n_parameters(c_null_ptr, n_parameters), RIIS_INVALID_ARGUMENT, 'valve')
   end subroutine test_valve
 
   subroutine check_area(expected, tolerance)
@@ -170,7 +170,7 @@ contains
     call check_ok(riis_surface_options_init(options, c_sizeof(options)), 'default surface options')
     call check(options%struct_size == c_sizeof(options) .and. nint(options%scale) == 1 .and. &
       all(nint(options%rotation_axis) == [0, 0, 1]) .and. options%zero_area == RIIS_ZERO_AREA_REFUSE .and. &
-      options%distance == RIIS_DISTANCE_TRIANGLES .and. abs(options%distance_tolerance - RIIS_AUTO) <= 0, &
+      options%distance == RIIS_MEASURE_TRIANGLES .and. abs(options%measure_tolerance - RIIS_AUTO) <= 0, &
       'the defaults of the surface options')
     options%half_thickness = 1.1d0
     options%tolerance = 0.1d0
@@ -192,7 +192,7 @@ contains
 
     options%distance = 3
     call check_refused(riis_surface_create(valve, options, other), RIIS_INVALID_ARGUMENT, 'options.distance is 3')
-    options%distance = RIIS_DISTANCE_TRIANGLES
+    options%distance = RIIS_MEASURE_TRIANGLES
     options%tolerance = 2
     call check_refused(riis_surface_create(valve, options, other), RIIS_INVALID_ARGUMENT, 'tolerance')
     options%struct_size = 12
@@ -444,7 +444,7 @@ contains
       'update a mesh')
     call check_ok(riis_mesh_prepare(mesh, 2), 'prepare a mesh')
     call check_refused(riis_mesh_prepare(mesh, -1), RIIS_INVALID_ARGUMENT, 'n_threads is -1')
-    call check_ok(riis_mark_result_create(result), 'create a result')
+    call check_ok(riis_marks_create(result), 'create a result')
     n_default = -1
     call check_ok(riis_mark_result_marked(result, n_default), 'the marked nodes of a new result')
     call check(n_default == 0, 'a new result has no marked nodes')
@@ -482,7 +482,7 @@ contains
     call check(list%n > twin%marked%n, 'more nodes are within the limit')
 
     allocate (mark(n_nodes), distance(n_nodes), triangle_id(n_nodes), leaflet_id(n_nodes))
-    call check_ok(riis_mark_result_dense(result, n_nodes, RIIS_FAR_DISTANCE, mark, distance, triangle_id, leaflet_id), &
+    call check_ok(riis_marks_get_dense(result, n_nodes, RIIS_FAR_DISTANCE, mark, distance, triangle_id, leaflet_id), &
       'dense arrays')
     call check_same_bytes(c_loc(mark), twin%dense_mark, n_nodes, 'dense marks')
     call check_same_bytes(c_loc(distance), twin%dense_distance, 8 * n_nodes, 'dense distances')
@@ -490,21 +490,21 @@ contains
     call check_same_bytes(c_loc(leaflet_id), twin%dense_leaflet_id, 4 * n_nodes, 'dense leaflet ids')
     call check(sum(int(mark, c_int64_t)) == twin%marked%n, 'as many dense marks as marked nodes')
     leaflet_id = -2
-    call check_ok(riis_mark_result_dense(result, n_nodes, -1d0, leaflet_id=leaflet_id), 'one dense array alone')
+    call check_ok(riis_marks_get_dense(result, n_nodes, -1d0, leaflet_id=leaflet_id), 'one dense array alone')
     call check_same_bytes(c_loc(leaflet_id), twin%dense_leaflet_id, 4 * n_nodes, 'dense leaflet ids alone')
 
-    call check_ok(riis_mark_result_stats(result, stats, c_sizeof(stats)), 'statistics')
+    call check_ok(riis_marks_get_stats(result, stats, c_sizeof(stats)), 'statistics')
     call check_same_bytes(c_loc(stats), c_loc(twin%stats), 32_c_int64_t, 'statistics')
     call check(stats%n_nodes == n_nodes .and. stats%n_marked == twin%marked%n .and. &
       stats%n_within_limit == list%n .and. stats%n_queries >= list%n .and. stats%seconds > 0 .and. &
       stats%search == RIIS_SEARCH_EXHAUSTIVE .and. stats%complete == 1, 'the statistics of the marking')
     call check(stats%n_threads == twin%stats%n_threads, 'as many threads as from C')
 
-    call check_refused(riis_mark_result_dense(result, n_nodes - 1, -1d0, mark), RIIS_INVALID_ARGUMENT, 'n_nodes')
+    call check_refused(riis_marks_get_dense(result, n_nodes - 1, -1d0, mark), RIIS_INVALID_ARGUMENT, 'n_nodes')
     options%distance_limit = 1
     call check_refused(riis_mark_nodes(surface, mesh, options, result), RIIS_INVALID_ARGUMENT, 'distance_limit')
     call check_refused(riis_mark_nodes(surface, c_null_ptr, result=result), RIIS_INVALID_ARGUMENT, 'mesh')
-    call check_refused(riis_mark_result_stats(result, stats, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
+    call check_refused(riis_marks_get_stats(result, stats, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
     bad = [0d0, 1d300, 0d0]
     call check_refused(riis_mesh_create(1_c_int64_t, c_loc(bad(1)), c_loc(bad(2)), c_loc(bad(3)), 3_c_int64_t, other), &
       RIIS_INVALID_MESH, '1e+300')
@@ -574,7 +574,7 @@ contains
     call check(n == twin%motion%surface%info%n_vertices, 'the number of vertex velocities')
     call check_same_bytes(velocity, twin%motion%vertex_velocity, 24 * n, 'vertex velocities')
 
-    call check_ok(riis_mark_result_create(resisting), 'create a result')
+    call check_ok(riis_marks_create(resisting), 'create a result')
     call check_ok(riis_mark_options_init(mark_options, c_sizeof(mark_options)), 'default mark options')
     mark_options%distance_limit = 2.5d0
     mark_options%n_threads = 2
@@ -594,27 +594,27 @@ contains
     allocate (coefficient(n_nodes), momentum(3, n_nodes))
     coefficient = 0.25d0
     momentum = -1
-    call check_refused(riis_mark_result_add_resistance(resisting, resistance, n_nodes, coefficient), &
+    call check_refused(riis_marks_add_resistance(resisting, resistance, n_nodes, coefficient), &
       RIIS_INVALID_ARGUMENT, 'resistance.resistance is nan')
     resistance%resistance = 7
     resistance%half_thickness = 2
     resistance%rim = RIIS_RIM_CUT
-    call check_refused(riis_mark_result_add_resistance(resisting, resistance, n_nodes - 1, coefficient), &
+    call check_refused(riis_marks_add_resistance(resisting, resistance, n_nodes - 1, coefficient), &
       RIIS_INVALID_ARGUMENT, 'n_nodes is 7999')
-    call check_ok(riis_mark_result_add_resistance(resisting, resistance, n_nodes, coefficient, momentum), 'add resistance')
+    call check_ok(riis_marks_add_resistance(resisting, resistance, n_nodes, coefficient, momentum), 'add resistance')
     call check_same_bytes(c_loc(coefficient), twin%motion%coefficient, 8 * n_nodes, 'resistance')
     call check_same_bytes(c_loc(momentum), twin%motion%momentum, 24 * n_nodes, 'resistance times velocity')
     call check(any(coefficient > 0.25d0) .and. any(momentum > -1), 'there is resistance')
     force = [0, 1, 2]
-    call check_ok(riis_mark_result_add_reaction(resisting, resistance, n_nodes, xyz, coefficient, force), 'add a reaction')
+    call check_ok(riis_marks_add_reaction(resisting, resistance, n_nodes, xyz, coefficient, force), 'add a reaction')
     call check_same_bytes(c_loc(force), c_loc(twin%motion%force), 24_c_int64_t, 'the reaction')
-    call check_refused(riis_mark_result_band_sums(resisting, 0.5d0, 3d0, n_nodes, coefficient, coefficient, sums, &
+    call check_refused(riis_marks_get_band_sums(resisting, 0.5d0, 3d0, n_nodes, coefficient, coefficient, sums, &
       c_sizeof(sums)), RIIS_INVALID_ARGUMENT, 'outer is 3')
-    call check_ok(riis_mark_result_band_sums(resisting, 0.5d0, 2d0, n_nodes, coefficient, coefficient, sums, &
+    call check_ok(riis_marks_get_band_sums(resisting, 0.5d0, 2d0, n_nodes, coefficient, coefficient, sums, &
       c_sizeof(sums)), 'sums of a band')
     call check_same_bytes(c_loc(sums), c_loc(twin%motion%sums), int(c_sizeof(sums), c_int64_t), 'sums of a band')
     call check(all(sums%n_nodes > 100), 'both sides have nodes')
-    call riis_mark_result_destroy(resisting)
+    call riis_marks_destroy(resisting)
     call riis_surface_destroy(moving)
   end subroutine test_motion
 
@@ -705,16 +705,16 @@ contains
     call check_ok(riis_opening_times_init(times, c_sizeof(times)), 'the default times')
     call check_refused(riis_opening_from_times(times, 0.47d0, opening), RIIS_INVALID_ARGUMENT, 'opening_start is nan')
     times%opening_start = 0.45d0
-    times%opening_seconds = 0.05d0
+    times%opening_duration = 0.05d0
     times%closing_start = 0.95d0
-    times%closing_seconds = 0.05d0
+    times%closing_duration = 0.05d0
     call check_ok(riis_opening_from_times(times, 0.47d0, opening, rate), 'an opening by times')
     call check(all(same([opening, rate], twin%laws%by_times)) .and. opening > 0 .and. rate > 0, 'an opening by times')
 
     call check_ok(riis_opening_switch_init(by_switch, c_sizeof(by_switch)), 'the default switch')
     call check_ok(riis_opening_switch_state_init(switched, c_sizeof(switched)), 'a closed valve')
-    by_switch%opening_seconds = 0.04d0
-    by_switch%closing_seconds = 0.05d0
+    by_switch%opening_duration = 0.04d0
+    by_switch%closing_duration = 0.05d0
     call check_ok(riis_opening_angle_init(by_angle, c_sizeof(by_angle)), 'the default law of the angle')
     call check_ok(riis_opening_angle_state_init(turned, c_sizeof(turned)), 'a valve at rest')
     by_angle%pressure_gain = 5500
@@ -741,7 +741,7 @@ contains
   ! A hexahedron, a pyramid on it, a prism beside it and a tetrahedron between these two.
   subroutine test_mixed_cells()
     integer(c_int64_t), target :: node_ids(23), offsets(5)
-    type(riis_cells) :: cells
+    type(riis_mesh_cells) :: cells
     type(riis_csr) :: csr
     type(c_ptr) :: adjacency = c_null_ptr
     integer(c_int64_t), pointer :: row_offsets(:)
@@ -749,8 +749,8 @@ contains
 
     node_ids = [1, 2, 3, 4, 5, 6, 7, 8, 5, 6, 7, 8, 9, 2, 6, 10, 3, 7, 11, 6, 7, 9, 12]
     offsets = [0, 8, 13, 19, 23]
-    call check_refused(riis_cells_init(cells, 48_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
-    call check_ok(riis_cells_init(cells, c_sizeof(cells)), 'default cells')
+    call check_refused(riis_mesh_cells_init(cells, 48_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
+    call check_ok(riis_mesh_cells_init(cells, c_sizeof(cells)), 'default cells')
     call check(cells%struct_size == c_sizeof(cells) .and. cells%n_cells == 0 .and. cells%nodes_per_cell == 4 .and. &
       cells%id_bits == 32 .and. cells%index_base == 0 .and. .not. c_associated(cells%offsets), &
       'the defaults of the cells')
@@ -761,8 +761,8 @@ contains
     cells%id_bits = storage_size(node_ids)
     cells%index_base = 1
     call check_ok(riis_adjacency_create_from_cells(cells, adjacency), 'an adjacency from mixed cells')
-    call check_refused(riis_adjacency_csr(adjacency, csr, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
-    call check_ok(riis_adjacency_csr(adjacency, csr, c_sizeof(csr)), 'its rows')
+    call check_refused(riis_adjacency_get_csr(adjacency, csr, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
+    call check_ok(riis_adjacency_get_csr(adjacency, csr, c_sizeof(csr)), 'its rows')
     call check(csr%n_rows == 12 .and. csr%offset_bits == 64 .and. csr%column_bits == 32 .and. csr%index_base == 0, &
       'twelve rows, from 0')
     call c_f_pointer(csr%offsets, row_offsets, [csr%n_rows + 1])
@@ -793,7 +793,7 @@ contains
     call check_ok(riis_adjacency_create_from_grid(per_side, per_side, per_side, 2, of_grid), 'an adjacency from a grid')
     call check_refused(riis_adjacency_create_from_grid(0_c_int64_t, per_side, per_side, 2, of_nothing), &
       RIIS_INVALID_ARGUMENT, 'ni')
-    call check_refused(riis_adjacency_csr(of_nothing, csr, c_sizeof(csr)), RIIS_INVALID_ARGUMENT, 'adjacency')
+    call check_refused(riis_adjacency_get_csr(of_nothing, csr, c_sizeof(csr)), RIIS_INVALID_ARGUMENT, 'adjacency')
     call check(.not. c_associated(of_nothing), 'no adjacency is made by calls that are refused')
 
     call check_ok(riis_mark_options_init(options, c_sizeof(options)), 'default mark options')
@@ -844,7 +844,7 @@ contains
     surface_options%half_thickness = 0.3d0
     call check_ok(riis_valve_create(riis_c_string('aortic'), thin_valve), 'create a valve')
     call check_ok(riis_surface_create(thin_valve, surface_options, thin), 'create a thin surface')
-    call check_ok(riis_mark_result_create(leaking), 'create a result')
+    call check_ok(riis_marks_create(leaking), 'create a result')
     call check_ok(riis_mark_options_init(options, c_sizeof(options)), 'default mark options')
     options%n_threads = 2
     leaks%n_edges = -7
@@ -877,7 +877,7 @@ contains
     call check(passage%node_id == twin%leaks%passage%node_id .and. passage%state == twin%leaks%passage%state .and. &
       all(transfer([passage%distance, passage%point], [0_c_int64_t]) == &
       transfer([twin%leaks%passage%distance, twin%leaks%passage%point], [0_c_int64_t])), 'the passage')
-    call riis_mark_result_destroy(leaking)
+    call riis_marks_destroy(leaking)
     call riis_surface_destroy(thin)
     call riis_valve_destroy(thin_valve)
   end subroutine test_leaks
@@ -923,7 +923,7 @@ contains
     integer(c_int32_t), parameter :: paths(2, 6) = reshape([1, n, 1, nn, n, 1, n, nn, nn, 1, nn, n], [2, 6])
     integer(c_int32_t), target, allocatable :: node_ids(:, :)
     integer(c_int32_t) :: i, j, k, path, first, n_cells
-    type(riis_cells) :: cells
+    type(riis_mesh_cells) :: cells
 
     allocate (node_ids(4, 6 * (n - 1)**3))
     n_cells = 0
@@ -938,7 +938,7 @@ contains
         end do
       end do
     end do
-    call check_ok(riis_cells_init(cells, c_sizeof(cells)), 'default cells')
+    call check_ok(riis_mesh_cells_init(cells, c_sizeof(cells)), 'default cells')
     cells%n_nodes = n_nodes
     cells%n_cells = n_cells
     cells%node_ids = c_loc(node_ids)
@@ -954,7 +954,7 @@ contains
     integer(c_int32_t), parameter :: n = int(per_side, c_int32_t), steps(3) = [1, n, n * n]
     integer(c_int32_t), target, allocatable :: face_cells(:, :)
     integer(c_int32_t) :: node, axis, n_faces
-    type(riis_faces) :: faces
+    type(riis_mesh_faces) :: faces
 
     allocate (face_cells(2, 3 * n**3))
     n_faces = 0
@@ -964,8 +964,8 @@ contains
         face_cells(:, n_faces) = [node, merge(0, node + steps(axis), mod((node - 1) / steps(axis), n) == n - 1)]
       end do
     end do
-    call check_refused(riis_faces_init(faces, 56_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
-    call check_ok(riis_faces_init(faces, c_sizeof(faces)), 'default faces')
+    call check_refused(riis_mesh_faces_init(faces, 56_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
+    call check_ok(riis_mesh_faces_init(faces, c_sizeof(faces)), 'default faces')
     call check(faces%struct_size == c_sizeof(faces) .and. faces%n_faces == 0 .and. faces%stride == 1 .and. &
       faces%id_bits == 32 .and. faces%index_base == 0 .and. .not. c_associated(faces%owner), &
       'the defaults of the faces')
@@ -983,7 +983,7 @@ contains
   subroutine set_adjacency(adjacency)
     type(c_ptr), intent(in) :: adjacency
     type(riis_csr) :: csr ! may go: only its arrays are borrowed
-    call check_ok(riis_adjacency_csr(adjacency, csr, c_sizeof(csr)), 'the rows of an adjacency')
+    call check_ok(riis_adjacency_get_csr(adjacency, csr, c_sizeof(csr)), 'the rows of an adjacency')
     call check_ok(riis_mesh_set_adjacency(mesh, csr), 'set an adjacency')
   end subroutine set_adjacency
 
@@ -1006,9 +1006,9 @@ contains
     options%search = search
     options%n_threads = 2
     walked = c_null_ptr
-    call check_ok(riis_mark_result_create(walked), 'create a result')
+    call check_ok(riis_marks_create(walked), 'create a result')
     call check_ok(riis_mark_nodes(surface, mesh, options, walked), 'mark along an adjacency')
-    call check_ok(riis_mark_result_stats(walked, stats, c_sizeof(stats)), 'statistics')
+    call check_ok(riis_marks_get_stats(walked, stats, c_sizeof(stats)), 'statistics')
     if (search /= RIIS_SEARCH_PAPER) then
       call check_ok(riis_mark_result_marked(walked, list%n, list%node_id, list%distance, list%triangle_id, &
         list%leaflet_id), 'the marked nodes')
@@ -1018,7 +1018,7 @@ contains
       call check_same_list(list, twin%within_limit, 'within the limit along an adjacency')
       call check(stats%complete == 1, 'the search is complete')
     end if
-    call riis_mark_result_destroy(walked)
+    call riis_marks_destroy(walked)
   end subroutine mark_along
 
   subroutine check_walk(adjacency, from_c, what)
@@ -1029,7 +1029,7 @@ contains
     type(riis_mark_stats) :: stats
     integer(c_int64_t), pointer :: offsets(:)
 
-    call check_ok(riis_adjacency_csr(adjacency, csr, c_sizeof(csr)), what // ': rows')
+    call check_ok(riis_adjacency_get_csr(adjacency, csr, c_sizeof(csr)), what // ': rows')
     call check(csr%struct_size == c_sizeof(csr) .and. csr%n_rows == n_nodes .and. csr%n_all == n_nodes .and. &
       csr%offset_bits == 64 .and. csr%column_bits == 32 .and. csr%index_base == 0, what // ': what the rows are')
     call check_same_bytes(csr%offsets, from_c%csr%offsets, 8 * (n_nodes + 1), what // ': offsets')
@@ -1062,7 +1062,7 @@ contains
     type(riis_csr) :: csr
 
     call check_ok(riis_adjacency_create_from_grid(per_side, per_side, per_side, 0, of_grid), 'rows of a grid')
-    call check_ok(riis_adjacency_csr(of_grid, csr, c_sizeof(csr)), 'the rows of an adjacency')
+    call check_ok(riis_adjacency_get_csr(of_grid, csr, c_sizeof(csr)), 'the rows of an adjacency')
     call c_f_pointer(csr%offsets, own_offsets, [n_nodes + 1])
     call c_f_pointer(csr%columns, own_columns, [own_offsets(n_nodes + 1)])
     allocate (offsets(n_nodes + 1), columns(size(own_columns) + 1))
@@ -1095,7 +1095,7 @@ contains
   subroutine test_destroy()
     integer :: i
     do i = 1, 2 ! destroying nothing is fine
-      call riis_mark_result_destroy(result)
+      call riis_marks_destroy(result)
       call riis_mesh_destroy(mesh)
       call riis_surface_destroy(plate)
       call riis_surface_destroy(surface)

@@ -10,7 +10,7 @@ program test_f2003
   type(riis_surface) :: surface
   type(riis_keyframes) :: keyframes
   type(riis_mesh) :: mesh
-  type(riis_mark_result) :: result
+  type(riis_marks) :: result
   type(riis_mark_fields) :: fields
   integer(riis_id), pointer :: node_id(:), triangle_id(:)
   integer(riis_id), allocatable :: node_num(:)

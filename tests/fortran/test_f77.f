@@ -161,7 +161,7 @@ C     A wider limit.
 
 C     Distances by sampling: nearly the same nodes, no triangles.
       CALL RIISF_SURFACE_MEASURE(SURF, VALVE, 0.12D0, 0.05D0, 1D0, AXIS,
-     &  0D0, ZERO, RIIS_DISTANCE_SAMPLING, 0.1D0, STAT)
+     &  0D0, ZERO, RIIS_MEASURE_SAMPLING, 0.1D0, STAT)
       CALL OK(STAT)
       CALL RIISF_MARK_NODES(SURF, MESH, RIIS_AUTO, RIIS_SEARCH_AUTO, 2,
      &  RES, STAT)
@@ -176,8 +176,8 @@ C     Distances by sampling: nearly the same nodes, no triangles.
      &  2, RES, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'by sampling')
       CALL RIISF_SURFACE_MEASURE(SURF, VALVE, 0.12D0, 0.05D0, 1D0, AXIS,
-     &  0D0, ZERO, RIIS_DISTANCE_MINIMIZATION, 7D0, STAT)
-      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'distance_tolerance is 7')
+     &  0D0, ZERO, RIIS_MEASURE_MINIMIZATION, 7D0, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'measure_tolerance is 7')
       CALL RIISF_SURFACE_PLACE(SURF, VALVE, 0.12D0, 0.05D0, 1D0, AXIS,
      &  0D0, ZERO, STAT)
       CALL OK(STAT)

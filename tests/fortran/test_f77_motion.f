@@ -101,7 +101,7 @@ C     To the end at once, and from a state that went through a file.
       IF (PHASE .NE. ALLPHA) CALL FAILED('the phase after a restart')
       CALL RIISF_OPENING_SWITCH_ADVANCE(0.04D0, 0.08D0, 0D0, 0D0,
      &  -1D0, 0D0, 1D0, 0D0, 0D0, S, PHASE, STAT)
-      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'filter_seconds is -1')
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'filter_time is -1')
       CALL RIISF_OPENING_SWITCH_ADVANCE(0.04D0, 0.08D0, 0D0, 0D0,
      &  0D0, 0D0, 1D0, 0D0, 0D0, S, 5, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'before.phase is 5')
@@ -355,7 +355,7 @@ C     By sampling there are no sides.
       CALL RIISF_VALVE_CREATE('aortic', VALVE, STAT)
       CALL OK(STAT)
       CALL RIISF_SURFACE_MEASURE(SURF, VALVE, 0.12D0, 0.05D0, 1D0, AXIS,
-     &  0D0, ZERO, RIIS_DISTANCE_SAMPLING, 0.1D0, STAT)
+     &  0D0, ZERO, RIIS_MEASURE_SAMPLING, 0.1D0, STAT)
       CALL OK(STAT)
       CALL RIISF_CLOSEST_POINTS(SURF, NP, P(1,1), P(2,1), P(3,1), 3,
      &  RIIS_AUTO, 1, D, Q, NORMAL, TRI, LEAF, SIDE, STAT)

@@ -261,7 +261,7 @@ contains
     integer(int8), allocatable :: bytes(:)
     logical, allocatable :: mask(:)
     integer(int64), allocatable :: list(:)
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     type(riis_mesh) :: mesh
     integer(int64), pointer :: node_id(:)
     integer :: i

@@ -86,17 +86,17 @@ contains
     real(c_double) :: opening, rate, from_c(2)
     integer :: i
     call check_ok(riis_opening_times_init(of_c, c_sizeof(of_c)), 'times from riis_c')
-    call check(all(alike([law%opening_start, law%opening_seconds, law%closing_start, law%closing_seconds, law%closed, &
-      law%open, law%period], [of_c%opening_start, of_c%opening_seconds, of_c%closing_start, of_c%closing_seconds, &
+    call check(all(alike([law%opening_start, law%opening_duration, law%closing_start, law%closing_duration, law%closed, &
+      law%open, law%period], [of_c%opening_start, of_c%opening_duration, of_c%closing_start, of_c%closing_duration, &
       of_c%closed, of_c%open, of_c%period])), 'the defaults of times')
     opening = 7
     call riis_opening_from_times(law, 0d0, opening, status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'times.opening_start is nan')
-    law = riis_opening_times(0.45d0, 0.05d0, closing_start=0.9d0, closing_seconds=0.08d0)
+    law = riis_opening_times(0.45d0, 0.05d0, closing_start=0.9d0, closing_duration=0.08d0)
     of_c%opening_start = 0.45d0
-    of_c%opening_seconds = 0.05d0
+    of_c%opening_duration = 0.05d0
     of_c%closing_start = 0.9d0
-    of_c%closing_seconds = 0.08d0
+    of_c%closing_duration = 0.08d0
     do i = 1, 2
       if (i == 2) law = riis_opening_times(0.45d0, 0.05d0, 0.9d0, 0.08d0, 0.1d0, 0.8d0, 1d0)
       call check_ok(c_from_times(of_c, 0.97d0, from_c(1), from_c(2)), 'an opening from riis_c')
@@ -123,20 +123,20 @@ contains
     integer :: i
     call check_ok(riis_opening_switch_init(of_c, c_sizeof(of_c)), 'a switch from riis_c')
     call check_ok(riis_opening_switch_state_init(now, c_sizeof(now)), 'its state')
-    call check(all(alike([law%opening_seconds, law%closing_seconds, law%open_above, law%close_below, law%filter_seconds, &
-      law%dwell_seconds], [of_c%opening_seconds, of_c%closing_seconds, of_c%open_above, of_c%close_below, &
-      of_c%filter_seconds, of_c%dwell_seconds])), 'the defaults of a switch')
+    call check(all(alike([law%opening_duration, law%closing_duration, law%open_above, law%close_below, law%filter_time, &
+      law%dwell_time], [of_c%opening_duration, of_c%closing_duration, of_c%open_above, of_c%close_below, &
+      of_c%filter_time, of_c%dwell_time])), 'the defaults of a switch')
     call check(is_same_switch(state, now), 'it begins closed')
     call riis_opening_advance(law, state, 1d0, 0d0, 0d0, status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'law.opening_seconds is nan')
-    law = riis_opening_switch(0.04d0, 0.08d0, open_above=0.5d0, close_below=-0.25d0, filter_seconds=0.003d0, &
-      dwell_seconds=0.02d0)
-    of_c%opening_seconds = 0.04d0
-    of_c%closing_seconds = 0.08d0
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'law.opening_duration is nan')
+    law = riis_opening_switch(0.04d0, 0.08d0, open_above=0.5d0, close_below=-0.25d0, filter_time=0.003d0, &
+      dwell_time=0.02d0)
+    of_c%opening_duration = 0.04d0
+    of_c%closing_duration = 0.08d0
     of_c%open_above = 0.5d0
     of_c%close_below = -0.25d0
-    of_c%filter_seconds = 0.003d0
-    of_c%dwell_seconds = 0.02d0
+    of_c%filter_time = 0.003d0
+    of_c%dwell_time = 0.02d0
     do i = 1, 300
       time = 0.003d0 * i
       before = now
@@ -155,9 +155,9 @@ contains
     call riis_opening_advance(law, state, 1d0, 0d0, 0d0, status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'before.phase is 5')
     state%phase = now%phase
-    law%dwell_seconds = -1
+    law%dwell_time = -1
     call riis_opening_advance(law, state, 1d0, 0d0, 0d0, status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'law.dwell_seconds is -1')
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'law.dwell_time is -1')
     call check(is_same_switch(state, now), 'a refused call writes nothing')
   end subroutine test_switch
 
@@ -266,11 +266,11 @@ contains
     type(riis_opening_angle_state), intent(inout) :: mitral
     integer, intent(in) :: first, last
     real(c_double), intent(inout) :: fields(:, :, :)
-    type(riis_opening_switch), parameter :: by_switch = riis_opening_switch(0.1d0, 0.1d0, filter_seconds=0.005d0)
+    type(riis_opening_switch), parameter :: by_switch = riis_opening_switch(0.1d0, 0.1d0, filter_time=0.005d0)
     type(riis_opening_angle), parameter :: by_angle = riis_opening_angle(5500d0, 2d0, 50d0, 3.5d0)
     type(riis_valve) :: now(2), before(2), open
     type(riis_surface) :: surfaces(2)
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     real(c_double) :: wave, time
     integer :: i, j
     call now(1)%create('aortic')

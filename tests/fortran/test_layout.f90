@@ -17,8 +17,8 @@ program test_layout
   type(riis_closest_options), target :: co
   type(riis_closest_arrays), target :: ca
   type(riis_csr), target :: cs
-  type(riis_cells), target :: ce
-  type(riis_faces), target :: fa
+  type(riis_mesh_cells), target :: ce
+  type(riis_mesh_faces), target :: fa
   type(riis_mark_options), target :: mo
   type(riis_mark_stats), target :: ms
   integer :: n_compared = 0
@@ -45,7 +45,7 @@ program test_layout
   call compare('riis_surface_options', c_sizeof(so), c_loc(so), [at(c_loc(so%struct_size)), &
     at(c_loc(so%half_thickness)), at(c_loc(so%tolerance)), at(c_loc(so%scale)), at(c_loc(so%rotation_axis)), &
     at(c_loc(so%rotation_angle)), at(c_loc(so%translation)), at(c_loc(so%zero_area)), at(c_loc(so%flip_normals)), &
-    at(c_loc(so%distance)), at(c_loc(so%n_threads)), at(c_loc(so%distance_tolerance)), &
+    at(c_loc(so%distance)), at(c_loc(so%n_threads)), at(c_loc(so%measure_tolerance)), &
     at(c_loc(so%triangulation)), at(c_loc(so%reserved))])
   call compare('riis_surface_arrays', c_sizeof(sa), c_loc(sa), [at(c_loc(sa%struct_size)), at(c_loc(sa%n_vertices)), &
     at(c_loc(sa%x)), at(c_loc(sa%y)), at(c_loc(sa%z)), at(c_loc(sa%stride)), at(c_loc(sa%n_faces)), &
@@ -76,10 +76,10 @@ program test_layout
   call compare('riis_csr', c_sizeof(cs), c_loc(cs), [at(c_loc(cs%struct_size)), at(c_loc(cs%n_rows)), &
     at(c_loc(cs%n_all)), at(c_loc(cs%offsets)), at(c_loc(cs%columns)), at(c_loc(cs%offset_bits)), &
     at(c_loc(cs%column_bits)), at(c_loc(cs%index_base)), at(c_loc(cs%reserved))])
-  call compare('riis_cells', c_sizeof(ce), c_loc(ce), [at(c_loc(ce%struct_size)), at(c_loc(ce%n_nodes)), &
+  call compare('riis_mesh_cells', c_sizeof(ce), c_loc(ce), [at(c_loc(ce%struct_size)), at(c_loc(ce%n_nodes)), &
     at(c_loc(ce%n_cells)), at(c_loc(ce%node_ids)), at(c_loc(ce%offsets)), at(c_loc(ce%nodes_per_cell)), &
     at(c_loc(ce%id_bits)), at(c_loc(ce%index_base)), at(c_loc(ce%n_threads))])
-  call compare('riis_faces', c_sizeof(fa), c_loc(fa), [at(c_loc(fa%struct_size)), at(c_loc(fa%n_cells)), &
+  call compare('riis_mesh_faces', c_sizeof(fa), c_loc(fa), [at(c_loc(fa%struct_size)), at(c_loc(fa%n_cells)), &
     at(c_loc(fa%n_faces)), at(c_loc(fa%owner)), at(c_loc(fa%neighbor)), at(c_loc(fa%stride)), at(c_loc(fa%id_bits)), &
     at(c_loc(fa%index_base)), at(c_loc(fa%n_threads)), at(c_loc(fa%reserved))])
   call compare('riis_mark_options', c_sizeof(mo), c_loc(mo), [at(c_loc(mo%struct_size)), &
@@ -103,11 +103,11 @@ program test_layout
     at(c_loc(ot%time)), at(c_loc(ot%opening)), at(c_loc(ot%period)), at(c_loc(ot%interpolation)), &
     at(c_loc(ot%reserved))])
   call compare('riis_opening_times', c_sizeof(oi), c_loc(oi), [at(c_loc(oi%struct_size)), &
-    at(c_loc(oi%opening_start)), at(c_loc(oi%opening_seconds)), at(c_loc(oi%closing_start)), &
-    at(c_loc(oi%closing_seconds)), at(c_loc(oi%closed)), at(c_loc(oi%open)), at(c_loc(oi%period))])
+    at(c_loc(oi%opening_start)), at(c_loc(oi%opening_duration)), at(c_loc(oi%closing_start)), &
+    at(c_loc(oi%closing_duration)), at(c_loc(oi%closed)), at(c_loc(oi%open)), at(c_loc(oi%period))])
   call compare('riis_opening_switch', c_sizeof(ow), c_loc(ow), [at(c_loc(ow%struct_size)), &
-    at(c_loc(ow%opening_seconds)), at(c_loc(ow%closing_seconds)), at(c_loc(ow%open_above)), &
-    at(c_loc(ow%close_below)), at(c_loc(ow%filter_seconds)), at(c_loc(ow%dwell_seconds))])
+    at(c_loc(ow%opening_duration)), at(c_loc(ow%closing_duration)), at(c_loc(ow%open_above)), &
+    at(c_loc(ow%close_below)), at(c_loc(ow%filter_time)), at(c_loc(ow%dwell_time))])
   call compare('riis_opening_switch_state', c_sizeof(os), c_loc(os), [at(c_loc(os%struct_size)), at(c_loc(os%time)), &
     at(c_loc(os%opening)), at(c_loc(os%rate)), at(c_loc(os%progress)), at(c_loc(os%pressure_difference)), &
     at(c_loc(os%flow)), at(c_loc(os%since)), at(c_loc(os%phase)), at(c_loc(os%reserved))])

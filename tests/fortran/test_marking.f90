@@ -7,7 +7,7 @@ program test_marking
   use box
   use checks
   use riis
-  use riis_c, only: c_dense => riis_mark_result_dense, c_within_limit => riis_mark_result_within_limit
+  use riis_c, only: c_dense => riis_marks_get_dense, c_within_limit => riis_mark_result_within_limit
   implicit none
   type(riis_mesh) :: mesh
   integer(riis_status) :: status
@@ -30,7 +30,7 @@ program test_marking
 contains
 
   subroutine test_results()
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     type(riis_mark_stats) :: stats
     integer(int32), allocatable :: node_num(:), leaflets(:)
     integer(int64), allocatable :: wide_num(:), triangles(:)
@@ -86,7 +86,7 @@ contains
 
   subroutine test_nothing_marked()
     type(riis_surface) :: far
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     integer(int32), allocatable :: node_num(:), leaflets(:)
     integer(int64), allocatable :: triangles(:)
     real(c_double), allocatable :: distances(:)
@@ -106,7 +106,7 @@ contains
   end subroutine test_nothing_marked
 
   subroutine test_masks()
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     logical :: mask(n_nodes)
     integer(int8) :: bytes(n_nodes), wide(2 * n_nodes)
     integer(int32) :: numbers(n_nodes)
@@ -135,7 +135,7 @@ contains
   end subroutine test_masks
 
   subroutine check_half(result, mask, what)
-    type(riis_mark_result), intent(in) :: result
+    type(riis_marks), intent(in) :: result
     logical, intent(in) :: mask(:)
     character(len=*), intent(in) :: what
     integer(int64), pointer :: node_id(:)
@@ -147,7 +147,7 @@ contains
   end subroutine check_half
 
   subroutine test_dense()
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     integer(int8) :: mark(n_nodes), c_mark(n_nodes)
     integer(int32) :: number(n_nodes), leaflet_id(n_nodes), c_leaflet_id(n_nodes)
     logical :: is_marked(n_nodes)
@@ -192,7 +192,7 @@ contains
     type(riis_surface) :: thin
     type(riis_mesh) :: joined
     type(riis_adjacency) :: adjacency
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     type(riis_leaks) :: leaks, masked
     integer(int64), pointer :: node_id(:, :)
     real(c_double), pointer :: length(:), distance(:)
@@ -254,7 +254,7 @@ contains
     type(riis_surface) :: thin
     type(riis_mesh) :: joined
     type(riis_adjacency) :: adjacency
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     type(riis_passage) :: passage, again
     integer(int64) :: region_num(n_nodes), again_num(n_nodes), n_regions
     integer, pointer :: no_nodes(:)
@@ -329,7 +329,7 @@ contains
   subroutine test_errors()
     type(riis_surface) :: no_surface
     type(riis_mesh) :: no_mesh
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     type(riis_mark_stats) :: stats
     integer(int8) :: mark(1)
     integer(int32), allocatable :: node_num(:)
@@ -380,7 +380,7 @@ contains
   subroutine test_assignment()
     type(riis_mesh) :: a, b
     type(riis_adjacency) :: c, d
-    type(riis_mark_result) :: e, f
+    type(riis_marks) :: e, f
     a = b
     c = d
     e = f
@@ -404,7 +404,7 @@ contains
   recursive subroutine work(part, is_right) ! whatever -fcheck and -fno-automatic say
     integer, intent(in) :: part
     logical, intent(out) :: is_right
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     integer, allocatable :: node_num(:)
     character(len=80) :: text
     integer(riis_status) :: own_status

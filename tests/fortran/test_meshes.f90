@@ -98,7 +98,7 @@ contains
   ! Nothing is copied: what moves in place has moved.
   subroutine test_in_place()
     type(riis_mesh) :: mesh
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     type(riis_closest) :: closest
     integer, allocatable :: node_num(:)
     real(c_double), allocatable :: distance(:)
@@ -186,7 +186,7 @@ contains
 
   subroutine check_no_adjacency(mesh)
     type(riis_mesh), intent(in) :: mesh
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     call riis_mark_nodes(surface, mesh, result, search=RIIS_SEARCH_NEIGHBOR, status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'adjacency')
     call result%destroy()
@@ -318,7 +318,7 @@ contains
     type(riis_mesh), intent(inout) :: mesh
     type(riis_adjacency), intent(inout) :: adjacency
     character(len=*), intent(in) :: what
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     type(riis_mark_stats) :: stats
     call mesh%set_adjacency(adjacency)
     call check_marking(mesh, what, RIIS_SEARCH_NEIGHBOR)

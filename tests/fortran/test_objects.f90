@@ -90,7 +90,7 @@ contains
     integer(int32) :: major, minor, patch
     character(len=20) :: text
     call check(riis_error_message() == '', 'no error text before the first error')
-    call riis_version(major, minor, patch)
+    call riis_get_version(major, minor, patch)
     write (text, '(i0, 2(".", i0))') major, minor, patch
     call check(riis_version_string() == trim(text), 'the version is ' // trim(text))
     call check(riis_status_name(RIIS_INVALID_MESH) == 'RIIS_INVALID_MESH', 'the name of a status')
@@ -322,8 +322,8 @@ contains
     call valve%create('aortic')
     call by_triangles%create(valve)
     call by_triangles%closest_point(point, exact)
-    do method = RIIS_DISTANCE_SAMPLING, RIIS_DISTANCE_MINIMIZATION
-      call by_other%create(valve, distance=method, distance_tolerance=0.1d0, status=status)
+    do method = RIIS_MEASURE_SAMPLING, RIIS_MEASURE_MINIMIZATION
+      call by_other%create(valve, distance=method, measure_tolerance=0.1d0, status=status)
       call check_ok(status, 'a surface with another distance')
       call by_other%update(valve)
       call by_other%closest_point(point, closest)
@@ -334,13 +334,13 @@ contains
       call check(same(distance(1), closest%distance), 'a batch agrees')
       call by_other%closest_points(reshape(point, [3, 1]), side=side, status=status)
       call check_refused(status, RIIS_INVALID_ARGUMENT, 'arrays.side is given')
-      call by_other%update(valve, distance=RIIS_DISTANCE_TRIANGLES)
+      call by_other%update(valve, distance=RIIS_MEASURE_TRIANGLES)
       call by_other%closest_point(point, closest)
       call check(same(closest%distance, exact%distance) .and. closest%triangle_id == exact%triangle_id, 'triangles again')
       call by_other%update(valve, distance=7_int32, status=status)
       call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.distance is 7')
-      call by_other%update(valve, distance=method, distance_tolerance=2d0, status=status)
-      call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.distance_tolerance is 2')
+      call by_other%update(valve, distance=method, measure_tolerance=2d0, status=status)
+      call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.measure_tolerance is 2')
       call by_other%destroy()
     end do
     call by_triangles%destroy()

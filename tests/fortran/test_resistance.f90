@@ -113,7 +113,7 @@ contains
     call moving%create(valve)
     call moving%update_moving(valve, valve, 0.5d0, half_thickness=0.2d0, tolerance=0.1d0, scale=2d0, &
       rotation_axis=[0d0, 0d0, 1d0], rotation_angle=0d0, translation=[1d0, 2d0, 3d0], flip_normals=.true., &
-      distance=RIIS_DISTANCE_TRIANGLES, distance_tolerance=RIIS_AUTO, n_threads=1, scale_before=1d0, &
+      distance=RIIS_MEASURE_TRIANGLES, measure_tolerance=RIIS_AUTO, n_threads=1, scale_before=1d0, &
       rotation_axis_before=[0d0, 0d0, 2d0], rotation_angle_before=30d0, translation_before=[0d0, 0d0, 0d0])
     call moving%vertices(at)
     call moving%vertex_velocities(velocity)
@@ -197,7 +197,7 @@ contains
   subroutine test_fields()
     type(riis_surface) :: moving
     type(riis_valve) :: before
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     type(riis_mark_fields) :: fields, marked
     type(c_mark_fields) :: from_c
     type(c_ptr) :: own_points, own_rims
@@ -264,7 +264,7 @@ contains
   end subroutine test_fields
 
   subroutine test_fields_not_asked_for()
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     type(riis_mark_fields) :: fields
     call riis_mark_nodes(surface, mesh, result, fields=RIIS_FIELD_SIDE)
     call result%marked_fields(fields)
@@ -300,7 +300,7 @@ contains
   end function resistance_at
 
   subroutine test_resistance_of_plate()
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     real(c_double), allocatable :: coefficient(:), momentum(:, :), formula(:), wide(:, :)
     integer :: i
     allocate (coefficient(n_nodes), momentum(3, n_nodes), formula(n_nodes), wide(2, n_nodes))
@@ -323,7 +323,7 @@ contains
   end subroutine test_resistance_of_plate
 
   subroutine test_reaction()
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     real(c_double), allocatable :: velocity(:, :), weight(:), coefficient(:)
     real(c_double) :: force(6)
     allocate (velocity(3, n_nodes), weight(n_nodes), coefficient(n_nodes))
@@ -347,7 +347,7 @@ contains
   end subroutine test_reaction
 
   subroutine test_band_sums()
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     type(riis_band_sums) :: sums
     real(c_double), allocatable :: value(:), weight(:)
     logical :: in_band(n_nodes)
@@ -368,7 +368,7 @@ contains
   end subroutine test_band_sums
 
   subroutine test_errors()
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     type(riis_band_sums) :: sums
     real(c_double), allocatable :: a(:), b(:, :)
     real(c_double) :: force(3)
@@ -425,7 +425,7 @@ contains
   subroutine test_no_nodes()
     type(riis_mesh) :: empty
     type(riis_adjacency) :: adjacency
-    type(riis_mark_result) :: result
+    type(riis_marks) :: result
     type(riis_mark_fields) :: fields
     type(riis_band_sums) :: sums
     type(riis_leaks) :: leaks

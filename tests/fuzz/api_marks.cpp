@@ -26,15 +26,23 @@ struct Found {
   }
 };
 
-List marked_of(const riis_mark_result *result) {
+List marked_of(const riis_marks *result) {
   List l;
-  EXPECT_OK(riis_mark_result_marked(result, &l.n, &l.node_id, &l.distance, &l.triangle_id, &l.leaflet_id));
+  l.n = marked_list(result).n_nodes;
+  l.node_id = marked_list(result).node_id;
+  l.distance = marked_list(result).distance;
+  l.triangle_id = marked_list(result).triangle_id;
+  l.leaflet_id = marked_list(result).leaflet_id;
   return l;
 }
 
-List within_of(const riis_mark_result *result) {
+List within_of(const riis_marks *result) {
   List l;
-  EXPECT_OK(riis_mark_result_within_limit(result, &l.n, &l.node_id, &l.distance, &l.triangle_id, &l.leaflet_id));
+  l.n = within_list(result).n_nodes;
+  l.node_id = within_list(result).node_id;
+  l.distance = within_list(result).distance;
+  l.triangle_id = within_list(result).triangle_id;
+  l.leaflet_id = within_list(result).leaflet_id;
   return l;
 }
 
@@ -85,7 +93,7 @@ std::vector<Found> expected_of(const riis_surface *surface, const Nodes &nodes, 
   return found;
 }
 
-void check_dense(const riis_mark_result *result, std::int64_t n_nodes, const std::vector<Found> &marked,
+void check_dense(const riis_marks *result, std::int64_t n_nodes, const std::vector<Found> &marked,
                  const std::vector<Found> &within) {
   const auto n = static_cast<std::size_t>(n_nodes);
   std::vector<std::uint8_t> mark(n, 7), expected_mark(n, 0);
@@ -97,7 +105,7 @@ void check_dense(const riis_mark_result *result, std::int64_t n_nodes, const std
     expected_triangle[static_cast<std::size_t>(one.node)] = one.triangle_id;
   }
   // The far distance is -1: limits go to 1e60, and a far distance within the limit would be refused.
-  if (riis_mark_result_dense(result, n_nodes, -1, mark.data(), distance.data(), triangle.data(), nullptr) != RIIS_OK)
+  if (dense_of(result, n_nodes, -1, mark.data(), distance.data(), triangle.data(), nullptr) != RIIS_OK)
     EXPECT(false, "%s", riis_last_error());
   std::replace(expected_distance.begin(), expected_distance.end(), RIIS_FAR_DISTANCE, -1.0);
   EXPECT(mark == expected_mark && distance == expected_distance && triangle == expected_triangle,
@@ -106,9 +114,9 @@ void check_dense(const riis_mark_result *result, std::int64_t n_nodes, const std
 
 // The fields that were asked for are those of riis_closest_point, and no others are there.
 void check_fields(const riis_surface *surface, const Nodes &nodes, std::int32_t fields,
-                  const riis_mark_result *result) {
-  riis_mark_fields made;
-  EXPECT_OK(riis_mark_result_within_limit_fields(result, &made, sizeof made));
+                  const riis_marks *result) {
+  riis_mark_list made;
+  EXPECT_OK(riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, &made, sizeof made));
   const List within = within_of(result);
   EXPECT(made.n_nodes == within.n, "%lld nodes", static_cast<long long>(made.n_nodes));
   const auto is_as_asked = [&](const void *array, std::int32_t field) {
@@ -138,7 +146,7 @@ void check_marking(Input &in, const riis_surface *surface, const MeshSlot &mesh,
   riis_surface_info info;
   EXPECT_OK(riis_surface_get_info(surface, &info, sizeof info));
   riis_mark_stats stats;
-  EXPECT_OK(riis_mark_result_stats(slot.handle, &stats, sizeof stats));
+  EXPECT_OK(riis_marks_get_stats(slot.handle, &stats, sizeof stats));
   const std::vector<Found> marked = copy_of(marked_of(slot.handle)), within = copy_of(within_of(slot.handle));
   EXPECT(stats.n_nodes == mesh.nodes->n && stats.n_marked == static_cast<std::int64_t>(marked.size()) &&
              stats.n_within_limit == static_cast<std::int64_t>(within.size()) && stats.n_queries >= 0 &&
@@ -184,14 +192,14 @@ void check_marking(Input &in, const riis_surface *surface, const MeshSlot &mesh,
 void mark(Input &in, State &state) {
   ResultSlot &slot = slot_of(in, state);
   if (!slot.handle) {
-    slot.handle = made_by<riis_mark_result>(in, [](riis_mark_result **made) { return riis_mark_result_create(made); });
+    slot.handle = made_by<riis_marks>(in, [](riis_marks **made) { return riis_marks_create(made); });
     if (!slot.handle) return;
   }
   riis_surface *surface_slot = state.surfaces[in.slot()];
   const MeshSlot &mesh_slot = state.meshes[in.slot()];
   const Given<riis_surface> surface = given(in, state, State::surface, surface_slot);
   const Given<riis_mesh> mesh = given(in, state, State::mesh, mesh_slot.handle);
-  const Given<riis_mark_result> result = given(in, state, State::result, slot.handle);
+  const Given<riis_marks> result = given(in, state, State::result, slot.handle);
   riis_mark_options options = initialised(in, riis_mark_options_init);
   static const std::int32_t searches[] = {2, 1, 4, 0, 3, 4, 1, 2, 4, 0, 4, 5, -1};
   options.search = in.one_of(searches);
@@ -230,11 +238,11 @@ void mark(Input &in, State &state) {
 
 void read_marks(Input &in, State &state) {
   ResultSlot &slot = slot_of(in, state);
-  const Given<riis_mark_result> result = given(in, state, State::result, slot.handle);
+  const Given<riis_marks> result = given(in, state, State::result, slot.handle);
   const auto stats = std::make_unique<riis_mark_stats>();
   std::memset(static_cast<void *>(stats.get()), 0x5a, sizeof *stats);
   const std::int64_t size = in.mostly<std::int64_t>(sizeof *stats);
-  riis_status status = call(in, [&] { return riis_mark_result_stats(result.handle, mostly(in, stats.get()), size); });
+  riis_status status = call(in, [&] { return riis_marks_get_stats(result.handle, mostly(in, stats.get()), size); });
   if (!result.is_right) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
   if (status != RIIS_OK) EXPECT(stats->n_nodes == 0x5a5a5a5a5a5a5a5a, "refused counts were written");
 
@@ -248,7 +256,7 @@ void read_marks(Input &in, State &state) {
   std::int64_t n_nodes = 0;
   if (slot.handle) {
     riis_mark_stats of_slot;
-    EXPECT_OK(riis_mark_result_stats(slot.handle, &of_slot, sizeof of_slot));
+    EXPECT_OK(riis_marks_get_stats(slot.handle, &of_slot, sizeof of_slot));
     n_nodes = of_slot.n_nodes;
   }
   const auto n = static_cast<std::size_t>(n_nodes);
@@ -259,8 +267,7 @@ void read_marks(Input &in, State &state) {
   const double far_distance = in.number();
   const std::int64_t n_asked = in.mostly(n_nodes);
   status = call(in, [&] {
-    return riis_mark_result_dense(result.handle, n_asked, far_distance, mostly(in, marks.data()),
-                                  mostly(in, distance.data()), mostly(in, triangle.data()), mostly(in, leaflet.data()));
+    return dense_of(result.handle, n_asked, far_distance, mostly(in, marks.data()), mostly(in, distance.data()), mostly(in, triangle.data()), mostly(in, leaflet.data()));
   });
   if (status != RIIS_OK) {
     for (std::size_t i = 0; i < n; ++i) EXPECT(marks[i] == 7 && triangle[i] == -77, "refused, but written");
@@ -280,7 +287,7 @@ struct EdgeList {
   const double *length = nullptr, *distance = nullptr;
 };
 
-EdgeList leaking_of(const riis_mark_result *result) {
+EdgeList leaking_of(const riis_marks *result) {
   EdgeList l;
   EXPECT_OK(riis_mark_result_leaking_edges(result, &l.n, &l.node_id, &l.length, &l.distance));
   EXPECT((l.n == 0) == (l.node_id == nullptr) && l.n >= 0, "%lld edges", static_cast<long long>(l.n));
@@ -289,7 +296,7 @@ EdgeList leaking_of(const riis_mark_result *result) {
 
 // Checks that the edges ascend, join unmarked nodes and agree with the summary. test_leaks.c checks that no leaking edge is
 // missing.
-void check_leaks(const riis_mark_result *result, std::int64_t n_nodes, const riis_leaks &leaks) {
+void check_leaks(const riis_marks *result, std::int64_t n_nodes, const riis_leaks &leaks) {
   const EdgeList list = leaking_of(result);
   const std::vector<Found> marked = copy_of(marked_of(result));
   const auto is_marked = [&](std::int64_t node) {
@@ -319,7 +326,7 @@ void find_leaks(Input &in, State &state) {
   const MeshSlot &mesh_slot = state.meshes[in.slot()];
   const Given<riis_surface> surface = given(in, state, State::surface, surface_slot);
   const Given<riis_mesh> mesh = given(in, state, State::mesh, mesh_slot.handle);
-  const Given<riis_mark_result> result = given(in, state, State::result, slot.handle);
+  const Given<riis_marks> result = given(in, state, State::result, slot.handle);
   riis_mark_options options = initialised(in, riis_mark_options_init);
   options.n_threads = in.n_threads();
   riis_leaks leaks;

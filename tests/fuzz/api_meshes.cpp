@@ -210,7 +210,7 @@ void give_adjacency(Input &in, State &state) {
   const auto csr = std::make_unique<riis_csr>();
   std::memset(static_cast<void *>(csr.get()), 0x5a, sizeof *csr);
   const std::int64_t size = in.mostly<std::int64_t>(sizeof *csr);
-  riis_status status = call(in, [&] { return riis_adjacency_csr(from.handle, mostly(in, csr.get()), size); });
+  riis_status status = call(in, [&] { return riis_adjacency_get_csr(from.handle, mostly(in, csr.get()), size); });
   if (!from.is_right) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
   if (status != RIIS_OK) {
     EXPECT(csr->n_rows == 0x5a5a5a5a5a5a5a5a, "refused rows were written");
@@ -224,7 +224,7 @@ void give_adjacency(Input &in, State &state) {
 }
 
 void make_adjacency_of_cells(Input &in, State &state) {
-  riis_cells cells = initialised(in, riis_cells_init);
+  riis_mesh_cells cells = initialised(in, riis_mesh_cells_init);
   static const int sizes[] = {4, 5, 6, 8};
   cells.index_base = in.mostly(in.below(2));
   const std::int64_t base = cells.index_base == 1 ? 1 : 0;
@@ -255,14 +255,14 @@ void make_adjacency_of_cells(Input &in, State &state) {
   cells.id_bits = is_wide ? 64 : 32;
   if (in.one_in(32)) cells.id_bits = 33;
   cells.n_threads = in.n_threads();
-  const riis_cells *argument = mostly(in, &cells);
+  const riis_mesh_cells *argument = mostly(in, &cells);
   put(in, state, made_by<riis_adjacency>(in, [&](riis_adjacency **made) {
         return riis_adjacency_create_from_cells(argument, made);
       }));
 }
 
 void make_adjacency_of_faces(Input &in, State &state) {
-  riis_faces faces = initialised(in, riis_faces_init);
+  riis_mesh_faces faces = initialised(in, riis_mesh_faces_init);
   faces.index_base = in.mostly(in.below(2));
   const std::int64_t base = faces.index_base == 1 ? 1 : 0;
   const int n_cells = 1 + in.below(40), n_faces = in.below(24), stride = 1 + in.below(3);
@@ -287,7 +287,7 @@ void make_adjacency_of_faces(Input &in, State &state) {
   if (in.one_in(32)) faces.id_bits = -64;
   faces.n_threads = in.n_threads();
   faces.reserved = in.one_in(64) ? 1 : 0;
-  const riis_faces *argument = mostly(in, &faces);
+  const riis_mesh_faces *argument = mostly(in, &faces);
   put(in, state, made_by<riis_adjacency>(in, [&](riis_adjacency **made) {
         return riis_adjacency_create_from_faces(argument, made);
       }));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls of riis_mark_result_add_*, riis_mark_result_band_sums, riis_opening_* and riis_keyframes_*.
+// Calls of riis_mark_result_add_*, riis_marks_get_band_sums, riis_opening_* and riis_keyframes_*.
 #include <cmath>
 
 #include "api_state.hpp"
@@ -16,9 +16,9 @@ bool are_equal(const std::vector<double> &a, const std::vector<double> &b) {
 // A refusal leaves the arrays as they were.
 void add_forces(Input &in, State &state) {
   ResultSlot &slot = state.results[in.slot()];
-  const Given<riis_mark_result> result = given(in, state, State::result, slot.handle);
+  const Given<riis_marks> result = given(in, state, State::result, slot.handle);
   riis_mark_stats stats{};
-  if (slot.handle) EXPECT_OK(riis_mark_result_stats(slot.handle, &stats, sizeof stats));
+  if (slot.handle) EXPECT_OK(riis_marks_get_stats(slot.handle, &stats, sizeof stats));
   const auto n = static_cast<std::size_t>(stats.n_nodes);
   const std::int64_t n_given = in.mostly(stats.n_nodes);
   riis_resistance resistance = initialised(in, riis_resistance_init);
@@ -32,7 +32,7 @@ void add_forces(Input &in, State &state) {
   const std::vector<double> coefficient_before = coefficient, momentum_before = momentum, force_before = force;
   double *const k = mostly(in, coefficient.data()), *const ku = in.one_in(2) ? momentum.data() : nullptr;
   riis_status status =
-      call(in, [&] { return riis_mark_result_add_resistance(result.handle, mostly(in, &resistance), n_given, k, ku); });
+      call(in, [&] { return add_resistance_to(result.handle, mostly(in, &resistance), n_given, k, ku); });
   if (!result.is_right) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
   if (status != RIIS_OK)
     EXPECT(are_equal(coefficient, coefficient_before) && are_equal(momentum, momentum_before), "refused, but added");
@@ -40,8 +40,7 @@ void add_forces(Input &in, State &state) {
     for (const double sum : coefficient) EXPECT(sum >= 1.5, "K is %g", sum - 1.5);
 
   status = call(in, [&] {
-    return riis_mark_result_add_reaction(result.handle, mostly(in, &resistance), n_given, mostly(in, values.data()),
-                                         mostly(in, weights.data()), mostly(in, force.data()));
+    return add_reaction_to(result.handle, mostly(in, &resistance), n_given, mostly(in, values.data()), mostly(in, weights.data()), mostly(in, force.data()));
   });
   if (status != RIIS_OK) EXPECT(are_equal(force, force_before), "refused, but added");
 
@@ -50,8 +49,7 @@ void add_forces(Input &in, State &state) {
   const double inner = in.one_in(2) ? in.number() : 0, outer = in.one_in(2) ? in.number() : slot.distance_limit;
   const std::int64_t size = in.mostly<std::int64_t>(sizeof sums);
   status = call(in, [&] {
-    return riis_mark_result_band_sums(result.handle, inner, outer, n_given, mostly(in, values.data()),
-                                      mostly(in, weights.data()), mostly(in, &sums), size);
+    return band_sums_of(result.handle, inner, outer, n_given, mostly(in, values.data()), mostly(in, weights.data()), mostly(in, &sums), size);
   });
   if (status != RIIS_OK)
     EXPECT(sums.n_nodes[0] == 0x5a5a5a5a5a5a5a5a, "refused sums were written");
@@ -89,9 +87,9 @@ void read_table(Input &in) {
 void read_times(Input &in) {
   riis_opening_times times = initialised(in, riis_opening_times_init);
   times.opening_start = in.number();
-  times.opening_seconds = in.one_in(4) ? in.number() : 0.25;
+  times.opening_duration = in.one_in(4) ? in.number() : 0.25;
   times.closing_start = in.one_in(4) ? in.number() : times.opening_start + 0.5;
-  times.closing_seconds = in.one_in(4) ? in.number() : 0.5;
+  times.closing_duration = in.one_in(4) ? in.number() : 0.5;
   if (in.one_in(2)) times.period = in.number();
   if (in.one_in(4)) times.open = in.number();
   double got = -7, rate = -7;
@@ -101,10 +99,10 @@ void read_times(Input &in) {
 
 void advance_switch(Input &in) {
   riis_opening_switch law = initialised(in, riis_opening_switch_init);
-  law.opening_seconds = in.one_in(8) ? in.number() : 0.25;
-  law.closing_seconds = in.one_in(8) ? in.number() : 0.5;
-  if (in.one_in(2)) law.filter_seconds = in.number();
-  if (in.one_in(4)) law.dwell_seconds = in.number();
+  law.opening_duration = in.one_in(8) ? in.number() : 0.25;
+  law.closing_duration = in.one_in(8) ? in.number() : 0.5;
+  if (in.one_in(2)) law.filter_time = in.number();
+  if (in.one_in(4)) law.dwell_time = in.number();
   riis_opening_switch_state state = initialised(in, riis_opening_switch_state_init);
   if (in.one_in(16)) state.progress = in.number();
   if (in.one_in(16)) state.phase = in.raw<std::int32_t>();

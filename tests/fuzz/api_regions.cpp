@@ -10,14 +10,14 @@ namespace {
 
 constexpr std::int64_t untouched = 0x5a5a5a5a5a5a5a5a;
 
-std::vector<std::uint8_t> marks_of(const riis_mark_result *result, std::int64_t n_nodes) {
+std::vector<std::uint8_t> marks_of(const riis_marks *result, std::int64_t n_nodes) {
   std::vector<std::uint8_t> marks(static_cast<std::size_t>(n_nodes));
-  EXPECT_OK(riis_mark_result_dense(result, n_nodes, -1, marks.data(), nullptr, nullptr, nullptr));
+  EXPECT_OK(dense_of(result, n_nodes, -1, marks.data(), nullptr, nullptr, nullptr));
   return marks;
 }
 
 // Labels are lowest nodes, and marked nodes have none. test_open_regions.c checks them against a flood fill.
-void check_labels(const riis_mark_result *result, const std::vector<std::int64_t> &label, std::int64_t n_regions) {
+void check_labels(const riis_marks *result, const std::vector<std::int64_t> &label, std::int64_t n_regions) {
   const std::vector<std::uint8_t> marks = marks_of(result, static_cast<std::int64_t>(label.size()));
   std::int64_t n_lowest = 0;
   for (std::size_t i = 0; i < label.size(); ++i) {
@@ -36,15 +36,14 @@ void label_regions(Input &in, State &state) {
   const ResultSlot &slot = state.results[in.slot()];
   const MeshSlot &mesh_slot = state.meshes[in.slot()];
   const Given<riis_mesh> mesh = given(in, state, State::mesh, mesh_slot.handle);
-  const Given<riis_mark_result> result = given(in, state, State::result, slot.handle);
+  const Given<riis_marks> result = given(in, state, State::result, slot.handle);
   riis_mark_options options = initialised(in, riis_mark_options_init);
   options.n_threads = in.n_threads();
   std::vector<std::int64_t> label(mesh_slot.handle ? static_cast<std::size_t>(mesh_slot.nodes->n) : 0, untouched);
   const std::int64_t n = in.mostly(static_cast<std::int64_t>(label.size()));
   std::int64_t n_regions = -9;
   const riis_status status = call(in, [&] {
-    return riis_label_open_regions(mesh.handle, in.one_in(2) ? &options : nullptr, result.handle, n,
-                                   mostly(in, label.data()), &n_regions);
+    return riis_label_open_regions(mesh.handle, result.handle, in.one_in(2) ? &options : nullptr, n, mostly(in, label.data()), &n_regions);
   });
   if (!(mesh.is_right && result.is_right)) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
   if (status != RIIS_OK) {
@@ -72,8 +71,7 @@ void find_passage(Input &in, State &state) {
   std::memset(static_cast<void *>(&passage), 0x5a, sizeof passage);
   const std::int64_t size = in.mostly<std::int64_t>(sizeof passage);
   const riis_status status = call(in, [&] {
-    return riis_find_passage(surface.handle, mesh.handle, in.one_in(2) ? &options : nullptr, n_from,
-                             mostly(in, from.data()), n_to, mostly(in, to.data()), mostly(in, &passage), size);
+    return find_passage_between(surface.handle, mesh.handle, in.one_in(2) ? &options : nullptr, n_from, mostly(in, from.data()), n_to, mostly(in, to.data()), mostly(in, &passage), size);
   });
   if (!(surface.is_right && mesh.is_right)) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
   if (status != RIIS_OK) {

@@ -47,7 +47,7 @@ struct ValveSlot {
 };
 
 struct ResultSlot {
-  riis_mark_result *handle = nullptr;
+  riis_marks *handle = nullptr;
   double distance_limit = 0;  // of the last marking
 };
 

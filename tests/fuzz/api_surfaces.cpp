@@ -10,8 +10,13 @@ namespace fuzz {
 
 Triangles triangles_of(const riis_surface *surface) {
   Triangles t;
-  EXPECT_OK(riis_surface_triangles(surface, &t.n, &t.vertex_id, &t.triangle_id, &t.leaflet_id, &t.patch_id));
-  EXPECT_OK(riis_surface_vertices(surface, &t.n_vertices, &t.xyz));
+  t.n = triangles_of(surface).n_triangles;
+  t.vertex_id = triangles_of(surface).vertex_id;
+  t.triangle_id = triangles_of(surface).triangle_id;
+  t.leaflet_id = triangles_of(surface).leaflet_id;
+  t.patch_id = triangles_of(surface).patch_id;
+  t.n_vertices = triangles_of(surface).n_vertices;
+  t.xyz = triangles_of(surface).xyz;
   return t;
 }
 
@@ -54,7 +59,7 @@ riis_surface_options options_of(Input &in) {
   options.flip_normals = in.mostly(in.below(2));
   if (in.one_in(4)) {
     options.distance = in.mostly(1 + in.below(2));
-    if (in.one_in(8)) options.distance_tolerance = in.number();
+    if (in.one_in(8)) options.measure_tolerance = in.number();
   }
   if (in.one_in(4)) options.n_threads = in.n_threads();
   if (in.one_in(8)) options.triangulation = in.mostly(in.below(2));
@@ -63,10 +68,10 @@ riis_surface_options options_of(Input &in) {
 
 // Makes fine distances coarse, because they are as expensive as fine triangles.
 void make_distance_coarse(double size, riis_surface_options &options) {
-  if (options.distance == RIIS_DISTANCE_TRIANGLES || options.distance_tolerance == RIIS_AUTO) return;
+  if (options.distance == RIIS_MEASURE_TRIANGLES || options.measure_tolerance == RIIS_AUTO) return;
   const double half_thickness = options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
-  const double ratio = options.distance_tolerance * half_thickness / options.scale / size;
-  if (ratio > 1e-12 && ratio < 0.03) options.distance_tolerance = 1;
+  const double ratio = options.measure_tolerance * half_thickness / options.scale / size;
+  if (ratio > 1e-12 && ratio < 0.03) options.measure_tolerance = 1;
 }
 
 // Returns an upper bound on the valve's size before placement.
@@ -88,7 +93,7 @@ void make_coarse(Input &in, double size, riis_surface_options &options) {
   const double ratio = options.tolerance * half_thickness / options.scale / size;
   if (!(ratio > 0 && ratio < 0.03) || (ratio < 1e-16 && in.one_in(2))) return;
   options.tolerance = 1;
-  options.distance_tolerance = RIIS_AUTO;
+  options.measure_tolerance = RIIS_AUTO;
   options.half_thickness = 0.03 * size * options.scale;
 }
 
@@ -140,7 +145,8 @@ namespace {
 std::vector<double> velocities_of(const riis_surface *surface) {
   std::int64_t n = -9;
   const double *velocity = nullptr;
-  EXPECT_OK(riis_surface_vertex_velocities(surface, &n, &velocity));
+  n = triangles_of(surface).n_vertices;
+  velocity = triangles_of(surface).velocity;
   return velocity ? std::vector<double>(velocity, velocity + 3 * n) : std::vector<double>();
 }
 
@@ -190,8 +196,8 @@ void make_surface_of_arrays(Input &in, State &state) {
   arrays.z = mostly(in, xyz.data() + 2 * step);
   arrays.n_faces = n_faces;
   const bool is_64_bits = in.one_in(2);
-  arrays.vertex_id_bits = is_64_bits ? 64 : 32;
-  if (in.one_in(32)) arrays.vertex_id_bits = in.one_in(2) ? 16 : -32;
+  arrays.id_bits = is_64_bits ? 64 : 32;
+  if (in.one_in(32)) arrays.id_bits = in.one_in(2) ? 16 : -32;
   arrays.index_base = in.mostly(in.below(2));
   arrays.corners_per_face = 3 + in.below(2);
   std::vector<std::int64_t> ids;
@@ -351,7 +357,7 @@ void ask_closest_points(Input &in, State &state) {
   const riis_closest_options *how = in.one_in(8) ? nullptr : &options;
   const riis_closest_arrays *to = mostly(in, &arrays);
   const riis_status status = call(in, [&] {
-    return riis_closest_points(surface.handle, n_asked, x, xyz.data() + 1, xyz.data() + 2, stride, how, to);
+    return closest_points_of(surface.handle, n_asked, x, xyz.data() + 1, xyz.data() + 2, stride, how, to);
   });
   if (!surface.is_right) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
   if (status != RIIS_OK) {

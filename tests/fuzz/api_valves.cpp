@@ -52,11 +52,11 @@ const char *const names[] = {"opening",
 std::vector<double> values_of(const riis_valve *valve) {
   std::vector<double> all;
   std::int64_t n = -1;
-  EXPECT_OK(riis_valve_n_parameters(valve, &n));
+  EXPECT_OK(riis_valve_get_n_parameters(valve, &n));
   EXPECT(n >= 1, "%lld parameters", static_cast<long long>(n));
   for (std::int64_t i = 0; i < n; ++i) {
     riis_parameter parameter;
-    EXPECT_OK(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
+    EXPECT_OK(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
     double values[3] = {0, 0, 0};
     EXPECT_OK(riis_valve_get(valve, parameter.name, parameter.n_values, values));
     for (std::int64_t k = 0; k < parameter.n_values; ++k)
@@ -96,7 +96,7 @@ void set_parameter(Input &in, State &state) {
   for (double &value : values) value = in.number();
   riis_parameter parameter;
   if (slot.handle && in.one_in(2) &&
-      riis_valve_parameter(slot.handle, in.below(24), &parameter, sizeof parameter) == RIIS_OK) {
+      riis_valve_get_parameter(slot.handle, in.below(24), &parameter, sizeof parameter) == RIIS_OK) {
     name = parameter.name;
     for (std::size_t k = 0; k < values.size() && k < 3; ++k)
       values[k] = parameter.default_values[k] * (0.75 + in.byte() / 512.0) + (in.one_in(4) ? values[k] : 0);
@@ -117,13 +117,13 @@ void read_parameters(Input &in, State &state) {
   ValveSlot &slot = slot_of(in, state);
   const Given<riis_valve> valve = given(in, state, State::valve, slot.handle);
   std::int64_t n = -9;
-  riis_status status = call(in, [&] { return riis_valve_n_parameters(valve.handle, mostly(in, &n)); });
+  riis_status status = call(in, [&] { return riis_valve_get_n_parameters(valve.handle, mostly(in, &n)); });
   EXPECT((status == RIIS_OK) == (n != -9), "%d, n = %lld", status, static_cast<long long>(n));
 
   const auto parameter = std::make_unique<riis_parameter>();
   std::memset(static_cast<void *>(parameter.get()), 0x5a, sizeof *parameter);
   const std::int64_t id = in.mostly<std::int64_t>(in.below(50) - 1), size = in.mostly<std::int64_t>(sizeof *parameter);
-  status = call(in, [&] { return riis_valve_parameter(valve.handle, id, mostly(in, parameter.get()), size); });
+  status = call(in, [&] { return riis_valve_get_parameter(valve.handle, id, mostly(in, parameter.get()), size); });
   if (status != RIIS_OK)
     EXPECT(parameter->n_values == 0x5a5a5a5a5a5a5a5a, "a refused description was written");
   else

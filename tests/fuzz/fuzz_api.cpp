@@ -8,7 +8,7 @@
 namespace fuzz {
 
 State::~State() {
-  for (ResultSlot &slot : results) riis_mark_result_destroy(&slot.handle);
+  for (ResultSlot &slot : results) riis_marks_destroy(&slot.handle);
   for (MeshSlot &slot : meshes) riis_mesh_destroy(&slot.handle);
   for (riis_surface *&surface : surfaces) riis_surface_destroy(&surface);
   for (ValveSlot &slot : valves) riis_valve_destroy(&slot.handle);
@@ -36,7 +36,7 @@ void call_status_functions(Input &in) {
   EXPECT(riis_status_name(status) != nullptr, "%d", status);
   EXPECT(riis_status_name(in.below(16) - 2)[0] != '\0', "no name");
   std::int32_t major = -7, minor = -7, patch = -7;
-  riis_version(in.one_in(2) ? nullptr : &major, &minor, in.one_in(2) ? nullptr : &patch);
+  riis_get_version(in.one_in(2) ? nullptr : &major, &minor, in.one_in(2) ? nullptr : &patch);
   EXPECT(minor == RIIS_VERSION_MINOR && riis_version_string() != nullptr, "%d", minor);
 }
 
@@ -78,7 +78,7 @@ void call_init_functions(Input &in) {
     case 5:
       return init(in, riis_csr_init);
     case 6:
-      return init(in, riis_cells_init);
+      return init(in, riis_mesh_cells_init);
     case 7:
       return init(in, riis_resistance_init);
     case 8:
@@ -92,7 +92,7 @@ void call_init_functions(Input &in) {
     case 12:
       return in.one_in(2) ? init(in, riis_opening_angle_init) : init(in, riis_opening_angle_state_init);
     default:
-      return in.one_in(2) ? init(in, riis_faces_init) : init(in, riis_mark_options_init);
+      return in.one_in(2) ? init(in, riis_mesh_faces_init) : init(in, riis_mark_options_init);
   }
 }
 
@@ -127,7 +127,7 @@ void destroy_something(Input &in, State &state) {
       state.adjacencies[i].reset();
       return;
     default:
-      destroy(in, state, State::result, riis_mark_result_destroy, state.results[i].handle);
+      destroy(in, state, State::result, riis_marks_destroy, state.results[i].handle);
       state.results[i] = {};
       return;
   }

@@ -31,7 +31,7 @@ void check(const riis::cli::Options &options) {
   const riis::cli::UrisOptions &uris = options.uris;
   EXPECT(uris.folder.empty() || (uris.time_step && *uris.time_step > 0 && options.resistance),
          "an export lacks options");
-  EXPECT(uris.folder.empty() || !options.series.cycle.empty() || (uris.opening_seconds && uris.closing_seconds),
+  EXPECT(uris.folder.empty() || !options.series.cycle.empty() || (uris.opening_duration && uris.closing_duration),
          "an export lacks a motion");
   riis_valve *handle = nullptr;
   EXPECT(riis_valve_create(options.valve == "mitral" ? "mitral" : "aortic", &handle) == RIIS_OK, "%s",

@@ -31,9 +31,9 @@ bool is_fine(riis_status status, riis_status refusal) {
 
 void use_rows(riis_mesh *mesh, const riis_vtk_mesh *read, std::int64_t n_nodes) {
   riis_adjacency *adjacency = nullptr;
-  if (!is_fine(riis_vtk_mesh_adjacency(read, 1, &adjacency), RIIS_OUT_OF_MEMORY)) return;
+  if (!is_fine(riis_vtk_mesh_create_adjacency(read, 1, &adjacency), RIIS_OUT_OF_MEMORY)) return;
   riis_csr rows;
-  EXPECT(riis_adjacency_csr(adjacency, &rows, sizeof rows) == RIIS_OK, "%s", riis_last_error());
+  EXPECT(riis_adjacency_get_csr(adjacency, &rows, sizeof rows) == RIIS_OK, "%s", riis_last_error());
   EXPECT(rows.n_rows == n_nodes, "%lld rows", static_cast<long long>(rows.n_rows));
   if (mesh) EXPECT(riis_mesh_set_adjacency(mesh, &rows) == RIIS_OK, "%s", riis_last_error());
   riis_adjacency_destroy(&adjacency);
@@ -47,7 +47,7 @@ void read_mesh() {
   }
   std::int64_t n_nodes = 0, n_cells = -1;
   const double *xyz = nullptr;
-  EXPECT(riis_vtk_mesh_nodes(read, &n_nodes, &n_cells, &xyz) == RIIS_OK, "%s", riis_last_error());
+  EXPECT(riis_vtk_mesh_get_nodes(read, &n_nodes, &n_cells, &xyz) == RIIS_OK, "%s", riis_last_error());
   EXPECT(n_nodes > 0 && n_cells >= 0, "%lld nodes", static_cast<long long>(n_nodes));
   double sum = 0;
   for (std::int64_t i = 0; i < 3 * n_nodes; ++i) sum += xyz[i];  // the sanitizer watches the reads
@@ -56,11 +56,11 @@ void read_mesh() {
     EXPECT(std::isfinite(sum), "%g", sum);
   use_rows(mesh, read, n_nodes);
   std::int64_t n_volume_cells = -1, n_left_out = -1;
-  EXPECT(riis_vtk_mesh_volume_cells(read, &n_volume_cells, &n_left_out) == RIIS_OK, "%s", riis_last_error());
+  EXPECT(riis_vtk_mesh_get_volume_cells(read, &n_volume_cells, &n_left_out) == RIIS_OK, "%s", riis_last_error());
   EXPECT(0 <= n_left_out && n_left_out <= n_volume_cells && n_volume_cells <= n_cells, "%lld cells of volume",
          static_cast<long long>(n_volume_cells));
   double edge = -1;
-  EXPECT(riis_vtk_mesh_median_edge(read, &edge) == RIIS_OK, "%s", riis_last_error());
+  EXPECT(riis_vtk_mesh_get_median_edge(read, &edge) == RIIS_OK, "%s", riis_last_error());
   EXPECT(edge >= 0 && std::isfinite(edge), "edge %g", edge);
   riis_mesh_destroy(&mesh);
   riis_vtk_mesh_destroy(&read);
@@ -68,16 +68,16 @@ void read_mesh() {
 
 void read_surface() {
   riis_vtk_surface *read = nullptr;
-  if (!is_fine(riis_vtk_surface_read(file().path().c_str(), &read), RIIS_FILE_ERROR)) {
+  if (!is_fine(riis_vtk_surface_read(file().path().c_str(), nullptr, &read), RIIS_FILE_ERROR)) {
     EXPECT(read == nullptr, "a refused surface was written");
     return;
   }
   riis_surface_arrays arrays;
   EXPECT(riis_surface_arrays_init(&arrays, sizeof arrays) == RIIS_OK, "%s", riis_last_error());
-  EXPECT(riis_vtk_surface_arrays(read, &arrays) == RIIS_OK, "%s", riis_last_error());
+  EXPECT(riis_vtk_surface_get_arrays(read, &arrays, sizeof arrays) == RIIS_OK, "%s", riis_last_error());
   EXPECT(arrays.n_faces > 0 && arrays.n_vertices > 0, "%lld faces", static_cast<long long>(arrays.n_faces));
   EXPECT(riis_vtk_surface_number_pieces(read) == RIIS_OK, "%s", riis_last_error());
-  EXPECT(riis_vtk_surface_arrays(read, &arrays) == RIIS_OK, "%s", riis_last_error());
+  EXPECT(riis_vtk_surface_get_arrays(read, &arrays, sizeof arrays) == RIIS_OK, "%s", riis_last_error());
   EXPECT(arrays.leaflet_id && arrays.leaflet_id[0] == 0, "the first face is not of the first piece");
   riis_surface_options options;
   EXPECT(riis_surface_options_init(&options, sizeof options) == RIIS_OK, "%s", riis_last_error());

@@ -23,7 +23,7 @@ static int64_t most_within;
 static inline void check_with(const riis_surface *surface, riis_mesh *mesh, riis_mark_options options, int max_threads,
                               int32_t expected_search) {
   const int owned_before = n_owned();
-  riis_mark_result *expected = new_result(), *result = new_result();
+  riis_marks *expected = new_result(), *result = new_result();
   options.search = RIIS_SEARCH_EXHAUSTIVE;
   options.instructions = RIIS_INSTRUCTIONS_BASELINE;
   options.n_threads = 1;

@@ -58,7 +58,7 @@ static inline uint64_t add_list(uint64_t digest, found_nodes found) {
   return add_bytes(digest, found.leaflet_id, n * 4);
 }
 
-static inline uint64_t add_result(uint64_t digest, const riis_mark_result *result) {
+static inline uint64_t add_result(uint64_t digest, const riis_marks *result) {
   const riis_mark_stats stats = stats_of(result);
   const int64_t numbers[] = {stats.n_nodes, stats.n_marked, stats.n_within_limit, stats.search, stats.complete};
   digest = add_bytes(digest, numbers, sizeof numbers);
@@ -75,7 +75,7 @@ static inline uint64_t add_mesh(uint64_t digest, const riis_mesh *mesh) {
   riis_mark_options options = mark_options();
   options.n_threads = 1;
   for (int32_t search = RIIS_SEARCH_EXHAUSTIVE; search <= RIIS_SEARCH_CLUSTERS; ++search) {
-    riis_mark_result *result = new_result();
+    riis_marks *result = new_result();
     options.search = search;
     const riis_status status = riis_mark_nodes(surface, mesh, &options, result);
     digest = add_bytes(digest, &status, sizeof status); /* the mesh may lack an adjacency */

@@ -62,7 +62,7 @@ wide_rows edge_set_rows(const edge_set *set, std::int64_t n_nodes) {
   return rows;
 }
 
-riis_status rows_with_limits(const riis_cells *cells, int n_threads, std::int64_t n_entries, std::int64_t n_nodes,
+riis_status rows_with_limits(const riis_mesh_cells *cells, int n_threads, std::int64_t n_entries, std::int64_t n_nodes,
                              wide_rows *rows) {
   return riis::guarded([&] {
     riis::NarrowLimits limits;

@@ -28,7 +28,7 @@ void edge_set_free(edge_set **set);
 
 /* Makes rows as riis_adjacency_create_from_cells does. But 32 bits hold only so many entries, which are the nodes of all cells,
  * and so many nodes. A negative limit stands for the library's own. Use complete structs only. */
-riis_status rows_with_limits(const riis_cells *cells, int n_threads, int64_t n_entries, int64_t n_nodes,
+riis_status rows_with_limits(const riis_mesh_cells *cells, int n_threads, int64_t n_entries, int64_t n_nodes,
                              wide_rows *rows);
 
 #ifdef __cplusplus

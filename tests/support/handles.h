@@ -90,9 +90,13 @@ typedef struct surface_content {
 
 static inline surface_content surface_content_of(const riis_surface *surface) {
   surface_content all;
-  CHECK_OK(riis_surface_vertices(surface, &all.n_vertices, &all.xyz));
-  CHECK_OK(riis_surface_vertex_parameters(surface, NULL, &all.uv));
-  CHECK_OK(riis_surface_triangles(surface, &all.n_triangles, &all.vertex_id, NULL, &all.leaflet_id, &all.patch_id));
+  all.n_vertices = triangles_of(surface).n_vertices;
+  all.xyz = triangles_of(surface).xyz;
+  all.uv = triangles_of(surface).uv;
+  all.n_triangles = triangles_of(surface).n_triangles;
+  all.vertex_id = triangles_of(surface).vertex_id;
+  all.leaflet_id = triangles_of(surface).leaflet_id;
+  all.patch_id = triangles_of(surface).patch_id;
   return all;
 }
 
@@ -101,8 +105,8 @@ static inline int is_same_content(const riis_surface *a, const riis_surface *b) 
   const surface_content s = surface_content_of(a), t = surface_content_of(b);
   const riis_surface_info of_a = info_of(a), of_b = info_of(b);
   const int64_t *id_a, *id_b;
-  CHECK_OK(riis_surface_triangles(a, NULL, NULL, &id_a, NULL, NULL));
-  CHECK_OK(riis_surface_triangles(b, NULL, NULL, &id_b, NULL, NULL));
+  id_a = triangles_of(a).triangle_id;
+  id_b = triangles_of(b).triangle_id;
   const size_t n = (size_t)s.n_triangles;
   return memcmp(&of_a, &of_b, offsetof(riis_surface_info, seconds_triangles)) == 0 &&
          memcmp(s.xyz, t.xyz, (size_t)s.n_vertices * 3 * sizeof *s.xyz) == 0 && !s.uv == !t.uv &&
@@ -117,7 +121,8 @@ static inline int is_same_content(const riis_surface *a, const riis_surface *b) 
 static inline const double *velocity_of(const riis_surface *surface) {
   const double *velocity = NULL;
   int64_t n = -1;
-  CHECK_OK(riis_surface_vertex_velocities(surface, &n, &velocity));
+  n = triangles_of(surface).n_vertices;
+  velocity = triangles_of(surface).velocity;
   assert_int_equal(n, surface_content_of(surface).n_vertices);
   return velocity;
 }

@@ -10,7 +10,7 @@ typedef struct leak_list {
 } leak_list;
 
 static inline leak_list leaks_of(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *options,
-                                 riis_mark_result *result) {
+                                 riis_marks *result) {
   leak_list list;
   int64_t n = -1;
   memset(&list, 0x5a, sizeof list);

@@ -9,7 +9,7 @@ typedef struct world {
   riis_surface *surface;
   riis_mesh *mesh;
   riis_adjacency *adjacency;
-  riis_mark_result *result;
+  riis_marks *result;
   const struct scenario *scenario;
 } world;
 
@@ -125,8 +125,8 @@ static riis_status set_and_get(world *w) {
   int64_t n;
   const riis_status status = riis_valve_set_scalar(w->valve, "leaflet_angle", 70);
   return status ? status
-                : riis_valve_get(w->valve, "right.leaflet_angle", 1, &value) || riis_valve_n_parameters(w->valve, &n) ||
-                      riis_valve_parameter(w->valve, 0, &parameter, sizeof parameter);
+                : riis_valve_get(w->valve, "right.leaflet_angle", 1, &value) || riis_valve_get_n_parameters(w->valve, &n) ||
+                      riis_valve_get_parameter(w->valve, 0, &parameter, sizeof parameter);
 }
 
 /* --- Surfaces -------------------------------------------------------------------------------------------------------- */
@@ -138,12 +138,12 @@ static riis_status triangulate(world *w) {
 static riis_status measure(world *w, int32_t distance) {
   riis_surface_options options = coarse;
   options.distance = distance;
-  options.distance_tolerance = 1;
+  options.measure_tolerance = 1;
   if (w->surface) return riis_surface_update(w->surface, w->valve, &options);
   MADE(riis_surface, w->surface, riis_surface_create(w->valve, &options, &made));
 }
-static riis_status by_sampling(world *w) { return measure(w, RIIS_DISTANCE_SAMPLING); }
-static riis_status by_minimization(world *w) { return measure(w, RIIS_DISTANCE_MINIMIZATION); }
+static riis_status by_sampling(world *w) { return measure(w, RIIS_MEASURE_SAMPLING); }
+static riis_status by_minimization(world *w) { return measure(w, RIIS_MEASURE_MINIMIZATION); }
 
 /* The faces of a pyramid in 64 bits. The base is a quad, and one face has no area. */
 static const double corners[5][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}};
@@ -155,7 +155,7 @@ static riis_surface_arrays pyramid(int of_quads) {
   if (of_quads) {
     arrays.n_faces = 2;
     arrays.vertex_ids = quads;
-    arrays.vertex_id_bits = 64;
+    arrays.id_bits = 64;
     arrays.corners_per_face = 4;
   }
   return arrays;
@@ -218,7 +218,7 @@ static riis_status closest_points(world *w) {
   arrays.side = side;
   for (int64_t i = 0; i < nodes.n; ++i) side[i] = 77;
   const riis_status status =
-      riis_closest_points(w->surface, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3, &options, &arrays);
+      closest_points_of(w->surface, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3, &options, &arrays);
   for (int64_t i = 0; i < nodes.n; ++i)
     if ((status != RIIS_OK) != (side[i] == 77)) fail_msg("side %lld is %d after %d", (long long)i, side[i], status);
   return status;
@@ -269,8 +269,8 @@ static riis_status from_grid(world *w) {
 enum { n_cells = 9000 };
 static int32_t *strip;
 static riis_status from_cells(world *w) {
-  riis_cells cells;
-  CHECK_OK(riis_cells_init(&cells, sizeof cells));
+  riis_mesh_cells cells;
+  CHECK_OK(riis_mesh_cells_init(&cells, sizeof cells));
   cells.n_nodes = n_cells + 3;
   cells.n_cells = n_cells;
   cells.node_ids = strip;
@@ -278,8 +278,8 @@ static riis_status from_cells(world *w) {
   MADE(riis_adjacency, w->adjacency, riis_adjacency_create_from_cells(&cells, &made));
 }
 static riis_status from_faces(world *w) {
-  riis_faces between;
-  CHECK_OK(riis_faces_init(&between, sizeof between));
+  riis_mesh_faces between;
+  CHECK_OK(riis_mesh_faces_init(&between, sizeof between));
   between.n_cells = n_cells + 3;
   between.n_faces = n_cells;
   between.owner = strip;
@@ -291,7 +291,7 @@ static riis_status from_faces(world *w) {
 
 /* --- Marking --------------------------------------------------------------------------------------------------------- */
 
-static riis_status make_result(world *w) { MADE(riis_mark_result, w->result, riis_mark_result_create(&made)); }
+static riis_status make_result(world *w) { MADE(riis_marks, w->result, riis_marks_create(&made)); }
 
 static void ready_to_mark(world *w) {
   aortic_made(w);
@@ -367,7 +367,7 @@ static void marked_little(world *w) {
   CHECK_OK(set_adjacency(w));
 }
 static riis_status dense(world *w) {
-  return riis_mark_result_dense(w->result, nodes.n, RIIS_FAR_DISTANCE, marks, NULL, NULL, NULL);
+  return dense_of(w->result, nodes.n, RIIS_FAR_DISTANCE, marks, NULL, NULL, NULL);
 }
 
 /* The surface is so thin that edges cross it between unmarked nodes. */
@@ -392,7 +392,7 @@ static void leaks_found(world *w) {
 }
 static riis_status label_regions(world *w) {
   const riis_mark_options options = options_of(w, RIIS_AUTO);
-  return riis_label_open_regions(w->mesh, &options, w->result, nodes.n, labels, NULL);
+  return riis_label_open_regions(w->mesh, w->result, &options, nodes.n, labels, NULL);
 }
 /* From the first node to the last one, which are corners. */
 static riis_status find_passage(world *w) {
@@ -400,7 +400,7 @@ static riis_status find_passage(world *w) {
   const int64_t from = 0, to = nodes.n - 1;
   riis_passage passage;
   const riis_status status =
-      riis_find_passage(w->surface, w->mesh, &options, 1, &from, 1, &to, &passage, sizeof passage);
+      find_passage_between(w->surface, w->mesh, &options, 1, &from, 1, &to, &passage, sizeof passage);
   if (!status) assert_int_equal(passage.state, RIIS_PASSAGE_OPEN);
   return status;
 }
@@ -417,7 +417,7 @@ static uint64_t digest_of(const world *w) {
   if (w->result) digest = add_result(digest, w->result);
   if (w->adjacency) {
     riis_csr csr;
-    CHECK_OK(riis_adjacency_csr(w->adjacency, &csr, sizeof csr));
+    CHECK_OK(riis_adjacency_get_csr(w->adjacency, &csr, sizeof csr));
     const int64_t *offsets = csr.offsets;
     digest = add_bytes(digest, offsets, (size_t)(csr.n_rows + 1) * 8);
     digest = add_bytes(digest, csr.columns, (size_t)offsets[csr.n_rows] * (size_t)csr.column_bits / 8);
@@ -427,7 +427,7 @@ static uint64_t digest_of(const world *w) {
 
 static void destroy(world *w) {
   riis_valve_destroy(&w->open);
-  riis_mark_result_destroy(&w->result);
+  riis_marks_destroy(&w->result);
   riis_mesh_destroy(&w->mesh);
   riis_adjacency_destroy(&w->adjacency);
   riis_surface_destroy(&w->surface);

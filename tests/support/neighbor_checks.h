@@ -5,9 +5,9 @@
 
 /* Marks by both searches and compares. The neighbour search marks with the result, or with a new one if it is NULL. */
 static inline riis_mark_stats check_same_as_exhaustive(const riis_surface *surface, const riis_mesh *mesh,
-                                                       riis_mark_options options, riis_mark_result *result) {
+                                                       riis_mark_options options, riis_marks *result) {
   const int owned_before = n_owned();
-  riis_mark_result *mine = result ? result : new_result(), *expected = new_result();
+  riis_marks *mine = result ? result : new_result(), *expected = new_result();
   options.search = RIIS_SEARCH_EXHAUSTIVE;
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, expected));
   options.search = RIIS_SEARCH_NEIGHBOR;
@@ -28,9 +28,9 @@ static inline riis_mark_stats check_same_as_exhaustive(const riis_surface *surfa
   return stats;
 }
 
-static inline riis_mark_result *marked_by(const riis_surface *surface, const riis_mesh *mesh, int32_t search,
+static inline riis_marks *marked_by(const riis_surface *surface, const riis_mesh *mesh, int32_t search,
                                           int32_t n_threads, const uint8_t *mask) {
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_mark_options options = mark_options();
   options.search = search;
   options.n_threads = n_threads;

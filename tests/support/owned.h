@@ -101,7 +101,7 @@ DEFINE_OWN(mark_result)
 #define riis_surface_destroy destroy_and_disown_surface
 #define riis_mesh_destroy destroy_and_disown_mesh
 #define riis_adjacency_destroy destroy_and_disown_adjacency
-#define riis_mark_result_destroy destroy_and_disown_mark_result
+#define riis_marks_destroy destroy_and_disown_mark_result
 
 /* Returns its argument: a handle, or memory from malloc. */
 #define own(object)                        \
@@ -110,7 +110,7 @@ DEFINE_OWN(mark_result)
       riis_surface *: own_surface,         \
       riis_mesh *: own_mesh,               \
       riis_adjacency *: own_adjacency,     \
-      riis_mark_result *: own_mark_result, \
+      riis_marks *: own_mark_result, \
       void *: own_memory)(object)
 
 /* Every test of a file that includes this one has the teardown. */

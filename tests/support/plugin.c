@@ -14,7 +14,7 @@ int64_t plugin_mark(int32_t n_threads) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   riis_mark_options options;
   int64_t n_marked = -1;
   for (int i = 0; i < n_nodes; ++i) {
@@ -24,13 +24,13 @@ int64_t plugin_mark(int32_t n_threads) {
   }
   if (!riis_mark_options_init(&options, sizeof options) && !riis_valve_create("aortic", &valve) &&
       !riis_surface_create(valve, NULL, &surface) && !riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh) &&
-      !riis_mark_result_create(&result)) {
+      !riis_marks_create(&result)) {
     options.n_threads = n_threads;
     if (riis_mark_nodes(surface, mesh, &options, result) ||
         riis_mark_result_marked(result, &n_marked, NULL, NULL, NULL, NULL))
       n_marked = -1;
   }
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
   riis_mesh_destroy(&mesh);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);

@@ -111,17 +111,17 @@ static inline void join_by_tetrahedra(test_mesh *mesh, const int64_t *counts) {
           const int *c = corners[t / 4][t % 4];
           ids[n_ids++] = (int32_t)(i + c[0] + counts[0] * (j + c[1] + counts[1] * (k + c[2])));
         }
-  riis_cells cells;
+  riis_mesh_cells cells;
   riis_csr csr;
   riis_adjacency *adjacency = NULL;
-  CHECK_OK(riis_cells_init(&cells, sizeof cells));
+  CHECK_OK(riis_mesh_cells_init(&cells, sizeof cells));
   cells.n_nodes = mesh->n;
   cells.n_cells = n_ids / 4;
   cells.node_ids = ids;
   cells.n_threads = (int32_t)random_integer(1, 3);
   CHECK_OK(riis_adjacency_create_from_cells(&cells, &adjacency));
   own(adjacency);
-  CHECK_OK(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+  CHECK_OK(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
   const int64_t *offsets = csr.offsets;
   const int32_t *columns = csr.columns;
   mesh->columns = own(malloc((size_t)(offsets[mesh->n] + 1) * sizeof *mesh->columns));

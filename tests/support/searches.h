@@ -11,27 +11,35 @@ typedef struct found_nodes {
   const int32_t *leaflet_id;
 } found_nodes;
 
-static inline found_nodes marked_in(const riis_mark_result *result) {
+static inline found_nodes marked_in(const riis_marks *result) {
   found_nodes f;
-  CHECK_OK(riis_mark_result_marked(result, &f.n, &f.node_id, &f.distance, &f.triangle_id, &f.leaflet_id));
+  f.n = marked_list(result).n_nodes;
+  f.node_id = marked_list(result).node_id;
+  f.distance = marked_list(result).distance;
+  f.triangle_id = marked_list(result).triangle_id;
+  f.leaflet_id = marked_list(result).leaflet_id;
   return f;
 }
 
-static inline found_nodes within_in(const riis_mark_result *result) {
+static inline found_nodes within_in(const riis_marks *result) {
   found_nodes f;
-  CHECK_OK(riis_mark_result_within_limit(result, &f.n, &f.node_id, &f.distance, &f.triangle_id, &f.leaflet_id));
+  f.n = within_list(result).n_nodes;
+  f.node_id = within_list(result).node_id;
+  f.distance = within_list(result).distance;
+  f.triangle_id = within_list(result).triangle_id;
+  f.leaflet_id = within_list(result).leaflet_id;
   return f;
 }
 
-static inline riis_mark_stats stats_of(const riis_mark_result *result) {
+static inline riis_mark_stats stats_of(const riis_marks *result) {
   riis_mark_stats stats;
-  CHECK_OK(riis_mark_result_stats(result, &stats, sizeof stats));
+  CHECK_OK(riis_marks_get_stats(result, &stats, sizeof stats));
   return stats;
 }
 
-static inline riis_mark_result *new_result(void) {
-  riis_mark_result *result = NULL;
-  CHECK_OK(riis_mark_result_create(&result));
+static inline riis_marks *new_result(void) {
+  riis_marks *result = NULL;
+  CHECK_OK(riis_marks_create(&result));
   return own(result);
 }
 
@@ -47,8 +55,8 @@ static inline int same_nodes(found_nodes a, found_nodes b) {
 
 /* Returns 1 if both have the same nodes, marked and within the limit, with the same bits. Asserts nothing, so any thread may call
  * it. */
-static inline int same_results(const riis_mark_result *a, const riis_mark_result *b) {
-  const riis_mark_result *of[2] = {a, b};
+static inline int same_results(const riis_marks *a, const riis_marks *b) {
+  const riis_marks *of[2] = {a, b};
   found_nodes m[2], w[2];
   for (int i = 0; i < 2; ++i) {
     found_nodes *f = m + i;

@@ -40,9 +40,9 @@ static void destroy_file(void *object) {
 static riis_surface *surface_in_file(const char *path) {
   riis_vtk_surface *file = NULL;
   riis_surface_arrays arrays;
-  CHECK_OK(riis_vtk_surface_read(path, &file));
+  CHECK_OK(riis_vtk_surface_read(path, NULL, &file));
   CHECK_OK(riis_surface_arrays_init(&arrays, sizeof arrays));
-  CHECK_OK(riis_vtk_surface_arrays(file, &arrays));
+  CHECK_OK(riis_vtk_surface_get_arrays(file, &arrays, sizeof arrays));
   riis_surface *surface = surface_from(&arrays, NULL);
   riis_vtk_surface_destroy(&file);
   return surface;
@@ -66,10 +66,10 @@ static filled_mesh mesh_by_gmsh(const char *path, const char *numbers) {
   riis_csr csr;
   CHECK_OK(riis_vtk_mesh_read(volume, &file));
   own_object(file, destroy_file);
-  CHECK_OK(riis_vtk_mesh_nodes(file, &filled.n_nodes, NULL, &filled.xyz));
-  CHECK_OK(riis_vtk_mesh_adjacency(file, 0, &adjacency));
+  CHECK_OK(riis_vtk_mesh_get_nodes(file, &filled.n_nodes, NULL, &filled.xyz));
+  CHECK_OK(riis_vtk_mesh_create_adjacency(file, 0, &adjacency));
   own(adjacency);
-  CHECK_OK(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+  CHECK_OK(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
   assert_int_equal(csr.offset_bits, 64);
   assert_int_equal(csr.column_bits, 32);
   filled.offsets = csr.offsets, filled.columns = csr.columns;
@@ -168,7 +168,7 @@ static int64_t nodes_at(const filled_mesh *in, double z, int64_t *ids) {
 /* Tells whether unmarked nodes join the two ends of the mesh, and which half thickness closes the valve. The library's regions
  * and passage must agree with the flood fill. */
 static int is_joined(const filled_mesh *in, const riis_surface *surface, const riis_mark_options *options,
-                     const riis_mark_result *result, const uint8_t *marks, double *closing) {
+                     const riis_marks *result, const uint8_t *marks, double *closing) {
   const size_t size = (size_t)in->n_nodes * sizeof(int64_t);
   int64_t *label = own(malloc(size)), *regions = own(malloc(size)), *lower = own(malloc(size)),
           *upper = own(malloc(size));
@@ -183,9 +183,9 @@ static int is_joined(const filled_mesh *in, const riis_surface *surface, const r
 
   int64_t n_regions;
   riis_passage passage;
-  CHECK_OK(riis_label_open_regions(in->mesh, options, result, in->n_nodes, regions, &n_regions));
+  CHECK_OK(riis_label_open_regions(in->mesh, result, options, in->n_nodes, regions, &n_regions));
   assert_memory_equal(regions, label, size);
-  CHECK_OK(riis_find_passage(surface, in->mesh, options, n_lower, lower, n_upper, upper, &passage, sizeof passage));
+  CHECK_OK(find_passage_between(surface, in->mesh, options, n_lower, lower, n_upper, upper, &passage, sizeof passage));
   assert_int_equal(passage.state, joined ? RIIS_PASSAGE_OPEN : RIIS_PASSAGE_CLOSED);
   *closing = passage.distance;
   return joined;
@@ -213,13 +213,13 @@ static flow flow_through(const filled_mesh *in, test_valve valve, const char *na
   riis_surface_options options = surface_options();
   options.half_thickness = half_thickness;
   riis_surface *surface = new_surface(valve.handle, &options);
-  riis_mark_result *result = new_result();
+  riis_marks *result = new_result();
   riis_mark_options marking = mark_options();
   marking.distance_limit = 2 * half_thickness;
   uint8_t *marks = own(malloc((size_t)in->n_nodes));
   double *distance = own(malloc((size_t)in->n_nodes * sizeof *distance));
   CHECK_OK(riis_mark_nodes(surface, in->mesh, &marking, result));
-  CHECK_OK(riis_mark_result_dense(result, in->n_nodes, 1e30, marks, distance, NULL, NULL));
+  CHECK_OK(dense_of(result, in->n_nodes, 1e30, marks, distance, NULL, NULL));
   double closing;
   const flow found = {largest_distance_to_wall(in, surface, valve.at), longest_near(in, distance),
                       is_joined(in, surface, &marking, result, marks, &closing)};

@@ -35,7 +35,7 @@ static int destroy_all(void **state) {
 /* Moves the valve, and marks the mesh anew. */
 static void open_valve(double opening) {
   riis_mesh *nodes = NULL;
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   riis_surface_options options;
   int64_t n = 0;
   const double *xyz = NULL;
@@ -43,12 +43,12 @@ static void open_valve(double opening) {
   options.half_thickness = 0.4;
   expect_fine(riis_valve_set_scalar(valve, "opening", opening));
   expect_fine(riis_surface_update(surface, valve, &options));
-  expect_fine(riis_vtk_mesh_nodes(mesh, &n, NULL, &xyz));
+  expect_fine(riis_vtk_mesh_get_nodes(mesh, &n, NULL, &xyz));
   expect_fine(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &nodes));
-  expect_fine(riis_mark_result_create(&result));
+  expect_fine(riis_marks_create(&result));
   expect_fine(riis_mark_nodes(surface, nodes, NULL, result));
-  expect_fine(riis_vtk_mesh_set_marks(mesh, result, -1));
-  riis_mark_result_destroy(&result);
+  expect_fine(riis_vtk_mesh_set_marks(mesh, result, -1, NULL));
+  riis_marks_destroy(&result);
   riis_mesh_destroy(&nodes);
 }
 

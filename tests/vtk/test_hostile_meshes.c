@@ -175,7 +175,7 @@ static void test_not_a_number_passes(void **state) {
   expect_fine(read_mesh("nan.vtu", &mesh));
   int64_t n = 0;
   const double *xyz = NULL;
-  expect_fine(riis_vtk_mesh_nodes(mesh, &n, NULL, &xyz));
+  expect_fine(riis_vtk_mesh_get_nodes(mesh, &n, NULL, &xyz));
   assert_true(xyz[3] != xyz[3]);
   riis_mesh *nodes = NULL;
   expect_refused(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &nodes), RIIS_INVALID_MESH, "node 1");
@@ -207,7 +207,7 @@ static void cut_everywhere(const char *whole, const char *cut, int encoding) {
     riis_vtk_mesh *mesh = NULL;
     int64_t n_nodes = -1, n_cells = -1;
     const riis_status status = read_mesh(cut, &mesh);
-    if (mesh) riis_vtk_mesh_nodes(mesh, &n_nodes, &n_cells, NULL);
+    if (mesh) riis_vtk_mesh_get_nodes(mesh, &n_nodes, &n_cells, NULL);
     riis_vtk_mesh_destroy(&mesh);
     const int whole_mesh =
         status == RIIS_OK && n_nodes == 8 && n_cells == 6 && may_be_missing(bytes + kept, size - kept, encoding);

@@ -60,7 +60,7 @@ static int write_random_faces(const char *name, int n_faces, int n_lattice, int 
 static riis_surface_arrays arrays_of(const riis_vtk_surface *surface) {
   riis_surface_arrays arrays;
   expect_fine(riis_surface_arrays_init(&arrays, sizeof arrays));
-  expect_fine(riis_vtk_surface_arrays(surface, &arrays));
+  expect_fine(riis_vtk_surface_get_arrays(surface, &arrays, sizeof arrays));
   return arrays;
 }
 
@@ -72,7 +72,7 @@ static void test_pieces(void **state) {
     const int n_faces = 1 + random_below(most_faces), n_lattice = 4 + random_below(150);
     const int n_pieces = write_random_faces("random.stl", n_faces, n_lattice, pieces);
     riis_vtk_surface *surface = NULL;
-    expect_fine(riis_vtk_surface_read(scratch_path("random.stl"), &surface));
+    expect_fine(riis_vtk_surface_read(scratch_path("random.stl"), NULL, &surface));
     assert_null(arrays_of(surface).leaflet_id);
     expect_fine(riis_vtk_surface_number_pieces(surface));
     const riis_surface_arrays arrays = arrays_of(surface);
@@ -113,24 +113,24 @@ static void test_arrays(void **state) {
   riis_vtk_surface *surface = NULL;
   scratch_write_text("quads.vtu", quads);
   const char *path = scratch_path("quads.vtu");
-  expect_fine(riis_vtk_surface_read(path, &surface));
+  expect_fine(riis_vtk_surface_read(path, NULL, &surface));
   expect_leaflets(surface, (int32_t[3]){4, 5, 6});
   expect_fine(riis_vtk_surface_number_pieces(surface));
   expect_leaflets(surface, (int32_t[3]){0, 1, 0});
   riis_vtk_surface_destroy(&surface);
-  expect_fine(riis_vtk_surface_read_with_leaflets(path, "body", &surface));
+  expect_fine(riis_vtk_surface_read(path, "body", &surface));
   expect_leaflets(surface, (int32_t[3]){7, 8, 7});
   riis_vtk_surface_destroy(&surface);
-  expect_refused(riis_vtk_surface_read_with_leaflets(path, "soul", &surface), RIIS_FILE_ERROR,
+  expect_refused(riis_vtk_surface_read(path, "soul", &surface), RIIS_FILE_ERROR,
                  "quads.vtu: has no cell array soul; there are: riis_leaflet, body, below, two");
-  expect_refused(riis_vtk_surface_read_with_leaflets(path, "below", &surface), RIIS_FILE_ERROR,
+  expect_refused(riis_vtk_surface_read(path, "below", &surface), RIIS_FILE_ERROR,
                  "cell array below: cell 1 has -8");
-  expect_refused(riis_vtk_surface_read_with_leaflets(path, "two", &surface), RIIS_FILE_ERROR,
+  expect_refused(riis_vtk_surface_read(path, "two", &surface), RIIS_FILE_ERROR,
                  "cell array two must hold one number a cell");
-  expect_refused(riis_vtk_surface_read_with_leaflets("missing.vtu", "body", &surface), RIIS_FILE_ERROR, "missing.vtu");
-  expect_refused(riis_vtk_surface_read_with_leaflets(NULL, "body", &surface), RIIS_INVALID_ARGUMENT, "path is NULL");
-  expect_refused(riis_vtk_surface_read_with_leaflets(path, NULL, &surface), RIIS_INVALID_ARGUMENT, "leaflets is NULL");
-  expect_refused(riis_vtk_surface_read_with_leaflets(path, "body", NULL), RIIS_INVALID_ARGUMENT, "surface is NULL");
+  expect_refused(riis_vtk_surface_read("missing.vtu", "body", &surface), RIIS_FILE_ERROR, "missing.vtu");
+  expect_refused(riis_vtk_surface_read(NULL, "body", &surface), RIIS_INVALID_ARGUMENT, "path is NULL");
+  expect_refused(riis_vtk_surface_read(path, NULL, &surface), RIIS_INVALID_ARGUMENT, "leaflets is NULL");
+  expect_refused(riis_vtk_surface_read(path, "body", NULL), RIIS_INVALID_ARGUMENT, "surface is NULL");
   expect_refused(riis_vtk_surface_number_pieces(NULL), RIIS_INVALID_ARGUMENT, "surface is NULL");
   assert_null(surface);
 }
@@ -163,27 +163,27 @@ static void test_median_edge(void **state) {
       }
   qsort(lengths, (size_t)n, sizeof lengths[0], ascending);
   expect_fine(riis_vtk_mesh_read(path, &mesh));
-  expect_fine(riis_vtk_mesh_median_edge(mesh, &length));
+  expect_fine(riis_vtk_mesh_get_median_edge(mesh, &length));
   assert_true(fabs(length - lengths[n / 2]) < 1e-12);
-  expect_refused(riis_vtk_mesh_median_edge(NULL, &length), RIIS_INVALID_ARGUMENT, "mesh is NULL");
-  expect_refused(riis_vtk_mesh_median_edge(mesh, NULL), RIIS_INVALID_ARGUMENT, "length is NULL");
+  expect_refused(riis_vtk_mesh_get_median_edge(NULL, &length), RIIS_INVALID_ARGUMENT, "mesh is NULL");
+  expect_refused(riis_vtk_mesh_get_median_edge(mesh, NULL), RIIS_INVALID_ARGUMENT, "length is NULL");
   riis_vtk_mesh_destroy(&mesh);
   /* A box with more cells than are used, which is the same everywhere. Then cells without edges. */
   assert_int_equal(shim_write_box(scratch_path("large.vtu"), SHIM_RAW, 22, lower, upper, 0), 1);
   expect_fine(riis_vtk_mesh_read(scratch_path("large.vtu"), &mesh));
-  expect_fine(riis_vtk_mesh_median_edge(mesh, &length));
+  expect_fine(riis_vtk_mesh_get_median_edge(mesh, &length));
   assert_true(length > 0.3 && length < 0.4);
   riis_vtk_mesh_destroy(&mesh);
   scratch_write_text("point.vtk",
                      "# vtk DataFile Version 3.0\none\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 double\n0 0 0\n"
                      "CELLS 1 2\n1 0\nCELL_TYPES 1\n1\n");
   expect_fine(riis_vtk_mesh_read(scratch_path("point.vtk"), &mesh));
-  expect_fine(riis_vtk_mesh_median_edge(mesh, &length));
+  expect_fine(riis_vtk_mesh_get_median_edge(mesh, &length));
   assert_true(length == 0);
   riis_vtk_mesh_destroy(&mesh);
   assert_true(shim_write_zoo(scratch_path("zoo.vtu")));
   expect_fine(riis_vtk_mesh_read(scratch_path("zoo.vtu"), &mesh));
-  expect_fine(riis_vtk_mesh_median_edge(mesh, &length));
+  expect_fine(riis_vtk_mesh_get_median_edge(mesh, &length));
   assert_true(length > 0);
   riis_vtk_mesh_destroy(&mesh);
 }
@@ -205,23 +205,23 @@ static void test_named_marks(void **state) {
   riis_surface *surface = NULL;
   riis_mesh *nodes = NULL;
   riis_vtk_mesh *mesh = NULL;
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   assert_int_equal(shim_write_box(path, SHIM_RAW, n_side, lower, upper, 0), 1);
   expect_fine(riis_valve_create("aortic", &valve));
   expect_fine(riis_surface_create(valve, NULL, &surface));
   expect_fine(riis_vtk_mesh_read(path, &mesh));
-  expect_fine(riis_vtk_mesh_nodes(mesh, &n_nodes, NULL, &xyz));
+  expect_fine(riis_vtk_mesh_get_nodes(mesh, &n_nodes, NULL, &xyz));
   expect_fine(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &nodes));
-  expect_fine(riis_mark_result_create(&result));
-  expect_refused(riis_vtk_mesh_set_named_marks(mesh, result, -1, "x"), RIIS_INVALID_ARGUMENT, "mesh with 0 nodes");
+  expect_fine(riis_marks_create(&result));
+  expect_refused(riis_vtk_mesh_set_marks(mesh, result, -1, "x"), RIIS_INVALID_ARGUMENT, "mesh with 0 nodes");
   expect_fine(riis_mark_nodes(surface, nodes, NULL, result));
   const char *bad[] = {"",         "a b", "a\nb",
                        "\xc3\xa4", "a/b", "0123456789012345678901234567890123456789012345678901234567890123x"};
   for (int i = 0; i < 6; ++i)
-    expect_refused(riis_vtk_mesh_set_named_marks(mesh, result, -1, bad[i]), RIIS_INVALID_ARGUMENT, "prefix is \"");
-  expect_refused(riis_vtk_mesh_set_named_marks(mesh, result, -1, NULL), RIIS_INVALID_ARGUMENT, "prefix is NULL");
-  expect_refused(riis_vtk_mesh_set_named_marks(mesh, NULL, -1, "x"), RIIS_INVALID_ARGUMENT, "result is NULL");
-  expect_refused(riis_vtk_mesh_set_named_marks(NULL, result, -1, "x"), RIIS_INVALID_ARGUMENT, "mesh is NULL");
+    expect_refused(riis_vtk_mesh_set_marks(mesh, result, -1, bad[i]), RIIS_INVALID_ARGUMENT, "prefix is \"");
+  expect_refused(riis_vtk_mesh_set_marks(mesh, result, -1, NULL), RIIS_INVALID_ARGUMENT, "prefix is NULL");
+  expect_refused(riis_vtk_mesh_set_marks(mesh, NULL, -1, "x"), RIIS_INVALID_ARGUMENT, "result is NULL");
+  expect_refused(riis_vtk_mesh_set_marks(NULL, result, -1, "x"), RIIS_INVALID_ARGUMENT, "mesh is NULL");
   int32_t has = 7;
   expect_refused(riis_vtk_mesh_has_point_array(NULL, "x", &has), RIIS_INVALID_ARGUMENT, "mesh is NULL");
   expect_refused(riis_vtk_mesh_has_point_array(mesh, NULL, &has), RIIS_INVALID_ARGUMENT, "name is NULL");
@@ -230,10 +230,10 @@ static void test_named_marks(void **state) {
   expect_array(mesh, "pressure", 1);
   expect_array(mesh, "region", 0); /* "region" is a cell array */
   expect_array(mesh, "Left.1_marked", 0);
-  expect_fine(riis_vtk_mesh_set_named_marks(mesh, result, -1, "Left.1"));
+  expect_fine(riis_vtk_mesh_set_marks(mesh, result, -1, "Left.1"));
   expect_array(mesh, "Left.1_marked", 1);
   expect_array(mesh, "riis_marked", 0);
-  expect_fine(riis_vtk_mesh_set_marks(mesh, result, -1));
+  expect_fine(riis_vtk_mesh_set_marks(mesh, result, -1, NULL));
   expect_fine(riis_vtk_mesh_write(mesh, out));
   const char *names[][2] = {
       {"Left.1_marked", "riis_marked"}, {"Left.1_distance", "riis_distance"}, {"Left.1_leaflet", "riis_leaflet"}};
@@ -245,7 +245,7 @@ static void test_named_marks(void **state) {
     assert_string_equal(types[0], types[1]);
     assert_memory_equal(values[0], values[1], sizeof values[0]);
   }
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
   riis_mesh_destroy(&nodes);
   riis_vtk_mesh_destroy(&mesh);
   riis_surface_destroy(&surface);

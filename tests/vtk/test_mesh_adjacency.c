@@ -49,7 +49,7 @@ static int64_t join_by_vtk(const char *path, int64_t n_nodes, uint8_t *are_joine
 /* Checks the rows and returns the number of columns. */
 static int64_t expect_rows(const riis_adjacency *adjacency, int64_t n_nodes, const uint8_t *are_joined) {
   riis_csr csr;
-  expect_fine(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+  expect_fine(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
   assert_int_equal(csr.n_rows, n_nodes);
   assert_int_equal(csr.offset_bits, 64);
   assert_int_equal(csr.column_bits, 32);
@@ -77,7 +77,7 @@ static void expect_adjacency(const char *name, int64_t n_nodes, int64_t least_pa
   riis_vtk_mesh *mesh = read_mesh(name);
   for (int32_t n_threads = 0; n_threads <= 3; ++n_threads) {
     riis_adjacency *adjacency = NULL;
-    expect_fine(riis_vtk_mesh_adjacency(mesh, n_threads, &adjacency));
+    expect_fine(riis_vtk_mesh_create_adjacency(mesh, n_threads, &adjacency));
     assert_int_equal(expect_rows(adjacency, n_nodes, are_joined), n_pairs);
     riis_adjacency_destroy(&adjacency);
   }
@@ -115,8 +115,8 @@ static void test_curved_cells(void **state) {
     expect_adjacency("curved.vtu", n_nodes, 1000);
     riis_vtk_mesh *mesh = read_mesh("curved.vtu");
     int64_t n_volumes = 0, n_left_out = -1, n_cells = 0;
-    expect_fine(riis_vtk_mesh_nodes(mesh, NULL, &n_cells, NULL));
-    expect_fine(riis_vtk_mesh_volume_cells(mesh, &n_volumes, &n_left_out));
+    expect_fine(riis_vtk_mesh_get_nodes(mesh, NULL, &n_cells, NULL));
+    expect_fine(riis_vtk_mesh_get_volume_cells(mesh, &n_volumes, &n_left_out));
     assert_true(n_volumes == n_cells && n_left_out == 0);
     riis_vtk_mesh_destroy(&mesh);
   }
@@ -142,8 +142,8 @@ static void test_triquadratic_pyramid(void **state) {
   riis_vtk_mesh *mesh = read_mesh("pyramid.vtk");
   riis_adjacency *adjacency = NULL;
   riis_csr csr;
-  expect_fine(riis_vtk_mesh_adjacency(mesh, 1, &adjacency));
-  expect_fine(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+  expect_fine(riis_vtk_mesh_create_adjacency(mesh, 1, &adjacency));
+  expect_fine(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
   const int64_t *offsets = csr.offsets;
   for (int i = 0; i < 7; ++i) assert_int_equal(offsets[nodes[i] + 1] - offsets[nodes[i]], n_neighbors[i]);
   assert_int_equal(offsets[19], 2 * 49);
@@ -156,8 +156,8 @@ static void expect_same_rows(const char *name, const riis_csr *expected) {
   riis_vtk_mesh *mesh = read_mesh(name);
   riis_adjacency *adjacency = NULL;
   riis_csr csr;
-  expect_fine(riis_vtk_mesh_adjacency(mesh, 2, &adjacency));
-  expect_fine(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+  expect_fine(riis_vtk_mesh_create_adjacency(mesh, 2, &adjacency));
+  expect_fine(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
   assert_int_equal(csr.n_rows, expected->n_rows);
   assert_memory_equal(csr.offsets, expected->offsets, (size_t)(csr.n_rows + 1) * 8);
   assert_memory_equal(csr.columns, expected->columns, (size_t)((const int64_t *)csr.offsets)[csr.n_rows] * 4);
@@ -177,8 +177,8 @@ static void test_polyhedra(void **state) {
     plain_write("streams.vtu", &hexahedra, PLAIN_STREAMS, n_pieces);
     plain_write("lists.vtu", &hexahedra, PLAIN_LISTS, n_pieces);
     riis_vtk_mesh *mesh = read_mesh("cells.vtu");
-    expect_fine(riis_vtk_mesh_adjacency(mesh, 1, &adjacency));
-    expect_fine(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+    expect_fine(riis_vtk_mesh_create_adjacency(mesh, 1, &adjacency));
+    expect_fine(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
     assert_int_equal(csr.n_rows, n_pieces * 125);
     assert_true(((const int64_t *)csr.offsets)[csr.n_rows] > 300);
     expect_same_rows("streams.vtu", &csr);
@@ -188,8 +188,8 @@ static void test_polyhedra(void **state) {
     /* The file that riis writes again has the faces. */
     mesh = read_mesh("lists.vtu");
     expect_fine(riis_vtk_mesh_write(mesh, scratch_path("again.vtu")));
-    expect_fine(riis_vtk_mesh_adjacency(mesh, 1, &adjacency));
-    expect_fine(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+    expect_fine(riis_vtk_mesh_create_adjacency(mesh, 1, &adjacency));
+    expect_fine(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
     expect_same_rows("again.vtu", &csr);
     riis_adjacency_destroy(&adjacency);
     riis_vtk_mesh_destroy(&mesh);
@@ -203,14 +203,14 @@ static void test_quadratic_tetrahedra(void **state) {
   const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
   plain_mesh hexahedra = plain_hexahedra(4, lower, upper), quadratic = plain_quadratic_tetrahedra(&hexahedra),
              corners = plain_cut(&quadratic, 4);
-  riis_cells cells;
+  riis_mesh_cells cells;
   riis_adjacency *adjacency = NULL;
   riis_csr csr;
-  expect_fine(riis_cells_init(&cells, sizeof cells));
+  expect_fine(riis_mesh_cells_init(&cells, sizeof cells));
   cells.n_nodes = corners.n_nodes, cells.n_cells = corners.n_cells, cells.nodes_per_cell = 4;
   cells.node_ids = corners.ids, cells.id_bits = 64;
   expect_fine(riis_adjacency_create_from_cells(&cells, &adjacency));
-  expect_fine(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+  expect_fine(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
   plain_write("quadratic.vtu", &quadratic, PLAIN_CELLS, 1);
   expect_same_rows("quadratic.vtu", &csr);
   riis_adjacency_destroy(&adjacency);
@@ -238,11 +238,11 @@ static void test_unknown_cells(void **state) {
     scratch_write_text("unknown.vtk", text);
     riis_vtk_mesh *mesh = read_mesh("unknown.vtk");
     int64_t n_volumes = -1, n_left_out = -1;
-    expect_fine(riis_vtk_mesh_volume_cells(mesh, &n_volumes, &n_left_out));
+    expect_fine(riis_vtk_mesh_get_volume_cells(mesh, &n_volumes, &n_left_out));
     assert_int_equal(n_volumes, cases[i].n_volumes);
     assert_int_equal(n_left_out, cases[i].n_left_out);
-    expect_fine(riis_vtk_mesh_volume_cells(mesh, NULL, NULL));
-    expect_refused(riis_vtk_mesh_volume_cells(NULL, &n_volumes, NULL), RIIS_INVALID_ARGUMENT, "mesh is NULL");
+    expect_fine(riis_vtk_mesh_get_volume_cells(mesh, NULL, NULL));
+    expect_refused(riis_vtk_mesh_get_volume_cells(NULL, &n_volumes, NULL), RIIS_INVALID_ARGUMENT, "mesh is NULL");
     riis_vtk_mesh_destroy(&mesh);
   }
 }
@@ -268,7 +268,7 @@ static void expect_long_edges(const char *name, int64_t n_nodes, const double lo
   const double *xyz = NULL;
   riis_vtk_mesh *mesh = read_mesh(name);
   riis_surface *surface = surface_in(lower, upper);
-  expect_fine(riis_vtk_mesh_nodes(mesh, NULL, NULL, &xyz));
+  expect_fine(riis_vtk_mesh_get_nodes(mesh, NULL, NULL, &xyz));
   for (int64_t i = 0; i < n_nodes * n_nodes; ++i) {
     const double *a = xyz + 3 * (i / n_nodes), *b = xyz + 3 * (i % n_nodes);
     double square = 0;
@@ -281,7 +281,7 @@ static void expect_long_edges(const char *name, int64_t n_nodes, const double lo
   }
   for (int32_t n_threads = 0; n_threads <= 2; ++n_threads) {
     riis_adjacency *adjacency = NULL;
-    expect_fine(riis_vtk_mesh_long_edges(mesh, surface, longer_than, n_threads, n_threads ? &n_out : NULL, &adjacency));
+    expect_fine(riis_vtk_mesh_create_long_edges(mesh, surface, longer_than, n_threads, n_threads ? &n_out : NULL, &adjacency));
     assert_int_equal(expect_rows(adjacency, n_nodes, are_joined), n);
     riis_adjacency_destroy(&adjacency);
   }
@@ -312,9 +312,9 @@ static void test_long_edges_refused(void **state) {
   const double bad[3] = {-1, NAN, INFINITY};
   const char *const texts[3] = {"longer_than is -1;", "longer_than is nan;", "longer_than is inf;"};
   for (int i = 0; i < 3; ++i)
-    expect_refused(riis_vtk_mesh_long_edges(mesh, surface, bad[i], 1, NULL, &adjacency), RIIS_INVALID_ARGUMENT,
+    expect_refused(riis_vtk_mesh_create_long_edges(mesh, surface, bad[i], 1, NULL, &adjacency), RIIS_INVALID_ARGUMENT,
                    texts[i]);
-  expect_refused(riis_vtk_mesh_long_edges(mesh, surface, 0, -1, NULL, &adjacency), RIIS_INVALID_ARGUMENT,
+  expect_refused(riis_vtk_mesh_create_long_edges(mesh, surface, 0, -1, NULL, &adjacency), RIIS_INVALID_ARGUMENT,
                  "n_threads is -1");
   assert_null(adjacency);
   riis_surface_destroy(&surface);
@@ -334,7 +334,7 @@ static void test_voxel(void **state) {
   }
   riis_vtk_mesh *mesh = read_mesh("voxel.vtk");
   riis_adjacency *adjacency = NULL;
-  expect_fine(riis_vtk_mesh_adjacency(mesh, 1, &adjacency));
+  expect_fine(riis_vtk_mesh_create_adjacency(mesh, 1, &adjacency));
   assert_int_equal(expect_rows(adjacency, 9, are_joined), 24);
   riis_adjacency_destroy(&adjacency);
   riis_vtk_mesh_destroy(&mesh);
@@ -361,26 +361,26 @@ static void test_no_volume(void **state) {
     scratch_write_text("plain.vtk", text);
     riis_vtk_mesh *file = read_mesh("plain.vtk");
     riis_adjacency *adjacency = NULL;
-    expect_fine(riis_vtk_mesh_adjacency(file, 2, &adjacency));
+    expect_fine(riis_vtk_mesh_create_adjacency(file, 2, &adjacency));
     assert_int_equal(expect_rows(adjacency, 10, are_joined), 0);
 
     riis_csr csr;
     riis_mesh *mesh = NULL;
-    riis_mark_result *result[2] = {NULL, NULL};
+    riis_marks *result[2] = {NULL, NULL};
     riis_mark_options options;
     riis_mark_stats stats[2];
     const double *xyz = NULL;
-    expect_fine(riis_vtk_mesh_nodes(file, NULL, NULL, &xyz));
+    expect_fine(riis_vtk_mesh_get_nodes(file, NULL, NULL, &xyz));
     expect_fine(riis_mesh_create(10, xyz, xyz + 1, xyz + 2, 3, &mesh));
-    expect_fine(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+    expect_fine(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
     expect_fine(riis_mesh_set_adjacency(mesh, &csr));
     expect_fine(riis_mark_options_init(&options, sizeof options));
     options.distance_limit = 0.5;
     for (int i = 0; i < 2; ++i) {
       options.search = i ? RIIS_SEARCH_NEIGHBOR : RIIS_SEARCH_EXHAUSTIVE;
-      expect_fine(riis_mark_result_create(&result[i]));
+      expect_fine(riis_marks_create(&result[i]));
       expect_fine(riis_mark_nodes(surface, mesh, &options, result[i]));
-      expect_fine(riis_mark_result_stats(result[i], &stats[i], sizeof stats[i]));
+      expect_fine(riis_marks_get_stats(result[i], &stats[i], sizeof stats[i]));
       assert_int_equal(stats[i].complete, 1);
     }
     assert_in_range(stats[0].n_within_limit, 3, 9);
@@ -388,10 +388,11 @@ static void test_no_volume(void **state) {
     const int64_t *node[2];
     const double *distance[2];
     for (int i = 0; i < 2; ++i)
-      expect_fine(riis_mark_result_within_limit(result[i], NULL, &node[i], &distance[i], NULL, NULL));
+      node[i] = within_list(result[i]).node_id;
+      distance[i] = within_list(result[i]).distance;
     assert_memory_equal(node[0], node[1], (size_t)stats[0].n_within_limit * sizeof *node[0]);
     assert_memory_equal(distance[0], distance[1], (size_t)stats[0].n_within_limit * sizeof *distance[0]);
-    for (int i = 0; i < 2; ++i) riis_mark_result_destroy(&result[i]);
+    for (int i = 0; i < 2; ++i) riis_marks_destroy(&result[i]);
     riis_mesh_destroy(&mesh);
     riis_adjacency_destroy(&adjacency);
     riis_vtk_mesh_destroy(&file);
@@ -409,8 +410,8 @@ static void test_threads(void **state) {
   for (int i = 0; i < 2; ++i) {
     riis_vtk_mesh *mesh = read_mesh(names[i]);
     riis_adjacency *adjacency = NULL;
-    expect_refused(riis_vtk_mesh_adjacency(mesh, -1, &adjacency), RIIS_INVALID_ARGUMENT, "n_threads is -1");
-    expect_refused(riis_vtk_mesh_adjacency(mesh, 1025, &adjacency), RIIS_INVALID_ARGUMENT, "n_threads is 1025");
+    expect_refused(riis_vtk_mesh_create_adjacency(mesh, -1, &adjacency), RIIS_INVALID_ARGUMENT, "n_threads is -1");
+    expect_refused(riis_vtk_mesh_create_adjacency(mesh, 1025, &adjacency), RIIS_INVALID_ARGUMENT, "n_threads is 1025");
     assert_true(strncmp(riis_last_error(), "n_threads", 9) == 0);
     assert_null(adjacency);
     riis_vtk_mesh_destroy(&mesh);

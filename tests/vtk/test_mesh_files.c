@@ -59,7 +59,7 @@ static void round_trip(const char *name, int encoding, int float_points) {
   riis_vtk_mesh *mesh = read_mesh(name);
   int64_t n = 0, n_read_cells = 0;
   const double *xyz = NULL;
-  expect_fine(riis_vtk_mesh_nodes(mesh, &n, &n_read_cells, &xyz));
+  expect_fine(riis_vtk_mesh_get_nodes(mesh, &n, &n_read_cells, &xyz));
   assert_int_equal(n, n_nodes);
   assert_int_equal(n_read_cells, n_cells);
   static double expected[3 * n_nodes];
@@ -117,7 +117,7 @@ static void test_legacy_keywords(void **state) {
       "FIELD more 1\nextra 1 5 long\n5 4 3 2 1\n");
   riis_vtk_mesh *mesh = read_mesh("old.vtk");
   int64_t n = 0, n_read_cells = 0;
-  expect_fine(riis_vtk_mesh_nodes(mesh, &n, &n_read_cells, NULL));
+  expect_fine(riis_vtk_mesh_get_nodes(mesh, &n, &n_read_cells, NULL));
   assert_int_equal(n, 5);
   assert_int_equal(n_read_cells, 2);
   expect_fine(riis_vtk_mesh_write(mesh, scratch_path("old.vtu")));
@@ -146,7 +146,7 @@ static void test_legacy_metadata(void **state) {
     if (i % 2 == 0) assert_non_null(strstr(bytes, "COMPONENT_NAMES\nalong%20x\n\n\n"));
     free(bytes);
     riis_vtk_mesh *mesh = read_mesh("range.vtk");
-    expect_fine(riis_vtk_mesh_nodes(mesh, &n, &n_read_cells, NULL));
+    expect_fine(riis_vtk_mesh_get_nodes(mesh, &n, &n_read_cells, NULL));
     assert_int_equal(n, 40);
     assert_int_equal(n_read_cells, 1);
     expect_fine(riis_vtk_mesh_write(mesh, scratch_path("range.vtu")));
@@ -172,7 +172,7 @@ static void test_legacy_layouts(void **state) {
     int64_t n = 0, n_read_cells = -1;
     scratch_write_text("layout.vtk", texts[i]);
     riis_vtk_mesh *mesh = read_mesh("layout.vtk");
-    expect_fine(riis_vtk_mesh_nodes(mesh, &n, &n_read_cells, NULL));
+    expect_fine(riis_vtk_mesh_get_nodes(mesh, &n, &n_read_cells, NULL));
     assert_int_equal(n, 4);
     assert_int_equal(n_read_cells, i < 2);
     riis_vtk_mesh_destroy(&mesh);
@@ -197,11 +197,11 @@ static void test_word_array(void **state) {
 }
 
 /* Marks the mesh with the aortic valve. */
-static riis_mark_result *mark(riis_vtk_mesh *mesh, double half_thickness, double distance_limit) {
+static riis_marks *mark(riis_vtk_mesh *mesh, double half_thickness, double distance_limit) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_mesh *nodes = NULL;
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   riis_surface_options surface_options;
   riis_mark_options mark_options;
   int64_t n = 0;
@@ -210,9 +210,9 @@ static riis_mark_result *mark(riis_vtk_mesh *mesh, double half_thickness, double
   expect_fine(riis_surface_options_init(&surface_options, sizeof surface_options));
   surface_options.half_thickness = half_thickness;
   expect_fine(riis_surface_create(valve, &surface_options, &surface));
-  expect_fine(riis_vtk_mesh_nodes(mesh, &n, NULL, &xyz));
+  expect_fine(riis_vtk_mesh_get_nodes(mesh, &n, NULL, &xyz));
   expect_fine(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &nodes));
-  expect_fine(riis_mark_result_create(&result));
+  expect_fine(riis_marks_create(&result));
   expect_fine(riis_mark_options_init(&mark_options, sizeof mark_options));
   mark_options.distance_limit = distance_limit;
   expect_fine(riis_mark_nodes(surface, nodes, &mark_options, result));
@@ -222,11 +222,11 @@ static riis_mark_result *mark(riis_vtk_mesh *mesh, double half_thickness, double
   return result;
 }
 
-static void expect_marks(const char *path, const riis_mark_result *result, double far_distance) {
+static void expect_marks(const char *path, const riis_marks *result, double far_distance) {
   static uint8_t marked[n_nodes];
   static double distance[n_nodes], values[n_nodes];
   static int32_t leaflet[n_nodes];
-  expect_fine(riis_mark_result_dense(result, n_nodes, far_distance, marked, distance, NULL, leaflet));
+  expect_fine(dense_of(result, n_nodes, far_distance, marked, distance, NULL, leaflet));
   const char *names[3] = {"riis_marked", "riis_distance", "riis_leaflet"};
   const char *types[3] = {"unsigned char", "double", "int"};
   int n_marked = 0, n_far = 0;
@@ -251,34 +251,34 @@ static void test_marks(void **state) {
   (void)state;
   assert_int_equal(shim_write_box(scratch_path("in.vtu"), SHIM_RAW, n_side, lower, upper, 0), 1);
   riis_vtk_mesh *mesh = read_mesh("in.vtu");
-  riis_mark_result *result = mark(mesh, 0.15, 0.3);
-  expect_fine(riis_vtk_mesh_set_marks(mesh, result, RIIS_FAR_DISTANCE));
+  riis_marks *result = mark(mesh, 0.15, 0.3);
+  expect_fine(riis_vtk_mesh_set_marks(mesh, result, RIIS_FAR_DISTANCE, NULL));
   expect_fine(riis_vtk_mesh_write(mesh, scratch_path("marked.vtu")));
   expect_marks(scratch_path("marked.vtu"), result, RIIS_FAR_DISTANCE);
   expect_same_mesh(scratch_path("in.vtu"), scratch_path("marked.vtu"));
   expect_same_array(scratch_path("in.vtu"), scratch_path("marked.vtu"), 'p', "pressure", 1);
 
   /* Other values go into the same mesh, and into a mesh that was read with marks. */
-  riis_mark_result *wider = mark(mesh, 0.25, 0.4);
-  expect_fine(riis_vtk_mesh_set_marks(mesh, wider, -7));
+  riis_marks *wider = mark(mesh, 0.25, 0.4);
+  expect_fine(riis_vtk_mesh_set_marks(mesh, wider, -7, NULL));
   expect_fine(riis_vtk_mesh_write(mesh, scratch_path("again.vtu")));
   expect_marks(scratch_path("again.vtu"), wider, -7);
   riis_vtk_mesh_destroy(&mesh);
   mesh = read_mesh("again.vtu");
-  expect_fine(riis_vtk_mesh_set_marks(mesh, result, -1));
+  expect_fine(riis_vtk_mesh_set_marks(mesh, result, -1, NULL));
   expect_fine(riis_vtk_mesh_write(mesh, scratch_path("again.vtu")));
   expect_marks(scratch_path("again.vtu"), result, -1);
 
   /* Refusals leave the marks as they were. */
-  expect_refused(riis_vtk_mesh_set_marks(mesh, result, 0.1), RIIS_INVALID_ARGUMENT, "far_distance");
-  riis_mark_result *unused = NULL;
-  expect_fine(riis_mark_result_create(&unused));
-  expect_refused(riis_vtk_mesh_set_marks(mesh, unused, -1), RIIS_INVALID_ARGUMENT, "nodes");
+  expect_refused(riis_vtk_mesh_set_marks(mesh, result, 0.1, NULL), RIIS_INVALID_ARGUMENT, "far_distance");
+  riis_marks *unused = NULL;
+  expect_fine(riis_marks_create(&unused));
+  expect_refused(riis_vtk_mesh_set_marks(mesh, unused, -1, NULL), RIIS_INVALID_ARGUMENT, "nodes");
   expect_fine(riis_vtk_mesh_write(mesh, scratch_path("again.vtu")));
   expect_marks(scratch_path("again.vtu"), result, -1);
-  riis_mark_result_destroy(&unused);
-  riis_mark_result_destroy(&wider);
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&unused);
+  riis_marks_destroy(&wider);
+  riis_marks_destroy(&result);
   riis_vtk_mesh_destroy(&mesh);
 }
 

@@ -123,11 +123,11 @@ static void test_few_nodes(void **state) {
   riis_vtk_mesh *mesh = NULL, *part = NULL;
   expect_fine(riis_vtk_mesh_read(scratch_path("zoo.vtu"), &mesh));
   expect_fine(riis_vtk_mesh_extract(mesh, 1, &last, &part));
-  expect_fine(riis_vtk_mesh_nodes(part, &n_points, NULL, NULL));
+  expect_fine(riis_vtk_mesh_get_nodes(part, &n_points, NULL, NULL));
   assert_true(n_points >= 1);
   riis_vtk_mesh_destroy(&part);
   expect_fine(riis_vtk_mesh_extract(mesh, 0, NULL, &part));
-  expect_fine(riis_vtk_mesh_nodes(part, &n_points, NULL, NULL));
+  expect_fine(riis_vtk_mesh_get_nodes(part, &n_points, NULL, NULL));
   assert_int_equal(n_points, 0);
   riis_vtk_mesh_destroy(&part);
   const int64_t bad[] = {0, n_shim_zoo};
@@ -146,13 +146,13 @@ static void expect_size(const char *name) {
   struct stat status;
   int64_t n_bytes = 0;
   expect_fine(riis_vtk_mesh_read(scratch_path(name), &mesh));
-  expect_fine(riis_vtk_mesh_file_size(mesh, &n_bytes));
+  expect_fine(riis_vtk_mesh_get_file_size(mesh, &n_bytes));
   expect_fine(riis_vtk_mesh_write(mesh, scratch_path("size.vtu")));
   assert_int_equal(stat(scratch_path("size.vtu"), &status), 0);
   if (status.st_size < n_bytes || status.st_size > n_bytes + 8192)
     fail_msg("%s: %lld bytes promised, %lld there", name, (long long)n_bytes, (long long)status.st_size);
-  expect_refused(riis_vtk_mesh_file_size(NULL, &n_bytes), RIIS_INVALID_ARGUMENT, "mesh is NULL");
-  expect_refused(riis_vtk_mesh_file_size(mesh, NULL), RIIS_INVALID_ARGUMENT, "n_bytes is NULL");
+  expect_refused(riis_vtk_mesh_get_file_size(NULL, &n_bytes), RIIS_INVALID_ARGUMENT, "mesh is NULL");
+  expect_refused(riis_vtk_mesh_get_file_size(mesh, NULL), RIIS_INVALID_ARGUMENT, "n_bytes is NULL");
   riis_vtk_mesh_destroy(&mesh);
 }
 
@@ -165,7 +165,7 @@ static void test_size(void **state) {
 typedef struct marking {
   riis_vtk_mesh *file;
   riis_mesh *mesh;
-  riis_mark_result *result;
+  riis_marks *result;
 } marking;
 
 /* Marks the box with all fields that the surface has, by a valve that opens from 0 to 0.1 in 2 seconds. */
@@ -187,9 +187,9 @@ static marking marked_box(const char *kind, double z, int32_t fields) {
   expect_fine(riis_surface_create(now, &placement, &surface));
   expect_fine(riis_surface_update_moving(surface, now, before, 2, NULL, NULL));
   expect_fine(riis_vtk_mesh_read(scratch_path("box.vtu"), &m.file));
-  expect_fine(riis_vtk_mesh_nodes(m.file, &n, NULL, &xyz));
+  expect_fine(riis_vtk_mesh_get_nodes(m.file, &n, NULL, &xyz));
   expect_fine(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &m.mesh));
-  expect_fine(riis_mark_result_create(&m.result));
+  expect_fine(riis_marks_create(&m.result));
   expect_fine(riis_mark_options_init(&how, sizeof how));
   how.fields = fields;
   expect_fine(riis_mark_nodes(surface, m.mesh, &how, m.result));
@@ -200,7 +200,7 @@ static marking marked_box(const char *kind, double z, int32_t fields) {
 }
 
 static void forget(marking *m) {
-  riis_mark_result_destroy(&m->result);
+  riis_marks_destroy(&m->result);
   riis_mesh_destroy(&m->mesh);
   riis_vtk_mesh_destroy(&m->file);
 }
@@ -209,7 +209,8 @@ static void expect_doubles(const char *name, const marking *m, int n_components,
   static double found[3 * n_box];
   int64_t n = 0, n_found = 0;
   const int64_t *node_id = NULL;
-  expect_fine(riis_mark_result_within_limit(m->result, &n, &node_id, NULL, NULL, NULL));
+  n = within_list(m->result).n_nodes;
+  node_id = within_list(m->result).node_id;
   assert_int_equal(shim_read_array(scratch_path("fields.vtu"), 'p', name, NULL, &n_found, NULL, found), 1);
   assert_int_equal(n_found, n_components);
   for (int64_t i = 0; i < n; ++i) {
@@ -225,7 +226,8 @@ static void expect_integers(const char *name, const marking *m, const int32_t *v
   char type[32];
   int64_t n = 0;
   const int64_t *node_id = NULL;
-  expect_fine(riis_mark_result_within_limit(m->result, &n, &node_id, NULL, NULL, NULL));
+  n = within_list(m->result).n_nodes;
+  node_id = within_list(m->result).node_id;
   assert_int_equal(shim_read_array(scratch_path("fields.vtu"), 'p', name, type, NULL, NULL, found), 1);
   assert_string_equal(type, "int");
   for (int64_t i = 0; i < n; ++i) {
@@ -238,11 +240,11 @@ static void expect_integers(const char *name, const marking *m, const int32_t *v
 static void test_fields(void **state) {
   (void)state;
   const int32_t all = 2 * RIIS_FIELD_PATCH - 1;
-  riis_mark_fields fields;
+  riis_mark_list fields;
   marking m = marked_box("mitral", -0.6, all);
   expect_fine(riis_vtk_mesh_set_fields(m.file, m.result, all, "m"));
   expect_fine(riis_vtk_mesh_write(m.file, scratch_path("fields.vtu")));
-  expect_fine(riis_mark_result_within_limit_fields(m.result, &fields, sizeof fields));
+  expect_fine(riis_marks_get_list(m.result, RIIS_LIST_WITHIN_LIMIT, &fields, sizeof fields));
   assert_true(fields.n_nodes > 20);
   expect_doubles("m_point", &m, 3, fields.point);
   expect_doubles("m_normal", &m, 3, fields.normal);

@@ -31,9 +31,9 @@ static riis_surface *surface_of(const char *kind, double opening, double half_th
 
 /* Marks by both searches, with new and used results, several limits and numbers of threads. Returns the number of nodes marked
  * first. */
-static int64_t expect_same(const riis_surface *surface, const riis_mesh *mesh, riis_mark_result *warm) {
+static int64_t expect_same(const riis_surface *surface, const riis_mesh *mesh, riis_marks *warm) {
   const int owned_before = n_owned();
-  riis_mark_result *expected = new_result(), *cold = new_result();
+  riis_marks *expected = new_result(), *cold = new_result();
   const double wide = 0.3;
   int64_t n_marked = 0;
   for (int k = 0; k < 2; ++k) {
@@ -44,7 +44,7 @@ static int64_t expect_same(const riis_surface *surface, const riis_mesh *mesh, r
     if (k == 0) n_marked = stats_of(expected).n_marked;
     options.search = RIIS_SEARCH_NEIGHBOR;
     options.n_threads = 1 + (int32_t)(random_bits(&rng) % 4);
-    riis_mark_result *mine[2] = {cold, warm};
+    riis_marks *mine[2] = {cold, warm};
     for (int i = 0; i < 2; ++i) {
       CHECK_OK(riis_mark_nodes(surface, mesh, &options, mine[i]));
       const riis_mark_stats stats = stats_of(mine[i]);
@@ -75,10 +75,10 @@ static void expect_same_in_file(const char *path, const char *kind, int64_t leas
   const double *xyz;
   CHECK_OK(riis_vtk_mesh_read(path, &file));
   own_object(file, destroy_file);
-  CHECK_OK(riis_vtk_mesh_nodes(file, &n_nodes, &n_cells, &xyz));
-  CHECK_OK(riis_vtk_mesh_adjacency(file, 2, &adjacency));
+  CHECK_OK(riis_vtk_mesh_get_nodes(file, &n_nodes, &n_cells, &xyz));
+  CHECK_OK(riis_vtk_mesh_create_adjacency(file, 2, &adjacency));
   own(adjacency);
-  CHECK_OK(riis_adjacency_csr(adjacency, &csr, sizeof csr));
+  CHECK_OK(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
   assert_in_range(n_nodes, least_nodes, 50000);
   assert_true(((const int64_t *)csr.offsets)[n_nodes] > 10 * n_nodes); /* of tetrahedra: about 14 neighbours */
   riis_mesh *mesh = mesh_of(n_nodes, xyz);
@@ -86,7 +86,7 @@ static void expect_same_in_file(const char *path, const char *kind, int64_t leas
   const double half_thickness[2] = {0.03, -1};
   for (int k = 0; k < 2; ++k) {
     const int owned_before = n_owned();
-    riis_mark_result *warm = new_result();
+    riis_marks *warm = new_result();
     for (int step = 0; step <= 2; ++step) {
       const int n_outside = n_owned();
       riis_surface *surface = surface_of(kind, 0.5 * step, half_thickness[k]);
@@ -142,7 +142,8 @@ static void graded_by_gmsh(const char *kind) {
   riis_surface *surface = surface_of(kind, 1, -1);
   int64_t n_vertices;
   const double *vertices;
-  CHECK_OK(riis_surface_vertices(surface, &n_vertices, &vertices));
+  n_vertices = triangles_of(surface).n_vertices;
+  vertices = triangles_of(surface).xyz;
   memcpy(fine, vertices + 3 * (random_bits(&rng) % (uint64_t)n_vertices), sizeof fine);
   free_one_owned(surface);
   const double x = 0.5 * (lower[0] + upper[0]), y = 0.5 * (lower[1] + upper[1]);

@@ -39,9 +39,12 @@ static void expect_sheet(const riis_surface *surface, double time, double speed,
   const double *xyz = NULL, *velocity = NULL;
   const int64_t *corners = NULL;
   const int32_t *leaflet_id = NULL;
-  expect_fine(riis_surface_vertices(surface, &n_vertices, &xyz));
-  expect_fine(riis_surface_vertex_velocities(surface, NULL, &velocity));
-  expect_fine(riis_surface_triangles(surface, &n, &corners, NULL, &leaflet_id, NULL));
+  n_vertices = triangles_of(surface).n_vertices;
+  xyz = triangles_of(surface).xyz;
+  velocity = triangles_of(surface).velocity;
+  n = triangles_of(surface).n_triangles;
+  corners = triangles_of(surface).vertex_id;
+  leaflet_id = triangles_of(surface).leaflet_id;
   assert_int_equal(n, sheet_n_triangles);
   assert_int_equal(n_vertices, sheet_n_vertices);
   for (int64_t t = 0; t < n; ++t) {
@@ -108,7 +111,7 @@ static riis_vtk_motion *collection(const char *name) {
 static void expect_files(const riis_vtk_motion *motion, int64_t n_expected, const char *last) {
   int64_t n = 0;
   const char *const *paths = NULL;
-  expect_fine(riis_vtk_motion_files(motion, &n, &paths));
+  expect_fine(riis_vtk_motion_get_files(motion, &n, &paths));
   assert_int_equal(n, n_expected);
   for (int64_t i = 0; i < n; ++i) assert_int_equal(access(paths[i], R_OK), 0);
   assert_string_equal(paths[n - 1], scratch_path(last));
@@ -195,7 +198,7 @@ static void test_same_as_arrays(void **state) {
   faces.n_vertices = frames.n_vertices = sheet_n_vertices;
   faces.n_faces = sheet_n_triangles;
   faces.vertex_ids = corners;
-  faces.vertex_id_bits = 64;
+  faces.id_bits = 64;
   frames.n_keys = n_keys;
   frames.time = key_times;
   frames.xyz = xyz[0][0];
@@ -210,11 +213,11 @@ static void test_same_as_arrays(void **state) {
     const double *one = NULL, *other = NULL;
     expect_fine(riis_surface_update_from_keyframes(a, arrays, 0.07 * i, 0.06 * i, NULL));
     expect_fine(riis_surface_update_from_keyframes(b, files, 0.07 * i, 0.06 * i, NULL));
-    expect_fine(riis_surface_vertices(a, NULL, &one));
-    expect_fine(riis_surface_vertices(b, NULL, &other));
+    one = triangles_of(a).xyz;
+    other = triangles_of(b).xyz;
     assert_memory_equal(one, other, sizeof xyz[0]);
-    expect_fine(riis_surface_vertex_velocities(a, NULL, &one));
-    expect_fine(riis_surface_vertex_velocities(b, NULL, &other));
+    one = triangles_of(a).velocity;
+    other = triangles_of(b).velocity;
     assert_memory_equal(one, other, sizeof xyz[0]);
   }
   riis_surface_destroy(&a);

@@ -286,8 +286,8 @@ static void test_arguments_of_arrays(void **state) {
   frames.struct_size = 0;
   expect_refused(riis_vtk_motion_arrays(motion, &faces, &frames), RIIS_INVALID_STRUCT_SIZE, "the struct size of frames is 0; ");
   assert_null(faces.vertex_ids);
-  expect_refused(riis_vtk_motion_files(NULL, NULL, NULL), RIIS_INVALID_ARGUMENT, "motion is NULL");
-  expect_fine(riis_vtk_motion_files(motion, NULL, NULL));
+  expect_refused(riis_vtk_motion_get_files(NULL, NULL, NULL), RIIS_INVALID_ARGUMENT, "motion is NULL");
+  expect_fine(riis_vtk_motion_get_files(motion, NULL, NULL));
   expect_refused(riis_vtk_motion_number_pieces(NULL), RIIS_INVALID_ARGUMENT, "motion is NULL");
   riis_vtk_motion_destroy(&motion);
   riis_vtk_motion_destroy(&motion);

@@ -19,17 +19,17 @@ static riis_vtk_mesh *mesh;
 static riis_vtk_mesh *marked_box(const char *name, int n, const double lower[3], const double upper[3]) {
   riis_vtk_mesh *box = NULL;
   riis_mesh *nodes = NULL;
-  riis_mark_result *result = NULL;
+  riis_marks *result = NULL;
   int64_t n_nodes = 0;
   const double *xyz = NULL;
   assert_int_equal(shim_write_box(scratch_path(name), SHIM_RAW, n, lower, upper, 0), 1);
   expect_fine(riis_vtk_mesh_read(scratch_path(name), &box));
-  expect_fine(riis_vtk_mesh_nodes(box, &n_nodes, NULL, &xyz));
+  expect_fine(riis_vtk_mesh_get_nodes(box, &n_nodes, NULL, &xyz));
   expect_fine(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &nodes));
-  expect_fine(riis_mark_result_create(&result));
+  expect_fine(riis_marks_create(&result));
   expect_fine(riis_mark_nodes(surface, nodes, NULL, result));
-  expect_fine(riis_vtk_mesh_set_marks(box, result, -1));
-  riis_mark_result_destroy(&result);
+  expect_fine(riis_vtk_mesh_set_marks(box, result, -1, NULL));
+  riis_marks_destroy(&result);
   riis_mesh_destroy(&nodes);
   return box;
 }
@@ -234,7 +234,7 @@ static void two_nodes(int64_t edge[2]) {
   const double *xyz = NULL;
   int64_t n = 0;
   double closest[2] = {1e9, 1e9};
-  expect_fine(riis_vtk_mesh_nodes(mesh, &n, NULL, &xyz));
+  expect_fine(riis_vtk_mesh_get_nodes(mesh, &n, NULL, &xyz));
   const double wanted[2][3] = {{0, 0, -0.45}, {0.17, 0, -0.45}};
   for (int64_t i = 0; i < n; ++i)
     for (int k = 0; k < 2; ++k) {

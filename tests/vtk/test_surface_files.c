@@ -56,8 +56,13 @@ static void expect_written(const riis_surface *surface, const char *path) {
   const double *xyz = NULL;
   const int64_t *vertex_id = NULL, *triangle_id = NULL;
   const int32_t *leaflet_id = NULL, *patch_id = NULL;
-  expect_fine(riis_surface_vertices(surface, &n_vertices, &xyz));
-  expect_fine(riis_surface_triangles(surface, &n_triangles, &vertex_id, &triangle_id, &leaflet_id, &patch_id));
+  n_vertices = triangles_of(surface).n_vertices;
+  xyz = triangles_of(surface).xyz;
+  n_triangles = triangles_of(surface).n_triangles;
+  vertex_id = triangles_of(surface).vertex_id;
+  triangle_id = triangles_of(surface).triangle_id;
+  leaflet_id = triangles_of(surface).leaflet_id;
+  patch_id = triangles_of(surface).patch_id;
   char type[32];
   double *points = numbers(3 * n_vertices);
   int64_t *corners = malloc((size_t)(3 * n_triangles) * sizeof *corners);
@@ -84,7 +89,8 @@ static void test_valve_is_written(void **state) {
   expect_written(surface, scratch_path("valve.vtp"));
   int64_t n = 0, n_components = 0, n_tuples = 0;
   const double *uv = NULL;
-  expect_fine(riis_surface_vertex_parameters(surface, &n, &uv));
+  n = triangles_of(surface).n_vertices;
+  uv = triangles_of(surface).uv;
   double *values = numbers(2 * n);
   char type[32];
   assert_int_equal(shim_read_array(scratch_path("valve.vtp"), 'p', "riis_uv", type, &n_components, &n_tuples, NULL), 1);
@@ -101,9 +107,9 @@ static riis_surface *surface_of_file(const char *name, const riis_surface_option
                                      riis_surface_arrays *arrays) {
   riis_vtk_surface *file = NULL;
   riis_surface *surface = NULL;
-  expect_fine(riis_vtk_surface_read(scratch_path(name), &file));
+  expect_fine(riis_vtk_surface_read(scratch_path(name), NULL, &file));
   expect_fine(riis_surface_arrays_init(arrays, sizeof *arrays));
-  expect_fine(riis_vtk_surface_arrays(file, arrays));
+  expect_fine(riis_vtk_surface_get_arrays(file, arrays, sizeof *arrays));
   expect_fine(riis_surface_create_from_arrays(arrays, options, &surface));
   riis_vtk_surface_destroy(&file);
   assert_null(file);
@@ -157,13 +163,13 @@ static void test_quads_stay_quads(void **state) {
   write_polydata("quads.vtp", "NumberOfPolys=\"2\"", CELLS("0 1 2 3 1 4 5 2", "4 8"), "", LEAFLETS("UInt8", "5 9"));
   riis_vtk_surface *file = NULL;
   riis_surface_arrays arrays;
-  expect_fine(riis_vtk_surface_read(scratch_path("quads.vtp"), &file));
+  expect_fine(riis_vtk_surface_read(scratch_path("quads.vtp"), NULL, &file));
   expect_fine(riis_surface_arrays_init(&arrays, sizeof arrays));
-  expect_fine(riis_vtk_surface_arrays(file, &arrays));
+  expect_fine(riis_vtk_surface_get_arrays(file, &arrays, sizeof arrays));
   assert_int_equal(arrays.n_vertices, 7);
   assert_int_equal(arrays.n_faces, 2);
   assert_int_equal(arrays.corners_per_face, 4);
-  assert_int_equal(arrays.vertex_id_bits, 64);
+  assert_int_equal(arrays.id_bits, 64);
   assert_int_equal(arrays.index_base, 0);
   const int64_t expected[8] = {0, 1, 2, 3, 1, 4, 5, 2};
   assert_memory_equal(arrays.vertex_ids, expected, sizeof expected);
@@ -185,8 +191,10 @@ static void expect_faces(const char *name, int64_t n_triangles, double area, con
   const double *xyz = NULL;
   const int64_t *corners = NULL;
   const int32_t *leaflet_id = NULL;
-  expect_fine(riis_surface_vertices(surface, NULL, &xyz));
-  expect_fine(riis_surface_triangles(surface, &n, &corners, NULL, &leaflet_id, NULL));
+  xyz = triangles_of(surface).xyz;
+  n = triangles_of(surface).n_triangles;
+  corners = triangles_of(surface).vertex_id;
+  leaflet_id = triangles_of(surface).leaflet_id;
   for (int64_t i = 0; i < n; ++i) {
     const double *a = xyz + 3 * corners[3 * i], *b = xyz + 3 * corners[3 * i + 1], *c = xyz + 3 * corners[3 * i + 2];
     assert_true((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0);
@@ -280,7 +288,8 @@ static void expect_stl(const char *name) {
   riis_surface *surface = surface_of_file(name, &options, &arrays);
   int64_t n = 0;
   const int64_t *triangle_id = NULL;
-  expect_fine(riis_surface_triangles(surface, &n, NULL, &triangle_id, NULL, NULL));
+  n = triangles_of(surface).n_triangles;
+  triangle_id = triangles_of(surface).triangle_id;
   assert_int_equal(n, 2);
   assert_int_equal(triangle_id[0], 0);
   assert_int_equal(triangle_id[1], 2);
@@ -301,9 +310,9 @@ static void test_stl(void **state) {
   scratch_write_text("two.stl", both);
   riis_vtk_surface *file = NULL;
   riis_surface_arrays arrays;
-  expect_fine(riis_vtk_surface_read(scratch_path("two.stl"), &file));
+  expect_fine(riis_vtk_surface_read(scratch_path("two.stl"), NULL, &file));
   expect_fine(riis_surface_arrays_init(&arrays, sizeof arrays));
-  expect_fine(riis_vtk_surface_arrays(file, &arrays));
+  expect_fine(riis_vtk_surface_get_arrays(file, &arrays, sizeof arrays));
   assert_int_equal(arrays.n_faces, 6);
   riis_vtk_surface_destroy(&file);
 }
@@ -362,7 +371,7 @@ static void test_user_surface_is_written(void **state) {
 static void expect_file_error(const char *name, const char *part_of_text) {
   riis_vtk_surface *surface = NULL;
   scratch_watch_output();
-  const riis_status status = riis_vtk_surface_read(scratch_path(name), &surface);
+  const riis_status status = riis_vtk_surface_read(scratch_path(name), NULL, &surface);
   const long n_printed = scratch_end_watch();
   expect_refused(status, RIIS_FILE_ERROR, part_of_text);
   expect_refused(status, RIIS_FILE_ERROR, name);
@@ -441,7 +450,7 @@ static void test_truncated_polydata(void **state) {
   for (size_t kept = size - 2; kept > 0; kept -= kept > 4000 ? 997 : 1) {
     riis_vtk_surface *surface = NULL;
     assert_int_equal(truncate(scratch_path("whole.vtp"), (off_t)kept), 0);
-    const riis_status status = riis_vtk_surface_read(scratch_path("whole.vtp"), &surface);
+    const riis_status status = riis_vtk_surface_read(scratch_path("whole.vtp"), NULL, &surface);
     if (status != RIIS_FILE_ERROR || surface || !strstr(riis_last_error(), "whole.vtp: ")) {
       scratch_end_watch();
       fail_msg("cut to %zu of %zu bytes: %s, %s", kept, size, riis_status_name(status), riis_last_error());

@@ -55,12 +55,14 @@ static void compare(double scale, double shift, int method, const char *name) {
   riis_closest_arrays arrays;
   expect_fine(riis_closest_arrays_init(&arrays, sizeof arrays));
   arrays.distance = distances;
-  expect_fine(riis_closest_points(surface, n_points, points, points + 1, points + 2, 3, NULL, &arrays));
+  expect_fine(closest_points_of(surface, n_points, points, points + 1, points + 2, 3, NULL, &arrays));
   int64_t n_vertices = 0, n_triangles = 0;
   const double *vertices = NULL;
   const int64_t *corners = NULL;
-  expect_fine(riis_surface_vertices(surface, &n_vertices, &vertices));
-  expect_fine(riis_surface_triangles(surface, &n_triangles, &corners, NULL, NULL, NULL));
+  n_vertices = triangles_of(surface).n_vertices;
+  vertices = triangles_of(surface).xyz;
+  n_triangles = triangles_of(surface).n_triangles;
+  corners = triangles_of(surface).vertex_id;
   shim_distances(method, n_vertices, vertices, n_triangles, corners, n_points, points, by_vtk);
   /* The tolerance is relative to the coordinates' size, which limits the resolution of doubles. */
   const double size = fabs(shift) + 20 * scale;

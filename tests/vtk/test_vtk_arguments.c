@@ -12,7 +12,7 @@
 
 static riis_surface *surface;
 static riis_vtk_mesh *mesh;
-static riis_mark_result *result;
+static riis_marks *result;
 
 static int make_all(void **state) {
   const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
@@ -23,14 +23,14 @@ static int make_all(void **state) {
   riis_valve_destroy(&valve);
   assert_int_equal(shim_write_box(scratch_path("in.vtu"), SHIM_RAW, 3, lower, upper, 0), 1);
   expect_fine(riis_vtk_mesh_read(scratch_path("in.vtu"), &mesh));
-  expect_fine(riis_mark_result_create(&result));
+  expect_fine(riis_marks_create(&result));
   return 0;
 }
 
 static int destroy_all(void **state) {
   riis_vtk_mesh_destroy(&mesh);
   riis_surface_destroy(&surface);
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
   return scratch_teardown(state);
 }
 
@@ -42,23 +42,23 @@ static void test_null(void **state) {
   const char *path = scratch_path("out.vtu");
   expect_refused(riis_vtk_mesh_read(NULL, &other), RIIS_INVALID_ARGUMENT, "path is NULL");
   expect_refused(riis_vtk_mesh_read(path, NULL), RIIS_INVALID_ARGUMENT, "mesh is NULL");
-  expect_refused(riis_vtk_mesh_nodes(NULL, NULL, NULL, NULL), RIIS_INVALID_ARGUMENT, "mesh is NULL");
-  expect_fine(riis_vtk_mesh_nodes(mesh, NULL, NULL, NULL));
+  expect_refused(riis_vtk_mesh_get_nodes(NULL, NULL, NULL, NULL), RIIS_INVALID_ARGUMENT, "mesh is NULL");
+  expect_fine(riis_vtk_mesh_get_nodes(mesh, NULL, NULL, NULL));
   riis_adjacency *adjacency = NULL;
-  expect_refused(riis_vtk_mesh_adjacency(NULL, 1, &adjacency), RIIS_INVALID_ARGUMENT, "mesh is NULL");
-  expect_refused(riis_vtk_mesh_adjacency(mesh, 1, NULL), RIIS_INVALID_ARGUMENT, "adjacency is NULL");
-  expect_refused(riis_vtk_mesh_long_edges(NULL, surface, 0, 1, NULL, &adjacency), RIIS_INVALID_ARGUMENT,
+  expect_refused(riis_vtk_mesh_create_adjacency(NULL, 1, &adjacency), RIIS_INVALID_ARGUMENT, "mesh is NULL");
+  expect_refused(riis_vtk_mesh_create_adjacency(mesh, 1, NULL), RIIS_INVALID_ARGUMENT, "adjacency is NULL");
+  expect_refused(riis_vtk_mesh_create_long_edges(NULL, surface, 0, 1, NULL, &adjacency), RIIS_INVALID_ARGUMENT,
                  "mesh is NULL");
-  expect_refused(riis_vtk_mesh_long_edges(mesh, NULL, 0, 1, NULL, &adjacency), RIIS_INVALID_ARGUMENT,
+  expect_refused(riis_vtk_mesh_create_long_edges(mesh, NULL, 0, 1, NULL, &adjacency), RIIS_INVALID_ARGUMENT,
                  "surface is NULL");
-  expect_refused(riis_vtk_mesh_long_edges(mesh, surface, 0, 1, NULL, NULL), RIIS_INVALID_ARGUMENT, "adjacency is NULL");
-  expect_refused(riis_vtk_mesh_set_marks(NULL, result, -1), RIIS_INVALID_ARGUMENT, "mesh is NULL");
-  expect_refused(riis_vtk_mesh_set_marks(mesh, NULL, -1), RIIS_INVALID_ARGUMENT, "result is NULL");
+  expect_refused(riis_vtk_mesh_create_long_edges(mesh, surface, 0, 1, NULL, NULL), RIIS_INVALID_ARGUMENT, "adjacency is NULL");
+  expect_refused(riis_vtk_mesh_set_marks(NULL, result, -1, NULL), RIIS_INVALID_ARGUMENT, "mesh is NULL");
+  expect_refused(riis_vtk_mesh_set_marks(mesh, NULL, -1, NULL), RIIS_INVALID_ARGUMENT, "result is NULL");
   expect_refused(riis_vtk_mesh_write(NULL, path), RIIS_INVALID_ARGUMENT, "mesh is NULL");
   expect_refused(riis_vtk_mesh_write(mesh, NULL), RIIS_INVALID_ARGUMENT, "path is NULL");
-  expect_refused(riis_vtk_surface_read(NULL, &file), RIIS_INVALID_ARGUMENT, "path is NULL");
-  expect_refused(riis_vtk_surface_read(path, NULL), RIIS_INVALID_ARGUMENT, "surface is NULL");
-  expect_refused(riis_vtk_surface_arrays(NULL, &arrays), RIIS_INVALID_ARGUMENT, "surface is NULL");
+  expect_refused(riis_vtk_surface_read(NULL, NULL, &file), RIIS_INVALID_ARGUMENT, "path is NULL");
+  expect_refused(riis_vtk_surface_read(path, NULL, NULL), RIIS_INVALID_ARGUMENT, "surface is NULL");
+  expect_refused(riis_vtk_surface_get_arrays(NULL, &arrays, sizeof arrays), RIIS_INVALID_ARGUMENT, "surface is NULL");
   expect_refused(riis_vtk_surface_write(NULL, path), RIIS_INVALID_ARGUMENT, "surface is NULL");
   expect_refused(riis_vtk_surface_write(surface, NULL), RIIS_INVALID_ARGUMENT, "path is NULL");
   expect_refused(riis_vtk_picture_options_init(NULL, sizeof(riis_vtk_picture_options)), RIIS_INVALID_ARGUMENT,
@@ -77,9 +77,9 @@ static void test_struct_sizes(void **state) {
   riis_surface_arrays arrays = {0};
   riis_vtk_picture_options options = {0};
   expect_fine(riis_vtk_surface_write(surface, scratch_path("valve.vtp")));
-  expect_fine(riis_vtk_surface_read(scratch_path("valve.vtp"), &file));
-  expect_refused(riis_vtk_surface_arrays(file, NULL), RIIS_INVALID_ARGUMENT, "arrays is NULL");
-  expect_refused(riis_vtk_surface_arrays(file, &arrays), RIIS_INVALID_STRUCT_SIZE,
+  expect_fine(riis_vtk_surface_read(scratch_path("valve.vtp"), NULL, &file));
+  expect_refused(riis_vtk_surface_get_arrays(file, NULL, sizeof *NULL), RIIS_INVALID_ARGUMENT, "arrays is NULL");
+  expect_refused(riis_vtk_surface_get_arrays(file, &arrays, sizeof arrays), RIIS_INVALID_STRUCT_SIZE,
                  "the struct size of arrays is 0; ");
   riis_vtk_surface_destroy(&file);
   const int64_t bad_sizes[] = {-8, 0, 4, 40, 52, 63, 80, INT64_MAX};
@@ -120,9 +120,9 @@ static void test_first_surface_arrays(void **state) {
   riis_vtk_surface *file = NULL;
   riis_surface *made = NULL;
   expect_fine(riis_vtk_surface_write(surface, scratch_path("valve.vtp")));
-  expect_fine(riis_vtk_surface_read(scratch_path("valve.vtp"), &file));
+  expect_fine(riis_vtk_surface_read(scratch_path("valve.vtp"), NULL, &file));
   expect_fine(riis_surface_arrays_init(arrays, first_size));
-  expect_fine(riis_vtk_surface_arrays(file, arrays));
+  expect_fine(riis_vtk_surface_get_arrays(file, arrays, sizeof *arrays));
   assert_int_equal(arrays->struct_size, first_size);
   for (size_t i = first_size; i < sizeof bytes; ++i) assert_int_equal(bytes[i], 0xA5);
   expect_fine(riis_surface_create_from_arrays(arrays, NULL, &made));

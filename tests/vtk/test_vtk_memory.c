@@ -20,23 +20,23 @@ static riis_adjacency *adjacency;
 static riis_vtk_motion *motion;
 /* The surface exists for all scenarios. */
 static riis_surface *surface;
-static riis_mark_result *result;
+static riis_marks *result;
 
 static void nothing(void) {}
 static void mesh_read(void) { expect_fine(riis_vtk_mesh_read(scratch_path("box.vtu"), &mesh)); }
 static void marks_set(void) {
   mesh_read();
-  expect_fine(riis_vtk_mesh_set_marks(mesh, result, RIIS_FAR_DISTANCE));
+  expect_fine(riis_vtk_mesh_set_marks(mesh, result, RIIS_FAR_DISTANCE, NULL));
 }
 
 static riis_status read_vtu(void) { return riis_vtk_mesh_read(scratch_path("box.vtu"), &mesh); }
 static riis_status read_vtk(void) { return riis_vtk_mesh_read(scratch_path("box.vtk"), &mesh); }
-static riis_status make_adjacency(void) { return riis_vtk_mesh_adjacency(mesh, 1, &adjacency); }
-static riis_status set_marks(void) { return riis_vtk_mesh_set_marks(mesh, result, RIIS_FAR_DISTANCE); }
+static riis_status make_adjacency(void) { return riis_vtk_mesh_create_adjacency(mesh, 1, &adjacency); }
+static riis_status set_marks(void) { return riis_vtk_mesh_set_marks(mesh, result, RIIS_FAR_DISTANCE, NULL); }
 static riis_status write_mesh(void) { return riis_vtk_mesh_write(mesh, scratch_path("written.vtu")); }
 static riis_status write_surface(void) { return riis_vtk_surface_write(surface, scratch_path("written.vtp")); }
-static riis_status read_vtp(void) { return riis_vtk_surface_read(scratch_path("surface.vtp"), &read_surface); }
-static riis_status read_stl(void) { return riis_vtk_surface_read(scratch_path("surface.stl"), &read_surface); }
+static riis_status read_vtp(void) { return riis_vtk_surface_read(scratch_path("surface.vtp"), NULL, &read_surface); }
+static riis_status read_stl(void) { return riis_vtk_surface_read(scratch_path("surface.stl"), NULL, &read_surface); }
 static riis_status read_pvd(void) { return riis_vtk_motion_read_pvd(scratch_path("motion.pvd"), NULL, &motion); }
 static riis_status read_stls(void) {
   static const double times[2] = {0, 1};
@@ -157,9 +157,9 @@ static int set_up(void **state) {
                      "<DataSet timestep=\"1\" file=\"displaced.vtp\"/></Collection></VTKFile>\n");
   expect_fine(riis_vtk_surface_write(surface, scratch_path("surface.vtp")));
   mesh_read();
-  expect_fine(riis_vtk_mesh_nodes(mesh, &n_nodes, NULL, &xyz));
+  expect_fine(riis_vtk_mesh_get_nodes(mesh, &n_nodes, NULL, &xyz));
   expect_fine(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &nodes));
-  expect_fine(riis_mark_result_create(&result));
+  expect_fine(riis_marks_create(&result));
   expect_fine(riis_mark_nodes(surface, nodes, NULL, result));
   riis_mesh_destroy(&nodes);
   riis_vtk_mesh_destroy(&mesh);
@@ -167,7 +167,7 @@ static int set_up(void **state) {
 }
 
 static int tear_down(void **state) {
-  riis_mark_result_destroy(&result);
+  riis_marks_destroy(&result);
   riis_surface_destroy(&surface);
   return scratch_teardown(state);
 }

@@ -16,7 +16,7 @@ BEGIN_C_DECLS
 static riis_valve *valve, *valve_before;
 static riis_surface *surface;
 static riis_mesh *mesh;
-static riis_mark_result *result;
+static riis_marks *result;
 static riis_mark_options mark_options;
 static riis_resistance resistance;
 static riis_opening_switch law;
@@ -40,10 +40,10 @@ enum { n_state = 8, most_parameters = 64 };
 static int get_parameters(double values[most_parameters]) {
   int64_t n_parameters = 0;
   int n = 0;
-  check(riis_valve_n_parameters(valve, &n_parameters));
+  check(riis_valve_get_n_parameters(valve, &n_parameters));
   for (int64_t i = 0; i < n_parameters; ++i) {
     riis_parameter parameter;
-    check(riis_valve_parameter(valve, i, &parameter, sizeof parameter));
+    check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
     if (strcmp(parameter.name, "opening") == 0) continue;
     if (n + parameter.n_values > most_parameters)
       bft_error(__FILE__, __LINE__, 0, "riis: the valve has too many parameters");
@@ -97,10 +97,10 @@ static void create_valve(void) {
   const cs_mesh_t *m = cs_glob_mesh;
   const cs_real_t *centre = cs_glob_mesh_quantities->cell_cen;
   check(riis_opening_switch_init(&law, sizeof law));
-  law.opening_seconds = 0.04;
-  law.closing_seconds = 0.04;
-  law.filter_seconds = 0.002;
-  law.dwell_seconds = 0.02;
+  law.opening_duration = 0.04;
+  law.closing_duration = 0.04;
+  law.filter_time = 0.002;
+  law.dwell_time = 0.02;
   check(riis_opening_switch_state_init(&state, sizeof state));
   if (setting("VALVE_OPENING") >= 0) state.opening = setting("VALVE_OPENING");
   check(riis_valve_create(valve_kind(), &valve));
@@ -118,7 +118,7 @@ static void create_valve(void) {
   /* A rank without cells makes the same calls. */
   check(riis_mesh_create(m->n_cells, centre, centre + 1, centre + 2, 3, &mesh));
   check(riis_mesh_prepare(mesh, 1));
-  check(riis_mark_result_create(&result));
+  check(riis_marks_create(&result));
   check(riis_mark_options_init(&mark_options, sizeof mark_options));
   mark_options.n_threads = 1;
   mark_options.fields = RIIS_FIELD_VELOCITY;
@@ -191,15 +191,17 @@ static void advance_valve(void) {
 
   int64_t n = 0;
   const int64_t *cell = NULL;
-  check(riis_mark_result_marked(result, &n, &cell, NULL, NULL, NULL)); /* the cells of the last time step */
+  n = marked_list(result).n_nodes;
+  cell = marked_list(result).node_id; /* the cells of the last time step */
   for (int64_t i = 0; i < n; ++i) {
     coefficient[cell[i]] = 0;
     for (int k = 0; k < 3; ++k) momentum[3 * cell[i] + k] = 0;
   }
   check(riis_mark_nodes(surface, mesh, &mark_options, result));
-  check(riis_mark_result_add_resistance(result, &resistance, cs_glob_mesh->n_cells, coefficient,
+  check(riis_marks_add_resistance(result, &resistance, cs_glob_mesh->n_cells, coefficient,
                                         setting("VALVE_VELOCITY") > 0 ? momentum : NULL));
-  check(riis_mark_result_marked(result, &n, &cell, NULL, NULL, NULL));
+  n = marked_list(result).n_nodes;
+  cell = marked_list(result).node_id;
   record_valve(n, cell, coefficient, state.opening, record_clock() - start);
 }
 
@@ -229,7 +231,8 @@ void cs_user_source_terms(cs_domain_t *domain, int f_id, cs_real_t *st_exp, cs_r
   if (f_id != CS_F_(vel)->id || valve == NULL) return;
   int64_t n = 0;
   const int64_t *cell = NULL;
-  check(riis_mark_result_marked(result, &n, &cell, NULL, NULL, NULL));
+  n = marked_list(result).n_nodes;
+  cell = marked_list(result).node_id;
   for (int64_t i = 0; i < n; ++i)
     for (int k = 0; k < 3; ++k)
       st_exp[3 * cell[i] + k] += momentum[3 * cell[i] + k] * cs_glob_mesh_quantities->cell_vol[cell[i]]; /* N */

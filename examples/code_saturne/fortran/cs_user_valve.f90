@@ -13,7 +13,7 @@ module valve_in_root
   type(riis_valve), save :: valve, valve_before
   type(riis_surface), save :: surface
   type(riis_mesh), save :: cells
-  type(riis_mark_result), save :: marks
+  type(riis_marks), save :: marks
   type(riis_opening_switch), save :: law
   type(riis_opening_switch_state), save :: state ! its opening is that of the last time step
   double precision, allocatable, save :: coefficient(:) ! (n_cells), K in kg/(m3 s)
@@ -130,7 +130,7 @@ contains
     character(len=32) :: kind
     integer(riis_status) :: status
     integer :: length, k
-    law = riis_opening_switch(opening_seconds=0.04d0, closing_seconds=0.04d0, filter_seconds=0.002d0, dwell_seconds=0.02d0)
+    law = riis_opening_switch(opening_duration=0.04d0, closing_duration=0.04d0, filter_time=0.002d0, dwell_time=0.02d0)
     if (setting('VALVE_OPENING'//c_null_char) >= 0) state%opening = setting('VALVE_OPENING'//c_null_char)
     call get_environment_variable('VALVE_KIND', kind, length)
     if (length == 0) kind = 'trileaflet'

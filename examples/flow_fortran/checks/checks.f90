@@ -73,7 +73,7 @@ contains
     logical, intent(in) :: moves_flow
     type(riis_surface) :: surface
     type(riis_mesh) :: faces
-    type(riis_mark_result) :: marks
+    type(riis_marks) :: marks
     real(dp) :: corners(3, 4), velocity(3, 4), side
     side = fluid%h * maxval(fluid%n)
     corners = reshape([-side, -side, z, 2 * side, -side, z, 2 * side, 2 * side, z, -side, 2 * side, z], [3, 4])
@@ -353,7 +353,7 @@ contains
 
   ! A pressure that is not a number reaches the law of opening in step 3: the library refuses it.
   subroutine feed_nan()
-    type(riis_opening_switch) :: law = riis_opening_switch(opening_seconds=0.04d0, closing_seconds=0.04d0)
+    type(riis_opening_switch) :: law = riis_opening_switch(opening_duration=0.04d0, closing_duration=0.04d0)
     type(riis_opening_switch_state) :: state
     type(flow), target :: fluid
     type(leaflets) :: valve

@@ -92,8 +92,8 @@ riisValve::riisValve(const word &name, const word &modelType, const dictionary &
   riis_mesh *cells = nullptr;
   check(riis_mesh_create(centres.size(), xyz, xyz + 1, xyz + 2, 3, &cells));
   cells_.reset(cells);
-  riis_mark_result *result = nullptr;
-  check(riis_mark_result_create(&result));
+  riis_marks *result = nullptr;
+  check(riis_marks_create(&result));
   result_.reset(result);
   keepState();
 }
@@ -200,9 +200,9 @@ void riisValve::readLaw(const dictionary &dict) {
     law_ = Law::times;
     check(riis_opening_times_init(&times_, sizeof times_));
     times_.opening_start = dict.get<scalar>("openingStart");
-    times_.opening_seconds = dict.get<scalar>("openingSeconds");
+    times_.opening_duration = dict.get<scalar>("openingSeconds");
     times_.closing_start = dict.get<scalar>("closingStart");
-    times_.closing_seconds = dict.get<scalar>("closingSeconds");
+    times_.closing_duration = dict.get<scalar>("closingSeconds");
     times_.closed = dict.getOrDefault<scalar>("closed", times_.closed);
     times_.open = dict.getOrDefault<scalar>("open", times_.open);
     times_.period = dict.getOrDefault<scalar>("period", times_.period);
@@ -234,12 +234,12 @@ void riisValve::readLaw(const dictionary &dict) {
                         "dwellSeconds", "upstream", "downstream", "flowPatch"});
     law_ = Law::pressure;
     check(riis_opening_switch_init(&switch_, sizeof switch_));
-    switch_.opening_seconds = dict.get<scalar>("openingSeconds");
-    switch_.closing_seconds = dict.get<scalar>("closingSeconds");
+    switch_.opening_duration = dict.get<scalar>("openingSeconds");
+    switch_.closing_duration = dict.get<scalar>("closingSeconds");
     switch_.open_above = dict.getOrDefault<scalar>("openAbove", switch_.open_above);
     switch_.close_below = dict.getOrDefault<scalar>("closeBelow", switch_.close_below);
-    switch_.filter_seconds = dict.getOrDefault<scalar>("filterSeconds", switch_.filter_seconds);
-    switch_.dwell_seconds = dict.getOrDefault<scalar>("dwellSeconds", switch_.dwell_seconds);
+    switch_.filter_time = dict.getOrDefault<scalar>("filterSeconds", switch_.filter_time);
+    switch_.dwell_time = dict.getOrDefault<scalar>("dwellSeconds", switch_.dwell_time);
     riis_opening_switch_state state;
     check(riis_opening_switch_state_init(&state, sizeof state));
     check(riis_opening_switch_advance(&switch_, &state, 0, 0, 0, &state), dict);
@@ -339,10 +339,10 @@ void riisValve::restart() {
 dictionary riisValve::parameters() const {
   dictionary found;
   int64_t n = 0;
-  check(riis_valve_n_parameters(valve_.get(), &n));
+  check(riis_valve_get_n_parameters(valve_.get(), &n));
   for (int64_t i = 0; i < n; ++i) {
     riis_parameter parameter;
-    check(riis_valve_parameter(valve_.get(), i, &parameter, sizeof parameter));
+    check(riis_valve_get_parameter(valve_.get(), i, &parameter, sizeof parameter));
     if (!strcmp(parameter.name, "opening")) continue;
     scalarList values(label(parameter.n_values));
     check(riis_valve_get(valve_.get(), parameter.name, values.size(), values.data()));
@@ -435,7 +435,7 @@ void riisValve::mark() {
   if (withVelocity_) KU_->primitiveFieldRef() = Zero;
   const label nCells = mesh_.nCells();
   double *momentum = withVelocity_ && nCells > 0 ? KU_->primitiveFieldRef()[0].data() : nullptr;
-  check(riis_mark_result_add_resistance(result_.get(), &resistance_, nCells, K_.primitiveFieldRef().data(), momentum));
+  check(riis_marks_add_resistance(result_.get(), &resistance_, nCells, K_.primitiveFieldRef().data(), momentum));
   int64_t marked = 0;
   check(riis_mark_result_marked(result_.get(), &marked, nullptr, nullptr, nullptr, nullptr));
   const std::chrono::duration<scalar> seconds = std::chrono::steady_clock::now() - start;
