@@ -15,7 +15,7 @@ namespace riis::cli {
 
 // Looks at 101 openings of a valve that opens, unless the user gave one, otherwise at the surface. Writes report.crossings, and
 // warns on stderr of a crossing. valve is null for a surface from a file.
-void look_for_crossings(const Options &options, const riis_valve *valve, riis_surface *surface, Report &report);
+void look_for_crossings(const Options &options, const riis_valve *valve, const riis_surface *surface, Report &report);
 
 // Looks at openings 0, 0.5 and 1, as far as the valve can be there, and warns of a crossing. A default shape is not looked at.
 // has_open_state: the user chose another state to open to. part goes before the warning of one valve of several.
