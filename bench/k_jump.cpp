@@ -19,7 +19,7 @@ class Change {
     options.triangulation = triangulation;
     surface_ = make_surface(valve, &options);
     check(riis_resistance_init(&resistance_, sizeof resistance_));
-    resistance_.resistance = 1;
+    resistance_.R = 1;
   }
 
   // Returns the largest K.

@@ -51,7 +51,7 @@ class MovingSteps {
     check(riis_crossing_options_init(&crossing_, sizeof crossing_));
     crossing_.n_threads = 1;
     check(riis_resistance_init(&resistance_, sizeof resistance_));
-    resistance_.resistance = 1;
+    resistance_.R = 1;
     coefficient_.resize(static_cast<std::size_t>(n_nodes_));
     momentum_.resize(3 * static_cast<std::size_t>(n_nodes_));
   }

@@ -86,7 +86,7 @@ class Rank {
     marking_.n_threads = 1;
     marking_.fields = RIIS_FIELD_VELOCITY;
     check(riis_resistance_init(&resistance_, sizeof resistance_));
-    resistance_.resistance = 1;
+    resistance_.R = 1;
     coefficient_.resize(ids_.size());
     momentum_.resize(3 * ids_.size());
   }

@@ -46,7 +46,7 @@ int main(void) {
   check(riis_mark_options_init(&mark_options, sizeof mark_options));
   mark_options.fields = RIIS_FIELD_RIM;
   check(riis_resistance_init(&resistance, sizeof resistance));
-  resistance.resistance = R;
+  resistance.R = R;
   resistance.rim = RIIS_RIM_CUT;
   check(riis_mark_nodes(surface, mesh, &mark_options, result));
   check(riis_marks_add_resistance(result, &resistance, n_cells, coefficient, NULL));

@@ -53,7 +53,7 @@ int main(void) {
   times.period = 1;
   riis_resistance resistance;
   check(riis_resistance_init(&resistance, sizeof resistance));
-  resistance.resistance = R;
+  resistance.R = R;
 
   int64_t n_marked = 0;
   const int64_t *node_id = NULL;

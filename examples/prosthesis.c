@@ -106,12 +106,12 @@ int main(void) {
 
   printf("%d nodes\n", n_nodes);
   for (int step = 0; step <= 2; ++step) {
-    int64_t n_marked = 0;
+    riis_mark_list marked;
     check(riis_valve_set_scalar(valve, "opening", 0.5 * step)); /* the valve moves */
     check(riis_surface_update(surface, valve, NULL));
     check(riis_mark_nodes(surface, mesh, NULL, result));
-    n_marked = marked_list(result).n_nodes;
-    printf("opening %3.1f, marked: %lld\n", 0.5 * step, (long long)n_marked);
+    check(riis_marks_get_list(result, RIIS_LIST_MARKED, &marked, sizeof marked));
+    printf("opening %3.1f, marked: %lld\n", 0.5 * step, (long long)marked.n_nodes);
   }
 
   riis_marks_destroy(&result);

@@ -91,8 +91,8 @@ static void state_is_the_one_of_the_formulas(void **state) {
     const double opening = trial < 3 ? 0.5 * trial : random_between(&random, 0, 1);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
     CHECK_OK(riis_valve_set_scalar(given, "opening", opening));
-    const surface_content a = surface_content_of(new_surface(valve, NULL)),
-                          b = surface_content_of(new_surface(given, NULL));
+    const riis_triangles a = triangles_of(new_surface(valve, NULL)),
+                          b = triangles_of(new_surface(given, NULL));
     assert_int_equal(a.n_vertices, b.n_vertices);
     for (int64_t i = 0; i < 3 * a.n_vertices; ++i) CHECK_NEAR(a.xyz[i], b.xyz[i], 1e-12);
     free_owned_after(owned_before);
@@ -103,7 +103,7 @@ static void state_is_the_one_of_the_formulas(void **state) {
 static void open_free_edges_are_parabolas(void **state) {
   (void)state;
   static const double radius_out[3] = {1.365, 1.495, 1.38};
-  const surface_content all = surface_content_of(new_surface(valve_at("aortic", 1), NULL));
+  const riis_triangles all = triangles_of(new_surface(valve_at("aortic", 1), NULL));
   int n = 0;
   for (int64_t i = 0; i < 3 * all.n_triangles; ++i) {
     const int64_t v = all.vertex_id[i];
@@ -128,7 +128,7 @@ static int have_same_shape(const riis_valve *a, const riis_valve *b) {
   options.tolerance = 0.005;
   const riis_surface *on[2] = {new_surface(a, &options), new_surface(b, &options)};
   for (int i = 0; i < 2; ++i) {
-    const surface_content c = surface_content_of(on[i]);
+    const riis_triangles c = triangles_of(on[i]);
     const double bound = info_of(on[0]).error_bound + info_of(on[1]).error_bound;
     for (int64_t k = 0; k < 3 * c.n_triangles; ++k) {
       const double *p = c.xyz + 3 * c.vertex_id[k];
@@ -184,7 +184,7 @@ static void copies_and_moving_updates(void **state) {
   CHECK_OK(riis_surface_update_moving(moving, valve, before, 0.5, NULL, NULL));
   assert_true(is_same_content(surface, moving));
   /* The middle of the right cusp's free edge moves from 0.24 to 0.75 root radii in a unit of opening. */
-  const surface_content all = surface_content_of(moving);
+  const riis_triangles all = triangles_of(moving);
   const double *velocity = velocity_of(moving);
   int n = 0;
   for (int64_t i = 0; i < 3 * all.n_triangles; ++i) {
@@ -204,7 +204,7 @@ static void fixed_triangulations(void **state) {
   riis_valve *valve = valve_at("aortic", 0.75), *before = valve_at("aortic", 0.5), *other = valve_at("aortic", 0.75);
   riis_surface *surface = new_surface(valve, &options), *then = new_surface(before, &options);
   CHECK_OK(riis_surface_update_moving(surface, valve, before, 0.5, NULL, NULL));
-  const surface_content a = surface_content_of(surface), b = surface_content_of(then);
+  const riis_triangles a = triangles_of(surface), b = triangles_of(then);
   const double *velocity = velocity_of(surface);
   assert_int_equal(a.n_triangles, b.n_triangles);
   assert_memory_equal(a.vertex_id, b.vertex_id, (size_t)a.n_triangles * 3 * sizeof *a.vertex_id);

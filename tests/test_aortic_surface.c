@@ -47,20 +47,16 @@ static void default_half_thickness_follows_the_scale(void **state) {
 static void triangles_carry_patch_leaflet_u_and_v(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
-  int64_t n_vertices, n_triangles, n_uv;
-  const double *xyz, *uv;
-  const int64_t *vertex_id, *triangle_id;
-  const int32_t *leaflet_id, *patch_id;
   int64_t per_patch[12] = {0};
-  n_vertices = triangles_of(surface).n_vertices;
-  xyz = triangles_of(surface).xyz;
-  n_uv = triangles_of(surface).n_vertices;
-  uv = triangles_of(surface).uv;
-  n_triangles = triangles_of(surface).n_triangles;
-  vertex_id = triangles_of(surface).vertex_id;
-  triangle_id = triangles_of(surface).triangle_id;
-  leaflet_id = triangles_of(surface).leaflet_id;
-  patch_id = triangles_of(surface).patch_id;
+  const int64_t n_vertices = triangles_of(surface).n_vertices;
+  const double *xyz = triangles_of(surface).xyz;
+  const int64_t n_uv = triangles_of(surface).n_vertices;
+  const double *uv = triangles_of(surface).uv;
+  const int64_t n_triangles = triangles_of(surface).n_triangles;
+  const int64_t *vertex_id = triangles_of(surface).vertex_id;
+  const int64_t *triangle_id = triangles_of(surface).triangle_id;
+  const int32_t *leaflet_id = triangles_of(surface).leaflet_id;
+  const int32_t *patch_id = triangles_of(surface).patch_id;
   assert_int_equal(n_uv, n_vertices);
   assert_int_equal(n_triangles, info_of(surface).n_triangles);
   assert_int_equal(n_vertices, info_of(surface).n_vertices);
@@ -119,15 +115,11 @@ static void normals_point_downstream(void **state) {
       assert_int_equal(below.side, -downstream);
     }
     /* This holds for whole cusps: the area vector of each points outwards and upwards. */
-    int64_t n;
-    const double *xyz;
-    const int64_t *id;
-    const int32_t *leaflet_id;
     double outwards[3] = {0, 0, 0}, upwards[3] = {0, 0, 0};
-    xyz = triangles_of(surface).xyz;
-    n = triangles_of(surface).n_triangles;
-    id = triangles_of(surface).vertex_id;
-    leaflet_id = triangles_of(surface).leaflet_id;
+    const double *xyz = triangles_of(surface).xyz;
+    const int64_t n = triangles_of(surface).n_triangles;
+    const int64_t *id = triangles_of(surface).vertex_id;
+    const int32_t *leaflet_id = triangles_of(surface).leaflet_id;
     for (int64_t i = 0; i < n; ++i) {
       const double *a = xyz + 3 * id[3 * i], *b = xyz + 3 * id[3 * i + 1], *c = xyz + 3 * id[3 * i + 2];
       const double normal[3] = {(b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]),
@@ -157,12 +149,10 @@ static void placement_is_applied_last(void **state) {
   options.translation[1] = -7;
   options.translation[2] = 11;
   riis_surface *plain = aortic_surface(NULL), *placed = aortic_surface(&options);
-  int64_t n, n_placed;
-  const double *a, *b;
-  n = triangles_of(plain).n_vertices;
-  a = triangles_of(plain).xyz;
-  n_placed = triangles_of(placed).n_vertices;
-  b = triangles_of(placed).xyz;
+  const int64_t n = triangles_of(plain).n_vertices;
+  const double *a = triangles_of(plain).xyz;
+  const int64_t n_placed = triangles_of(placed).n_vertices;
+  const double *b = triangles_of(placed).xyz;
   assert_int_equal(n, n_placed);
   for (int64_t i = 0; i < 3 * n; i += 3) {
     CHECK_NEAR(b[i], 0.01 * a[i] + 5, 1e-14);
@@ -174,15 +164,11 @@ static void placement_is_applied_last(void **state) {
 static void three_cusps_are_three_pieces(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
-  int64_t n_vertices, n;
-  const double *xyz;
-  const int64_t *id;
-  const int32_t *leaflet_id;
-  n_vertices = triangles_of(surface).n_vertices;
-  xyz = triangles_of(surface).xyz;
-  n = triangles_of(surface).n_triangles;
-  id = triangles_of(surface).vertex_id;
-  leaflet_id = triangles_of(surface).leaflet_id;
+  const int64_t n_vertices = triangles_of(surface).n_vertices;
+  const double *xyz = triangles_of(surface).xyz;
+  const int64_t n = triangles_of(surface).n_triangles;
+  const int64_t *id = triangles_of(surface).vertex_id;
+  const int32_t *leaflet_id = triangles_of(surface).leaflet_id;
   /* No vertex of one cusp touches another's: the radii differ at the commissures. Smallest gap at each. */
   double gap = INFINITY;
   int32_t *of_vertex = own(malloc((size_t)n_vertices * sizeof *of_vertex));
@@ -223,13 +209,11 @@ static void halves_meet_to_the_last_bit(void **state) {
       options.translation[1] = 3;
     }
     riis_surface *surface = new_surface(valve, &options);
-    int64_t n, n_edges = 0;
-    const double *xyz, *uv;
-    const int64_t *id;
-    xyz = triangles_of(surface).xyz;
-    uv = triangles_of(surface).uv;
-    n = triangles_of(surface).n_triangles;
-    id = triangles_of(surface).vertex_id;
+    int64_t n_edges = 0;
+    const double *xyz = triangles_of(surface).xyz;
+    const double *uv = triangles_of(surface).uv;
+    const int64_t n = triangles_of(surface).n_triangles;
+    const int64_t *id = triangles_of(surface).vertex_id;
     double(*edges)[6] = own(malloc((size_t)n * 3 * sizeof *edges));
     for (int64_t i = 0; i < 3 * n; ++i) {
       const int64_t a = id[i], b = id[i % 3 == 2 ? i - 2 : i + 1];

@@ -92,7 +92,7 @@ static void other_distances_are_right_too(void **state) {
   const bileaflet of = bileaflet_defaults();
   for (int32_t method = RIIS_MEASURE_SAMPLING; method <= RIIS_MEASURE_MINIMIZATION; ++method) {
     riis_surface_options options = surface_options();
-    options.distance = method;
+    options.measure = method;
     const riis_surface *surface = bileaflet_surface(&of, &options);
     for (int i = 0; i < 200; ++i) {
       double p[3];
@@ -127,7 +127,7 @@ static void closed_leaflets_fill_the_housing(void **state) {
     const int owned_before = n_owned();
     bileaflet of = random_bileaflet(&rng, 80);
     of.opening = 0;
-    const surface_content c = surface_content_of(bileaflet_surface(&of, NULL));
+    const riis_triangles c = triangles_of(bileaflet_surface(&of, NULL));
     const double slope = tan(degree * of.closed_angle);
     for (int64_t i = 0; i < c.n_vertices; ++i) {
       const double *p = c.xyz + 3 * i, from_axis = hypot(p[0], p[1]), v = c.uv[2 * i + 1];
@@ -148,7 +148,7 @@ static void images_are_images(void **state) {
     const int owned_before = n_owned();
     bileaflet of = random_bileaflet(&rng, 80);
     if (trial % 2) of.opening = 0, of.gap = 0;
-    const surface_content c = surface_content_of(bileaflet_surface(&of, NULL));
+    const riis_triangles c = triangles_of(bileaflet_surface(&of, NULL));
     const int64_t n = c.n_vertices / 4;
     assert_int_equal(c.n_vertices, 4 * n);
     for (int64_t i = 0; i < c.n_vertices; ++i) {
@@ -174,7 +174,7 @@ static void open_leaflets_reach_beyond_the_housing(void **state) {
     riis_surface_options options = surface_options();
     options.tolerance = 1e-4;
     const riis_surface *surface = bileaflet_surface(&of, &options);
-    const surface_content c = surface_content_of(surface);
+    const riis_triangles c = triangles_of(surface);
     const double q = cos(degree * of.open_angle) / cos(degree * of.closed_angle), h = of.hinge_offset;
     const double expected = sqrt(of.radius * of.radius + h * h * (1 - q) / (1 + q));
     double farthest = 0;
@@ -188,7 +188,7 @@ static void open_leaflets_reach_beyond_the_housing(void **state) {
 }
 
 /* Twice the area vector of a triangle. */
-static void area_vector(const surface_content *c, int64_t triangle, double *normal) {
+static void area_vector(const riis_triangles *c, int64_t triangle, double *normal) {
   const int64_t *id = c->vertex_id + 3 * triangle;
   double a[3], b[3];
   for (int k = 0; k < 3; ++k)
@@ -203,7 +203,7 @@ static void normals_point_downstream(void **state) {
     const int owned_before = n_owned();
     bileaflet of = random_bileaflet(&rng, 80);
     const riis_surface *surface = bileaflet_surface(&of, NULL);
-    const surface_content c = surface_content_of(surface);
+    const riis_triangles c = triangles_of(surface);
     for (int64_t t = 0; t < c.n_triangles; ++t) {
       double n[3];
       area_vector(&c, t, n);
@@ -234,7 +234,7 @@ static void a_ring_is_the_housing(void **state) {
     riis_surface_options options = surface_options();
     options.tolerance = pow(10, random_between(&rng, -4, -1));
     const riis_surface *surface = bileaflet_surface(&of, &options), *leaflets = bileaflet_surface(&without, &options);
-    const surface_content c = surface_content_of(surface), d = surface_content_of(leaflets);
+    const riis_triangles c = triangles_of(surface), d = triangles_of(leaflets);
     const double bound = info_of(surface).error_bound;
     double area = 0;
     int64_t n_of_ring = 0;
@@ -284,7 +284,7 @@ static void the_bound_counts_that_arcs_are_cubics(void **state) {
   options.triangulation = RIIS_TRIANGULATION_ADAPTED;
   options.half_thickness = 4e-3;
   surface = new_surface(valve, &options);
-  const surface_content c = surface_content_of(surface);
+  const riis_triangles c = triangles_of(surface);
   double deviation = 0;
   for (int64_t i = 0; i < c.n_vertices; ++i)
     if (c.uv[2 * i + 1] == 0) deviation = fmax(deviation, fabs(hypot(c.xyz[3 * i], c.xyz[3 * i + 1]) - 1.1));

@@ -62,7 +62,7 @@ static void vertices_and_closest_points_turn_exactly(void **state) {
     riis_surface_options options = surface_options();
     if (trial % 4 == 3) options.triangulation = RIIS_TRIANGULATION_FIXED;
     moving_update(surface, valve, now, before, seconds, &options);
-    const surface_content c = surface_content_of(surface);
+    const riis_triangles c = triangles_of(surface);
     const double *velocity = velocity_of(surface),
                  rounding = 1e-13 * (1 + 3 * of.radius / cos(degree * of.closed_angle)) / fabs(seconds);
     const double half_thickness = info_of(surface).half_thickness;
@@ -105,7 +105,7 @@ static double from_spin(const bileaflet *of, riis_valve *valve, riis_surface *su
   const double per_opening =
       degree * (of->open_angle - of->closed_angle); /* radians a second, if the opening rises by 1 a second */
   moving_update(surface, valve, opening, opening - step, step, NULL);
-  const surface_content c = surface_content_of(surface);
+  const riis_triangles c = triangles_of(surface);
   const double *velocity = velocity_of(surface);
   double largest = 0, expected[3];
   for (int64_t k = 0; k < 3 * c.n_triangles; ++k) {
@@ -238,12 +238,12 @@ static void fixed_triangles_stay(void **state) {
     options.tolerance = pow(10, random_between(&rng, -3, -1));
     riis_valve *valve = bileaflet_valve(&of);
     riis_surface *first = new_surface(valve, &options), *surface = new_surface(valve, &options);
-    const surface_content a = surface_content_of(first);
+    const riis_triangles a = triangles_of(first);
     for (int i = 0; i <= 20; ++i) {
       of.opening = 0.05 * i;
       set_opening(valve, of.opening);
       CHECK_OK(riis_surface_update(surface, valve, NULL));
-      const surface_content b = surface_content_of(surface);
+      const riis_triangles b = triangles_of(surface);
       assert_int_equal(a.n_vertices, b.n_vertices);
       assert_int_equal(a.n_triangles, b.n_triangles);
       assert_memory_equal(a.vertex_id, b.vertex_id, (size_t)a.n_triangles * 24);

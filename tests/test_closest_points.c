@@ -11,13 +11,10 @@
 static random_source rng;
 
 static void single_equals_the_oracle(riis_surface *surface, int n_points, double reach) {
-  int64_t n;
-  const double *xyz;
-  const int64_t *vertex_id;
   const riis_surface_info info = info_of(surface);
-  xyz = triangles_of(surface).xyz;
-  n = triangles_of(surface).n_triangles;
-  vertex_id = triangles_of(surface).vertex_id;
+  const double *xyz = triangles_of(surface).xyz;
+  const int64_t n = triangles_of(surface).n_triangles;
+  const int64_t *vertex_id = triangles_of(surface).vertex_id;
   double size = 0;
   for (int c = 0; c < 3; ++c) size = fmax(size, fmax(fabs(info.lower[c]), fabs(info.upper[c])));
   for (int i = 0; i < n_points; ++i) {
@@ -71,12 +68,10 @@ static void random_soups_equal_the_oracle(void **state) {
 static void far_points_equal_the_oracle(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
-  int64_t n, triangle;
-  const double *xyz;
-  const int64_t *vertex_id;
-  xyz = triangles_of(surface).xyz;
-  n = triangles_of(surface).n_triangles;
-  vertex_id = triangles_of(surface).vertex_id;
+  int64_t triangle;
+  const double *xyz = triangles_of(surface).xyz;
+  const int64_t n = triangles_of(surface).n_triangles;
+  const int64_t *vertex_id = triangles_of(surface).vertex_id;
   for (int power = 1; power <= 59; power += 2) {
     const double r = pow(10, power), p[3] = {r, -0.3 * r, 0.7 * r};
     const riis_closest closest = closest_to(surface, p[0], p[1], p[2]);
@@ -169,14 +164,10 @@ static void batches_equal_single_queries(void **state) {
 static void closest_is_consistent(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
-  int64_t n;
-  const double *xyz;
-  const int64_t *vertex_id;
-  const int32_t *leaflet_id;
-  xyz = triangles_of(surface).xyz;
-  n = triangles_of(surface).n_triangles;
-  vertex_id = triangles_of(surface).vertex_id;
-  leaflet_id = triangles_of(surface).leaflet_id;
+  const double *xyz = triangles_of(surface).xyz;
+  const int64_t n = triangles_of(surface).n_triangles;
+  const int64_t *vertex_id = triangles_of(surface).vertex_id;
+  const int32_t *leaflet_id = triangles_of(surface).leaflet_id;
   for (int trial = 0; trial < 3000; ++trial) {
     const double p[3] = {random_between(&rng, -1.6, 1.6), random_between(&rng, -1.6, 1.6),
                          random_between(&rng, -1.1, 0.2)};

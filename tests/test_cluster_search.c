@@ -206,7 +206,7 @@ static void more_pairs_than_room(void **state) {
   (void)state;
   enum { n = 40, room = 4096 };
   riis_surface *surface = sphere(40, 0.9, 0.1);
-  const surface_content all = surface_content_of(surface);
+  const riis_triangles all = triangles_of(surface);
   const double middle[3] = {0, 0, 0}, error = 0x1p-18 * 5, smallest = closest_to(surface, 0, 0, 0).distance;
   int64_t n_equal = 0;
   for (int64_t i = 0; i < all.n_triangles; ++i) {

@@ -57,13 +57,13 @@ static void update(riis_surface *surface, const riis_valve *valve) {
 
 /* The last warning has the numbers of the search. */
 static void expect_pairs_of(riis_surface *surface) {
-  riis_crossings found;
+  riis_crossing_list found;
   char part[64];
-  CHECK_OK(riis_find_crossings(surface, NULL, &found, sizeof found));
+  CHECK_OK(find_crossings_in(surface, NULL, &found));
   assert_true(found.n_pairs > 0);
   snprintf(part, sizeof part, ": %lld pair", (long long)found.n_pairs);
   if (!strstr(warnings.last, part)) fail_msg("'%s' has no '%s'", warnings.last, part);
-  snprintf(part, sizeof part, "up to %.3g deep", found.depth);
+  snprintf(part, sizeof part, "up to %.3g deep", found.deepest_depth);
   if (!strstr(warnings.last, part)) fail_msg("'%s' has no '%s'", warnings.last, part);
 }
 
@@ -116,18 +116,6 @@ static void a_valve_that_begins_open_is_named(void **state) {
   assert_int_equal(warnings.n, 1);
 }
 
-/* What the caller found stays the caller's. */
-static void the_search_leaves_no_pairs(void **state) {
-  (void)state;
-  riis_valve *valve = new_valve("trileaflet");
-  set(valve, "leaflet_height", 1.3);
-  riis_surface *surface = new_surface(valve, NULL);
-  int64_t n_pairs = -1;
-  CHECK_OK(riis_surface_crossing_pairs(surface, &n_pairs, NULL, NULL, NULL, NULL));
-  assert_int_equal(n_pairs, 0);
-  assert_int_equal(warnings.n, 1);
-}
-
 static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet"};
 
 /* Default shapes at all openings, and shapes that do not cross: the closed mitral leaflets touch, and their fixed triangles go
@@ -149,16 +137,16 @@ static void sound_shapes_are_not_named(void **state) {
   set(valve, "opening", 0);
   set(valve, "anterior_length", 2.2);
   riis_surface *surface = new_surface(valve, &fixed);
-  riis_crossings found;
-  CHECK_OK(riis_find_crossings(surface, NULL, &found, sizeof found));
+  riis_crossing_list found;
+  CHECK_OK(find_crossings_in(surface, NULL, &found));
   assert_true(found.n_pairs > 0);
   /* Hinges reach into the housing. */
   valve = new_valve("bileaflet");
   set(valve, "ring_height", 0.5);
   set(valve, "opening", 0.5);
   surface = new_surface(valve, NULL);
-  CHECK_OK(riis_find_crossings(surface, NULL, &found, sizeof found));
-  assert_true(found.n_pairs > 0 && found.leaflet_id[1] == RIIS_LEAFLET_HOUSING);
+  CHECK_OK(find_crossings_in(surface, NULL, &found));
+  assert_true(found.n_pairs > 0 && found.deepest_leaflet_id[1] == RIIS_LEAFLET_HOUSING);
   assert_int_equal(warnings.n, 0);
 }
 
@@ -245,7 +233,6 @@ int main(void) {
 #define HEARD(test) cmocka_unit_test_setup_teardown(test, start_listening, stop_listening)
   const struct CMUnitTest tests[] = {HEARD(a_shape_is_named_once),
                                      HEARD(a_valve_that_begins_open_is_named),
-                                     HEARD(the_search_leaves_no_pairs),
                                      HEARD(sound_shapes_are_not_named),
                                      HEARD(patches_are_a_shape_of_the_user),
                                      HEARD(an_open_state_makes_another_shape),

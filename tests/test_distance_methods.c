@@ -97,7 +97,7 @@ static riis_valve *valve_of(const char *kind) { return new_valve(kind); }
 
 static riis_surface *measured(const riis_valve *valve, int32_t distance, double tolerance) {
   riis_surface_options options = surface_options();
-  options.distance = distance;
+  options.measure = distance;
   options.measure_tolerance = tolerance;
   return new_surface(valve, &options);
 }
@@ -116,7 +116,7 @@ static void random_point(random_source *rng, const riis_surface *surface, double
 
 /* A point of the surface's triangles. */
 static void random_point_on(random_source *rng, const riis_surface *surface, double *p) {
-  const surface_content all = surface_content_of(surface);
+  const riis_triangles all = triangles_of(surface);
   const int64_t *id = all.vertex_id + 3 * (random_bits(rng) % (uint64_t)all.n_triangles);
   double a = random_between(rng, 0, 1), b = random_between(rng, 0, 1);
   if (a + b > 1) a = 1 - a, b = 1 - b;
@@ -344,7 +344,7 @@ static void minimisation_ends_in_local_minima(void **state) {
   double distance[3];
   for (int32_t method = 0; method < 3; ++method) {
     const int owned_before = n_owned();
-    options.distance = method;
+    options.measure = method;
     riis_marks *result = new_result();
     riis_surface *surface = new_surface(valve, &options);
     distance[method] = closest_to(surface, between_arms[0], between_arms[1], between_arms[2]).distance;
@@ -391,7 +391,7 @@ static void placement_and_normals(void **state) {
       options.flip_normals = flip;
       options.tolerance = options.measure_tolerance = 0.02;
       riis_surface *triangles = new_surface(valve, &options);
-      options.distance = method;
+      options.measure = method;
       riis_surface *other = new_surface(valve, &options);
       int n_same = 0;
       const int n_points = 300;
@@ -553,9 +553,9 @@ static void what_has_no_meaning_is_refused(void **state) {
   const riis_surface_arrays triangle = triangle_arrays(3, xyz, 1, ids);
   riis_surface_options options = surface_options();
   riis_surface *surface = NULL;
-  for (options.distance = 1; options.distance < 3; ++options.distance) {
+  for (options.measure = 1; options.measure < 3; ++options.measure) {
     char text[64];
-    snprintf(text, sizeof text, "options.distance is %d|surface from arrays", options.distance);
+    snprintf(text, sizeof text, "options.measure is %d|surface from arrays", options.measure);
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, text, riis_surface_create_from_arrays(&triangle, &options, &surface));
     assert_null(surface);
   }
@@ -563,7 +563,7 @@ static void what_has_no_meaning_is_refused(void **state) {
   riis_valve *valve = rectangle();
   surface = measured(valve, RIIS_MEASURE_SAMPLING, 0.1);
   /* The surface's own options are refused for arrays, and leave the surface as it was. */
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.distance is 1",
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.measure is 1",
                 riis_surface_update_from_arrays(surface, &triangle, NULL));
   options = surface_options();
   options.measure = RIIS_MEASURE_SAMPLING;
@@ -621,12 +621,12 @@ static void options_stay_and_default(void **state) {
   riis_surface_options options;
   memset(&options, 0x5a, sizeof options);
   CHECK_OK(riis_surface_options_init(&options, 96)); /* the size of the first release */
-  assert_int_equal(options.distance, 0x5a5a5a5a);
+  assert_int_equal(options.measure, 0x5a5a5a5a);
   CHECK_OK(riis_surface_update(surface, valve, &options));
   assert_true(closest_to(surface, 0, 0, 0).triangle_id >= 0);
   /* RIIS_AUTO stands for the tolerance. */
   options = surface_options();
-  assert_true(options.distance == RIIS_MEASURE_TRIANGLES && options.measure_tolerance == RIIS_AUTO);
+  assert_true(options.measure == RIIS_MEASURE_TRIANGLES && options.measure_tolerance == RIIS_AUTO);
   options.measure = RIIS_MEASURE_SAMPLING;
   options.tolerance = 0.2;
   CHECK_OK(riis_surface_update(surface, valve, &options));

@@ -187,7 +187,7 @@ static void other_distances_find_nothing_too(void **state) {
   riis_mark_options mark = mark_options();
   options.measure_tolerance = 0.5;
   mark.fields = RIIS_FIELD_POINT | RIIS_FIELD_NORMAL | RIIS_FIELD_PATCH;
-  for (options.measure = RIIS_MEASURE_SAMPLING; options.distance <= RIIS_MEASURE_MINIMIZATION; ++options.distance) {
+  for (options.measure = RIIS_MEASURE_SAMPLING; options.measure <= RIIS_MEASURE_MINIMIZATION; ++options.measure) {
     CHECK_OK(riis_mark_nodes(aortic_surface(&options), mesh, &mark, result));
     check_nothing_found(result, RIIS_SEARCH_EXHAUSTIVE);
   }
@@ -231,35 +231,32 @@ static void nothing_leaks(void **state) {
   riis_mesh *mesh = empty_mesh();
   const riis_csr csr = empty_csr();
   riis_marks *result = new_result();
-  riis_leaks leaks;
+  riis_leak_list leaks;
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "mesh has no adjacency",
-                riis_find_leaks(surface, mesh, NULL, result, &leaks, sizeof leaks));
+                find_leaks_in(surface, mesh, result, NULL, &leaks));
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
   for (int32_t n_threads = 0; n_threads <= 3; ++n_threads) {
     riis_mark_options options = mark_options();
     options.n_threads = n_threads;
     memset(&leaks, 0x55, sizeof leaks);
-    CHECK_OK(riis_find_leaks(surface, mesh, &options, result, &leaks, sizeof leaks));
+    CHECK_OK(find_leaks_in(surface, mesh, result, &options, &leaks));
     assert_int_equal(leaks.n_edges, 0);
     assert_true(leaks.longest_node_id[0] == -1 && leaks.longest_node_id[1] == -1 && leaks.longest_length == 0);
     assert_true(leaks.longest_middle[0] == 0 && leaks.half_thickness == 0 && leaks.seconds >= 0);
+    assert_true(!leaks.node_id && !leaks.length && !leaks.distance);
     int64_t n = -1;
-    const int64_t *ids = (const int64_t *)&leaks;
-    const double *length = &leaks.seconds, *distance = length;
-    CHECK_OK(riis_mark_result_leaking_edges(result, &n, &ids, &length, &distance));
-    assert_true(n == 0 && !ids && !length && !distance);
     CHECK_OK(riis_label_open_regions(mesh, result, &options, 0, NULL, &n));
     assert_int_equal(n, 0);
   }
   const int64_t node = 0;
   riis_passage passage;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "from[0] is 0|0 nodes",
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "ends.from[0] is 0|0 nodes",
                 find_passage_between(surface, mesh, NULL, 1, &node, 1, &node, &passage, sizeof passage));
   /* What an empty result is not of: a marking. */
   riis_marks *empty = new_result();
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "never marked",
-                riis_find_leaks(surface, mesh, NULL, empty, &leaks, sizeof leaks));
+                find_leaks_in(surface, mesh, empty, NULL, &leaks));
 }
 
 static void sums_over_no_nodes(void **state) {
@@ -269,21 +266,21 @@ static void sums_over_no_nodes(void **state) {
   riis_marks *result = new_result();
   riis_mark_options options = mark_options();
   riis_resistance resistance;
-  double nothing = 4, force[3] = {1, 2, 3};
+  double nothing[3] = {4, 4, 4}, force[3] = {1, 2, 3};
   options.fields = RIIS_FIELD_SIDE | RIIS_FIELD_RIM | RIIS_FIELD_VELOCITY;
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
   CHECK_OK(riis_resistance_init(&resistance, sizeof resistance));
-  resistance.resistance = 1;
+  resistance.R = 1;
   for (int32_t rim = RIIS_RIM_ROUND; rim <= RIIS_RIM_CUT; ++rim) {
     resistance.rim = rim;
     CHECK_OK(add_resistance_to(result, &resistance, 0, NULL, NULL));
-    CHECK_OK(add_resistance_to(result, &resistance, 0, &nothing, &nothing));
-    CHECK_OK(add_reaction_to(result, &resistance, 0, &nothing, &nothing, force));
+    CHECK_OK(add_resistance_to(result, &resistance, 0, nothing, nothing));
+    CHECK_OK(add_reaction_to(result, &resistance, 0, nothing, nothing, force));
     CHECK_OK(add_reaction_to(result, &resistance, 0, NULL, NULL, force));
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "force is NULL",
                   add_reaction_to(result, &resistance, 0, NULL, NULL, NULL));
   }
-  assert_true(nothing == 4 && force[0] == 1 && force[1] == 2 && force[2] == 3);
+  assert_true(nothing[0] == 4 && nothing[2] == 4 && force[0] == 1 && force[1] == 2 && force[2] == 3);
   riis_band_sums sums;
   memset(&sums, 0x55, sizeof sums);
   CHECK_OK(band_sums_of(result, 0, 0.1, 0, NULL, NULL, &sums, sizeof sums));

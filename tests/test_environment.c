@@ -25,19 +25,16 @@ static uint64_t digest_of_a_step(int threads) {
   const int owned_before = n_owned();
   riis_surface *surface = aortic_surface(NULL);
   riis_mark_options options = mark_options();
-  int64_t n_listed;
-  const int64_t *node_id, *triangle_id;
-  const double *distance;
   uint64_t digest = 14695981039346656037u;
   options.n_threads = threads;
   options.distance_limit = 0.3;
   riis_mesh *mesh = mesh_of(n, nodes);
   riis_marks *result = new_result();
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-  n_listed = within_list(result).n_nodes;
-  node_id = within_list(result).node_id;
-  distance = within_list(result).distance;
-  triangle_id = within_list(result).triangle_id;
+  const int64_t n_listed = within_list(result).n_nodes;
+  const int64_t *node_id = within_list(result).node_id;
+  const double *distance = within_list(result).distance;
+  const int64_t *triangle_id = within_list(result).triangle_id;
   for (int64_t i = 0; i < n_listed; ++i) {
     uint64_t bits;
     memcpy(&bits, distance + i, sizeof bits);
@@ -115,7 +112,7 @@ static void works_inside_a_parallel_region(void **state) {
     riis_marks *result = NULL;
     counts[i] = -1;
     if (riis_marks_create(&result) == RIIS_OK && riis_mark_nodes(surface, mesh, NULL, result) == RIIS_OK)
-      riis_mark_result_marked(result, &counts[i], NULL, NULL, NULL, NULL);
+      counts[i] = marked_list(result).n_nodes;
     riis_marks_destroy(&result);
     /* The first query of a side, in any thread, makes the data that sides need. */
     riis_closest closest;

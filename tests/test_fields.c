@@ -82,17 +82,17 @@ static void check_part(const riis_marks *result) {
 /* Marks of the rim, three of each kind for each triangle. Edge k runs from corner k to the next. A corner is marked if it is
  * an end of a marked edge. */
 typedef struct rims {
-  surface_content c;
+  riis_triangles c;
   const int64_t *triangle_id;
   uint8_t *edge, *corner;
 } rims;
 
-static const double *corner_of(const surface_content *c, int64_t k) { return c->xyz + 3 * c->vertex_id[k]; }
+static const double *corner_of(const riis_triangles *c, int64_t k) { return c->xyz + 3 * c->vertex_id[k]; }
 static int is_same_place(const double *a, const double *b) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; }
 static int64_t next_of(int64_t k) { return k % 3 == 2 ? k - 2 : k + 1; }
 
 static rims new_rims(const riis_surface *surface) {
-  rims made = {surface_content_of(surface), NULL, NULL, NULL};
+  rims made = {triangles_of(surface), NULL, NULL, NULL};
   made.triangle_id = triangles_of(surface).triangle_id;
   made.edge = own(calloc((size_t)made.c.n_triangles, 3));
   made.corner = own(calloc((size_t)made.c.n_triangles, 3));
@@ -198,7 +198,7 @@ static void check_fields(const riis_surface *surface, const double *xyz, const r
 
 /* Nodes near a surface: some on it, at its corners, beyond its edges. Each has the next for a neighbour. */
 static test_mesh nodes_near(const riis_surface *surface, int64_t n, double reach) {
-  const surface_content c = surface_content_of(surface);
+  const riis_triangles c = triangles_of(surface);
   test_mesh mesh = {.n = n};
   mesh.xyz = own(malloc((size_t)n * 3 * sizeof *mesh.xyz));
   for (int64_t i = 0; i < n; ++i) {
@@ -331,7 +331,7 @@ static void fields_of_arrays_are_those_of_single_queries(void **state) {
 /* --- The rim of valves ----------------------------------------------------------------------------------------------- */
 
 /* Three nodes beyond each edge of each triangle: in its plane, off it, and below. */
-static double *beyond_edges(const surface_content *c, double off) {
+static double *beyond_edges(const riis_triangles *c, double off) {
   double *xyz = own(malloc((size_t)c->n_triangles * 27 * sizeof *xyz)), *to = xyz;
   for (int64_t e = 0; e < 3 * c->n_triangles; ++e) {
     const double *a = corner_of(c, e), *b = corner_of(c, next_of(e)), *d = corner_of(c, next_of(next_of(e)));
@@ -424,7 +424,7 @@ static void no_other_patch_touches_the_rim(void **state) {
       riis_surface *surface = new_surface(valve, &options);
       riis_marks *result = new_result();
       riis_mark_options mark = mark_options();
-      const surface_content c = surface_content_of(surface);
+      const riis_triangles c = triangles_of(surface);
       const riis_mesh *mesh = mesh_of(9 * c.n_triangles, beyond_edges(&c, 1e-3));
       mark.fields = RIIS_FIELD_RIM | RIIS_FIELD_POINT | RIIS_FIELD_BARYCENTRIC | RIIS_FIELD_PATCH;
       CHECK_OK(riis_mark_nodes(surface, mesh, &mark, result));
@@ -471,7 +471,7 @@ static void parameters_turn_as_the_header_says(void **state) {
     riis_surface_options options = surface_options();
     options.flip_normals = is_flipped;
     if (is_mitral) CHECK_OK(riis_valve_set_scalar(valve, "opening", trial < 4 ? 0 : between(0, 1)));
-    const surface_content c = surface_content_of(new_surface(valve, &options));
+    const riis_triangles c = triangles_of(new_surface(valve, &options));
     for (int64_t t = 0; t < c.n_triangles; ++t) {
       const double *a = c.uv + 2 * c.vertex_id[3 * t], *b = c.uv + 2 * c.vertex_id[3 * t + 1],
                    *d = c.uv + 2 * c.vertex_id[3 * t + 2];
@@ -487,11 +487,11 @@ static void parameters_turn_as_the_header_says(void **state) {
 
 static void other_distances_have_fields_of_patches(void **state) {
   (void)state;
-  for (int32_t measure = RIIS_MEASURE_SAMPLING; distance <= RIIS_MEASURE_MINIMIZATION; ++distance)
+  for (int32_t distance = RIIS_MEASURE_SAMPLING; distance <= RIIS_MEASURE_MINIMIZATION; ++distance)
     for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
       riis_valve *valve = new_valve(is_mitral ? "mitral" : "aortic");
       riis_surface_options options = surface_options();
-      options.distance = distance;
+      options.measure = distance;
       options.measure_tolerance = 0.5;
       options.flip_normals = is_mitral;
       riis_surface *surface = new_surface(valve, &options);
@@ -565,9 +565,6 @@ static void fields_are_refused_by_name(void **state) {
   FIELDS_REFUSED(-1, "options.fields is -1;");
   FIELDS_REFUSED(INT32_MIN, "options.fields is -2147483648;");
   options.fields = of_moving;
-  options.reserved2 = 3;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.reserved2 is 3", riis_mark_nodes(surface, mesh, &options, result));
-  options.reserved2 = 0;
   CHECK_OK(riis_surface_update(surface, valve, NULL));
   FIELDS_REFUSED(RIIS_FIELD_VELOCITY, "options.fields is 64,|RIIS_FIELD_VELOCITY|riis_surface_update_moving");
   FIELDS_REFUSED(of_moving, "options.fields is 255,|RIIS_FIELD_VELOCITY");
@@ -576,14 +573,14 @@ static void fields_are_refused_by_name(void **state) {
   FIELDS_REFUSED(RIIS_FIELD_VELOCITY, "options.fields is 64,|RIIS_FIELD_VELOCITY");
 
   riis_mark_list f;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "result is NULL", riis_marks_get_list(NULL, RIIS_LIST_MARKED, &f, sizeof f));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "result is NULL", riis_marks_get_list(NULL, RIIS_LIST_WITHIN_LIMIT, &f, sizeof f));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "fields is NULL", riis_marks_get_list(result, RIIS_LIST_MARKED, NULL, sizeof f));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "fields is NULL", riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, NULL, sizeof f));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks is NULL", riis_marks_get_list(NULL, RIIS_LIST_MARKED, &f, sizeof f));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks is NULL", riis_marks_get_list(NULL, RIIS_LIST_WITHIN_LIMIT, &f, sizeof f));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "list is NULL", riis_marks_get_list(result, RIIS_LIST_MARKED, NULL, sizeof f));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "list is NULL", riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, NULL, sizeof f));
   static const int64_t sizes[] = {0, -8, sizeof f - 8, sizeof f + 8};
   for (int i = 0; i < 4; ++i) {
-    CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "fields", riis_marks_get_list(result, RIIS_LIST_MARKED, &f, sizes[i]));
-    CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "fields", riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, &f, sizes[i]));
+    CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "list", riis_marks_get_list(result, RIIS_LIST_MARKED, &f, sizes[i]));
+    CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "list", riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, &f, sizes[i]));
   }
 }
 

@@ -59,14 +59,12 @@ typedef struct topology {
 static topology first, now;
 
 static void read_topology(const riis_surface *surface, topology *into) {
-  const int64_t *vertex_id, *triangle_id;
-  const int32_t *leaflet_id, *patch_id;
   into->n_vertices = triangles_of(surface).n_vertices;
   into->n_triangles = triangles_of(surface).n_triangles;
-  vertex_id = triangles_of(surface).vertex_id;
-  triangle_id = triangles_of(surface).triangle_id;
-  leaflet_id = triangles_of(surface).leaflet_id;
-  patch_id = triangles_of(surface).patch_id;
+  const int64_t *vertex_id = triangles_of(surface).vertex_id;
+  const int64_t *triangle_id = triangles_of(surface).triangle_id;
+  const int32_t *leaflet_id = triangles_of(surface).leaflet_id;
+  const int32_t *patch_id = triangles_of(surface).patch_id;
   if (into->n_triangles > 20000) fail_msg("%lld triangles", (long long)into->n_triangles);
   const size_t n = (size_t)into->n_triangles;
   memcpy(into->vertex_id, vertex_id, 3 * n * sizeof *vertex_id);
@@ -174,9 +172,8 @@ static void velocity_is_that_of_the_vertices(void **state) {
     riis_surface *surface = new_surface(valves[k], &options), *moved = new_surface(valves[k], &options);
     set_opening(valves[k], before + 0.05);
     CHECK_OK(riis_surface_update_moving(moved, valves[k], valve_before, seconds, NULL, NULL));
-    const surface_content was = surface_content_of(surface), is = surface_content_of(moved);
-    const double *velocity;
-    velocity = triangles_of(moved).velocity;
+    const riis_triangles was = triangles_of(surface), is = triangles_of(moved);
+    const double *velocity = triangles_of(moved).velocity;
     assert_non_null(velocity);
     double largest = 0;
     for (int64_t i = 0; i < 3 * is.n_vertices; ++i) {

@@ -122,9 +122,9 @@ static int with_status(const scene *s, int32_t n_threads, riis_status expected, 
   riis_closest_arrays found;
   riis_mesh_cells cells;
   riis_mesh_faces faces;
-  riis_leaks leaks;
+  riis_leak_list leaks;
   riis_passage passage;
-  riis_crossings crossings;
+  riis_crossing_list crossings;
   riis_marks *result = NULL;
   riis_adjacency *adjacency[3] = {NULL};
   static const int32_t ids[4] = {0, 1, 2, 3};
@@ -149,10 +149,10 @@ static int with_status(const scene *s, int32_t n_threads, riis_status expected, 
   for (int32_t search = RIIS_SEARCH_AUTO; search <= RIIS_SEARCH_CLUSTERS; ++search)
     EXPECT(mark(s, search, n_threads, result));
   EXPECT(riis_mesh_prepare(s->mesh, n_threads));
-  EXPECT(riis_find_leaks(s->surface, s->mesh, &options, s->result, &leaks, sizeof leaks));
+  EXPECT(find_leaks_in(s->surface, s->mesh, s->result, &options, &leaks));
   EXPECT(riis_label_open_regions(s->mesh, s->result, &options, s->nodes.n, label, NULL));
   EXPECT(find_passage_between(s->surface, s->mesh, &options, 1, &first, 1, &last, &passage, sizeof passage));
-  EXPECT(riis_find_crossings(s->surface, &of_crossings, &crossings, sizeof crossings));
+  EXPECT(find_crossings_in(s->surface, &of_crossings, &crossings));
   EXPECT(closest_points_of(s->surface, s->nodes.n, s->nodes.xyz, s->nodes.xyz + 1, s->nodes.xyz + 2, 3, &of_points, &found));
   EXPECT(riis_adjacency_create_from_cells(&cells, &adjacency[0]));
   EXPECT(riis_adjacency_create_from_faces(&faces, &adjacency[1]));
@@ -170,7 +170,7 @@ static int with_status(const scene *s, int32_t n_threads, riis_status expected, 
 static riis_status use_result(const scene *s) {
   riis_resistance resistance;
   riis_status status = riis_resistance_init(&resistance, sizeof resistance);
-  resistance.resistance = 1;
+  resistance.R = 1;
   if (!status) status = add_resistance_to(s->result, &resistance, s->nodes.n, s->k, NULL);
   return status ? status
                 : dense_of(s->result, s->nodes.n, RIIS_FAR_DISTANCE, NULL, s->k, NULL, NULL);

@@ -56,12 +56,10 @@ static riis_keyframes *keyframes_of(const swing *s) {
 }
 
 static void check_height(const riis_surface *surface, double height, double speed) {
-  const double *xyz, *velocity;
-  int64_t n;
+  int64_t n = triangles_of(surface).n_vertices;
+  const double *xyz = triangles_of(surface).xyz;
   n = triangles_of(surface).n_vertices;
-  xyz = triangles_of(surface).xyz;
-  n = triangles_of(surface).n_vertices;
-  velocity = triangles_of(surface).velocity;
+  const double *velocity = triangles_of(surface).velocity;
   assert_int_equal(n, n_vertices);
   for (int64_t i = 0; i < n; ++i) {
     CHECK_NEAR(xyz[3 * i + 2], height, 1e-13);
@@ -78,17 +76,17 @@ static void linear_frames_have_right_hand_and_mean_velocities(void **state) {
   riis_keyframes *keyframes = keyframes_of(&s);
   memset(s.xyz, 0, sizeof s.xyz); /* they were copied */
   riis_surface *surface = NULL;
-  CHECK_OK(riis_surface_create_from_keyframes(keyframes, 0.25, 0.25, NULL, &surface));
+  CHECK_OK(riis_surface_create_from_keyframes(keyframes, 0.25, 0, NULL, &surface));
   check_height(surface, 0.5, 2);
-  CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, 1, 1, NULL));
+  CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, 1, 0, NULL));
   check_height(surface, 2, -0.5);
-  CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, 2, 0.5, NULL)); /* across a key */
+  CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, 2, 2 - 0.5, NULL)); /* across a key */
   check_height(surface, 1.5, 0.5 / 1.5);
-  CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, 0.5, 2, NULL)); /* time goes back */
+  CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, 0.5, 0.5 - 2, NULL)); /* time goes back */
   check_height(surface, 1, (1 - 1.5) / (0.5 - 2));
-  CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, 9, 9, NULL));
+  CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, 9, 0, NULL));
   check_height(surface, 1, 0);
-  CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, -1, -1, NULL));
+  CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, -1, 0, NULL));
   check_height(surface, 0, 0);
   riis_surface_destroy(&surface);
   riis_keyframes_destroy(&keyframes);
@@ -109,7 +107,7 @@ static void frames_have_the_velocity_after_them_in_every_period(void **state) {
     for (int key = 0; key < 5; ++key) {
       const double t = time[key] + 0.83 * i;
       const double width = key == 4 ? time[0] + 0.83 - time[4] : time[key + 1] - time[key];
-      CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, t, t, NULL));
+      CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, t, 0, NULL));
       check_height(surface, height[key], (height[(key + 1) % 5] - height[key]) / width);
     }
   riis_surface_destroy(&surface);
@@ -133,11 +131,10 @@ static void frames_repeat_and_are_placed(void **state) {
     CHECK_OK(riis_surface_create_from_keyframes(keyframes, 0, 0, &options, &b));
     for (int i = 0; i < 100; ++i) {
       const double t = random_between(&rng, 0, 1);
-      const double *xyz, *velocity;
-      CHECK_OK(riis_surface_update_from_keyframes(a, keyframes, t, t, NULL));
-      xyz = triangles_of(a).xyz;
-      velocity = triangles_of(a).velocity;
-      CHECK_OK(riis_surface_update_from_keyframes(b, keyframes, t - 3, t - 3, NULL));
+      CHECK_OK(riis_surface_update_from_keyframes(a, keyframes, t, 0, NULL));
+      const double *xyz = triangles_of(a).xyz;
+      const double *velocity = triangles_of(a).velocity;
+      CHECK_OK(riis_surface_update_from_keyframes(b, keyframes, t - 3, 0, NULL));
       check_height(b, 5 + 2 * xyz[2], 2 * velocity[2]);
       if (interpolation == RIIS_INTERPOLATION_LINEAR) {
         CHECK_NEAR(xyz[2], t < 0.25 ? 0.4 * t : t < 0.5 ? 0.1 + 0.8 * (t - 0.25) : 0.6 * (1 - t), 1e-14);
@@ -145,7 +142,7 @@ static void frames_repeat_and_are_placed(void **state) {
       }
       /* The rate of the cubic is its derivative. */
       const double h = 1e-6, rate = velocity[2];
-      CHECK_OK(riis_surface_update_from_keyframes(a, keyframes, t + h, t - h, NULL));
+      CHECK_OK(riis_surface_update_from_keyframes(a, keyframes, t + h, t + h - (t - h), NULL));
       velocity = triangles_of(a).velocity;
       CHECK_NEAR(velocity[2], rate, 1e-4);
     }
@@ -189,9 +186,9 @@ static void bad_frames_are_refused(void **state) {
   keyframes = keyframes_of(&s);
   riis_surface *surface = NULL;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "time is nan",
-                riis_surface_create_from_keyframes(keyframes, NAN, 0, NULL, &surface));
+                riis_surface_create_from_keyframes(keyframes, NAN, NAN - 0, NULL, &surface));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "time is inf",
-                riis_surface_create_from_keyframes(keyframes, 0, INFINITY, NULL, &surface));
+                riis_surface_create_from_keyframes(keyframes, 0, 0 - INFINITY, NULL, &surface));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "keyframes", riis_surface_create_from_keyframes(NULL, 0, 0, NULL, &surface));
   assert_null(surface);
   riis_keyframes_destroy(&keyframes);

@@ -144,7 +144,7 @@ static int64_t expected_leaks(const whole_case *c, const uint8_t *marks, uint8_t
 /* The oracle's marks. The result's marks replace them if rounding decides. */
 static void expected_marks(const whole_case *c, const double *xyz, const riis_surface *surface,
                            const riis_marks *result, uint8_t *marks) {
-  const surface_content all = surface_content_of(surface);
+  const riis_triangles all = triangles_of(surface);
   int64_t nearest = 0;
   CHECK_OK(dense_of(result, c->n_nodes, 2e60, marks, NULL, NULL, NULL));
   for (int64_t i = 0; i < c->n_nodes; ++i) {

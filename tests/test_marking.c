@@ -28,14 +28,10 @@ static void aortic_marks_equal_the_oracle(void **state) {
   double *xyz = random_nodes(n, 1.6, -1.2, 0.3);
   riis_mesh *mesh = mesh_of(n, xyz);
   riis_marks *result = new_result();
-  int64_t n_triangles;
-  const double *vertices;
-  const int64_t *vertex_id;
-  const int32_t *leaflet_id;
-  vertices = triangles_of(surface).xyz;
-  n_triangles = triangles_of(surface).n_triangles;
-  vertex_id = triangles_of(surface).vertex_id;
-  leaflet_id = triangles_of(surface).leaflet_id;
+  const double *vertices = triangles_of(surface).xyz;
+  const int64_t n_triangles = triangles_of(surface).n_triangles;
+  const int64_t *vertex_id = triangles_of(surface).vertex_id;
+  const int32_t *leaflet_id = triangles_of(surface).leaflet_id;
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
   const found_nodes marked = marked_in(result);
   int64_t at = 0;
@@ -173,8 +169,7 @@ static void mask_leaves_nodes_out(void **state) {
   memset(mask, 0, sizeof mask); /* an empty mask finds nothing and is no error */
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, some));
   const int64_t *node_id = (const int64_t *)&options;
-  int64_t n_marked = -1;
-  n_marked = marked_list(some).n_nodes;
+  const int64_t n_marked = marked_list(some).n_nodes;
   node_id = marked_list(some).node_id;
   assert_int_equal(n_marked, 0);
   assert_null(node_id);

@@ -108,7 +108,7 @@ static double distance(const double *p, const double *q) { return hypot(hypot(p[
 static double largest_speed(const riis_surface *surface) {
   static const double zero[3] = {0, 0, 0};
   const double *velocity = velocity_of(surface);
-  const int64_t n = surface_content_of(surface).n_vertices;
+  const int64_t n = triangles_of(surface).n_vertices;
   double largest = 0;
   for (int64_t i = 0; i < n; ++i) {
     const double speed = distance(velocity + 3 * i, zero);
@@ -126,7 +126,7 @@ typedef struct compared {
   double sum, speed;       /* mean difference at random points; largest speed */
 } compared;
 
-static const int32_t *patches_of_vertices(const surface_content *c) {
+static const int32_t *patches_of_vertices(const riis_triangles *c) {
   int32_t *patch = own(malloc((size_t)c->n_vertices * sizeof *patch));
   for (int64_t i = 0; i < c->n_vertices; ++i) patch[i] = -1;
   for (int64_t k = 0; k < 3 * c->n_triangles; ++k) patch[c->vertex_id[k]] = c->patch_id[k / 3];
@@ -143,7 +143,7 @@ static compared compare(const states *now, const states *before, double seconds,
   riis_surface *surface = new_surface(valve, &options);
   CHECK_OK(riis_surface_update_moving(surface, valve, valve_before, seconds, NULL, NULL));
   const smooth s = smooth_of(now), t = smooth_of(before);
-  const surface_content c = surface_content_of(surface);
+  const riis_triangles c = triangles_of(surface);
   const double *velocity = velocity_of(surface);
   const int32_t *patch = patches_of_vertices(&c);
   double expected[3];

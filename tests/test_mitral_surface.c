@@ -93,7 +93,7 @@ static void every_parameter_matters(void **state) {
 }
 
 /* Length of all edges with v = 0. */
-static double annulus_length(const surface_content *c) {
+static double annulus_length(const riis_triangles *c) {
   double sum = 0;
   for (int64_t t = 0; t < c->n_triangles; ++t)
     for (int k = 0; k < 3; ++k) {
@@ -113,7 +113,7 @@ static void numbers_of_the_model(void **state) {
     const int owned_before = n_owned();
     riis_surface *surface = mitral_surface(expected[i].opening, 5e-4);
     const riis_surface_info info = info_of(surface);
-    const surface_content c = surface_content_of(surface);
+    const riis_triangles c = triangles_of(surface);
     CHECK_NEAR(info.area, expected[i].area, 1e-3);
     CHECK_NEAR(info.area, expected[i].area_to_6_digits, 2.5e-4);
     CHECK_NEAR(annulus_length(&c), expected[i].annulus, 5e-3);
@@ -147,7 +147,7 @@ static void is_symmetric(void **state) {
   for (int i = 0; i <= 2; ++i) {
     const int owned_before = n_owned();
     riis_surface *surface = mitral_surface(0.5 * i, 0.02);
-    const surface_content c = surface_content_of(surface);
+    const riis_triangles c = triangles_of(surface);
     for (int64_t k = 0; k < c.n_vertices; ++k)
       CHECK_AT_MOST(closest_to(surface, -c.xyz[3 * k], c.xyz[3 * k + 1], c.xyz[3 * k + 2]).distance, 1e-12);
     free_owned_after(owned_before);
@@ -160,7 +160,7 @@ static void leaflets_and_patches(void **state) {
   for (int i = 0; i <= 2; ++i) {
     const int owned_before = n_owned();
     riis_surface *surface = mitral_surface(0.5 * i, 0.05);
-    const surface_content c = surface_content_of(surface);
+    const riis_triangles c = triangles_of(surface);
     int64_t n_of_patch[10] = {0};
     for (int64_t t = 0; t < c.n_triangles; ++t) {
       const int32_t patch = c.patch_id[t];
@@ -200,7 +200,7 @@ static void has_no_cracks(void **state) {
     const int owned_before = n_owned();
     const double opening = 0.5 * i;
     riis_surface *surface = mitral_surface(opening, 0.1);
-    const surface_content c = surface_content_of(surface);
+    const riis_triangles c = triangles_of(surface);
     int n_rim = 0, n_inside = 0;
     for (int64_t t = 0; t < c.n_triangles; ++t)
       for (int k = 0; k < 3; ++k) {
@@ -245,7 +245,7 @@ static void has_no_cracks(void **state) {
 static void closed_leaflets_share_their_edge(void **state) {
   (void)state;
   riis_surface *surface = mitral_surface(0, 0.05);
-  const surface_content c = surface_content_of(surface);
+  const riis_triangles c = triangles_of(surface);
   int n_shared = 0, n_of_edge = 0;
   for (int64_t t = 0; t < c.n_triangles; ++t)
     for (int k = 0; k < 3; ++k) {
@@ -265,7 +265,7 @@ static void closed_leaflets_share_their_edge(void **state) {
 }
 
 /* The least distance between two neighbouring lines of a patch, as a share of the longer of the sides that they join. */
-static double least_step(const surface_content *c, int32_t patch, double *longer) {
+static double least_step(const riis_triangles *c, int32_t patch, double *longer) {
   double length_of[2] = {0, 0}, *u = own(malloc((size_t)c->n_triangles * 2 * sizeof *u));
   size_t n = 0;
   for (int64_t t = 0; t < c->n_triangles; ++t)
@@ -303,7 +303,7 @@ static void has_no_slivers(void **state) {
     riis_surface_options options = surface_options();
     options.tolerance = pow(10, random_between(&rng, -2, -0.5));
     riis_surface *surface = new_surface(valve, &options);
-    const surface_content c = surface_content_of(surface);
+    const riis_triangles c = triangles_of(surface);
     const double max_error = options.tolerance * info_of(surface).half_thickness;
     for (int32_t patch = 0; patch < 10; ++patch) {
       double longer;
@@ -338,7 +338,7 @@ static void opens_continuously(void **state) {
   for (int i = 0; i < 2; ++i) {
     const int owned_before = n_owned();
     riis_surface *at_end = mitral_surface(ends[i], 0.05), *beside = mitral_surface(near[i], 0.05);
-    const surface_content a = surface_content_of(at_end), b = surface_content_of(beside);
+    const riis_triangles a = triangles_of(at_end), b = triangles_of(beside);
     assert_int_equal(a.n_vertices, b.n_vertices);
     double largest = 0;
     for (int64_t k = 0; k < a.n_vertices; ++k) largest = fmax(largest, distance(a.xyz + 3 * k, b.xyz + 3 * k));
@@ -358,7 +358,7 @@ static void an_update_moves_the_valve(void **state) {
     CHECK_OK(riis_valve_set_scalar(valve, "opening", i / 10.0));
     CHECK_OK(riis_surface_update(moving, valve, NULL));
     riis_surface *fresh = mitral_surface(i / 10.0, 0.05);
-    const surface_content a = surface_content_of(moving), b = surface_content_of(fresh);
+    const riis_triangles a = triangles_of(moving), b = triangles_of(fresh);
     assert_int_equal(a.n_vertices, b.n_vertices);
     assert_int_equal(a.n_triangles, b.n_triangles);
     assert_memory_equal(a.xyz, b.xyz, (size_t)a.n_vertices * 3 * sizeof *a.xyz);

@@ -150,7 +150,7 @@ static void triangles_are_those_of_a_plain_update(void **state) {
     CHECK_OK(riis_surface_update_moving(moving, valve, before, seconds, &options, options_before));
     assert_true(is_same_content(one, plain));
     assert_true(is_same_content(moving, plain));
-    const int64_t n = surface_content_of(plain).n_vertices;
+    const int64_t n = triangles_of(plain).n_vertices;
     assert_memory_equal(velocity_of(one), velocity_of(moving), (size_t)n * 3 * sizeof(double));
     for (int64_t i = 0; i < 3 * n; ++i) assert_true(isfinite(velocity_of(one)[i]));
     if (any_of(2)) { /* the next goes on with a surface that has none */
@@ -182,7 +182,7 @@ static void arrays_have_no_velocity(void **state) {
 /* The largest speed of the vertices of triangles with that leaflet, or with all for -1. */
 static double largest_speed(const riis_surface *surface, int32_t leaflet_id) {
   static const double zero[3] = {0, 0, 0};
-  const surface_content c = surface_content_of(surface);
+  const riis_triangles c = triangles_of(surface);
   const double *velocity = velocity_of(surface);
   double largest = 0;
   for (int64_t k = 0; k < 3 * c.n_triangles; ++k) {
@@ -207,7 +207,7 @@ static void nothing_moves_where_nothing_changed(void **state) {
     for (int i = 0; i < 4; ++i) {
       const riis_surface_options *before = i & 1 ? &options : NULL;
       CHECK_OK(riis_surface_update_moving(surface, valve, i & 2 ? copy : valve, seconds, NULL, before));
-      const int64_t n = surface_content_of(surface).n_vertices;
+      const int64_t n = triangles_of(surface).n_vertices;
       for (int64_t k = 0; k < 3 * n; ++k)
         if (velocity_of(surface)[k] != 0) fail_msg("trial %d: %.17g", trial, velocity_of(surface)[k]);
     }
@@ -233,7 +233,7 @@ static void parts_at_rest_have_no_velocity(void **state) {
   CHECK_OK(riis_valve_set_scalar(before, "posterior_scallop_length2", 1.3));
   riis_surface *surface = new_surface(valve, NULL);
   CHECK_OK(riis_surface_update_moving(surface, valve, before, 0.01, NULL, NULL));
-  const surface_content c = surface_content_of(surface);
+  const riis_triangles c = triangles_of(surface);
   const double *velocity = velocity_of(surface);
   for (int64_t k = 0; k < 3 * c.n_triangles; ++k)
     for (int x = 0; x < 3 && c.patch_id[k / 3] != 7 && c.patch_id[k / 3] != 8; ++x)
@@ -296,7 +296,7 @@ static void placements_move(void **state) {
     const double seconds = (any_of(2) ? 1 : -1) * pow(10, between(-4, 2));
     riis_surface *surface = new_surface(valve, NULL);
     CHECK_OK(riis_surface_update_moving(surface, valve, valve, seconds, &now, &then));
-    const surface_content c = surface_content_of(surface);
+    const riis_triangles c = triangles_of(surface);
     const double *velocity = velocity_of(surface);
     double size = 5 * (now.scale + then.scale); /* of coordinates */
     for (int i = 0; i < 3; ++i) size += fabs(now.translation[i]) + fabs(then.translation[i]);
@@ -331,7 +331,7 @@ static void patches_grow_and_drift(void **state) {
     options.tolerance = pow(10, between(-2, 0));
     riis_surface *surface = new_surface(valve, &options);
     CHECK_OK(riis_surface_update_moving(surface, valve, before, dt, NULL, NULL));
-    const surface_content c = surface_content_of(surface);
+    const riis_triangles c = triangles_of(surface);
     const double *velocity = velocity_of(surface);
     /* A vertex is a point of the polylines, which are as far from the curves as the tolerance allows. */
     const double allowed = fabs(growth) * options.tolerance * 0.1 + 1e-10 / fabs(dt);
@@ -361,7 +361,7 @@ static void time_goes_back(void **state) {
     CHECK_OK(riis_surface_update_moving(on, valve, before, seconds, NULL, trial % 2 ? &then : NULL));
     CHECK_OK(riis_surface_update_moving(back, valve, before, -seconds, NULL, trial % 2 ? &then : NULL));
     assert_true(largest_speed(on, -1) > 0);
-    for (int64_t i = 0; i < 3 * surface_content_of(on).n_vertices; ++i)
+    for (int64_t i = 0; i < 3 * triangles_of(on).n_vertices; ++i)
       CHECK_SAME(velocity_of(on)[i], -velocity_of(back)[i]);
     free_owned_after(owned_before);
   }
@@ -386,7 +386,7 @@ static void vertices_come_from_their_place_before(void **state) {
     then.tolerance = 0.01;
     riis_surface *surface = new_surface(valve, &options), *was = new_surface(before, &then);
     CHECK_OK(riis_surface_update_moving(surface, valve, before, seconds, NULL, &then));
-    const surface_content c = surface_content_of(surface), w = surface_content_of(was);
+    const riis_triangles c = triangles_of(surface), w = triangles_of(was);
     const double *velocity = velocity_of(surface);
     for (int64_t k = 0; k < 3 * c.n_triangles; k += 3) {
       const int64_t i = c.vertex_id[k];
@@ -464,7 +464,7 @@ typedef struct kept {
 } kept;
 
 static kept keep(const riis_surface *surface) {
-  const surface_content c = surface_content_of(surface);
+  const riis_triangles c = triangles_of(surface);
   kept made = {surface, velocity_of(surface), c.xyz, own(malloc((size_t)c.n_vertices * 6 * sizeof(double)))};
   memcpy(made.values, made.xyz, (size_t)c.n_vertices * 3 * sizeof(double));
   memcpy(made.values + 3 * c.n_vertices, made.velocity, (size_t)c.n_vertices * 3 * sizeof(double));
@@ -473,7 +473,7 @@ static kept keep(const riis_surface *surface) {
 
 /* The same arrays in the same place with the same values. */
 static void check_kept(const kept *k) {
-  const surface_content c = surface_content_of(k->surface);
+  const riis_triangles c = triangles_of(k->surface);
   assert_ptr_equal(velocity_of(k->surface), k->velocity);
   assert_ptr_equal(c.xyz, k->xyz);
   assert_memory_equal(k->values, k->xyz, (size_t)c.n_vertices * 3 * sizeof(double));
@@ -564,20 +564,6 @@ static void refusals_leave_the_surface_as_it_was(void **state) {
   CHECK_OK(riis_surface_update_moving(surface, patches, patches, 1, NULL, NULL)); /* as good as new */
 }
 
-static void vertex_velocities_are_asked_for_rightly(void **state) {
-  (void)state;
-  riis_valve *valve = random_valve(0);
-  riis_surface *surface = new_surface(valve, NULL);
-  int64_t n = -1;
-  const double *velocity;
-
-  n = triangles_of(surface).n_vertices;
-  assert_int_equal(n, surface_content_of(surface).n_vertices);
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface is NULL", riis_surface_vertex_velocities(NULL, &n, &velocity));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface is a handle of another kind",
-                riis_surface_vertex_velocities((const void *)valve, &n, &velocity));
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(triangles_are_those_of_a_plain_update),
@@ -591,7 +577,6 @@ int main(void) {
       cmocka_unit_test(no_vertex_of_the_aortic_valve_is_an_outlier),
       cmocka_unit_test(a_copy_is_a_valve_of_its_own),
       cmocka_unit_test(refusals_leave_the_surface_as_it_was),
-      cmocka_unit_test(vertex_velocities_are_asked_for_rightly),
   };
   rng = random_start("test_motion");
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -143,7 +143,7 @@ static int64_t allocations_of_a_cycle(moving_valve *valve) {
   riis_resistance resistance;
   int64_t n = 0;
   CHECK_OK(riis_resistance_init(&resistance, sizeof resistance));
-  resistance.resistance = 1e4;
+  resistance.R = 1e4;
   for (int i = 0; i < 40; ++i) {
     CHECK_OK(riis_valve_set_scalar(valve->before, "opening", fabs(1 - 0.05 * i)));
     CHECK_OK(riis_valve_set_scalar(valve->now, "opening", fabs(1 - 0.05 * (i + 1))));

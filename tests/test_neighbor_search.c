@@ -197,8 +197,7 @@ static void ghosts_are_passed_over(void **state) {
 static void mesh_of_one_node(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
-  const double *vertices;
-  vertices = triangles_of(surface).xyz;
+  const double *vertices = triangles_of(surface).xyz;
   const double places[3][3] = {{vertices[0], vertices[1], vertices[2] + 0.05}, {0, 0, 50}, {1e60, -1e60, 1e60}};
   for (int k = 0; k < 3; ++k)
     for (int self = 0; self < 2; ++self) {
@@ -408,10 +407,8 @@ static void paper_finds_the_piece_that_it_starts_in(void **state) {
     riis_mesh *mesh = mesh_from(&nodes);
     riis_marks *all = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, NULL);
     riis_marks *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, NULL);
-    const double *vertices;
-    const int64_t *vertex_id;
-    vertices = triangles_of(surface).xyz;
-    vertex_id = triangles_of(surface).vertex_id;
+    const double *vertices = triangles_of(surface).xyz;
+    const int64_t *vertex_id = triangles_of(surface).vertex_id;
     const double *first = vertices + 3 * vertex_id[0];
     uint8_t *marked = own(calloc((size_t)nodes.n, 1));
     int64_t *queue = own(malloc((size_t)nodes.n * sizeof *queue)), n_queued = 0, start = 0;

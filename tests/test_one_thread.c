@@ -82,14 +82,14 @@ static void check_surfaces(int32_t triangulation, double tolerance) {
   for (int k = 0; k < 4; ++k) {
     riis_valve *valve = new_valve(kinds[k]), *before = new_valve(kinds[k]);
     riis_surface *surface = NULL;
-    riis_crossings crossings;
+    riis_crossing_list crossings;
     CALL_ALONE(riis_surface_create(valve, &options, &surface));
     own(surface);
     for (int step = 1; step < 4; ++step) {
       CALL_ALONE(riis_valve_set_scalar(valve, "opening", 0.1 * step));
       CALL_ALONE(riis_surface_update(surface, valve, NULL));
       CALL_ALONE(riis_surface_update_moving(surface, valve, before, 0.1, NULL, NULL));
-      CALL_ALONE(riis_find_crossings(surface, &of_crossings, &crossings, sizeof crossings));
+      CALL_ALONE(find_crossings_in(surface, &of_crossings, &crossings));
       closest_to(surface, 0.3, 0.2, 0.1);
       assert_int_equal(n_threads_now(), n_threads_at_first);
     }
@@ -107,9 +107,9 @@ static void surfaces_of_valves(void **state) {
 static void other_distances(void **state) {
   (void)state;
   const double point[3] = {0.3, 0.2, 0.1};
-  for (int32_t measure = RIIS_MEASURE_SAMPLING; distance <= RIIS_MEASURE_MINIMIZATION; ++distance) {
+  for (int32_t distance = RIIS_MEASURE_SAMPLING; distance <= RIIS_MEASURE_MINIMIZATION; ++distance) {
     riis_surface_options options = options_with(n_threads_asked, RIIS_TRIANGULATION_ADAPTED, 0.05);
-    options.distance = distance;
+    options.measure = distance;
     options.measure_tolerance = 0.5;
     riis_surface *surface = NULL;
     riis_closest closest;
@@ -192,16 +192,16 @@ static void check_markings(int64_t side) {
   static double k[most_nodes], k_u[3 * most_nodes], distance[most_nodes];
   riis_resistance resistance;
   CHECK_OK(riis_resistance_init(&resistance, sizeof resistance));
-  resistance.resistance = 1;
+  resistance.R = 1;
   CALL_ALONE(add_resistance_to(result, &resistance, n_nodes, k, k_u));
   CALL_ALONE(dense_of(result, n_nodes, RIIS_FAR_DISTANCE, NULL, distance, NULL, NULL));
 
   options.search = RIIS_SEARCH_AUTO;
   options.fields = 0;
-  riis_leaks leaks;
+  riis_leak_list leaks;
   riis_passage passage;
   const int64_t first = 0, last = n_nodes - 1;
-  CALL_ALONE(riis_find_leaks(surface, mesh, &options, result, &leaks, sizeof leaks));
+  CALL_ALONE(find_leaks_in(surface, mesh, result, &options, &leaks));
   CALL_ALONE(riis_label_open_regions(mesh, result, &options, n_nodes, label, NULL));
   CALL_ALONE(find_passage_between(surface, mesh, &options, 1, &first, 1, &last, &passage, sizeof passage));
 

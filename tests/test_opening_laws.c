@@ -315,7 +315,7 @@ static void a_switch_opens_by_pressure_and_closes_by_flow(void **state) {
   assert_int_equal(now.phase, RIIS_PHASE_CLOSING);
   CHECK_OK(riis_opening_switch_advance(&law, &now, 0.02, 1, 0, &now));
   assert_int_equal(now.phase, RIIS_PHASE_OPENING);
-  CHECK_NEAR(now.since, 0.02, 0);
+  CHECK_NEAR(now.turn_time, 0.02, 0);
   CHECK_NEAR(now.opening, 0, 0);
   CHECK_OK(riis_opening_switch_advance(&law, &now, 0.04, 1, 3, &now));
   CHECK_NEAR(now.opening, 0.5, 1e-12);

@@ -299,7 +299,7 @@ static double distance_of(const double *p, const double *q) {
 
 /* The triangles that have a vertex in the ball are left out. *reach is how far they go from its centre. */
 static riis_surface *without_ball(const riis_surface *surface, const double *centre, double radius, double *reach) {
-  const surface_content all = surface_content_of(surface);
+  const riis_triangles all = triangles_of(surface);
   int32_t *ids = own(malloc((size_t)all.n_triangles * 3 * sizeof *ids));
   int64_t n = 0;
   *reach = radius;
@@ -322,7 +322,7 @@ static riis_surface *without_ball(const riis_surface *surface, const double *cen
 }
 
 /* A hole that opens into the narrow gap between two leaflets may stay closed, so the centre is far from the others. */
-static const double *centre_of_hole(const surface_content *all) {
+static const double *centre_of_hole(const riis_triangles *all) {
   for (;;) {
     const int64_t t = random_integer(0, all->n_triangles - 1), leaflet = all->patch_id[t] / 4;
     const double *centre = all->xyz + 3 * all->vertex_id[3 * t];
@@ -342,7 +342,7 @@ static void a_pierced_leaflet_is_found_where_it_is(void **state) {
   riis_surface_options options = surface_options();
   options.tolerance = 0.01; /* small triangles, so that the hole is about the ball */
   riis_surface *valve = new_surface(aortic_with_free_edges_at(0.02), &options);
-  const surface_content all = surface_content_of(valve);
+  const riis_triangles all = triangles_of(valve);
   for (int trial = 0; trial < fewer_if_sanitized(8); ++trial) {
     const int owned_before = n_owned();
     const double radius = random_between(&rng, 0.2, 0.3), *centre = centre_of_hole(&all);
@@ -362,9 +362,9 @@ static void other_distances_have_passages(void **state) {
   const ends e = {1, 1, {node_at(&nodes, 0, 0, -1)}, {node_at(&nodes, 0, 0, 1.5)}};
   riis_surface_options options = surface_options();
   riis_passage by_triangles = {0};
-  for (options.measure = RIIS_MEASURE_TRIANGLES; options.distance <= RIIS_MEASURE_MINIMIZATION; ++options.distance) {
+  for (options.measure = RIIS_MEASURE_TRIANGLES; options.measure <= RIIS_MEASURE_MINIMIZATION; ++options.measure) {
     const riis_passage found = passage_of(new_surface(aortic_with_free_edges_at(0), &options), mesh, NULL, &e);
-    if (options.distance == RIIS_MEASURE_TRIANGLES) by_triangles = found;
+    if (options.measure == RIIS_MEASURE_TRIANGLES) by_triangles = found;
     assert_int_equal(found.state, RIIS_PASSAGE_OPEN);
     CHECK_NEAR(found.distance, by_triangles.distance, 0.01); /* twice the tolerance */
   }

@@ -17,7 +17,7 @@ static const double pi = 3.14159265358979323846;
 static riis_resistance resistance_of(double r) {
   riis_resistance resistance;
   CHECK_OK(riis_resistance_init(&resistance, sizeof resistance));
-  resistance.resistance = r;
+  resistance.R = r;
   return resistance;
 }
 
@@ -206,7 +206,7 @@ static void sums_are_those_of_plain_loops(void **state) {
     for (int64_t j = 0; j < within.n; ++j) {
       const int64_t i = within.node_id[j];
       if (resistance.rim == RIIS_RIM_CUT && fields.rim[j]) continue;
-      const double at = coefficient_at(resistance.resistance, eps, within.distance[j]);
+      const double at = coefficient_at(resistance.R, eps, within.distance[j]);
       n_resisting += at > 0;
       expected[i] += at;
       for (int c = 0; c < 3; ++c) {
@@ -219,7 +219,7 @@ static void sums_are_those_of_plain_loops(void **state) {
     assert_true(n_resisting > 50 || trial == 5);
     CHECK_OK(add_resistance_to(f.result, &resistance, n, k, moves ? momentum : NULL));
     if (!moves) memcpy(momentum, expected + n, (size_t)n * 3 * sizeof *k);
-    const double largest = resistance.resistance / (eps * eps);
+    const double largest = resistance.R / (eps * eps);
     for (int64_t i = 0; i < n; ++i) CHECK_NEAR(k[i], expected[i], 1e-14 * (1 + largest));
     for (int64_t i = 0; i < 3 * n; ++i)
       CHECK_NEAR(momentum[i], expected[n + i], 1e-14 * (1 + fabs(expected[n + i]) + largest));
@@ -416,13 +416,13 @@ static void refusals_leave_the_arrays(void **state) {
     CALLS_REFUSED(RIIS_INVALID_ARGUMENT, parts); \
   } while (0)
   CHECK_OK(riis_resistance_init(&resistance, sizeof resistance));
-  assert_true(isnan(resistance.resistance) && resistance.half_thickness == RIIS_AUTO &&
+  assert_true(isnan(resistance.R) && resistance.half_thickness == RIIS_AUTO &&
               resistance.rim == RIIS_RIM_ROUND && resistance.reserved == 0);
-  CALLS_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.resistance is nan;|from 0 to 1e+60");
-  CHANGED_IS_REFUSED(resistance = -1, "resistance.resistance is -1;");
-  CHANGED_IS_REFUSED(resistance = -1e-300, "resistance.resistance is -1e-300;");
-  CHANGED_IS_REFUSED(resistance = INFINITY, "resistance.resistance is inf;");
-  CHANGED_IS_REFUSED(resistance = 1.1e60, "resistance.resistance is 1.1e+60;");
+  CALLS_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.R is nan;|from 0 to 1e+60");
+  CHANGED_IS_REFUSED(R = -1, "resistance.R is -1;");
+  CHANGED_IS_REFUSED(R = -1e-300, "resistance.R is -1e-300;");
+  CHANGED_IS_REFUSED(R = INFINITY, "resistance.R is inf;");
+  CHANGED_IS_REFUSED(R = 1.1e60, "resistance.R is 1.1e+60;");
   CHANGED_IS_REFUSED(half_thickness = 0.21,
                      "resistance.half_thickness is 0.21;|the distance limit of the marking, 0.2");
   CHANGED_IS_REFUSED(half_thickness = 0, "resistance.half_thickness is 0;|from 1e-50");
@@ -490,31 +490,31 @@ static void refusals_leave_the_arrays(void **state) {
 
   /* NULLs. */
   const void *no_result = f.mesh;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "result is NULL",
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks is NULL",
                 add_resistance_to(NULL, &resistance, n, k, momentum));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "result is a handle of another kind",
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks is a handle of another kind",
                 add_resistance_to(no_result, &resistance, n, k, momentum));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance is NULL",
                 add_resistance_to(f.result, NULL, n, k, momentum));
 #define REACTION_REFUSED(parts, ...) \
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts, riis_marks_add_reaction(__VA_ARGS__))
-  REACTION_REFUSED("result is NULL", NULL, &resistance, n, f.velocity, f.weight, force);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts, add_reaction_to(__VA_ARGS__))
+  REACTION_REFUSED("marks is NULL", NULL, &resistance, n, f.velocity, f.weight, force);
   REACTION_REFUSED("resistance is NULL", f.result, NULL, n, f.velocity, f.weight, force);
-  REACTION_REFUSED("velocity is NULL", f.result, &resistance, n, NULL, f.weight, force);
-  REACTION_REFUSED("weight is NULL", f.result, &resistance, n, f.velocity, NULL, force);
+  REACTION_REFUSED("flow.velocity[0] is NULL", f.result, &resistance, n, NULL, f.weight, force);
+  REACTION_REFUSED("flow.weight is NULL", f.result, &resistance, n, f.velocity, NULL, force);
   REACTION_REFUSED("force is NULL", f.result, &resistance, n, f.velocity, f.weight, NULL);
-#define SUMS_REFUSED(parts, ...) CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts, riis_marks_get_band_sums(__VA_ARGS__))
-  SUMS_REFUSED("result is NULL", NULL, 0, 0.1, n, f.value, f.weight, &sums, sizeof sums);
-  SUMS_REFUSED("value is NULL", f.result, 0, 0.1, n, NULL, f.weight, &sums, sizeof sums);
-  SUMS_REFUSED("weight is NULL", f.result, 0, 0.1, n, f.value, NULL, &sums, sizeof sums);
+#define SUMS_REFUSED(parts, ...) CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts, band_sums_of(__VA_ARGS__))
+  SUMS_REFUSED("marks is NULL", NULL, 0, 0.1, n, f.value, f.weight, &sums, sizeof sums);
+  SUMS_REFUSED("band.value is NULL", f.result, 0, 0.1, n, NULL, f.weight, &sums, sizeof sums);
+  SUMS_REFUSED("band.weight is NULL", f.result, 0, 0.1, n, f.value, NULL, &sums, sizeof sums);
   SUMS_REFUSED("sums is NULL", f.result, 0, 0.1, n, f.value, f.weight, NULL, sizeof sums);
   UNCHANGED();
 
   /* A result that was never marked with. */
   riis_marks *empty = new_result();
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "result was never marked with",
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks were never marked with",
                 add_resistance_to(empty, &resistance, 0, k, NULL));
-  REACTION_REFUSED("result was never marked with", empty, &resistance, 0, f.velocity, f.weight, force);
+  REACTION_REFUSED("marks were never marked with", empty, &resistance, 0, f.velocity, f.weight, force);
   SUMS_REFUSED("needs RIIS_FIELD_SIDE", empty, 0, 0, 0, f.value, f.weight, &sums, sizeof sums);
   UNCHANGED();
 }

@@ -77,7 +77,7 @@ static void add_resistance(const moving_valve *valve, const riis_mesh *mesh, rii
   CHECK_OK(riis_mark_nodes(valve->surface, mesh, &options, result));
   riis_resistance resistance;
   CHECK_OK(riis_resistance_init(&resistance, sizeof resistance));
-  resistance.resistance = 1e4;
+  resistance.R = 1e4;
   CHECK_OK(add_resistance_to(result, &resistance, n_nodes, fields, fields + n_nodes));
 }
 

@@ -34,11 +34,9 @@ static void grow(double *box, const double *by) {
 
 static brute_force brute_force_of(const riis_surface *surface) {
   brute_force b;
-  const int64_t *vertex_id;
-  const double *vertices;
-  vertices = triangles_of(surface).xyz;
+  const double *vertices = triangles_of(surface).xyz;
   b.n = triangles_of(surface).n_triangles;
-  vertex_id = triangles_of(surface).vertex_id;
+  const int64_t *vertex_id = triangles_of(surface).vertex_id;
   b.corners = own(malloc((size_t)b.n * 9 * sizeof(double)));
   b.boxes = own(malloc((size_t)b.n * 6 * sizeof(double)));
   b.blocks = own(malloc((size_t)(b.n / per_block + 1) * 6 * sizeof(double)));
@@ -353,12 +351,9 @@ static void boxes_leave_nothing_out(void **state) {
     update_surface(&surface, &s, NULL);
     const riis_surface_info info = info_of(surface);
     brute_force b = brute_force_of(surface);
-    int64_t n_triangles;
-    const int64_t *vertex_id;
-    const double *vertices;
-    vertices = triangles_of(surface).xyz;
-    n_triangles = triangles_of(surface).n_triangles;
-    vertex_id = triangles_of(surface).vertex_id;
+    const double *vertices = triangles_of(surface).xyz;
+    const int64_t n_triangles = triangles_of(surface).n_triangles;
+    const int64_t *vertex_id = triangles_of(surface).vertex_id;
     for (int k = 0; k < 40; ++k) {
       double p[3];
       int64_t triangle;

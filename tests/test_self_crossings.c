@@ -156,27 +156,27 @@ static riis_surface *surface_of_soup(const soup *s, double half_thickness) {
   return surface_from(&arrays, &options);
 }
 
-typedef struct pair_list {
-  int64_t n;
-  const int64_t *triangle_id;
-  const double *point, *depth, *length;
-} pair_list;
-
-static pair_list pairs_of(const riis_surface *surface) {
-  pair_list pairs;
-  CHECK_OK(
-      riis_surface_crossing_pairs(surface, &pairs.n, &pairs.triangle_id, &pairs.point, &pairs.depth, &pairs.length));
-  return pairs;
-}
-
-static riis_crossings crossings_of(riis_surface *surface, double depth, int32_t n_threads) {
+/* The list's arrays last as long as the test. The memory is reused where the test gives crossings. */
+static riis_crossing_list crossings_in(const riis_surface *surface, double depth, int32_t n_threads,
+                                       riis_crossings *crossings) {
   riis_crossing_options options;
-  riis_crossings crossings;
+  riis_crossing_list list;
   CHECK_OK(riis_crossing_options_init(&options, sizeof options));
   options.depth = depth;
   options.n_threads = n_threads;
-  CHECK_OK(riis_find_crossings(surface, &options, &crossings, sizeof crossings));
-  return crossings;
+  CHECK_OK(riis_find_crossings(surface, &options, crossings));
+  CHECK_OK(riis_crossings_get_list(crossings, &list, sizeof list));
+  return list;
+}
+
+static riis_crossings *new_crossings(void) {
+  riis_crossings *crossings = NULL;
+  CHECK_OK(riis_crossings_create(&crossings));
+  return own(crossings);
+}
+
+static riis_crossing_list crossings_of(const riis_surface *surface, double depth, int32_t n_threads) {
+  return crossings_in(surface, depth, n_threads, new_crossings());
 }
 
 static int are_neighbours(const double *a, const double *b) {
@@ -208,7 +208,7 @@ typedef struct tally {
 } tally;
 
 /* Checks the numbers of a pair that was found. */
-static void check_pair(const pair_list *pairs, int64_t at, const double *a, const double *b, double depth,
+static void check_pair(const riis_crossing_list *pairs, int64_t at, const double *a, const double *b, double depth,
                        double largest) {
   const double longest = fmax(longest_edge(a), longest_edge(b));
   double middle[3];
@@ -221,8 +221,7 @@ static void check_pair(const pair_list *pairs, int64_t at, const double *a, cons
 }
 
 /* Compares all pairs with the oracle. */
-static void check_soup(const soup *s, const riis_surface *surface, double limit, tally *count) {
-  const pair_list pairs = pairs_of(surface);
+static void check_soup(const soup *s, const riis_crossing_list *pairs, double limit, tally *count) {
   double largest = 0;
   for (int64_t i = 0; i < 9 * s->n_triangles; ++i) largest = fmax(largest, fabs(s->xyz[3 * s->ids[i / 3] + i % 3]));
   int64_t next = 0;
@@ -233,7 +232,7 @@ static void check_soup(const soup *s, const riis_surface *surface, double limit,
         a[k] = s->xyz[3 * s->ids[3 * i + k / 3] + k % 3];
         b[k] = s->xyz[3 * s->ids[3 * j + k / 3] + k % 3];
       }
-      const int is_found = next < pairs.n && pairs.triangle_id[2 * next] == i && pairs.triangle_id[2 * next + 1] == j;
+      const int is_found = next < pairs->n_pairs && pairs->triangle_id[2 * next] == i && pairs->triangle_id[2 * next + 1] == j;
       const int is_no_pair = s->leaflet_id[i] == s->leaflet_id[j] && are_neighbours(a, b);
       const double depth = is_no_pair || !boxes_overlap(a, b) ? 0 : oracle_depth(a, b);
       const double longest = fmax(longest_edge(a), longest_edge(b));
@@ -243,36 +242,35 @@ static void check_soup(const soup *s, const riis_surface *surface, double limit,
         fail_msg("%lld %lld of depth %g cross", (long long)i, (long long)j, depth);
       if (!is_found && depth > least + error)
         fail_msg("%lld %lld of depth %g are missing", (long long)i, (long long)j, depth);
-      if (is_found) check_pair(&pairs, next++, a, b, depth, largest);
+      if (is_found) check_pair(pairs, next++, a, b, depth, largest);
       count->n_crossing += is_found;
       count->n_touching += !is_found && depth > 0;
       count->n_undecided += fabs(depth - least) <= error;
     }
-  assert_int_equal(next, pairs.n);
+  assert_int_equal(next, pairs->n_pairs);
 }
 
-static void check_summary(const riis_surface *surface, const soup *s, const riis_crossings *crossings) {
-  const pair_list pairs = pairs_of(surface);
+static void check_summary(const soup *s, const riis_crossing_list *crossings) {
+  const riis_crossing_list pairs = *crossings;
   double length = 0;
   int64_t deepest = 0;
-  for (int64_t i = 0; i < pairs.n; ++i) {
+  for (int64_t i = 0; i < pairs.n_pairs; ++i) {
     length += pairs.length[i];
     if (pairs.depth[i] > pairs.depth[deepest]) deepest = i;
   }
-  assert_int_equal(crossings->n_pairs, pairs.n);
-  CHECK_SAME(crossings->length, length);
-  if (pairs.n == 0) {
+  CHECK_SAME(crossings->total_length, length);
+  if (pairs.n_pairs == 0) {
     assert_null(pairs.triangle_id);
-    assert_int_equal(crossings->triangle_id[0], -1);
-    assert_int_equal(crossings->leaflet_id[1], -1);
-    CHECK_SAME(crossings->depth, 0);
+    assert_int_equal(crossings->deepest_triangle_id[0], -1);
+    assert_int_equal(crossings->deepest_leaflet_id[1], -1);
+    CHECK_SAME(crossings->deepest_depth, 0);
     return;
   }
-  CHECK_SAME(crossings->depth, pairs.depth[deepest]);
-  for (int i = 0; i < 3; ++i) CHECK_SAME(crossings->point[i], pairs.point[3 * deepest + i]);
+  CHECK_SAME(crossings->deepest_depth, pairs.depth[deepest]);
+  for (int i = 0; i < 3; ++i) CHECK_SAME(crossings->deepest_point[i], pairs.point[3 * deepest + i]);
   for (int i = 0; i < 2; ++i) {
-    assert_int_equal(crossings->triangle_id[i], pairs.triangle_id[2 * deepest + i]);
-    assert_int_equal(crossings->leaflet_id[i], s->leaflet_id[pairs.triangle_id[2 * deepest + i]]);
+    assert_int_equal(crossings->deepest_triangle_id[i], pairs.triangle_id[2 * deepest + i]);
+    assert_int_equal(crossings->deepest_leaflet_id[i], s->leaflet_id[pairs.triangle_id[2 * deepest + i]]);
   }
 }
 
@@ -282,6 +280,7 @@ static void pairs_equal_those_of_all_triangles(void **state) {
   enum { n_kinds = sizeof kinds / sizeof *kinds };
   const int n_trials = n_kinds * (is_long_test() ? 5000 : 100);
   tally tallies[n_kinds] = {{0}};
+  riis_crossings *crossings = new_crossings();
   soup *s = own(malloc(sizeof *s));
   for (int trial = 0; trial < n_trials; ++trial) {
     s->n_vertices = s->n_triangles = 0;
@@ -297,9 +296,9 @@ static void pairs_equal_those_of_all_triangles(void **state) {
     const double depths[] = {1e-6, 0, 1e-3, 0.3};
     const double depth = depths[random_integer(0, 3)], half_thickness = 0.2 * size;
     riis_surface *surface = surface_of_soup(s, half_thickness);
-    const riis_crossings crossings = crossings_of(surface, depth, 1);
-    check_soup(s, surface, depth * half_thickness, &tallies[trial % n_kinds]);
-    check_summary(surface, s, &crossings);
+    const riis_crossing_list list = crossings_in(surface, depth, 1, crossings);
+    check_soup(s, &list, depth * half_thickness, &tallies[trial % n_kinds]);
+    check_summary(s, &list);
     free_one_owned(surface);
   }
   free_one_owned(s);
@@ -317,6 +316,11 @@ static void pairs_equal_those_of_all_triangles(void **state) {
 }
 
 /* Many groups of triangles, so that threads share the work, and boxes of groups have several levels. */
+static int same_summary(const riis_crossing_list *a, const riis_crossing_list *b) {
+  const size_t from = offsetof(riis_crossing_list, total_length), to = offsetof(riis_crossing_list, seconds);
+  return a->n_pairs == b->n_pairs && memcmp((const char *)a + from, (const char *)b + from, to - from) == 0;
+}
+
 static void threads_find_the_same(void **state) {
   (void)state;
   soup *s = own(malloc(sizeof *s));
@@ -325,15 +329,14 @@ static void threads_find_the_same(void **state) {
   double *second = s->xyz + 3 * (s->n_vertices / 2);
   for (int64_t i = 0; i < s->n_vertices / 2; ++i) second[3 * i + 2] = 0.5 * s->xyz[3 * i] - s->xyz[3 * i + 2];
   riis_surface *one = surface_of_soup(s, 0.1), *many = surface_of_soup(s, 0.1);
-  const riis_crossings of_one = crossings_of(one, 1e-6, 1);
+  const riis_crossing_list p = crossings_of(one, 1e-6, 1);
   tally count = {0};
-  check_soup(s, one, 1e-7, &count);
+  check_soup(s, &p, 1e-7, &count);
   for (int32_t n_threads = 2; n_threads < 9; n_threads += 3) {
-    const riis_crossings of_many = crossings_of(many, 1e-6, n_threads);
-    const pair_list p = pairs_of(one), q = pairs_of(many);
-    assert_memory_equal(&of_one, &of_many, offsetof(riis_crossings, seconds));
-    assert_true(p.n > 20);
-    const size_t n = (size_t)p.n;
+    const riis_crossing_list q = crossings_of(many, 1e-6, n_threads);
+    assert_true(same_summary(&p, &q));
+    assert_true(p.n_pairs > 20);
+    const size_t n = (size_t)p.n_pairs;
     assert_memory_equal(p.triangle_id, q.triangle_id, 2 * n * sizeof *p.triangle_id);
     assert_memory_equal(p.point, q.point, 3 * n * sizeof *p.point);
     assert_memory_equal(p.depth, q.depth, n * sizeof *p.depth);
@@ -353,17 +356,16 @@ static void unit_squares_cross_along_one_unit(void **state) {
   for (int one_leaflet = 0; one_leaflet < 2; ++one_leaflet) {
     if (one_leaflet) memset(leaflet_id, 0, sizeof leaflet_id);
     riis_surface *surface = surface_from(&arrays, NULL);
-    riis_crossings crossings;
-    CHECK_OK(riis_find_crossings(surface, NULL, &crossings, sizeof crossings));
+    const riis_crossing_list crossings = crossings_of(surface, 1e-6, 0);
     assert_int_equal(crossings.n_pairs, 2);
-    CHECK_NEAR(crossings.length, 1, 1e-15);
-    CHECK_NEAR(crossings.depth, sqrt(0.125), 1e-15);
-    assert_int_equal(crossings.triangle_id[0], 0);
-    assert_int_equal(crossings.triangle_id[1], 3);
-    assert_int_equal(crossings.leaflet_id[1], one_leaflet ? 0 : 7);
-    CHECK_NEAR(crossings.point[0], 0.5, 1e-15);
-    CHECK_NEAR(crossings.point[1], 0.25, 1e-15);
-    CHECK_NEAR(crossings.point[2], 0, 1e-15);
+    CHECK_NEAR(crossings.total_length, 1, 1e-15);
+    CHECK_NEAR(crossings.deepest_depth, sqrt(0.125), 1e-15);
+    assert_int_equal(crossings.deepest_triangle_id[0], 0);
+    assert_int_equal(crossings.deepest_triangle_id[1], 3);
+    assert_int_equal(crossings.deepest_leaflet_id[1], one_leaflet ? 0 : 7);
+    CHECK_NEAR(crossings.deepest_point[0], 0.5, 1e-15);
+    CHECK_NEAR(crossings.deepest_point[1], 0.25, 1e-15);
+    CHECK_NEAR(crossings.deepest_point[2], 0, 1e-15);
     assert_true(crossings.seconds > 0);
     free_one_owned(surface);
   }
@@ -380,16 +382,16 @@ static void a_tip_crosses_beyond_the_limit(void **state) {
     riis_surface_options options = surface_options();
     options.half_thickness = 0.25;
     riis_surface *surface = surface_from(&arrays, &options);
-    const riis_crossings crossings = crossings_of(surface, 1e-4, 1);
+    const riis_crossing_list crossings = crossings_of(surface, 1e-4, 1);
     assert_int_equal(crossings.n_pairs, i > 0);
-    if (i > 0) CHECK_NEAR(crossings.depth, through, 1e-15);
-    if (i > 0) CHECK_NEAR(crossings.length, 2 * through / (1 + through), 1e-15);
+    if (i > 0) CHECK_NEAR(crossings.deepest_depth, through, 1e-15);
+    if (i > 0) CHECK_NEAR(crossings.total_length, 2 * through / (1 + through), 1e-15);
     free_one_owned(surface);
   }
 }
 
-/* Skipped triangles keep their ids, an update leaves no pairs, and a refusal leaves them as they were. */
-static void pairs_stay_until_the_next_content(void **state) {
+/* Skipped triangles keep their ids. An update of the surface and a refused search leave the pairs as they were. */
+static void pairs_stay_until_the_next_search(void **state) {
   (void)state;
   const double xyz[] = {-1, -1, 0, 1, -1, 0, 0, 1, 0, 0, 0, -1, -1, 0, 1, 1, 0, 1};
   const int32_t ids[] = {0, 0, 1, 0, 1, 2, 1, 1, 1, 3, 4, 5};
@@ -397,24 +399,31 @@ static void pairs_stay_until_the_next_content(void **state) {
   riis_surface_options options = surface_options();
   options.zero_area = RIIS_ZERO_AREA_SKIP;
   riis_surface *surface = surface_from(&arrays, &options);
-  assert_int_equal(pairs_of(surface).n, 0);
-  assert_int_equal(crossings_of(surface, 1e-6, 0).n_pairs, 1);
-  assert_int_equal(pairs_of(surface).triangle_id[0], 1);
-  assert_int_equal(pairs_of(surface).triangle_id[1], 3);
-  riis_crossings crossings;
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "crossings|72", riis_find_crossings(surface, NULL, &crossings, 72));
-  assert_int_equal(pairs_of(surface).n, 1);
+  riis_crossings *crossings = new_crossings();
+  riis_crossing_list before, after;
+  CHECK_OK(riis_crossings_get_list(crossings, &before, sizeof before));
+  assert_true(before.n_pairs == 0 && !before.triangle_id && before.deepest_triangle_id[0] == -1);
+  before = crossings_in(surface, 1e-6, 0, crossings);
+  assert_int_equal(before.n_pairs, 1);
+  assert_int_equal(before.triangle_id[0], 1);
+  assert_int_equal(before.triangle_id[1], 3);
+  riis_crossing_options wrong;
+  CHECK_OK(riis_crossing_options_init(&wrong, sizeof wrong));
+  wrong.depth = 2;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.depth is 2", riis_find_crossings(surface, &wrong, crossings));
   riis_valve *valve = new_valve("mitral");
   CHECK_OK(riis_surface_update(surface, valve, NULL));
-  assert_int_equal(pairs_of(surface).n, 0);
+  CHECK_OK(riis_crossings_get_list(crossings, &after, sizeof after));
+  assert_memory_equal(&before, &after, sizeof before);
+  assert_int_equal(after.triangle_id[1], 3);
 }
 
 static void bad_arguments_are_refused_by_name(void **state) {
   (void)state;
   riis_surface *surface = surface_of_kind("mitral", NULL);
   riis_crossing_options options;
-  riis_crossings crossings;
-  const int64_t size = sizeof crossings;
+  riis_crossings *crossings = new_crossings();
+  riis_crossing_list list;
   CHECK_OK(riis_crossing_options_init(&options, sizeof options));
   CHECK_SAME(options.depth, 1e-6);
   assert_int_equal(options.n_threads, 0);
@@ -422,21 +431,22 @@ static void bad_arguments_are_refused_by_name(void **state) {
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
     options.depth = wrong[i];
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.depth is |from 0 to 1",
-                  riis_find_crossings(surface, &options, &crossings, size));
+                  riis_find_crossings(surface, &options, crossings));
   }
   options.depth = 1e-6;
   options.n_threads = -1;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.n_threads is -1",
-                riis_find_crossings(surface, &options, &crossings, size));
+                riis_find_crossings(surface, &options, crossings));
   options.n_threads = 0;
   options.struct_size = 16;
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options|16", riis_find_crossings(surface, &options, &crossings, size));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options|16", riis_find_crossings(surface, &options, crossings));
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options|32", riis_crossing_options_init(&options, 32));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options", riis_crossing_options_init(NULL, sizeof options));
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "crossings|88", riis_find_crossings(surface, NULL, &crossings, 88));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "crossings", riis_find_crossings(surface, NULL, NULL, size));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface", riis_find_crossings(NULL, NULL, &crossings, size));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface", riis_surface_crossing_pairs(NULL, NULL, NULL, NULL, NULL, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "crossings is NULL", riis_find_crossings(surface, NULL, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface is NULL", riis_find_crossings(NULL, NULL, crossings));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "list is 136|128", riis_crossings_get_list(crossings, &list, 136));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "list is 120|128", riis_crossings_get_list(crossings, &list, 120));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "list is NULL", riis_crossings_get_list(crossings, NULL, sizeof list));
 }
 
 /* The states that come with the library, as each kind of valve opens. */
@@ -449,7 +459,7 @@ static void valves_do_not_cross(void **state) {
     for (int i = 0; i <= 100; ++i) {
       CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.01 * i));
       CHECK_OK(riis_surface_update(surface, valve, NULL));
-      const riis_crossings crossings = crossings_of(surface, 1e-6, 0);
+      const riis_crossing_list crossings = crossings_of(surface, 1e-6, 0);
       if (crossings.n_pairs > 0)
         fail_msg("%s, opening %g: %lld pairs", kinds[kind], 0.01 * i, (long long)crossings.n_pairs);
     }
@@ -469,12 +479,12 @@ static void fixed_triangles_cross_within_their_error(void **state) {
     CHECK_OK(riis_surface_update(surface, valve, NULL));
     const riis_surface_info info = info_of(surface);
     assert_int_equal(crossings_of(surface, 2 * info.error_bound / info.half_thickness, 0).n_pairs, 0);
-    const riis_crossings crossings = crossings_of(surface, 1e-6, 0);
+    const riis_crossing_list crossings = crossings_of(surface, 1e-6, 0);
     if (i > 0) {
       assert_int_equal(crossings.n_pairs, 0);
     } else {
       print_message("closed mitral valve, fixed triangles: %lld pairs cross by up to %.2g half thicknesses, error bound %.2g\n",
-                    (long long)crossings.n_pairs, crossings.depth / info.half_thickness, info.error_bound / info.half_thickness);
+                    (long long)crossings.n_pairs, crossings.deepest_depth / info.half_thickness, info.error_bound / info.half_thickness);
     }
   }
 }
@@ -489,14 +499,14 @@ static void a_turned_cusp_crosses(void **state) {
   for (int i = 0; i < 3; ++i) rotation[i] += turned[i];
   CHECK_OK(riis_valve_set(valve, "right.rotation", 3, rotation));
   riis_surface_options options = surface_options();
-  riis_crossings by_triangles = {0};
-  for (options.measure = RIIS_MEASURE_TRIANGLES; options.distance <= RIIS_MEASURE_MINIMIZATION; ++options.distance) {
+  riis_crossing_list by_triangles = {0};
+  for (options.measure = RIIS_MEASURE_TRIANGLES; options.measure <= RIIS_MEASURE_MINIMIZATION; ++options.measure) {
     riis_surface *surface = new_surface(valve, &options);
-    const riis_crossings crossings = crossings_of(surface, 1e-6, 0);
-    if (options.distance == RIIS_MEASURE_TRIANGLES) by_triangles = crossings;
-    assert_memory_equal(&crossings, &by_triangles, offsetof(riis_crossings, seconds));
-    assert_true(crossings.n_pairs > 10 && crossings.depth > 1e-3);
-    assert_true(crossings.leaflet_id[0] != crossings.leaflet_id[1]);
+    const riis_crossing_list crossings = crossings_of(surface, 1e-6, 0);
+    if (options.measure == RIIS_MEASURE_TRIANGLES) by_triangles = crossings;
+    assert_true(same_summary(&crossings, &by_triangles));
+    assert_true(crossings.n_pairs > 10 && crossings.deepest_depth > 1e-3);
+    assert_true(crossings.deepest_leaflet_id[0] != crossings.deepest_leaflet_id[1]);
   }
 }
 
@@ -507,7 +517,7 @@ int main(void) {
       cmocka_unit_test(threads_find_the_same),
       cmocka_unit_test(unit_squares_cross_along_one_unit),
       cmocka_unit_test(a_tip_crosses_beyond_the_limit),
-      cmocka_unit_test(pairs_stay_until_the_next_content),
+      cmocka_unit_test(pairs_stay_until_the_next_search),
       cmocka_unit_test(bad_arguments_are_refused_by_name),
       cmocka_unit_test(valves_do_not_cross),
       cmocka_unit_test(fixed_triangles_cross_within_their_error),

@@ -91,7 +91,7 @@ static content random_content(riis_valve *const *valves) {
 
 /* Checks that closest points have the same bits. Some are at vertices, where pseudonormals decide the sides. */
 static void check_closest(const riis_surface *updated, const riis_surface *fresh) {
-  const surface_content all = surface_content_of(fresh);
+  const riis_triangles all = triangles_of(fresh);
   for (int i = 0; i < 30; ++i) {
     const double *vertex = all.xyz + 3 * all.vertex_id[any_of(3 * all.n_triangles)];
     const double off = i % 3 ? pow(10, random_between(&rng, -3, 1)) : 1e-3;
@@ -106,7 +106,7 @@ static void check_marks(const riis_surface *updated, const riis_surface *fresh, 
   const int owned_before = n_owned();
   enum { n = 600 };
   static double xyz[3 * n];
-  const surface_content all = surface_content_of(fresh);
+  const riis_triangles all = triangles_of(fresh);
   for (int i = 0; i < n; ++i)
     for (int c = 0; c < 3; ++c)
       xyz[3 * i + c] = all.xyz[3 * all.vertex_id[3 * (i % all.n_triangles)] + c] + 0.3 * random_between(&rng, -1, 1);

@@ -86,7 +86,7 @@ typedef struct tie_counts {
 /* Compares velocities with the oracle, and adds up the ties. */
 static void check_velocities(const riis_surface *surface, const test_mesh *mesh, const riis_marks *result,
                              tie_counts *counts) {
-  const surface_content content = surface_content_of(surface);
+  const riis_triangles content = triangles_of(surface);
   const double *velocity = velocity_of(surface), half_thickness = info_of(surface).half_thickness,
                largest = largest_velocity(&content, velocity);
   const found_nodes nodes = within_in(result);
@@ -221,7 +221,7 @@ static term term_of(const riis_surface *surface, const test_mesh *mesh, int n_pa
   for (size_t i = 0; i < 3 * n; ++i) xyz[i] = mesh->xyz[i] + shift;
   riis_resistance resistance;
   CHECK_OK(riis_resistance_init(&resistance, sizeof resistance));
-  resistance.resistance = 1;
+  resistance.R = 1;
   for (int part = 0; part < n_parts; ++part) {
     const int64_t begin = mesh->n * part / n_parts, m = mesh->n * (part + 1) / n_parts - begin;
     riis_marks *result =
@@ -278,7 +278,7 @@ static void reaction_takes_the_means(void **state) {
   for (size_t i = 0; i < n; ++i) weight[i] = between(0, 1);
   riis_resistance resistance;
   CHECK_OK(riis_resistance_init(&resistance, sizeof resistance));
-  resistance.resistance = 1;
+  resistance.R = 1;
   CHECK_OK(add_reaction_to(marked(surface, mesh_of(mesh.n, mesh.xyz), RIIS_FIELD_VELOCITY, RIIS_SEARCH_AUTO), &resistance, mesh.n, flow, weight, force));
   for (int way = -1; way <= 1; ++way) {
     const term moved = term_of(surface, &mesh, 2, 1e-12 * way);
@@ -301,7 +301,7 @@ static void other_nodes_have_the_closest_triangle_s(void **state) {
     riis_surface_options options = surface_options();
     options.tolerance = 0.2;
     riis_surface *surface = moving_surface(kinds[trial % n_kinds], trial < n_kinds ? 0 : between(0, 1), 0.01, &options);
-    const surface_content content = surface_content_of(surface);
+    const riis_triangles content = triangles_of(surface);
     const double *velocity = velocity_of(surface), half_thickness = info_of(surface).half_thickness;
     int32_t *ids = own(malloc((size_t)content.n_triangles * 3 * sizeof *ids));
     for (int64_t i = 0; i < 3 * content.n_triangles; ++i) ids[i] = (int32_t)content.vertex_id[i];

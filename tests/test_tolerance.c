@@ -141,13 +141,10 @@ static deviation measure_surface(const smooth_valve *smooth, const riis_surface 
       d.to_triangles = fmax(d.to_triangles, closest_to(surface, p[0], p[1], p[2]).distance / bound);
     }
   /* ... and every triangle's middle and edges are near the smooth surface. */
-  const double *xyz, *uv;
-  const int64_t *id;
-  const int32_t *patch_id;
-  xyz = triangles_of(surface).xyz;
-  uv = triangles_of(surface).uv;
-  id = triangles_of(surface).vertex_id;
-  patch_id = triangles_of(surface).patch_id;
+  const double *xyz = triangles_of(surface).xyz;
+  const double *uv = triangles_of(surface).uv;
+  const int64_t *id = triangles_of(surface).vertex_id;
+  const int32_t *patch_id = triangles_of(surface).patch_id;
   const int64_t every = 1 + d.n_triangles / 8000;
   for (int64_t t = 0; t < d.n_triangles; t += every) {
     static const double weights[4][3] = {{1.0 / 3, 1.0 / 3, 1.0 / 3}, {0.5, 0.5, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}};

@@ -25,7 +25,7 @@ static double distance(const double *p, const double *q) { return hypot(hypot(p[
 /* Free edges lie on the lines from the axis to the commissures. */
 static void closed_free_edges_are_straight(void **state) {
   (void)state;
-  const surface_content all = surface_content_of(new_surface(new_valve("trileaflet"), NULL));
+  const riis_triangles all = triangles_of(new_surface(new_valve("trileaflet"), NULL));
   double farthest = 0, nearest = 1;
   for (int64_t i = 0; i < 3 * all.n_triangles; ++i) {
     const int64_t v = all.vertex_id[i];
@@ -48,7 +48,7 @@ static int64_t n_of_pairs, n_of_places;
 /* Vertices of different cusps that are nearer than 1e-9 have the same bits, up to the sign of zero. Counts such pairs, and those
  * on the axis. */
 static void check_common_vertices(const riis_surface *surface, double scale) {
-  const surface_content all = surface_content_of(surface);
+  const riis_triangles all = triangles_of(surface);
   int32_t *cusp = own(malloc((size_t)all.n_vertices * sizeof *cusp));
   for (int64_t i = 0; i < all.n_vertices; ++i) cusp[i] = -1;
   for (int64_t i = 0; i < 3 * all.n_triangles; ++i) cusp[all.vertex_id[i]] = all.leaflet_id[i / 3];
@@ -110,7 +110,7 @@ static void cusps_are_equal(void **state) {
     riis_surface *surface = new_surface(valve, &options);
     options.rotation_angle = 120;
     riis_surface *turned = new_surface(valve, &options);
-    const surface_content all = surface_content_of(surface);
+    const riis_triangles all = triangles_of(surface);
     for (int64_t v = 0; v < all.n_vertices; ++v) {
       const double *p = all.xyz + 3 * v;
       CHECK_AT_MOST(closest_to(turned, p[0], p[1], p[2]).distance, 1e-14);
@@ -132,7 +132,7 @@ static void triangles_have_an_area(void **state) {
   (void)state;
   for (int i = 0; i <= 10; ++i) {
     riis_surface *surface = new_surface(valve_at("trileaflet", i / 10.0), NULL);
-    const surface_content all = surface_content_of(surface);
+    const riis_triangles all = triangles_of(surface);
     int64_t n_at_root = 0;
     for (int64_t t = 0; t < all.n_triangles; ++t) {
       const double *p[3];
@@ -219,7 +219,7 @@ static void attachment_is_near_a_cylinder(void **state) {
   (void)state;
   riis_surface_options options = surface_options();
   options.tolerance = 0.01;
-  const surface_content all = surface_content_of(new_surface(new_valve("trileaflet"), &options));
+  const riis_triangles all = triangles_of(new_surface(new_valve("trileaflet"), &options));
   double low = 9, high = 0, printed = -1;
   for (int64_t v = 0; v < all.n_vertices; ++v) {
     const double *p = all.xyz + 3 * v, r = hypot(p[0], p[1]);
@@ -295,7 +295,7 @@ static void velocity_is_that_of_the_vertices(void **state) {
     riis_surface *surface = new_surface(valve, &options), *then = new_surface(before, &options);
     const double seconds = openings[trial][0] - openings[trial][1];
     CHECK_OK(riis_surface_update_moving(surface, valve, before, seconds, NULL, NULL));
-    const surface_content a = surface_content_of(surface), b = surface_content_of(then);
+    const riis_triangles a = triangles_of(surface), b = triangles_of(then);
     const double *velocity = velocity_of(surface);
     assert_int_equal(a.n_vertices, b.n_vertices);
     for (int64_t i = 0; i < 3 * a.n_vertices; ++i) CHECK_NEAR(velocity[i], (a.xyz[i] - b.xyz[i]) / seconds, 0.01);

@@ -24,7 +24,7 @@ static void square_has_its_area_and_normal(void **state) {
   CHECK_NEAR(above.normal[2], 1, 1e-15);
   assert_int_equal(above.side, 1);
   assert_int_equal(above.leaflet_id, 5);
-  const surface_content all = surface_content_of(surface);
+  const riis_triangles all = triangles_of(surface);
   for (int64_t i = 0; i < all.n_vertices; ++i) /* u is x and v is y */
     for (int c = 0; c < 2; ++c) CHECK_SAME(all.uv[2 * i + c], all.xyz[3 * i + c]);
   free_one_owned(surface);
@@ -149,7 +149,7 @@ static riis_surface *dense_surface(const shape *from) {
 
 /* The largest distance to a surface from the vertices and middles of another surface's triangles. */
 static double largest_distance(const riis_surface *to, const riis_surface *from) {
-  const surface_content all = surface_content_of(from);
+  const riis_triangles all = triangles_of(from);
   double largest = 0;
   for (int64_t i = 0; i < all.n_triangles; ++i) {
     const double *a = all.xyz + 3 * all.vertex_id[3 * i], *b = all.xyz + 3 * all.vertex_id[3 * i + 1],
@@ -249,7 +249,7 @@ static int by_v(const void *a, const void *b) {
   return (v > w) - (v < w);
 }
 
-static int boundary(const surface_content *all, int32_t patch, boundary_vertex *out, int most) {
+static int boundary(const riis_triangles *all, int32_t patch, boundary_vertex *out, int most) {
   int n = 0, n_kept = 0;
   for (int64_t i = 0; i < 3 * all->n_triangles; ++i) {
     const int64_t id = all->vertex_id[i];
@@ -324,9 +324,9 @@ static void shared_curves_leave_no_cracks(void **state) {
     riis_surface_options options = surface_options();
     options.tolerance = 0.01;
     riis_surface *surface = surface_of(&pair, &options), *alone = surface_of(&strip, &options);
-    surface_content all = surface_content_of(surface);
+    riis_triangles all = triangles_of(surface);
     const int n_a = boundary(&all, 0, a, most), n_b = boundary(&all, 1, b, most);
-    all = surface_content_of(alone);
+    all = triangles_of(alone);
     const int n_of_curve = boundary(&all, 0, of_curve, most);
     assert_true(n_of_curve > 10);
     if (is_plane) assert_true(n_a == n_of_curve && n_b == n_of_curve);
@@ -363,7 +363,7 @@ static void collapsed_sides_leave_no_triangles_without_area(void **state) {
     add_patch(&from, 0, 1, 2, 3);
     riis_surface *surface = surface_of(&from, NULL);
     const riis_surface_info info = info_of(surface);
-    const surface_content all = surface_content_of(surface);
+    const riis_triangles all = triangles_of(surface);
     assert_true(info.n_triangles > 0 && info.n_zero_area > 0);
     if (area[which] > 0) CHECK_NEAR(info.area, area[which], 1e-14);
     for (int64_t i = 0; i < all.n_triangles; ++i) {

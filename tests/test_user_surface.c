@@ -56,8 +56,7 @@ static void quads_are_cut_along_the_first_diagonal(void **state) {
   assert_int_equal(closest_to(surface, 0.9, 0.1, 1).triangle_id, 0);
   assert_int_equal(closest_to(surface, 0.1, 0.9, 1).triangle_id, 1);
   assert_int_equal(closest_to(surface, 0.1, 0.9, 1).leaflet_id, 0);
-  const double *uv;
-  uv = triangles_of(surface).uv;
+  const double *uv = triangles_of(surface).uv;
   assert_null(uv);
 }
 
@@ -91,8 +90,7 @@ static void zero_area_is_refused_or_skipped_with_ids_kept(void **state) {
   assert_non_null(strstr(log.last, "3 of 5 triangles"));
   assert_int_equal(info_of(surface).n_triangles, 2);
   assert_int_equal(info_of(surface).n_zero_area, 3);
-  const int64_t *triangle_id;
-  triangle_id = triangles_of(surface).triangle_id;
+  const int64_t *triangle_id = triangles_of(surface).triangle_id;
   assert_int_equal(triangle_id[0], 0);
   assert_int_equal(triangle_id[1], 4);
   assert_int_equal(closest_to(surface, 0.1, 0.1, 7).triangle_id,
@@ -197,7 +195,7 @@ static void vertices_alone_keep_the_faces(void **state) {
     CHECK_OK(riis_surface_update_from_arrays(surface, &vertices, NULL));
     vertices.n_faces = n, vertices.vertex_ids = soup_ids, vertices.leaflet_id = leaflet_id;
     riis_surface *whole = surface_from(&vertices, &options);
-    const surface_content a = surface_content_of(surface), b = surface_content_of(whole);
+    const riis_triangles a = triangles_of(surface), b = triangles_of(whole);
     assert_int_equal(a.n_triangles, b.n_triangles);
     assert_memory_equal(a.xyz, b.xyz, 9 * n * sizeof *a.xyz);
     assert_memory_equal(a.vertex_id, b.vertex_id, 3 * n * sizeof *a.vertex_id);

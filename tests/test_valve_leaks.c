@@ -36,7 +36,7 @@ static long double depth_in(const double *a, const double *b, const double *cons
 /* Every edge between two unmarked nodes, however short, against every triangle. */
 static int64_t check_against_valve(const test_mesh *nodes, const riis_surface *surface, const uint8_t *marks,
                                    leak_list list) {
-  const surface_content all = surface_content_of(surface);
+  const riis_triangles all = triangles_of(surface);
   int64_t next = 0;
   for (int64_t a = 0; a < nodes->n; ++a)
     for (int64_t k = nodes->offsets[a]; k < nodes->offsets[a + 1]; ++k) {
@@ -81,7 +81,7 @@ static test_mesh mesh_round(const riis_surface *surface, double spacing) {
 
 static riis_surface *valve_surface(const char *kind, double opening, int32_t distance) {
   riis_surface_options options = surface_options();
-  options.distance = distance;
+  options.measure = distance;
   options.tolerance = 0.5;
   riis_valve *valve = new_valve(kind);
   CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
@@ -179,9 +179,6 @@ static void changes_are_seen(void **state) {
   riis_mark_options options = mark_options();
   options.node_mask = mask;
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-  int64_t n = -1;
-  CHECK_OK(riis_mark_result_leaking_edges(result, &n, NULL, NULL, NULL));
-  assert_int_equal(n, 0); /* until they are sought again */
   assert_int_equal(leaks_of(surface, mesh, &options, result).sum.n_edges, 1);
 
   for (int64_t i = 0; i < nodes.n; ++i) nodes.xyz[3 * i + 2] += 0.3;
@@ -208,13 +205,13 @@ static void what_makes_no_sense_is_refused(void **state) {
   riis_surface *surface = two_plates();
   riis_mesh *mesh = mesh_with_rows(&nodes, 0), *other = mesh_with_rows(&fewer, 0);
   riis_marks *result = new_result();
-  riis_leaks leaks;
+  riis_leak_list leaks;
   memset(&leaks, 0x5a, sizeof leaks);
 #define REFUSED(status, parts, a_mesh) \
-  CHECK_REFUSED(status, parts, riis_find_leaks(surface, a_mesh, NULL, result, &leaks, sizeof leaks))
-  REFUSED(RIIS_INVALID_ARGUMENT, "result was never marked with|riis_mark_nodes", mesh);
+  CHECK_REFUSED(status, parts, find_leaks_in(surface, a_mesh, result, NULL, &leaks))
+  REFUSED(RIIS_INVALID_ARGUMENT, "marks were never marked with|riis_mark_nodes", mesh);
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
-  REFUSED(RIIS_INVALID_ARGUMENT, "result is of a mesh with 12 nodes|mesh has 5", other);
+  REFUSED(RIIS_INVALID_ARGUMENT, "marks are of a mesh with 12 nodes|mesh has 5", other);
   assert_int_equal(leaks.n_edges, 0x5a5a5a5a5a5a5a5a);
   assert_int_equal(leaks_of(surface, mesh, NULL, result).sum.n_edges, 2);
 
@@ -225,16 +222,25 @@ static void what_makes_no_sense_is_refused(void **state) {
   nodes.xyz[20] = NAN;
   REFUSED(RIIS_INVALID_MESH, "z of node 6 is nan", mesh);
   nodes.xyz[20] = 5.5;
-  int64_t n = 0;
-  CHECK_OK(riis_mark_result_leaking_edges(result, &n, NULL, NULL, NULL));
-  assert_int_equal(n, 2); /* as it was */
 
   riis_mark_options options = mark_options();
   options.n_threads = -1;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.n_threads is -1",
-                riis_find_leaks(surface, mesh, &options, result, &leaks, sizeof leaks));
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "leaks is 64|72", riis_find_leaks(surface, mesh, NULL, result, &leaks, 64));
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "leaks is 80|72", riis_find_leaks(surface, mesh, NULL, result, &leaks, 80));
+                find_leaks_in(surface, mesh, result, &options, &leaks));
+  /* A refused search leaves the edges of the last one, in place. */
+  riis_leaks *found = NULL;
+  riis_leak_list before, after;
+  CHECK_OK(riis_leaks_create(&found));
+  CHECK_OK(riis_find_leaks(surface, mesh, result, NULL, own(found)));
+  CHECK_OK(riis_leaks_get_list(found, &before, sizeof before));
+  nodes.xyz[20] = NAN;
+  CHECK_REFUSED(RIIS_INVALID_MESH, "z of node 6 is nan", riis_find_leaks(surface, mesh, result, NULL, found));
+  nodes.xyz[20] = 5.5;
+  CHECK_OK(riis_leaks_get_list(found, &after, sizeof after));
+  assert_memory_equal(&before, &after, sizeof before);
+  assert_int_equal(after.n_edges, 2);
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "list is 80|96", riis_leaks_get_list(found, &after, 80));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "list is 104|96", riis_leaks_get_list(found, &after, 104));
 
   riis_valve *valve = new_valve("mitral");
   CHECK_OK(riis_surface_update(surface, valve, NULL)); /* keeps its half thickness */

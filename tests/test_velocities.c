@@ -20,7 +20,7 @@ enum { n_kinds = 4 };
 static double largest_speed(const riis_surface *surface) {
   static const double zero[3] = {0, 0, 0};
   const double *velocity = velocity_of(surface);
-  const int64_t n = surface_content_of(surface).n_vertices;
+  const int64_t n = triangles_of(surface).n_vertices;
   double largest = 0;
   for (int64_t i = 0; i < n; ++i) largest = fmax(largest, distance(velocity + 3 * i, zero));
   return largest;
@@ -45,7 +45,7 @@ typedef struct compared {
 
 /* Compares every `one_of`-th triangle. */
 static compared compare(const riis_surface *surface, const smooth_motion *motion, int64_t one_of) {
-  const surface_content c = surface_content_of(surface);
+  const riis_triangles c = triangles_of(surface);
   const double *velocity = velocity_of(surface), speed = largest_speed(surface);
   compared made = {0, 0};
   for (int64_t t = (int64_t)(random_bits(&rng) % (uint64_t)one_of); t < c.n_triangles; t += one_of)
@@ -136,7 +136,7 @@ static void place(const riis_surface_options *by, const double *p, double *place
 /* The largest difference from the smooth motion at equal patch, u and v. */
 static double farthest_at_labels(const riis_surface *surface, const smooth_motion *motion,
                                  const riis_surface_options *now, const riis_surface_options *then, double seconds) {
-  const surface_content c = surface_content_of(surface);
+  const riis_triangles c = triangles_of(surface);
   const double *velocity = velocity_of(surface);
   double farthest = 0;
   for (int64_t t = 0; t < c.n_triangles; t += 3) {

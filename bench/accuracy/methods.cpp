@@ -52,7 +52,7 @@ MeasuredSurface::MeasuredSurface(const PatchSet &patches, std::int32_t method, d
   riis_surface_options options;
   check(riis_surface_options_init(&options, sizeof options));
   options.half_thickness = half_thickness;
-  options.distance = method;
+  options.measure = method;
   (method == RIIS_MEASURE_TRIANGLES ? options.tolerance : options.measure_tolerance) = tolerance;
   const riis_valve valve{{}, Valve(fixed_patches_kind(), patches)};
   riis_surface *surface = nullptr;

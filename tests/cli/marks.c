@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+#include "calls.h"
 #include "marks.h"
 
 #include <stdlib.h>
@@ -68,13 +69,11 @@ void expect_marked_mesh(void) {
 }
 
 void expect_surface_output(void) {
-  int64_t n_vertices = 0, n_triangles = 0, n_points = 0, n_cells = 0;
-  const double *xyz = NULL;
-  const int64_t *vertex_id = NULL;
-  n_vertices = triangles_of(by_c.surface).n_vertices;
-  xyz = triangles_of(by_c.surface).xyz;
-  n_triangles = triangles_of(by_c.surface).n_triangles;
-  vertex_id = triangles_of(by_c.surface).vertex_id;
+  int64_t n_points = 0, n_cells = 0;
+  const int64_t n_vertices = triangles_of(by_c.surface).n_vertices;
+  const double *xyz = triangles_of(by_c.surface).xyz;
+  const int64_t n_triangles = triangles_of(by_c.surface).n_triangles;
+  const int64_t *vertex_id = triangles_of(by_c.surface).vertex_id;
   char type[32];
   assert_int_equal(shim_read_points(scratch_path("out.vtp"), &n_points, &n_cells, type, NULL), 1);
   assert_string_equal(type, "double");

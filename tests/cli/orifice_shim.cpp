@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "calls.h"
 #include "orifice_shim.h"
 
 #include "cli/orifice.hpp"

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "calls.h"
 #include "expect.h"
 #include "program.h"
 #include "scratch.h"
@@ -76,23 +77,23 @@ static void numbers_are_those_of_the_c_interface(void **state) {
   const double turned[3] = {0, 0, 60};
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
-  riis_crossings by_c;
+  riis_crossing_list by_c;
   expect_fine(riis_valve_create("aortic", &valve));
   expect_fine(riis_valve_set(valve, "right.rotation", 3, turned));
   expect_fine(riis_surface_create(valve, NULL, &surface));
-  expect_fine(riis_find_crossings(surface, NULL, &by_c, sizeof by_c));
+  expect_fine(find_crossings_in(surface, NULL, &by_c));
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);
   run_program(scratch_path("in.vtu"), "--set", "right.rotation=0,0,60", "--opening", "0", "--check-crossing", "--stats",
               "-", NULL);
   expect_warning("riis-mark: leaflets right and left cross at opening 0: ");
-  assert_true(by_c.leaflet_id[0] == RIIS_LEAFLET_RIGHT && by_c.leaflet_id[1] == RIIS_LEAFLET_LEFT);
+  assert_true(by_c.deepest_leaflet_id[0] == RIIS_LEAFLET_RIGHT && by_c.deepest_leaflet_id[1] == RIIS_LEAFLET_LEFT);
   const char *json = strstr(program_out, "\"crossings\"");
   assert_non_null(json);
   assert_true(json_number(json, "n_openings") == 0);
   assert_true(json_number(json, "n_pairs") == (double)by_c.n_pairs && by_c.n_pairs > 10);
-  assert_true(json_number(json, "length") == by_c.length);
-  assert_true(json_number(json, "depth") == by_c.depth);
+  assert_true(json_number(json, "length") == by_c.total_length);
+  assert_true(json_number(json, "depth") == by_c.deepest_depth);
 }
 
 static void a_leaflet_may_cross_itself(void **state) {
@@ -147,13 +148,13 @@ static void a_chosen_shape_is_looked_at(void **state) {
   (void)state;
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
-  riis_crossings by_c;
+  riis_crossing_list by_c;
   char pairs[128];
   expect_fine(riis_valve_create("trileaflet", &valve));
   expect_fine(riis_valve_set_scalar(valve, "leaflet_height", 1.3));
   expect_fine(riis_valve_set_scalar(valve, "opening", 0));
   expect_fine(riis_surface_create(valve, NULL, &surface));
-  expect_fine(riis_find_crossings(surface, NULL, &by_c, sizeof by_c));
+  expect_fine(find_crossings_in(surface, NULL, &by_c));
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);
   assert_true(by_c.n_pairs > 50);
@@ -166,7 +167,7 @@ static void a_chosen_shape_is_looked_at(void **state) {
     assert_non_null(json);
     assert_true(json_number(json, "n_openings") == 1 && json_number(json, "opening") == 0);
     assert_true(json_number(json, "n_pairs") == (double)by_c.n_pairs);
-    assert_true(json_number(json, "depth") == by_c.depth);
+    assert_true(json_number(json, "depth") == by_c.deepest_depth);
   }
   run_program(scratch_path("in.vtu"), TALL, "--strict", NULL);
   assert_int_equal(program_exit_code, 4);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "calls.h"
 #include "expect.h"
 #include "plain_mesh.h"
 #include "program.h"
@@ -40,13 +41,13 @@ static riis_surface *make_surface(const char *kind, double half_thickness) {
 }
 
 /* Finds leaks by the C interface, with every edge of the mesh. */
-static riis_leaks leaks_by_c(const char *name, const riis_surface *surface) {
+static riis_leak_list leaks_by_c(const char *name, const riis_surface *surface) {
   riis_vtk_mesh *file = NULL;
   riis_adjacency *adjacency = NULL;
   riis_mesh *mesh = NULL;
   riis_marks *result = NULL;
   riis_csr csr;
-  riis_leaks leaks;
+  riis_leak_list leaks;
   int64_t n = 0;
   const double *xyz = NULL;
   expect_fine(riis_vtk_mesh_read(scratch_path(name), &file));
@@ -57,7 +58,7 @@ static riis_leaks leaks_by_c(const char *name, const riis_surface *surface) {
   expect_fine(riis_mesh_set_adjacency(mesh, &csr));
   expect_fine(riis_marks_create(&result));
   expect_fine(riis_mark_nodes(surface, mesh, NULL, result));
-  expect_fine(riis_find_leaks(surface, mesh, NULL, result, &leaks, sizeof leaks));
+  expect_fine(find_leaks_in(surface, mesh, result, NULL, &leaks));
   riis_marks_destroy(&result);
   riis_mesh_destroy(&mesh);
   riis_adjacency_destroy(&adjacency);
@@ -68,7 +69,7 @@ static riis_leaks leaks_by_c(const char *name, const riis_surface *surface) {
 /* Checks that the program reports the same leaks as the C interface, and that its advice works when typed as printed. */
 static void expect_advice(const char *name, const char *kind) {
   riis_surface *surface = make_surface(kind, 0.1);
-  const riis_leaks leaks = leaks_by_c(name, surface);
+  const riis_leak_list leaks = leaks_by_c(name, surface);
   riis_surface_destroy(&surface);
   assert_true(leaks.n_edges > 1);
   run_program(scratch_path(name), "--valve", kind, "--opening", "0", "--quiet", "--stats", scratch_path("stats.json"),
@@ -137,7 +138,7 @@ static void test_surface_from_file(void **state) {
   riis_surface *surface = make_surface("mitral", 0.1);
   write_mesh("coarse.vtu", surface, 0.5);
   expect_fine(riis_vtk_surface_write(surface, scratch_path("valve.vtp")));
-  const riis_leaks leaks = leaks_by_c("coarse.vtu", surface);
+  const riis_leak_list leaks = leaks_by_c("coarse.vtu", surface);
   riis_surface_destroy(&surface);
   run_program(scratch_path("coarse.vtu"), "--surface", scratch_path("valve.vtp"), "--stats", "-", NULL);
   assert_true(json_number(program_out, "n_leaking_edges") == (double)leaks.n_edges);
@@ -240,9 +241,9 @@ static plain_mesh box_of_mitral(int n) {
   return plain_hexahedra(n, lower, upper);
 }
 
-static riis_leaks leaks_of_mitral(const char *name) {
+static riis_leak_list leaks_of_mitral(const char *name) {
   riis_surface *surface = make_surface("mitral", 0.1);
-  const riis_leaks leaks = leaks_by_c(name, surface);
+  const riis_leak_list leaks = leaks_by_c(name, surface);
   riis_surface_destroy(&surface);
   return leaks;
 }
@@ -255,7 +256,7 @@ static void test_quadratic_cells(void **state) {
   plain_write("quadratic.vtu", &quadratic, PLAIN_CELLS, 1);
   plain_write("cut.vtu", &cut, PLAIN_CELLS, 1);
   plain_write("corners.vtu", &corners, PLAIN_CELLS, 1);
-  const riis_leaks all = leaks_of_mitral("cut.vtu"), expected = leaks_of_mitral("corners.vtu");
+  const riis_leak_list all = leaks_of_mitral("cut.vtu"), expected = leaks_of_mitral("corners.vtu");
   assert_true(expected.n_edges > 20 && expected.n_edges <= all.n_edges);
   assert_true(all.n_edges < expected.n_edges + quadratic.n_cells / 10);
   RUN_FINE(scratch_path("quadratic.vtu"), "--valve", "mitral", "--opening", "0", "--stats", "-");

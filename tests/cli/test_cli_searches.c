@@ -56,7 +56,7 @@ static void test_distances(void **state) {
     expect_fine(riis_valve_create("aortic", &valve));
     expect_fine(riis_surface_options_init(&options, sizeof options));
     options.half_thickness = 0.2;
-    options.distance = i;
+    options.measure = i;
     options.measure_tolerance = 0.3;
     mark_by_c(valve, &options, RIIS_AUTO, RIIS_FAR_DISTANCE);
     riis_valve_destroy(&valve);

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "calls.h"
 #include "expect.h"
 #include "program.h"
 #include "scratch.h"
@@ -155,8 +156,6 @@ static void expect_fields(int step, const char *path) {
   riis_surface_options options;
   riis_mark_options how;
   riis_mark_list fields;
-  int64_t n = 0;
-  const int64_t *node_id = NULL;
   expect_fine(riis_surface_options_init(&options, sizeof options));
   options.half_thickness = 0.3;
   expect_fine(riis_valve_create("mitral", &now));
@@ -172,8 +171,8 @@ static void expect_fields(int step, const char *path) {
   expect_fine(riis_mark_options_init(&how, sizeof how));
   how.fields = RIIS_FIELD_NORMAL | RIIS_FIELD_VELOCITY | RIIS_FIELD_SIDE;
   expect_fine(riis_mark_nodes(surface, mesh, &how, result));
-  n = within_list(result).n_nodes;
-  node_id = within_list(result).node_id;
+  const int64_t n = within_list(result).n_nodes;
+  const int64_t *node_id = within_list(result).node_id;
   expect_fine(riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, &fields, sizeof fields));
   assert_int_equal(read_array(path, "riis_normal", normal), 3 * n_box);
   assert_int_equal(read_array(path, "riis_velocity", velocity), 3 * n_box);
@@ -284,8 +283,6 @@ static void test_first_velocity(void **state) {
   riis_valve *now = NULL, *before = NULL;
   riis_surface *surface = NULL;
   riis_surface_options options;
-  int64_t n = 0;
-  const double *velocity = NULL;
   double expected = 0;
   expect_fine(riis_surface_options_init(&options, sizeof options));
   options.half_thickness = 0.3;
@@ -295,8 +292,8 @@ static void test_first_velocity(void **state) {
   expect_fine(riis_valve_set_scalar(before, "opening", 0.5));
   expect_fine(riis_surface_create(now, &options, &surface));
   expect_fine(riis_surface_update_moving(surface, now, before, 0.1, NULL, NULL));
-  n = triangles_of(surface).n_vertices;
-  velocity = triangles_of(surface).velocity;
+  const int64_t n = triangles_of(surface).n_vertices;
+  const double *velocity = triangles_of(surface).velocity;
   for (int64_t i = 0; i < n; ++i)
     expected = fmax(expected, hypot(hypot(velocity[3 * i], velocity[3 * i + 1]), velocity[3 * i + 2]));
   assert_true(time == 0 && opening == 0 && expected > 1);

@@ -4,6 +4,7 @@
 /* clang-format off: test_support.h checks statuses if riis.h came before */
 #include <riis/riis.h>
 
+#include "calls.h"
 #include "test_support.h"
 /* clang-format on */
 
@@ -110,17 +111,13 @@ static int is_covered(int64_t n, const int64_t *vertex, const double *xyz, doubl
 static measured measure(const riis_valve *valve, double reach, int (*is_inside)(double x, double y)) {
   enum { n_side = 120 };
   riis_surface *surface = NULL;
-  int64_t n = 0, n_vertices = 0, n_open = 0;
-  const int64_t *vertex = NULL;
-  const int32_t *leaflet = NULL;
-  const double *xyz = NULL;
+  int64_t n_open = 0;
   measured found = {0, {0, 0, 0}};
   CHECK_OK(riis_surface_create(valve, NULL, &surface));
-  n_vertices = triangles_of(surface).n_vertices;
-  xyz = triangles_of(surface).xyz;
-  n = triangles_of(surface).n_triangles;
-  vertex = triangles_of(surface).vertex_id;
-  leaflet = triangles_of(surface).leaflet_id;
+  const double *xyz = triangles_of(surface).xyz;
+  const int64_t n = triangles_of(surface).n_triangles;
+  const int64_t *vertex = triangles_of(surface).vertex_id;
+  const int32_t *leaflet = triangles_of(surface).leaflet_id;
   for (int64_t i = 0; i < n; ++i) {
     const double *a = xyz + 3 * vertex[3 * i], *b = xyz + 3 * vertex[3 * i + 1], *c = xyz + 3 * vertex[3 * i + 2];
     double ab[3], ac[3];

@@ -6,6 +6,7 @@
 #include <riis/riis.h>
 #include <riis/riis_vtk.h>
 
+#include "calls.h"
 #include "test_support.h"
 /* clang-format on */
 
@@ -47,15 +48,10 @@ static riis_surface *surface_at(const place *where, riis_valve *valve) {
 
 /* The corners of every triangle of a leaflet, (3, 3, n) in the order of triangles. The caller frees them. */
 static double *corners_of(const riis_surface *surface, int leaflet, int *n_found) {
-  int64_t n = 0, n_vertices = 0;
-  const int64_t *vertex = NULL;
-  const int32_t *leaflet_id = NULL;
-  const double *xyz = NULL;
-  n_vertices = triangles_of(surface).n_vertices;
-  xyz = triangles_of(surface).xyz;
-  n = triangles_of(surface).n_triangles;
-  vertex = triangles_of(surface).vertex_id;
-  leaflet_id = triangles_of(surface).leaflet_id;
+  const double *xyz = triangles_of(surface).xyz;
+  const int64_t n = triangles_of(surface).n_triangles;
+  const int64_t *vertex = triangles_of(surface).vertex_id;
+  const int32_t *leaflet_id = triangles_of(surface).leaflet_id;
   double *corners = calloc(9 * (size_t)n, sizeof *corners);
   *n_found = 0;
   for (int64_t i = 0; i < n; ++i) {
@@ -187,10 +183,11 @@ static void test_vtk(void **state) {
   CHECK_OK(riis_vtk_surface_get_arrays(file, &arrays, sizeof arrays));
   assert_int_equal(arrays.n_vertices, face->n_nodes);
   assert_int_equal(arrays.n_faces, face->n_triangles);
+  const double *x = arrays.x, *y = arrays.y, *z = arrays.z;
   for (int i = 0; i < face->n_nodes; ++i) {
-    CHECK_SAME(arrays.x[i * arrays.stride], face->xyz[3 * i]);
-    CHECK_SAME(arrays.y[i * arrays.stride], face->open[3 * i + 1]);
-    CHECK_SAME(arrays.z[i * arrays.stride], face->open[3 * i + 2]);
+    CHECK_SAME(x[i * arrays.stride], face->xyz[3 * i]);
+    CHECK_SAME(y[i * arrays.stride], face->open[3 * i + 1]);
+    CHECK_SAME(z[i * arrays.stride], face->open[3 * i + 2]);
   }
   riis_vtk_surface_destroy(&file);
   uris_free(&exported);
@@ -208,15 +205,10 @@ static void test_velocity(void **state) {
   CHECK_OK(riis_valve_set_scalar(before, "opening", ramp(0.2)));
   riis_surface *surface = surface_at(&places[0], valve);
   CHECK_OK(riis_surface_update_moving(surface, valve, before, 0.004, NULL, NULL));
-  int64_t n = 0, n_vertices = 0;
-  const double *velocity = NULL;
-  const int64_t *vertex = NULL;
-  const int32_t *leaflet = NULL;
-  n_vertices = triangles_of(surface).n_vertices;
-  velocity = triangles_of(surface).velocity;
-  n = triangles_of(surface).n_triangles;
-  vertex = triangles_of(surface).vertex_id;
-  leaflet = triangles_of(surface).leaflet_id;
+  const double *velocity = triangles_of(surface).velocity;
+  const int64_t n = triangles_of(surface).n_triangles;
+  const int64_t *vertex = triangles_of(surface).vertex_id;
+  const int32_t *leaflet = triangles_of(surface).leaflet_id;
   int next[3] = {0, 0, 0};
   double fastest = 0, largest_difference = 0;
   for (int64_t i = 0; i < n; ++i) {

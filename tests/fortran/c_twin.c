@@ -364,7 +364,7 @@ static riis_status resist(int64_t n_nodes, const double *xyz, twin_motion *motio
 
   riis_resistance resistance;
   TRY(riis_resistance_init(&resistance, sizeof resistance));
-  resistance.resistance = 7;
+  resistance.R = 7;
   resistance.half_thickness = 2;
   resistance.rim = RIIS_RIM_CUT;
   double *coefficient = allocate(n_nodes, sizeof *coefficient);
@@ -400,7 +400,7 @@ static riis_status move_by_frames(twin_motion *motion) {
   frames.xyz = xyz;
   TRY(riis_keyframes_create(&faces, &frames, &keyframes));
   TRY(riis_surface_create_from_keyframes(keyframes, 0, 0, NULL, &framed));
-  TRY(riis_surface_update_from_keyframes(framed, keyframes, 0.25, 0.125, NULL));
+  TRY(riis_surface_update_from_keyframes(framed, keyframes, 0.25, 0.25 - 0.125, NULL));
   riis_keyframes_destroy(&keyframes);
   TRY(list_surface(framed, &motion->framed));
   return riis_surface_vertex_velocities(framed, NULL, &motion->framed_velocity);

@@ -22,7 +22,7 @@ void add_forces(Input &in, State &state) {
   const auto n = static_cast<std::size_t>(stats.n_nodes);
   const std::int64_t n_given = in.mostly(stats.n_nodes);
   riis_resistance resistance = initialised(in, riis_resistance_init);
-  resistance.resistance = in.number();
+  resistance.R = in.number();
   if (in.one_in(4)) resistance.half_thickness = in.number();
   resistance.rim = in.mostly(in.below(2));
   resistance.reserved = in.one_in(64) ? 1 : 0;
@@ -182,9 +182,9 @@ void move_by_keyframes(Input &in, State &state) {
   options.zero_area = in.below(2);
   if (slot && in.one_in(2)) {
     static_cast<void>(
-        call(in, [&] { return riis_surface_update_from_keyframes(slot, keyframes, now, since, &options); }));
+        call(in, [&] { return riis_surface_update_from_keyframes(slot, keyframes, now, now - since, &options); }));
   } else if (riis_surface *made = made_by<riis_surface>(in, [&](riis_surface **surface) {
-               return riis_surface_create_from_keyframes(keyframes, now, since, &options, surface);
+               return riis_surface_create_from_keyframes(keyframes, now, now - since, &options, surface);
              })) {
     riis_surface_destroy(&slot);
     slot = made;

@@ -58,7 +58,7 @@ riis_surface_options options_of(Input &in) {
   options.zero_area = in.mostly(in.below(2));
   options.flip_normals = in.mostly(in.below(2));
   if (in.one_in(4)) {
-    options.distance = in.mostly(1 + in.below(2));
+    options.measure = in.mostly(1 + in.below(2));
     if (in.one_in(8)) options.measure_tolerance = in.number();
   }
   if (in.one_in(4)) options.n_threads = in.n_threads();
@@ -68,7 +68,7 @@ riis_surface_options options_of(Input &in) {
 
 // Makes fine distances coarse, because they are as expensive as fine triangles.
 void make_distance_coarse(double size, riis_surface_options &options) {
-  if (options.distance == RIIS_MEASURE_TRIANGLES || options.measure_tolerance == RIIS_AUTO) return;
+  if (options.measure == RIIS_MEASURE_TRIANGLES || options.measure_tolerance == RIIS_AUTO) return;
   const double half_thickness = options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
   const double ratio = options.measure_tolerance * half_thickness / options.scale / size;
   if (ratio > 1e-12 && ratio < 0.03) options.measure_tolerance = 1;
@@ -143,10 +143,8 @@ namespace {
 
 // Returns the velocities of all vertices; empty if there are none.
 std::vector<double> velocities_of(const riis_surface *surface) {
-  std::int64_t n = -9;
-  const double *velocity = nullptr;
-  n = triangles_of(surface).n_vertices;
-  velocity = triangles_of(surface).velocity;
+  const std::int64_t n = triangles_of(surface).n_vertices;
+  const double *velocity = triangles_of(surface).velocity;
   return velocity ? std::vector<double>(velocity, velocity + 3 * n) : std::vector<double>();
 }
 

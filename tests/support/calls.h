@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Calls of riis whose structs are filled from plain arguments, and what handles give as structs. Calls return the status of
- * riis. Include after riis.h. */
+ * riis. */
 #ifndef RIIS_TEST_CALLS_H
 #define RIIS_TEST_CALLS_H
 
+#include <riis/riis.h>
+
 #include <stddef.h>
+#include <string.h>
 
 static inline riis_points points_of(int64_t n, const double *x, const double *y, const double *z, int64_t stride) {
   riis_points points;
@@ -85,16 +88,42 @@ static inline riis_status find_passage_between(const riis_surface *surface, cons
   return riis_find_passage(surface, mesh, &ends, options, passage, struct_size);
 }
 
-/* The triangles of a surface; n_triangles is -1 if riis refuses to give them. */
+/* Gives the list without its arrays. */
+static inline riis_status find_crossings_in(const riis_surface *surface, const riis_crossing_options *options,
+                                            riis_crossing_list *list) {
+  riis_crossings *crossings = NULL;
+  riis_status status = riis_crossings_create(&crossings);
+  if (status == RIIS_OK) status = riis_find_crossings(surface, options, crossings);
+  if (status == RIIS_OK) status = riis_crossings_get_list(crossings, list, sizeof *list);
+  if (status == RIIS_OK) list->triangle_id = NULL, list->point = list->depth = list->length = NULL;
+  riis_crossings_destroy(&crossings);
+  return status;
+}
+
+/* Gives the list without its arrays. */
+static inline riis_status find_leaks_in(const riis_surface *surface, const riis_mesh *mesh, const riis_marks *marks,
+                                        const riis_mark_options *options, riis_leak_list *list) {
+  riis_leaks *leaks = NULL;
+  riis_status status = riis_leaks_create(&leaks);
+  if (status == RIIS_OK) status = riis_find_leaks(surface, mesh, marks, options, leaks);
+  if (status == RIIS_OK) status = riis_leaks_get_list(leaks, list, sizeof *list);
+  if (status == RIIS_OK) list->node_id = NULL, list->length = list->distance = NULL;
+  riis_leaks_destroy(&leaks);
+  return status;
+}
+
+/* The triangles of a surface; none if riis refuses to give them. */
 static inline riis_triangles triangles_of(const riis_surface *surface) {
-  riis_triangles triangles = {0};
-  if (riis_surface_get_triangles(surface, &triangles, sizeof triangles) != RIIS_OK) triangles.n_triangles = -1;
+  riis_triangles triangles;
+  memset(&triangles, 0, sizeof triangles);
+  (void)riis_surface_get_triangles(surface, &triangles, sizeof triangles);
   return triangles;
 }
 
 /* A list of the marks; n_nodes is -1 if riis refuses to give it. */
 static inline riis_mark_list list_of(const riis_marks *marks, int32_t which) {
-  riis_mark_list list = {0};
+  riis_mark_list list;
+  memset(&list, 0, sizeof list);
   if (riis_marks_get_list(marks, which, &list, sizeof list) != RIIS_OK) list.n_nodes = -1;
   return list;
 }

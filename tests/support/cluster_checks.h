@@ -58,7 +58,7 @@ static inline void check_with(const riis_surface *surface, riis_mesh *mesh, riis
 
 /* A point of a surface's triangle, moved by up to so much. */
 static inline void point_near(const riis_surface *surface, double off, double *p) {
-  const surface_content all = surface_content_of(surface);
+  const riis_triangles all = triangles_of(surface);
   const int64_t *id = all.vertex_id + 3 * (random_bits(&rng) % (uint64_t)all.n_triangles);
   double w[3] = {random_between(&rng, 0, 1), 0, 0};
   w[1] = random_between(&rng, 0, 1) * (1 - w[0]), w[2] = 1 - w[0] - w[1];

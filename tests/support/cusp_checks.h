@@ -14,7 +14,7 @@ static inline riis_valve *valve_at(const char *kind, double opening) {
 
 /* Adds up the edges on the sides v = 1 of the top patches. */
 static inline void free_edge_lengths(const riis_surface *surface, double *lengths) {
-  const surface_content all = surface_content_of(surface);
+  const riis_triangles all = triangles_of(surface);
   for (int cusp = 0; cusp < 3; ++cusp) lengths[cusp] = 0;
   for (int64_t t = 0; t < all.n_triangles; ++t)
     for (int k = 0; k < 3; ++k) {
@@ -27,7 +27,7 @@ static inline void free_edge_lengths(const riis_surface *surface, double *length
 
 /* The part of a disc about the axis that no triangle covers, seen along the axis, by a grid of n x n squares. */
 static inline double orifice_area(const riis_surface *surface, double radius, int n) {
-  const surface_content all = surface_content_of(surface);
+  const riis_triangles all = triangles_of(surface);
   const double h = 2 * radius / n;
   unsigned char *covered = own(calloc((size_t)n * (size_t)n, 1));
   for (int64_t t = 0; t < all.n_triangles; ++t) {
@@ -66,7 +66,7 @@ static inline double orifice_area(const riis_surface *surface, double radius, in
 /* Returns how far a cusp reaches out of its sector, the wedge between its two commissures. The wedges are convex, so cusps
  * that stay in theirs do not cross. */
 static inline double reach_out_of_sectors(const riis_surface *surface, const double *turn, const double *half_angle) {
-  const surface_content all = surface_content_of(surface);
+  const riis_triangles all = triangles_of(surface);
   double worst = 0;
   for (int64_t i = 0; i < 3 * all.n_triangles; ++i) {
     const int cusp = all.leaflet_id[i / 3];
@@ -81,7 +81,7 @@ static inline double reach_out_of_sectors(const riis_surface *surface, const dou
 
 /* Returns the least cosine between a triangle's normal and the way outwards and up. A fold would turn it over. */
 static inline double least_uprightness(const riis_surface *surface, const double *turn) {
-  const surface_content all = surface_content_of(surface);
+  const riis_triangles all = triangles_of(surface);
   double least = 1;
   for (int64_t t = 0; t < all.n_triangles; ++t) {
     const double *p[3], a = turn[all.leaflet_id[t]] * cusp_degree;

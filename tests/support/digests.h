@@ -12,7 +12,7 @@ static inline uint64_t add_bytes(uint64_t digest, const void *data, size_t n) {
 }
 
 static inline uint64_t add_surface(uint64_t digest, const riis_surface *surface) {
-  const surface_content all = surface_content_of(surface);
+  const riis_triangles all = triangles_of(surface);
   const size_t n_vertices = (size_t)all.n_vertices, n_triangles = (size_t)all.n_triangles;
   const riis_surface_info info = info_of(surface);
   digest = add_bytes(digest, &info, offsetof(riis_surface_info, seconds_triangles));
@@ -21,10 +21,6 @@ static inline uint64_t add_surface(uint64_t digest, const riis_surface *surface)
   digest = add_bytes(digest, all.vertex_id, n_triangles * 24);
   digest = add_bytes(digest, all.leaflet_id, n_triangles * 4);
   digest = add_bytes(digest, all.patch_id, n_triangles * 4);
-  int64_t n_pairs = 0;
-  const int64_t *crossing_id = NULL;
-  CHECK_OK(riis_surface_crossing_pairs(surface, &n_pairs, &crossing_id, NULL, NULL, NULL));
-  digest = add_bytes(digest, crossing_id, (size_t)n_pairs * 16);
   for (int i = -3; i <= 3; ++i) {
     const riis_closest closest = closest_to(surface, 0.4 * i, 0.3, 0.2 * i);
     digest = add_bytes(digest, &closest, sizeof closest);
@@ -62,10 +58,6 @@ static inline uint64_t add_result(uint64_t digest, const riis_marks *result) {
   const riis_mark_stats stats = stats_of(result);
   const int64_t numbers[] = {stats.n_nodes, stats.n_marked, stats.n_within_limit, stats.search, stats.complete};
   digest = add_bytes(digest, numbers, sizeof numbers);
-  int64_t n_edges = 0;
-  const int64_t *edges = NULL;
-  CHECK_OK(riis_mark_result_leaking_edges(result, &n_edges, &edges, NULL, NULL));
-  if (n_edges > 0) digest = add_bytes(digest, edges, (size_t)n_edges * 16);
   return add_list(add_list(digest, marked_in(result)), within_in(result));
 }
 

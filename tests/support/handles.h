@@ -6,6 +6,7 @@
 
 #include <stddef.h>
 
+#include "calls.h"
 #include "owned.h"
 
 static inline riis_surface_options surface_options(void) {
@@ -80,52 +81,22 @@ static inline riis_surface_info info_of(const riis_surface *surface) {
   return info;
 }
 
-/* Vertices and triangles of a surface, as its queries give them. */
-typedef struct surface_content {
-  int64_t n_vertices, n_triangles;
-  const double *xyz, *uv;
-  const int64_t *vertex_id;
-  const int32_t *leaflet_id, *patch_id;
-} surface_content;
-
-static inline surface_content surface_content_of(const riis_surface *surface) {
-  surface_content all;
-  all.n_vertices = triangles_of(surface).n_vertices;
-  all.xyz = triangles_of(surface).xyz;
-  all.uv = triangles_of(surface).uv;
-  all.n_triangles = triangles_of(surface).n_triangles;
-  all.vertex_id = triangles_of(surface).vertex_id;
-  all.leaflet_id = triangles_of(surface).leaflet_id;
-  all.patch_id = triangles_of(surface).patch_id;
-  return all;
-}
-
 /* Tells whether two surfaces have the same information (but for times), vertices, triangles and ids, to the last bit. */
 static inline int is_same_content(const riis_surface *a, const riis_surface *b) {
-  const surface_content s = surface_content_of(a), t = surface_content_of(b);
+  const riis_triangles s = triangles_of(a), t = triangles_of(b);
   const riis_surface_info of_a = info_of(a), of_b = info_of(b);
-  const int64_t *id_a, *id_b;
-  id_a = triangles_of(a).triangle_id;
-  id_b = triangles_of(b).triangle_id;
   const size_t n = (size_t)s.n_triangles;
   return memcmp(&of_a, &of_b, offsetof(riis_surface_info, seconds_triangles)) == 0 &&
          memcmp(s.xyz, t.xyz, (size_t)s.n_vertices * 3 * sizeof *s.xyz) == 0 && !s.uv == !t.uv &&
          (!s.uv || memcmp(s.uv, t.uv, (size_t)s.n_vertices * 2 * sizeof *s.uv) == 0) &&
          memcmp(s.vertex_id, t.vertex_id, 3 * n * sizeof *s.vertex_id) == 0 &&
-         memcmp(id_a, id_b, n * sizeof *id_a) == 0 &&
+         memcmp(s.triangle_id, t.triangle_id, n * sizeof *s.triangle_id) == 0 &&
          memcmp(s.leaflet_id, t.leaflet_id, n * sizeof *s.leaflet_id) == 0 &&
          memcmp(s.patch_id, t.patch_id, n * sizeof *s.patch_id) == 0;
 }
 
 /* (3, n_vertices); NULL unless the last update gave velocities. */
-static inline const double *velocity_of(const riis_surface *surface) {
-  const double *velocity = NULL;
-  int64_t n = -1;
-  n = triangles_of(surface).n_vertices;
-  velocity = triangles_of(surface).velocity;
-  assert_int_equal(n, surface_content_of(surface).n_vertices);
-  return velocity;
-}
+static inline const double *velocity_of(const riis_surface *surface) { return triangles_of(surface).velocity; }
 
 static inline riis_closest closest_to(const riis_surface *surface, double x, double y, double z) {
   const double point[3] = {x, y, z};

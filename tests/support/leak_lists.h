@@ -4,21 +4,22 @@
 #define RIIS_TEST_LEAK_LISTS_H
 
 typedef struct leak_list {
-  riis_leaks sum;
+  riis_leak_list sum;
   const int64_t *node_id;
   const double *length, *distance;
 } leak_list;
 
 static inline leak_list leaks_of(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *options,
-                                 riis_marks *result) {
+                                 const riis_marks *marks) {
   leak_list list;
-  int64_t n = -1;
+  riis_leaks *leaks = NULL;
   memset(&list, 0x5a, sizeof list);
-  CHECK_OK(riis_find_leaks(surface, mesh, options, result, &list.sum, sizeof list.sum));
-  CHECK_OK(riis_mark_result_leaking_edges(result, &n, &list.node_id, &list.length, &list.distance));
-  assert_int_equal(n, list.sum.n_edges);
+  CHECK_OK(riis_leaks_create(&leaks));
+  CHECK_OK(riis_find_leaks(surface, mesh, marks, options, own(leaks)));
+  CHECK_OK(riis_leaks_get_list(leaks, &list.sum, sizeof list.sum));
+  list.node_id = list.sum.node_id, list.length = list.sum.length, list.distance = list.sum.distance;
   assert_true(list.sum.seconds >= 0);
-  if (n == 0) assert_true(!list.node_id && !list.length && !list.distance);
+  if (list.sum.n_edges == 0) assert_true(!list.node_id && !list.length && !list.distance);
   return list;
 }
 

@@ -137,7 +137,7 @@ static riis_status triangulate(world *w) {
 
 static riis_status measure(world *w, int32_t distance) {
   riis_surface_options options = coarse;
-  options.distance = distance;
+  options.measure = distance;
   options.measure_tolerance = 1;
   if (w->surface) return riis_surface_update(w->surface, w->valve, &options);
   MADE(riis_surface, w->surface, riis_surface_create(w->valve, &options, &made));
@@ -233,10 +233,10 @@ static void crossing(world *w) {
 }
 static riis_status find_crossings(world *w) {
   riis_crossing_options options;
-  riis_crossings crossings;
+  riis_crossing_list crossings;
   CHECK_OK(riis_crossing_options_init(&options, sizeof options));
   options.n_threads = w->scenario->n_threads;
-  const riis_status status = riis_find_crossings(w->surface, &options, &crossings, sizeof crossings);
+  const riis_status status = find_crossings_in(w->surface, &options, &crossings);
   if (!status) assert_true(crossings.n_pairs > 10);
   return status;
 }
@@ -381,8 +381,8 @@ static void thin_and_marked(world *w) {
 }
 static riis_status find_leaks(world *w) {
   const riis_mark_options options = options_of(w, RIIS_AUTO);
-  riis_leaks leaks;
-  const riis_status status = riis_find_leaks(w->surface, w->mesh, &options, w->result, &leaks, sizeof leaks);
+  riis_leak_list leaks;
+  const riis_status status = find_leaks_in(w->surface, w->mesh, w->result, &options, &leaks);
   if (!status) assert_true(leaks.n_edges > 10);
   return status;
 }

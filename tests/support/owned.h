@@ -93,7 +93,9 @@ DEFINE_OWN(valve)
 DEFINE_OWN(surface)
 DEFINE_OWN(mesh)
 DEFINE_OWN(adjacency)
-DEFINE_OWN(mark_result)
+DEFINE_OWN(marks)
+DEFINE_OWN(leaks)
+DEFINE_OWN(crossings)
 #undef DEFINE_OWN
 
 /* A test may destroy an object that it owns. */
@@ -101,7 +103,9 @@ DEFINE_OWN(mark_result)
 #define riis_surface_destroy destroy_and_disown_surface
 #define riis_mesh_destroy destroy_and_disown_mesh
 #define riis_adjacency_destroy destroy_and_disown_adjacency
-#define riis_marks_destroy destroy_and_disown_mark_result
+#define riis_marks_destroy destroy_and_disown_marks
+#define riis_leaks_destroy destroy_and_disown_leaks
+#define riis_crossings_destroy destroy_and_disown_crossings
 
 /* Returns its argument: a handle, or memory from malloc. */
 #define own(object)                        \
@@ -110,7 +114,9 @@ DEFINE_OWN(mark_result)
       riis_surface *: own_surface,         \
       riis_mesh *: own_mesh,               \
       riis_adjacency *: own_adjacency,     \
-      riis_marks *: own_mark_result, \
+      riis_marks *: own_marks,             \
+      riis_leaks *: own_leaks,             \
+      riis_crossings *: own_crossings,     \
       void *: own_memory)(object)
 
 /* Every test of a file that includes this one has the teardown. */

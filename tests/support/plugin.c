@@ -26,9 +26,10 @@ int64_t plugin_mark(int32_t n_threads) {
       !riis_surface_create(valve, NULL, &surface) && !riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh) &&
       !riis_marks_create(&result)) {
     options.n_threads = n_threads;
-    if (riis_mark_nodes(surface, mesh, &options, result) ||
-        riis_mark_result_marked(result, &n_marked, NULL, NULL, NULL, NULL))
-      n_marked = -1;
+    riis_mark_list marked;
+    if (!riis_mark_nodes(surface, mesh, &options, result) &&
+        !riis_marks_get_list(result, RIIS_LIST_MARKED, &marked, sizeof marked))
+      n_marked = marked.n_nodes;
   }
   riis_marks_destroy(&result);
   riis_mesh_destroy(&mesh);

@@ -11,25 +11,11 @@ typedef struct found_nodes {
   const int32_t *leaflet_id;
 } found_nodes;
 
-static inline found_nodes marked_in(const riis_marks *result) {
-  found_nodes f;
-  f.n = marked_list(result).n_nodes;
-  f.node_id = marked_list(result).node_id;
-  f.distance = marked_list(result).distance;
-  f.triangle_id = marked_list(result).triangle_id;
-  f.leaflet_id = marked_list(result).leaflet_id;
-  return f;
+static inline found_nodes found_in(riis_mark_list list) {
+  return (found_nodes){list.n_nodes, list.node_id, list.triangle_id, list.distance, list.leaflet_id};
 }
-
-static inline found_nodes within_in(const riis_marks *result) {
-  found_nodes f;
-  f.n = within_list(result).n_nodes;
-  f.node_id = within_list(result).node_id;
-  f.distance = within_list(result).distance;
-  f.triangle_id = within_list(result).triangle_id;
-  f.leaflet_id = within_list(result).leaflet_id;
-  return f;
-}
+static inline found_nodes marked_in(const riis_marks *marks) { return found_in(marked_list(marks)); }
+static inline found_nodes within_in(const riis_marks *marks) { return found_in(within_list(marks)); }
 
 static inline riis_mark_stats stats_of(const riis_marks *result) {
   riis_mark_stats stats;
@@ -56,16 +42,7 @@ static inline int same_nodes(found_nodes a, found_nodes b) {
 /* Returns 1 if both have the same nodes, marked and within the limit, with the same bits. Asserts nothing, so any thread may call
  * it. */
 static inline int same_results(const riis_marks *a, const riis_marks *b) {
-  const riis_marks *of[2] = {a, b};
-  found_nodes m[2], w[2];
-  for (int i = 0; i < 2; ++i) {
-    found_nodes *f = m + i;
-    if (riis_mark_result_marked(of[i], &f->n, &f->node_id, &f->distance, &f->triangle_id, &f->leaflet_id)) return 0;
-    f = w + i;
-    if (riis_mark_result_within_limit(of[i], &f->n, &f->node_id, &f->distance, &f->triangle_id, &f->leaflet_id))
-      return 0;
-  }
-  return same_nodes(m[0], m[1]) && same_nodes(w[0], w[1]);
+  return same_nodes(marked_in(a), marked_in(b)) && same_nodes(within_in(a), within_in(b));
 }
 
 /* Nodes and which are neighbours: n + 1 offsets and their columns, from 0. The test owns the arrays. */

@@ -52,7 +52,7 @@ static inline long double closest_weights(const double *p, const double *abc, lo
 }
 
 /* The largest component of the velocities of all vertices. A part at rest has velocities that are rounding alone. */
-static inline double largest_velocity(const surface_content *s, const double *velocity) {
+static inline double largest_velocity(const riis_triangles *s, const double *velocity) {
   double largest = 0;
   for (int64_t i = 0; i < 3 * s->n_vertices; ++i) largest = fmax(largest, fabs(velocity[i]));
   return largest;
@@ -64,7 +64,7 @@ static inline long double rounding_near(const double *p, double half_thickness) 
 }
 
 /* Finds the closest point of each patch, of those at most `reach` away. Sets *is_clear to 0 where a patch has two. */
-static inline int places_near(const surface_content *s, const double *velocity, const double *p, double reach,
+static inline int places_near(const riis_triangles *s, const double *velocity, const double *p, double reach,
                               double half_thickness, tied_place *places, int *is_clear) {
   const long double rounding = rounding_near(p, half_thickness);
   int n = 0;
@@ -104,7 +104,7 @@ static inline int places_near(const surface_content *s, const double *velocity, 
 }
 
 /* The velocity of the surface near p, which is at the given distance. */
-static inline tied_velocity tied_velocity_at(const surface_content *s, const double *velocity, const double *p,
+static inline tied_velocity tied_velocity_at(const riis_triangles *s, const double *velocity, const double *p,
                                              double distance, double half_thickness) {
   const long double rounding = rounding_near(p, half_thickness), of_leaflets = 1e-6L * half_thickness,
                     of_patches = 1e-9L * half_thickness;

@@ -109,14 +109,14 @@ static double housing_radius(void) {
   return radius;
 }
 
-static int is_attached(const surface_content *all, int64_t vertex, attachment at) {
+static int is_attached(const riis_triangles *all, int64_t vertex, attachment at) {
   const double *xyz = all->xyz + 3 * vertex, *uv = all->uv + 2 * vertex;
   if (at == housing) return hypot(xyz[0], xyz[1]) > 0.99 * housing_radius();
   return at == side_u1 ? uv[0] == 1 : uv[1] == 0;
 }
 
 static double largest_distance_to_wall(const filled_mesh *in, const riis_surface *surface, attachment at) {
-  const surface_content all = surface_content_of(surface);
+  const riis_triangles all = triangles_of(surface);
   double largest = 0;
   int64_t n = 0;
   for (int64_t i = 0; i < all.n_vertices; ++i) {

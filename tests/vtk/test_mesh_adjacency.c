@@ -10,6 +10,7 @@
 
 #include "../support/test_support.h"
 
+#include "calls.h"
 #include "expect.h"
 #include "plain_mesh.h"
 #include "scratch.h"
@@ -387,9 +388,10 @@ static void test_no_volume(void **state) {
     assert_int_equal(stats[0].n_within_limit, stats[1].n_within_limit);
     const int64_t *node[2];
     const double *distance[2];
-    for (int i = 0; i < 2; ++i)
+    for (int i = 0; i < 2; ++i) {
       node[i] = within_list(result[i]).node_id;
       distance[i] = within_list(result[i]).distance;
+    }
     assert_memory_equal(node[0], node[1], (size_t)stats[0].n_within_limit * sizeof *node[0]);
     assert_memory_equal(distance[0], distance[1], (size_t)stats[0].n_within_limit * sizeof *distance[0]);
     for (int i = 0; i < 2; ++i) riis_marks_destroy(&result[i]);

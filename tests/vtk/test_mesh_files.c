@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "calls.h"
 #include "expect.h"
 #include "scratch.h"
 #include "vtk_shim.h"

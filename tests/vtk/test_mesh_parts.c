@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "calls.h"
 #include "expect.h"
 #include "scratch.h"
 #include "vtk_shim.h"
@@ -207,10 +208,9 @@ static void forget(marking *m) {
 
 static void expect_doubles(const char *name, const marking *m, int n_components, const double *values) {
   static double found[3 * n_box];
-  int64_t n = 0, n_found = 0;
-  const int64_t *node_id = NULL;
-  n = within_list(m->result).n_nodes;
-  node_id = within_list(m->result).node_id;
+  int64_t n_found = 0;
+  const int64_t n = within_list(m->result).n_nodes;
+  const int64_t *node_id = within_list(m->result).node_id;
   assert_int_equal(shim_read_array(scratch_path("fields.vtu"), 'p', name, NULL, &n_found, NULL, found), 1);
   assert_int_equal(n_found, n_components);
   for (int64_t i = 0; i < n; ++i) {
@@ -224,10 +224,8 @@ static void expect_doubles(const char *name, const marking *m, int n_components,
 static void expect_integers(const char *name, const marking *m, const int32_t *values, double elsewhere) {
   static double found[n_box];
   char type[32];
-  int64_t n = 0;
-  const int64_t *node_id = NULL;
-  n = within_list(m->result).n_nodes;
-  node_id = within_list(m->result).node_id;
+  const int64_t n = within_list(m->result).n_nodes;
+  const int64_t *node_id = within_list(m->result).node_id;
   assert_int_equal(shim_read_array(scratch_path("fields.vtu"), 'p', name, type, NULL, NULL, found), 1);
   assert_string_equal(type, "int");
   for (int64_t i = 0; i < n; ++i) {

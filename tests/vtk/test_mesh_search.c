@@ -140,10 +140,8 @@ static void graded_by_gmsh(const char *kind) {
   char text[2048], command[2048];
   box_around(kind, 0.2, lower, upper);
   riis_surface *surface = surface_of(kind, 1, -1);
-  int64_t n_vertices;
-  const double *vertices;
-  n_vertices = triangles_of(surface).n_vertices;
-  vertices = triangles_of(surface).xyz;
+  const int64_t n_vertices = triangles_of(surface).n_vertices;
+  const double *vertices = triangles_of(surface).xyz;
   memcpy(fine, vertices + 3 * (random_bits(&rng) % (uint64_t)n_vertices), sizeof fine);
   free_one_owned(surface);
   const double x = 0.5 * (lower[0] + upper[0]), y = 0.5 * (lower[1] + upper[1]);

@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "calls.h"
 #include "expect.h"
 #include "moving_sheet.h"
 #include "scratch.h"
@@ -22,12 +23,11 @@ static riis_keyframes *keyframes_of(riis_vtk_motion *motion, double period, int3
   riis_surface_arrays faces;
   riis_keyframe_arrays frames;
   riis_keyframes *keyframes = NULL;
-  expect_fine(riis_surface_arrays_init(&faces, sizeof faces));
-  expect_fine(riis_keyframe_arrays_init(&frames, sizeof frames));
+  expect_fine(riis_vtk_motion_get_arrays(motion, &faces, sizeof faces));
+  expect_fine(riis_vtk_motion_get_frames(motion, &frames, sizeof frames));
+  assert_true(frames.period == 0 && frames.interpolation == RIIS_INTERPOLATION_LINEAR);
   frames.period = period;
   frames.interpolation = interpolation;
-  expect_fine(riis_vtk_motion_arrays(motion, &faces, &frames));
-  assert_true(frames.period == period && frames.interpolation == interpolation);
   expect_fine(riis_keyframes_create(&faces, &frames, &keyframes));
   riis_vtk_motion_destroy(&motion);
   assert_null(motion);
@@ -35,16 +35,12 @@ static riis_keyframes *keyframes_of(riis_vtk_motion *motion, double period, int3
 }
 
 static void expect_sheet(const riis_surface *surface, double time, double speed, int32_t one_leaflet) {
-  int64_t n = 0, n_vertices = 0;
-  const double *xyz = NULL, *velocity = NULL;
-  const int64_t *corners = NULL;
-  const int32_t *leaflet_id = NULL;
-  n_vertices = triangles_of(surface).n_vertices;
-  xyz = triangles_of(surface).xyz;
-  velocity = triangles_of(surface).velocity;
-  n = triangles_of(surface).n_triangles;
-  corners = triangles_of(surface).vertex_id;
-  leaflet_id = triangles_of(surface).leaflet_id;
+  const int64_t n_vertices = triangles_of(surface).n_vertices;
+  const double *xyz = triangles_of(surface).xyz;
+  const double *velocity = triangles_of(surface).velocity;
+  const int64_t n = triangles_of(surface).n_triangles;
+  const int64_t *corners = triangles_of(surface).vertex_id;
+  const int32_t *leaflet_id = triangles_of(surface).leaflet_id;
   assert_int_equal(n, sheet_n_triangles);
   assert_int_equal(n_vertices, sheet_n_vertices);
   for (int64_t t = 0; t < n; ++t) {
@@ -68,15 +64,15 @@ static void expect_motion(riis_vtk_motion *motion, int32_t one_leaflet) {
   static const double times[] = {0, 0.25, 0.5, 1, 0.1, 0.3, 0.7, 0.99};
   riis_keyframes *keyframes = keyframes_of(motion, 0, RIIS_INTERPOLATION_LINEAR);
   riis_surface *surface = NULL;
-  expect_fine(riis_surface_create_from_keyframes(keyframes, -1, -1, NULL, &surface));
+  expect_fine(riis_surface_create_from_keyframes(keyframes, -1, 0, NULL, &surface));
   expect_sheet(surface, 0, 0, one_leaflet);
   for (size_t i = 0; i < sizeof times / sizeof *times; ++i) {
-    expect_fine(riis_surface_update_from_keyframes(surface, keyframes, times[i], times[i], NULL));
+    expect_fine(riis_surface_update_from_keyframes(surface, keyframes, times[i], 0, NULL));
     expect_sheet(surface, times[i], times[i] < 1 ? 1 : 0, one_leaflet);
-    expect_fine(riis_surface_update_from_keyframes(surface, keyframes, times[i], 0.6, NULL));
+    expect_fine(riis_surface_update_from_keyframes(surface, keyframes, times[i], times[i] - 0.6, NULL));
     expect_sheet(surface, times[i], 1, one_leaflet);
   }
-  expect_fine(riis_surface_update_from_keyframes(surface, keyframes, 9, 9, NULL));
+  expect_fine(riis_surface_update_from_keyframes(surface, keyframes, 9, 0, NULL));
   expect_sheet(surface, 1, 0, one_leaflet);
   riis_surface_destroy(&surface);
   riis_keyframes_destroy(&keyframes);
@@ -193,8 +189,6 @@ static void test_same_as_arrays(void **state) {
   for (int i = 0; i < n_keys; ++i)
     for (int v = 0; v < sheet_n_vertices; ++v) sheet_vertex(v, key_times[i], xyz[i][v], NULL);
   for (int64_t t = 0; t < sheet_n_triangles; ++t) sheet_triangle(t, corners[t], &(int32_t){0});
-  expect_fine(riis_surface_arrays_init(&faces, sizeof faces));
-  expect_fine(riis_keyframe_arrays_init(&frames, sizeof frames));
   faces.n_vertices = frames.n_vertices = sheet_n_vertices;
   faces.n_faces = sheet_n_triangles;
   faces.vertex_ids = corners;
@@ -210,11 +204,10 @@ static void test_same_as_arrays(void **state) {
   expect_fine(riis_surface_create_from_keyframes(arrays, 0, 0, NULL, &a));
   expect_fine(riis_surface_create_from_keyframes(files, 0, 0, NULL, &b));
   for (int i = -20; i < 40; ++i) {
-    const double *one = NULL, *other = NULL;
-    expect_fine(riis_surface_update_from_keyframes(a, arrays, 0.07 * i, 0.06 * i, NULL));
-    expect_fine(riis_surface_update_from_keyframes(b, files, 0.07 * i, 0.06 * i, NULL));
-    one = triangles_of(a).xyz;
-    other = triangles_of(b).xyz;
+    expect_fine(riis_surface_update_from_keyframes(a, arrays, 0.07 * i, 0.07 * i - 0.06 * i, NULL));
+    expect_fine(riis_surface_update_from_keyframes(b, files, 0.07 * i, 0.07 * i - 0.06 * i, NULL));
+    const double *one = triangles_of(a).xyz;
+    const double *other = triangles_of(b).xyz;
     assert_memory_equal(one, other, sizeof xyz[0]);
     one = triangles_of(a).velocity;
     other = triangles_of(b).velocity;
@@ -284,13 +277,12 @@ static void test_quads_are_cut_once(void **state) {
     expect_fine(riis_vtk_motion_read_files(2, paths, key_times, NULL, &motion));
     riis_surface_arrays faces;
     riis_keyframe_arrays frames;
-    expect_fine(riis_surface_arrays_init(&faces, sizeof faces));
-    expect_fine(riis_keyframe_arrays_init(&frames, sizeof frames));
-    expect_fine(riis_vtk_motion_arrays(motion, &faces, &frames));
+    expect_fine(riis_vtk_motion_get_arrays(motion, &faces, sizeof faces));
+    expect_fine(riis_vtk_motion_get_frames(motion, &frames, sizeof frames));
     const int64_t convex[9] = {1, 2, 3, 1, 3, 0, 0, 1, 3}, concave[9] = {2, 3, 0, 2, 0, 1, 0, 1, 3};
     assert_int_equal(faces.n_faces, 3);
     assert_memory_equal(faces.vertex_ids, first ? concave : convex, sizeof convex);
-    assert_true(frames.xyz[6] == (first ? 0.2 : 1) && frames.xyz[12 + 6] == (first ? 1 : 0.2));
+    assert_true(((const double *)frames.xyz)[6] == (first ? 0.2 : 1) && ((const double *)frames.xyz)[12 + 6] == (first ? 1 : 0.2));
     riis_vtk_motion_destroy(&motion);
   }
 }
@@ -314,15 +306,14 @@ static void test_corners_of_stl(void **state) {
   assert_null(motion);
   riis_surface_arrays faces;
   riis_keyframe_arrays frames;
-  expect_fine(riis_surface_arrays_init(&faces, sizeof faces));
-  expect_fine(riis_keyframe_arrays_init(&frames, sizeof frames));
   expect_fine(riis_vtk_motion_read_files(2, meet, key_times, NULL, &motion));
-  expect_fine(riis_vtk_motion_arrays(motion, &faces, &frames));
+  expect_fine(riis_vtk_motion_get_arrays(motion, &faces, sizeof faces));
+  expect_fine(riis_vtk_motion_get_frames(motion, &frames, sizeof frames));
   const int64_t ids[6] = {0, 1, 2, 3, 4, 2};
   assert_int_equal(faces.n_vertices, 5);
   assert_int_equal(frames.n_vertices, 5);
   assert_memory_equal(faces.vertex_ids, ids, sizeof ids);
-  assert_true(frames.xyz[3 * 3] == 1.5 && frames.xyz[15 + 3 * 3] == 1);
+  assert_true(((const double *)frames.xyz)[3 * 3] == 1.5 && ((const double *)frames.xyz)[15 + 3 * 3] == 1);
   riis_vtk_motion_destroy(&motion);
 }
 
@@ -338,7 +329,7 @@ static void test_velocity_is_written(void **state) {
   char type[32];
   expect_fine(riis_surface_options_init(&options, sizeof options));
   options.scale = 2;
-  expect_fine(riis_surface_create_from_keyframes(keyframes, 0.3, 0.3, &options, &surface));
+  expect_fine(riis_surface_create_from_keyframes(keyframes, 0.3, 0, &options, &surface));
   expect_fine(riis_vtk_surface_write(surface, scratch_path("moving.vtp")));
   assert_int_equal(
       shim_read_array(scratch_path("moving.vtp"), 'p', "riis_velocity", type, &n_components, NULL, velocity), 1);

@@ -275,17 +275,14 @@ static void test_arguments_of_arrays(void **state) {
   sheet_write("a.vtp", 0, NULL);
   const char *const paths[1] = {scratch_path("a.vtp")};
   expect_fine(riis_vtk_motion_read_files(1, paths, times, NULL, &motion));
-  expect_fine(riis_surface_arrays_init(&faces, sizeof faces));
-  expect_fine(riis_keyframe_arrays_init(&frames, sizeof frames));
-  expect_refused(riis_vtk_motion_arrays(NULL, &faces, &frames), RIIS_INVALID_ARGUMENT, "motion is NULL");
-  expect_refused(riis_vtk_motion_arrays(motion, NULL, &frames), RIIS_INVALID_ARGUMENT, "faces is NULL");
-  expect_refused(riis_vtk_motion_arrays(motion, &faces, NULL), RIIS_INVALID_ARGUMENT, "frames is NULL");
-  faces.struct_size = 96 + 1;
-  expect_refused(riis_vtk_motion_arrays(motion, &faces, &frames), RIIS_INVALID_STRUCT_SIZE, "the struct size of faces is 97; ");
-  expect_fine(riis_surface_arrays_init(&faces, sizeof faces));
-  frames.struct_size = 0;
-  expect_refused(riis_vtk_motion_arrays(motion, &faces, &frames), RIIS_INVALID_STRUCT_SIZE, "the struct size of frames is 0; ");
-  assert_null(faces.vertex_ids);
+  expect_refused(riis_vtk_motion_get_arrays(NULL, &faces, sizeof faces), RIIS_INVALID_ARGUMENT, "motion is NULL");
+  expect_refused(riis_vtk_motion_get_arrays(motion, NULL, sizeof faces), RIIS_INVALID_ARGUMENT, "arrays is NULL");
+  expect_refused(riis_vtk_motion_get_arrays(motion, &faces, sizeof faces + 1), RIIS_INVALID_STRUCT_SIZE,
+                 "the struct size of arrays is ");
+  expect_refused(riis_vtk_motion_get_frames(NULL, &frames, sizeof frames), RIIS_INVALID_ARGUMENT, "motion is NULL");
+  expect_refused(riis_vtk_motion_get_frames(motion, NULL, sizeof frames), RIIS_INVALID_ARGUMENT, "frames is NULL");
+  expect_refused(riis_vtk_motion_get_frames(motion, &frames, 0), RIIS_INVALID_STRUCT_SIZE,
+                 "the struct size of frames is 0; ");
   expect_refused(riis_vtk_motion_get_files(NULL, NULL, NULL), RIIS_INVALID_ARGUMENT, "motion is NULL");
   expect_fine(riis_vtk_motion_get_files(motion, NULL, NULL));
   expect_refused(riis_vtk_motion_number_pieces(NULL), RIIS_INVALID_ARGUMENT, "motion is NULL");

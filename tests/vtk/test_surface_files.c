@@ -10,6 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "calls.h"
 #include "expect.h"
 #include "scratch.h"
 #include "vtk_shim.h"
@@ -52,17 +53,14 @@ static void expect_cell_array(const char *path, const char *name, const char *ex
 }
 
 static void expect_written(const riis_surface *surface, const char *path) {
-  int64_t n_vertices = 0, n_triangles = 0, n_points = 0, n_cells = 0;
-  const double *xyz = NULL;
-  const int64_t *vertex_id = NULL, *triangle_id = NULL;
-  const int32_t *leaflet_id = NULL, *patch_id = NULL;
-  n_vertices = triangles_of(surface).n_vertices;
-  xyz = triangles_of(surface).xyz;
-  n_triangles = triangles_of(surface).n_triangles;
-  vertex_id = triangles_of(surface).vertex_id;
-  triangle_id = triangles_of(surface).triangle_id;
-  leaflet_id = triangles_of(surface).leaflet_id;
-  patch_id = triangles_of(surface).patch_id;
+  int64_t n_points = 0, n_cells = 0;
+  const int64_t n_vertices = triangles_of(surface).n_vertices;
+  const double *xyz = triangles_of(surface).xyz;
+  const int64_t n_triangles = triangles_of(surface).n_triangles;
+  const int64_t *vertex_id = triangles_of(surface).vertex_id;
+  const int64_t *triangle_id = triangles_of(surface).triangle_id;
+  const int32_t *leaflet_id = triangles_of(surface).leaflet_id;
+  const int32_t *patch_id = triangles_of(surface).patch_id;
   char type[32];
   double *points = numbers(3 * n_vertices);
   int64_t *corners = malloc((size_t)(3 * n_triangles) * sizeof *corners);
@@ -87,10 +85,9 @@ static void test_valve_is_written(void **state) {
   riis_surface *surface = make_valve();
   expect_fine(riis_vtk_surface_write(surface, scratch_path("valve.vtp")));
   expect_written(surface, scratch_path("valve.vtp"));
-  int64_t n = 0, n_components = 0, n_tuples = 0;
-  const double *uv = NULL;
-  n = triangles_of(surface).n_vertices;
-  uv = triangles_of(surface).uv;
+  int64_t n_components = 0, n_tuples = 0;
+  const int64_t n = triangles_of(surface).n_vertices;
+  const double *uv = triangles_of(surface).uv;
   double *values = numbers(2 * n);
   char type[32];
   assert_int_equal(shim_read_array(scratch_path("valve.vtp"), 'p', "riis_uv", type, &n_components, &n_tuples, NULL), 1);
@@ -175,7 +172,8 @@ static void test_quads_stay_quads(void **state) {
   assert_memory_equal(arrays.vertex_ids, expected, sizeof expected);
   assert_int_equal(arrays.leaflet_id[0], 5);
   assert_int_equal(arrays.leaflet_id[1], 9);
-  assert_true(arrays.x[3 * 4] == 2 && arrays.y[3 * 6] == 1.5 && arrays.z[3 * 6] == 0);
+  const double *x = arrays.x, *y = arrays.y, *z = arrays.z;
+  assert_true(x[3 * 4] == 2 && y[3 * 6] == 1.5 && z[3 * 6] == 0);
   riis_vtk_surface_destroy(&file);
 }
 
@@ -187,14 +185,10 @@ static void expect_faces(const char *name, int64_t n_triangles, double area, con
   expect_fine(riis_surface_get_info(surface, &info, sizeof info));
   assert_int_equal(info.n_triangles, n_triangles);
   assert_true(fabs(info.area - area) < 1e-12);
-  int64_t n = 0;
-  const double *xyz = NULL;
-  const int64_t *corners = NULL;
-  const int32_t *leaflet_id = NULL;
-  xyz = triangles_of(surface).xyz;
-  n = triangles_of(surface).n_triangles;
-  corners = triangles_of(surface).vertex_id;
-  leaflet_id = triangles_of(surface).leaflet_id;
+  const double *xyz = triangles_of(surface).xyz;
+  const int64_t n = triangles_of(surface).n_triangles;
+  const int64_t *corners = triangles_of(surface).vertex_id;
+  const int32_t *leaflet_id = triangles_of(surface).leaflet_id;
   for (int64_t i = 0; i < n; ++i) {
     const double *a = xyz + 3 * corners[3 * i], *b = xyz + 3 * corners[3 * i + 1], *c = xyz + 3 * corners[3 * i + 2];
     assert_true((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0);
@@ -286,10 +280,8 @@ static void expect_stl(const char *name) {
   expect_fine(riis_surface_options_init(&options, sizeof options));
   options.zero_area = RIIS_ZERO_AREA_SKIP;
   riis_surface *surface = surface_of_file(name, &options, &arrays);
-  int64_t n = 0;
-  const int64_t *triangle_id = NULL;
-  n = triangles_of(surface).n_triangles;
-  triangle_id = triangles_of(surface).triangle_id;
+  const int64_t n = triangles_of(surface).n_triangles;
+  const int64_t *triangle_id = triangles_of(surface).triangle_id;
   assert_int_equal(n, 2);
   assert_int_equal(triangle_id[0], 0);
   assert_int_equal(triangle_id[1], 2);

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "calls.h"
 #include "expect.h"
 #include "vtk_shim.h"
 
@@ -56,13 +57,10 @@ static void compare(double scale, double shift, int method, const char *name) {
   expect_fine(riis_closest_arrays_init(&arrays, sizeof arrays));
   arrays.distance = distances;
   expect_fine(closest_points_of(surface, n_points, points, points + 1, points + 2, 3, NULL, &arrays));
-  int64_t n_vertices = 0, n_triangles = 0;
-  const double *vertices = NULL;
-  const int64_t *corners = NULL;
-  n_vertices = triangles_of(surface).n_vertices;
-  vertices = triangles_of(surface).xyz;
-  n_triangles = triangles_of(surface).n_triangles;
-  corners = triangles_of(surface).vertex_id;
+  const int64_t n_vertices = triangles_of(surface).n_vertices;
+  const double *vertices = triangles_of(surface).xyz;
+  const int64_t n_triangles = triangles_of(surface).n_triangles;
+  const int64_t *corners = triangles_of(surface).vertex_id;
   shim_distances(method, n_vertices, vertices, n_triangles, corners, n_points, points, by_vtk);
   /* The tolerance is relative to the coordinates' size, which limits the resolution of doubles. */
   const double size = fabs(shift) + 20 * scale;

@@ -123,7 +123,7 @@ static void create_valve(void) {
   mark_options.n_threads = 1;
   mark_options.fields = RIIS_FIELD_VELOCITY;
   check(riis_resistance_init(&resistance, sizeof resistance));
-  resistance.resistance = setting("VALVE_RESISTANCE");
+  resistance.R = setting("VALVE_RESISTANCE");
   BFT_MALLOC(coefficient, m->n_cells, double);
   BFT_MALLOC(momentum, 3 * m->n_cells, double);
   memset(coefficient, 0, sizeof(double) * (size_t)m->n_cells);
