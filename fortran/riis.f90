@@ -21,7 +21,7 @@
 !!
 !! - Errors. The last argument is `integer(riis_status), intent(out), optional :: status`: RIIS_OK or an error, whose message
 !!   riis_error_message() gives. Without it an error stops the program, with its name and message on the error unit. A
-!!   positive error refuses the call, and no object changed. A negative error leaves an object passed for writing fit for
+!!   positive error refuses the call, and nothing changed. A negative error leaves an object passed for writing fit for
 !!   destruction only. Each thread has its own message. Messages name the C arguments and count from 0.
 !! - Objects. Each is empty until it is created, and must be destroyed: nothing happens by itself at the end of a scope. An
 !!   intent(out) argument loses its object. Creating an object twice is an error, and so is the use of an empty one;
@@ -51,7 +51,7 @@ module riis
   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int32_t, c_int64_t, c_null_funptr, c_null_ptr, c_ptr, &
     c_f_procpointer
   use, intrinsic :: iso_fortran_env, only: int32
-  use riis_c, only: riis_status, riis_surface_info, riis_closest, riis_mark_stats, riis_leaks, riis_crossings, riis_c_text, &
+  use riis_c, only: riis_status, riis_surface_info, riis_closest, riis_mark_stats, riis_c_text, &
     riis_c_text_length, riis_last_error, riis_band_sums, riis_passage, &
     RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, RIIS_INVALID_PARAMETER, RIIS_INVALID_SURFACE, &
     RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, RIIS_INTERNAL_ERROR, &
@@ -62,27 +62,28 @@ module riis
     RIIS_SEARCH_PAPER, RIIS_SEARCH_CLUSTERS, RIIS_INSTRUCTIONS_AUTO, RIIS_INSTRUCTIONS_BASELINE, &
     RIIS_INSTRUCTIONS_AVX2, RIIS_INSTRUCTIONS_AVX512, RIIS_AUTO, RIIS_FAR_DISTANCE, &
     RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_UV, &
-    RIIS_FIELD_VELOCITY, RIIS_FIELD_PATCH, RIIS_RIM_ROUND, RIIS_RIM_CUT, &
+    RIIS_FIELD_VELOCITY, RIIS_FIELD_PATCH, RIIS_LIST_MARKED, RIIS_LIST_WITHIN_LIMIT, RIIS_RIM_ROUND, RIIS_RIM_CUT, &
     RIIS_INTERPOLATION_LINEAR, RIIS_INTERPOLATION_CUBIC, RIIS_PHASE_CLOSING, RIIS_PHASE_OPENING, &
     RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED, RIIS_PASSAGE_CLOSED, RIIS_PASSAGE_OPEN, RIIS_PASSAGE_NONE, &
     c_set_log => riis_set_log, c_status_name => riis_status_name, c_version => riis_get_version, &
     c_version_string => riis_version_string
   use riis_valves, only: riis_valve, riis_parameter_info
   use riis_frames, only: riis_keyframes
-  use riis_surfaces, only: riis_surface
+  use riis_surfaces, only: riis_surface, riis_triangles
   use riis_adjacencies, only: riis_adjacency
   use riis_meshes, only: riis_mesh
-  use riis_marking, only: riis_marks, riis_mark_fields, riis_mark_nodes
-  use riis_leaking, only: riis_find_leaks
-  use riis_crossing, only: riis_find_crossings
+  use riis_marking, only: riis_marks, riis_mark_list, riis_mark_nodes
+  use riis_leaking, only: riis_leaks, riis_leak_list, riis_find_leaks
+  use riis_crossing, only: riis_crossings, riis_crossing_list, riis_find_crossings
   use riis_passages, only: riis_label_open_regions, riis_find_passage
   use riis_laws, only: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, &
     riis_opening_angle_state, riis_opening_from_table, riis_opening_from_times, riis_opening_advance
   implicit none
   private
   public :: riis_valve, riis_parameter_info, riis_surface, riis_surface_info, riis_closest, riis_mesh, riis_adjacency, &
-    riis_marks, riis_mark_fields, riis_mark_nodes, riis_mark_stats, riis_band_sums, riis_find_leaks, riis_leaks, &
-    riis_keyframes, riis_label_open_regions, riis_find_passage, riis_passage, riis_find_crossings, riis_crossings
+    riis_marks, riis_mark_list, riis_mark_nodes, riis_mark_stats, riis_band_sums, riis_find_leaks, riis_leaks, riis_leak_list, &
+    riis_keyframes, riis_label_open_regions, riis_find_passage, riis_passage, riis_find_crossings, riis_crossings, &
+    riis_crossing_list, riis_triangles
   public :: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, riis_opening_angle_state, &
     riis_opening_from_table, riis_opening_from_times, riis_opening_advance
   public :: riis_error_message, riis_status_name, riis_get_version, riis_version_string, riis_set_log, riis_log_procedure
@@ -96,7 +97,7 @@ module riis
     RIIS_SEARCH_PAPER, RIIS_SEARCH_CLUSTERS, RIIS_INSTRUCTIONS_AUTO, RIIS_INSTRUCTIONS_BASELINE, &
     RIIS_INSTRUCTIONS_AVX2, RIIS_INSTRUCTIONS_AVX512, RIIS_AUTO, RIIS_FAR_DISTANCE
   public :: RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_UV, &
-    RIIS_FIELD_VELOCITY, RIIS_FIELD_PATCH, RIIS_RIM_ROUND, RIIS_RIM_CUT, &
+    RIIS_FIELD_VELOCITY, RIIS_FIELD_PATCH, RIIS_LIST_MARKED, RIIS_LIST_WITHIN_LIMIT, RIIS_RIM_ROUND, RIIS_RIM_CUT, &
     RIIS_INTERPOLATION_LINEAR, RIIS_INTERPOLATION_CUBIC, RIIS_PHASE_CLOSING, RIIS_PHASE_OPENING, &
     RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED, RIIS_PASSAGE_CLOSED, RIIS_PASSAGE_OPEN, RIIS_PASSAGE_NONE
 

@@ -6,10 +6,10 @@
 !!   status = riis_valve_create(riis_c_string('aortic'), valve)
 !!   status = riis_surface_create(valve, surface=surface)                            ! options left out: all defaults
 !!   status = riis_mesh_create(n_nodes, c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), c_loc(xyz(3, 1)), 3_c_int64_t, mesh)
-!!   status = riis_marks_create(result)
-!!   status = riis_mark_nodes(surface, mesh, result=result)                          ! once a time step
-!!   status = riis_mark_result_marked(result, n_marked, node_id, distance)
-!!   if (n_marked > 0) call c_f_pointer(node_id, ids, [n_marked])        ! integer(c_int64_t), pointer :: ids(:)
+!!   status = riis_marks_create(marks)
+!!   status = riis_mark_nodes(surface, mesh, marks=marks)                            ! once a time step
+!!   status = riis_marks_get_list(marks, RIIS_LIST_MARKED, list, c_sizeof(list))
+!!   if (list%n_nodes > 0) call c_f_pointer(list%node_id, ids, [list%n_nodes])   ! integer(c_int64_t), pointer :: ids(:)
 !!
 !! Rules for every interface below:
 !!
@@ -103,6 +103,9 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_RIM_ROUND = 0
   integer(c_int32_t), parameter :: RIIS_RIM_CUT = 1
 
+  integer(c_int32_t), parameter :: RIIS_LIST_MARKED = 0
+  integer(c_int32_t), parameter :: RIIS_LIST_WITHIN_LIMIT = 1
+
   integer(c_int32_t), parameter :: RIIS_PASSAGE_CLOSED = 0
   integer(c_int32_t), parameter :: RIIS_PASSAGE_OPEN = 1
   integer(c_int32_t), parameter :: RIIS_PASSAGE_NONE = 2
@@ -116,6 +119,16 @@ module riis_c
   ! -------------------------------------------------------------------------------------------------------------------
   ! Structs: the fields of riis.h in their order; pointers are type(c_ptr), set by c_loc
   ! -------------------------------------------------------------------------------------------------------------------
+
+  type, bind(c) :: riis_points
+    integer(c_int64_t) :: struct_size
+    integer(c_int64_t) :: n_points
+    type(c_ptr) :: x, y, z          !< real(c_double) or (c_float), (n_points), or xyz(3, n_points): c_loc(xyz(1, 1)),
+                                    !! c_loc(xyz(2, 1)), ...
+    integer(c_int64_t) :: stride    !< 3 for xyz(3, n_points)
+    integer(c_int32_t) :: real_bits !< storage_size(xyz)
+    integer(c_int32_t) :: reserved
+  end type riis_points
 
   type, bind(c) :: riis_patches
     integer(c_int64_t) :: struct_size
@@ -148,46 +161,46 @@ module riis_c
     real(c_double) :: rotation_axis(3)
     real(c_double) :: rotation_angle !< degrees
     real(c_double) :: translation(3)
+    real(c_double) :: measure_tolerance
+    integer(c_int32_t) :: measure
+    integer(c_int32_t) :: triangulation
     integer(c_int32_t) :: zero_area
     integer(c_int32_t) :: flip_normals
-    integer(c_int32_t) :: distance
     integer(c_int32_t) :: n_threads
-    real(c_double) :: measure_tolerance
-    integer(c_int32_t) :: triangulation
     integer(c_int32_t) :: reserved
   end type riis_surface_options
 
   type, bind(c) :: riis_surface_arrays
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_vertices
-    type(c_ptr) :: x, y, z                !< real(c_double), (n_vertices), or xyz(3, n_vertices): c_loc(xyz(1, 1)),
-                                          !! c_loc(xyz(2, 1)), ...
+    type(c_ptr) :: x, y, z                !< real(c_double) or (c_float), (n_vertices), or xyz(3, n_vertices):
+                                          !! c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), ...
     integer(c_int64_t) :: stride          !< 3 for xyz(3, n_vertices)
+    type(c_ptr) :: vx, vy, vz             !< real(c_double) or (c_float), (n_vertices), or as x, y, z; or c_null_ptr
+    integer(c_int64_t) :: velocity_stride !< 3 for (3, n_vertices)
     integer(c_int64_t) :: n_faces
     type(c_ptr) :: vertex_ids             !< integer(c_int32_t) or (c_int64_t), (corners_per_face, n_faces)
-    integer(c_int32_t) :: vertex_id_bits
-    integer(c_int32_t) :: index_base      !< 1 for ids that count from 1
-    integer(c_int32_t) :: corners_per_face
-    integer(c_int32_t) :: reserved
     type(c_ptr) :: leaflet_id             !< integer(c_int32_t), (n_faces), or c_null_ptr
-    type(c_ptr) :: vx, vy, vz             !< real(c_double), (n_vertices), or as x, y, z; or c_null_ptr
-    integer(c_int64_t) :: velocity_stride !< 3 for (3, n_vertices)
+    integer(c_int32_t) :: corners_per_face
+    integer(c_int32_t) :: id_bits         !< storage_size(vertex_ids)
+    integer(c_int32_t) :: index_base      !< 1 for ids that count from 1
+    integer(c_int32_t) :: real_bits       !< storage_size(xyz)
   end type riis_surface_arrays
 
   type, bind(c) :: riis_keyframe_arrays
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_keys
     integer(c_int64_t) :: n_vertices
-    type(c_ptr) :: time !< real(c_double), (n_keys)
-    type(c_ptr) :: xyz  !< real(c_double), (3, n_vertices, n_keys)
+    type(c_ptr) :: time             !< real(c_double), (n_keys)
+    type(c_ptr) :: xyz              !< real(c_double) or (c_float), (3, n_vertices, n_keys)
     real(c_double) :: period
     integer(c_int32_t) :: interpolation
-    integer(c_int32_t) :: reserved
+    integer(c_int32_t) :: real_bits !< storage_size(xyz)
   end type riis_keyframe_arrays
 
   !> The size of a surface, and the seconds that its last create or update took.
   type, bind(c) :: riis_surface_info
-    integer(c_int64_t) :: n_vertices       !< length of the array of riis_surface_vertices
+    integer(c_int64_t) :: n_vertices       !< as riis_triangles.n_vertices
     integer(c_int64_t) :: n_triangles      !< triangles that answer queries
     integer(c_int64_t) :: n_zero_area      !< triangles skipped for want of area
     real(c_double) :: half_thickness       !< placed units
@@ -203,6 +216,18 @@ module riis_c
                                            !! arrays
   end type riis_surface_info
 
+  type, bind(c) :: riis_triangles
+    integer(c_int64_t) :: n_vertices
+    type(c_ptr) :: xyz         !< real(c_double), (3, n_vertices)
+    type(c_ptr) :: uv          !< real(c_double), (2, n_vertices), c_null_ptr for a surface from arrays
+    type(c_ptr) :: velocity    !< real(c_double), (3, n_vertices), c_null_ptr unless the last update gave velocities
+    integer(c_int64_t) :: n_triangles
+    type(c_ptr) :: vertex_id   !< integer(c_int64_t), (3, n_triangles), from 0
+    type(c_ptr) :: triangle_id !< integer(c_int64_t), (n_triangles), from 0
+    type(c_ptr) :: leaflet_id  !< integer(c_int32_t), (n_triangles)
+    type(c_ptr) :: patch_id    !< integer(c_int32_t), (n_triangles)
+  end type riis_triangles
+
   type, bind(c) :: riis_crossing_options
     integer(c_int64_t) :: struct_size
     real(c_double) :: depth
@@ -210,18 +235,22 @@ module riis_c
     integer(c_int32_t) :: reserved
   end type riis_crossing_options
 
-  !> Pairs of triangles that cross. Without a pair, ids are -1, and other fields but seconds 0.
-  type, bind(c) :: riis_crossings
-    integer(c_int64_t) :: n_pairs        !< pairs that cross
-    real(c_double) :: length             !< of the pairs' intersections, which are segments, together; mesh units
-    real(c_double) :: depth              !< of the deepest pair, of equal ones the first; mesh units
-    real(c_double) :: point(3)           !< the middle of its segment
-    integer(c_int64_t) :: triangle_id(2) !< its triangles, ascending
-    integer(c_int32_t) :: leaflet_id(2)  !< their leaflets
-    real(c_double) :: seconds            !< wall time of riis_find_crossings
-  end type riis_crossings
+  !> c_null_ptr for arrays without pairs
+  type, bind(c) :: riis_crossing_list
+    integer(c_int64_t) :: n_pairs
+    type(c_ptr) :: triangle_id !< integer(c_int64_t), (2, n_pairs), from 0, the lower one first
+    type(c_ptr) :: point       !< real(c_double), (3, n_pairs)
+    type(c_ptr) :: depth       !< real(c_double), (n_pairs)
+    type(c_ptr) :: length      !< real(c_double), (n_pairs)
+    real(c_double) :: total_length
+    real(c_double) :: deepest_depth
+    real(c_double) :: deepest_point(3)
+    integer(c_int64_t) :: deepest_triangle_id(2)
+    integer(c_int32_t) :: deepest_leaflet_id(2)
+    real(c_double) :: seconds
+  end type riis_crossing_list
 
-  !> The closest point of the surface to one point. RIIS_DISTANCE_* says what other distances fill in.
+  !> The closest point of the surface to one point. RIIS_MEASURE_* says what other distances fill in.
   type, bind(c) :: riis_closest
     real(c_double) :: distance        !< >= 0, mesh units
     real(c_double) :: point(3)        !< on the triangle, mesh units
@@ -238,11 +267,11 @@ module riis_c
     integer(c_int64_t) :: struct_size
     real(c_double) :: distance_limit
     real(c_double) :: far_distance
-    integer(c_int32_t) :: n_threads
-    integer(c_int32_t) :: reserved
     type(c_ptr) :: point_mask !< integer(c_int8_t), (n_points), or c_null_ptr
     integer(c_int64_t) :: n_point_ids
     type(c_ptr) :: point_ids  !< integer(c_int64_t), (n_point_ids), from 0; or c_null_ptr
+    integer(c_int32_t) :: n_threads
+    integer(c_int32_t) :: reserved
   end type riis_closest_options
 
   !> c_null_ptr for arrays that are not wanted
@@ -296,21 +325,34 @@ module riis_c
     integer(c_int32_t) :: reserved
   end type riis_mesh_faces
 
+  type, bind(c) :: riis_resistance
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: R
+    real(c_double) :: half_thickness
+    integer(c_int32_t) :: rim
+    integer(c_int32_t) :: reserved
+  end type riis_resistance
+
   type, bind(c) :: riis_mark_options
     integer(c_int64_t) :: struct_size
     real(c_double) :: distance_limit
-    type(c_ptr) :: node_mask !< integer(c_int8_t), (n_nodes), or c_null_ptr
+    type(c_ptr) :: node_mask  !< integer(c_int8_t), (n_nodes), or c_null_ptr
+    type(c_ptr) :: resistance !< type(riis_resistance), (*), c_loc of a riis_resistance; or c_null_ptr
+    integer(c_int32_t) :: fields
     integer(c_int32_t) :: search
     integer(c_int32_t) :: n_threads
     integer(c_int32_t) :: instructions
-    integer(c_int32_t) :: reserved
-    integer(c_int32_t) :: fields
-    integer(c_int32_t) :: reserved2
   end type riis_mark_options
 
-  !> c_null_ptr for fields that were not requested, or with no nodes
-  type, bind(c) :: riis_mark_fields
+  !> c_null_ptr for arrays that were not requested, or with no nodes
+  type, bind(c) :: riis_mark_list
     integer(c_int64_t) :: n_nodes
+    type(c_ptr) :: node_id     !< integer(c_int64_t), (n_nodes), ascending, from 0
+    type(c_ptr) :: distance    !< real(c_double), (n_nodes)
+    type(c_ptr) :: triangle_id !< integer(c_int64_t), (n_nodes), from 0
+    type(c_ptr) :: leaflet_id  !< integer(c_int32_t), (n_nodes)
+    type(c_ptr) :: K           !< real(c_double), (n_nodes), by the options' resistance
+    type(c_ptr) :: K_u_surface !< real(c_double), (3, n_nodes), by the options' resistance
     type(c_ptr) :: point       !< real(c_double), (3, n_nodes), the closest point of the surface
     type(c_ptr) :: normal      !< real(c_double), (3, n_nodes), the unit normal of its triangle
     type(c_ptr) :: barycentric !< real(c_double), (3, n_nodes), its weights of the triangle's vertices
@@ -320,7 +362,18 @@ module riis_c
                                !! with its rim
     type(c_ptr) :: rim         !< integer(c_int32_t), (n_nodes), 1 if the point lies on the rim of the surface, else 0
     type(c_ptr) :: patch_id    !< integer(c_int32_t), (n_nodes), from 0
-  end type riis_mark_fields
+  end type riis_mark_list
+
+  !> c_null_ptr for arrays that are not wanted
+  type, bind(c) :: riis_dense_arrays
+    integer(c_int64_t) :: struct_size
+    integer(c_int64_t) :: n_nodes
+    real(c_double) :: far_distance
+    type(c_ptr) :: mark        !< integer(c_int8_t), (n_nodes), integer(c_int8_t)
+    type(c_ptr) :: distance    !< real(c_double), (n_nodes)
+    type(c_ptr) :: triangle_id !< integer(c_int64_t), (n_nodes)
+    type(c_ptr) :: leaflet_id  !< integer(c_int32_t), (n_nodes)
+  end type riis_dense_arrays
 
   !> How the last marking went.
   type, bind(c) :: riis_mark_stats
@@ -337,13 +390,24 @@ module riis_c
     integer(c_int64_t) :: n_unreached    !< nodes within the limit that the neighbour search found by proof, not walk
   end type riis_mark_stats
 
-  type, bind(c) :: riis_resistance
+  type, bind(c) :: riis_resistance_arrays
     integer(c_int64_t) :: struct_size
-    real(c_double) :: resistance
-    real(c_double) :: half_thickness
-    integer(c_int32_t) :: rim
-    integer(c_int32_t) :: reserved
-  end type riis_resistance
+    integer(c_int64_t) :: n_nodes
+    type(c_ptr) :: K                         !< real(c_double), (n_nodes), or c_null_ptr
+    integer(c_int64_t) :: K_stride
+    type(c_ptr) :: K_u_surface(3)            !< real(c_double), (n_nodes), for each component: c_loc(u(1, 1)),
+                                             !! c_loc(u(2, 1)), c_loc(u(3, 1)); or c_null_ptr
+    integer(c_int64_t) :: K_u_surface_stride !< 3 for u(3, n_nodes)
+  end type riis_resistance_arrays
+
+  type, bind(c) :: riis_flow_arrays
+    integer(c_int64_t) :: struct_size
+    integer(c_int64_t) :: n_nodes
+    type(c_ptr) :: velocity(3)            !< real(c_double), (n_nodes), for each component: c_loc(u(1, 1)), c_loc(u(2,
+                                          !! 1)), c_loc(u(3, 1))
+    integer(c_int64_t) :: velocity_stride !< 3 for u(3, n_nodes)
+    type(c_ptr) :: weight                 !< real(c_double), (n_nodes)
+  end type riis_flow_arrays
 
   !> Sums over the nodes on either side of the surface: entry 1 is upstream, side -1, entry 2 downstream.
   type, bind(c) :: riis_band_sums
@@ -352,16 +416,26 @@ module riis_c
     integer(c_int64_t) :: n_nodes(2) !< nodes in the band
   end type riis_band_sums
 
-  !> Mesh edges that leak: they cross the surface, and neither node is marked. Edges that are at most two half
-  !! thicknesses long do not leak (docs/meshes.md).
-  type, bind(c) :: riis_leaks
-    integer(c_int64_t) :: n_edges            !< edges that leak. If 0, node ids are -1, other fields but seconds 0
-    integer(c_int64_t) :: longest_node_id(2) !< the longest edge's nodes, ascending; of equal edges the first listed
-    real(c_double) :: longest_length         !< its length, mesh units
-    real(c_double) :: longest_middle(3)      !< its middle
-    real(c_double) :: half_thickness         !< the smallest that gives each edge a marked node, by these triangles
-    real(c_double) :: seconds                !< wall time of riis_find_leaks
-  end type riis_leaks
+  type, bind(c) :: riis_band
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: inner, outer
+    integer(c_int64_t) :: n_nodes
+    type(c_ptr) :: value  !< real(c_double), (n_nodes)
+    type(c_ptr) :: weight !< real(c_double), (n_nodes)
+  end type riis_band
+
+  !> c_null_ptr for arrays without edges
+  type, bind(c) :: riis_leak_list
+    integer(c_int64_t) :: n_edges
+    type(c_ptr) :: node_id  !< integer(c_int64_t), (2, n_edges), from 0, the lower one first
+    type(c_ptr) :: length   !< real(c_double), (n_edges)
+    type(c_ptr) :: distance !< real(c_double), (n_edges)
+    real(c_double) :: half_thickness
+    integer(c_int64_t) :: longest_node_id(2)
+    real(c_double) :: longest_length
+    real(c_double) :: longest_middle(3)
+    real(c_double) :: seconds
+  end type riis_leak_list
 
   !> The widest passage from one set of nodes to another: the path whose smallest distance to the surface is largest.
   type, bind(c) :: riis_passage
@@ -374,6 +448,14 @@ module riis_c
     integer(c_int32_t) :: state    !< RIIS_PASSAGE_*
     integer(c_int32_t) :: reserved !< 0
   end type riis_passage
+
+  type, bind(c) :: riis_passage_ends
+    integer(c_int64_t) :: struct_size
+    integer(c_int64_t) :: n_from
+    type(c_ptr) :: from !< integer(c_int64_t), (n_from), from 0
+    integer(c_int64_t) :: n_to
+    type(c_ptr) :: to   !< integer(c_int64_t), (n_to), from 0
+  end type riis_passage_ends
 
   type, bind(c) :: riis_opening_table
     integer(c_int64_t) :: struct_size
@@ -412,7 +494,7 @@ module riis_c
     real(c_double) :: progress
     real(c_double) :: pressure_difference
     real(c_double) :: flow
-    real(c_double) :: since
+    real(c_double) :: turn_time
     integer(c_int32_t) :: phase
     integer(c_int32_t) :: reserved
   end type riis_opening_switch_state
@@ -491,6 +573,15 @@ module riis_c
       type(c_funptr), value :: function
       type(c_ptr), value :: user_data
     end subroutine riis_set_log
+
+    !>   struct_size  c_sizeof(points)
+    function riis_points_init(points, struct_size) result(status) bind(c, name='riis_points_init')
+      import :: c_int64_t, riis_points, riis_status
+      implicit none
+      type(riis_points), intent(inout) :: points
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_points_init
 
     ! -----------------------------------------------------------------------------------------------------------------
     ! Valve
@@ -653,13 +744,13 @@ module riis_c
 
     !>   options         left out: the surface's own
     !!   options_before  left out: the present ones
-    function riis_surface_update_moving(surface, valve, valve_before, seconds, options, options_before) result(status) &
+    function riis_surface_update_moving(surface, valve, valve_before, dt, options, options_before) result(status) &
         bind(c, name='riis_surface_update_moving')
       import :: c_double, c_ptr, riis_status, riis_surface_options
       implicit none
       type(c_ptr), value :: surface
       type(c_ptr), value :: valve, valve_before
-      real(c_double), value :: seconds
+      real(c_double), value :: dt
       type(riis_surface_options), intent(in), optional :: options, options_before
       integer(riis_status) :: status
     end function riis_surface_update_moving
@@ -684,10 +775,10 @@ module riis_c
       integer(riis_status) :: status
     end function riis_keyframe_arrays_init
 
-    function riis_keyframes_create(faces, frames, keyframes) result(status) bind(c, name='riis_keyframes_create')
+    function riis_keyframes_create(arrays, frames, keyframes) result(status) bind(c, name='riis_keyframes_create')
       import :: c_ptr, riis_keyframe_arrays, riis_status, riis_surface_arrays
       implicit none
-      type(riis_surface_arrays), intent(in) :: faces
+      type(riis_surface_arrays), intent(in) :: arrays
       type(riis_keyframe_arrays), intent(in) :: frames
       type(c_ptr), intent(inout) :: keyframes
       integer(riis_status) :: status
@@ -700,25 +791,25 @@ module riis_c
     end subroutine riis_keyframes_destroy
 
     !>   options  left out: all defaults
-    function riis_surface_create_from_keyframes(keyframes, time, since, options, surface) result(status) &
+    function riis_surface_create_from_keyframes(keyframes, time, dt, options, surface) result(status) &
         bind(c, name='riis_surface_create_from_keyframes')
       import :: c_double, c_ptr, riis_status, riis_surface_options
       implicit none
       type(c_ptr), value :: keyframes
-      real(c_double), value :: time, since
+      real(c_double), value :: time, dt
       type(riis_surface_options), intent(in), optional :: options
       type(c_ptr), intent(inout) :: surface
       integer(riis_status) :: status
     end function riis_surface_create_from_keyframes
 
     !>   options  left out: the surface's own
-    function riis_surface_update_from_keyframes(surface, keyframes, time, since, options) result(status) &
+    function riis_surface_update_from_keyframes(surface, keyframes, time, dt, options) result(status) &
         bind(c, name='riis_surface_update_from_keyframes')
       import :: c_double, c_ptr, riis_status, riis_surface_options
       implicit none
       type(c_ptr), value :: surface
       type(c_ptr), value :: keyframes
-      real(c_double), value :: time, since
+      real(c_double), value :: time, dt
       type(riis_surface_options), intent(in), optional :: options
       integer(riis_status) :: status
     end function riis_surface_update_from_keyframes
@@ -739,50 +830,16 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_get_info
 
-    !>   xyz  real(c_double), (3, n_vertices)
-    function riis_surface_vertices(surface, n_vertices, xyz) result(status) bind(c, name='riis_surface_vertices')
-      import :: c_int64_t, c_ptr, riis_status
+    !>   struct_size  c_sizeof(triangles)
+    function riis_surface_get_triangles(surface, triangles, struct_size) result(status) &
+        bind(c, name='riis_surface_get_triangles')
+      import :: c_int64_t, c_ptr, riis_status, riis_triangles
       implicit none
       type(c_ptr), value :: surface
-      integer(c_int64_t), intent(inout), optional :: n_vertices
-      type(c_ptr), intent(inout), optional :: xyz
+      type(riis_triangles), intent(inout) :: triangles
+      integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
-    end function riis_surface_vertices
-
-    !>   uv  real(c_double), (2, n_vertices), c_null_ptr for a surface from arrays
-    function riis_surface_vertex_parameters(surface, n_vertices, uv) result(status) &
-        bind(c, name='riis_surface_vertex_parameters')
-      import :: c_int64_t, c_ptr, riis_status
-      implicit none
-      type(c_ptr), value :: surface
-      integer(c_int64_t), intent(inout), optional :: n_vertices
-      type(c_ptr), intent(inout), optional :: uv
-      integer(riis_status) :: status
-    end function riis_surface_vertex_parameters
-
-    !>   velocity  real(c_double), (3, n_vertices), c_null_ptr unless the last update gave velocities
-    function riis_surface_vertex_velocities(surface, n_vertices, velocity) result(status) &
-        bind(c, name='riis_surface_vertex_velocities')
-      import :: c_int64_t, c_ptr, riis_status
-      implicit none
-      type(c_ptr), value :: surface
-      integer(c_int64_t), intent(inout), optional :: n_vertices
-      type(c_ptr), intent(inout), optional :: velocity
-      integer(riis_status) :: status
-    end function riis_surface_vertex_velocities
-
-    !>   vertex_id             integer(c_int64_t), (3, n_triangles), from 0
-    !!   triangle_id           integer(c_int64_t), (n_triangles)
-    !!   leaflet_id, patch_id  integer(c_int32_t), (n_triangles)
-    function riis_surface_triangles(surface, n_triangles, vertex_id, triangle_id, leaflet_id, patch_id) result(status) &
-        bind(c, name='riis_surface_triangles')
-      import :: c_int64_t, c_ptr, riis_status
-      implicit none
-      type(c_ptr), value :: surface
-      integer(c_int64_t), intent(inout), optional :: n_triangles
-      type(c_ptr), intent(inout), optional :: vertex_id, triangle_id, leaflet_id, patch_id
-      integer(riis_status) :: status
-    end function riis_surface_triangles
+    end function riis_surface_get_triangles
 
     ! -----------------------------------------------------------------------------------------------------------------
     ! Crossings
@@ -797,32 +854,39 @@ module riis_c
       integer(riis_status) :: status
     end function riis_crossing_options_init
 
-    !>   options      left out: all defaults
-    !!   struct_size  c_sizeof(crossings)
-    function riis_find_crossings(surface, options, crossings, struct_size) result(status) &
-        bind(c, name='riis_find_crossings')
-      import :: c_int64_t, c_ptr, riis_crossing_options, riis_crossings, riis_status
+    function riis_crossings_create(crossings) result(status) bind(c, name='riis_crossings_create')
+      import :: c_ptr, riis_status
+      implicit none
+      type(c_ptr), intent(inout) :: crossings
+      integer(riis_status) :: status
+    end function riis_crossings_create
+
+    subroutine riis_crossings_destroy(crossings) bind(c, name='riis_crossings_destroy')
+      import :: c_ptr
+      implicit none
+      type(c_ptr), intent(inout) :: crossings
+    end subroutine riis_crossings_destroy
+
+    !>   options  left out: all defaults
+    function riis_find_crossings(surface, options, crossings) result(status) bind(c, name='riis_find_crossings')
+      import :: c_ptr, riis_crossing_options, riis_status
       implicit none
       type(c_ptr), value :: surface
       type(riis_crossing_options), intent(in), optional :: options
-      type(riis_crossings), intent(inout) :: crossings
-      integer(c_int64_t), value :: struct_size
+      type(c_ptr), value :: crossings
       integer(riis_status) :: status
     end function riis_find_crossings
 
-    !>   triangle_id  integer(c_int64_t), (2, n_pairs), from 0, the lower one first
-    !!   point        real(c_double), (3, n_pairs)
-    !!   depth        real(c_double), (n_pairs)
-    !!   length       real(c_double), (n_pairs)
-    function riis_surface_crossing_pairs(surface, n_pairs, triangle_id, point, depth, length) result(status) &
-        bind(c, name='riis_surface_crossing_pairs')
-      import :: c_int64_t, c_ptr, riis_status
+    !>   struct_size  c_sizeof(list)
+    function riis_crossings_get_list(crossings, list, struct_size) result(status) &
+        bind(c, name='riis_crossings_get_list')
+      import :: c_int64_t, c_ptr, riis_crossing_list, riis_status
       implicit none
-      type(c_ptr), value :: surface
-      integer(c_int64_t), intent(inout), optional :: n_pairs
-      type(c_ptr), intent(inout), optional :: triangle_id, point, depth, length
+      type(c_ptr), value :: crossings
+      type(riis_crossing_list), intent(inout) :: list
+      integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
-    end function riis_surface_crossing_pairs
+    end function riis_crossings_get_list
 
     ! -----------------------------------------------------------------------------------------------------------------
     ! Closest points
@@ -857,17 +921,13 @@ module riis_c
       integer(riis_status) :: status
     end function riis_closest_arrays_init
 
-    !>   x, y, z  point i is x(i * stride + 1), ...: pass xyz(1, 1), xyz(2, 1), xyz(3, 1) and 3, or x, y, z and 1
-    !!   options  left out: all defaults
+    !>   options  left out: all defaults
     !!   arrays   its arrays are written
-    function riis_closest_points(surface, n_points, x, y, z, stride, options, arrays) result(status) &
-        bind(c, name='riis_closest_points')
-      import :: c_double, c_int64_t, c_ptr, riis_closest_arrays, riis_closest_options, riis_status
+    function riis_closest_points(surface, points, options, arrays) result(status) bind(c, name='riis_closest_points')
+      import :: c_ptr, riis_closest_arrays, riis_closest_options, riis_points, riis_status
       implicit none
       type(c_ptr), value :: surface
-      integer(c_int64_t), value :: n_points
-      real(c_double), intent(in) :: x(*), y(*), z(*)
-      integer(c_int64_t), value :: stride
+      type(riis_points), intent(in) :: points
       type(riis_closest_options), intent(in), optional :: options
       type(riis_closest_arrays), intent(in) :: arrays
       integer(riis_status) :: status
@@ -899,6 +959,22 @@ module riis_c
       integer(c_int64_t), value :: stride
       integer(riis_status) :: status
     end function riis_mesh_update
+
+    function riis_mesh_create_copy(nodes, mesh) result(status) bind(c, name='riis_mesh_create_copy')
+      import :: c_ptr, riis_points, riis_status
+      implicit none
+      type(riis_points), intent(in) :: nodes
+      type(c_ptr), intent(inout) :: mesh
+      integer(riis_status) :: status
+    end function riis_mesh_create_copy
+
+    function riis_mesh_update_copy(mesh, nodes) result(status) bind(c, name='riis_mesh_update_copy')
+      import :: c_ptr, riis_points, riis_status
+      implicit none
+      type(c_ptr), value :: mesh
+      type(riis_points), intent(in) :: nodes
+      integer(riis_status) :: status
+    end function riis_mesh_update_copy
 
     subroutine riis_mesh_destroy(mesh) bind(c, name='riis_mesh_destroy')
       import :: c_ptr
@@ -1009,18 +1085,27 @@ module riis_c
     ! Marking
     ! -----------------------------------------------------------------------------------------------------------------
 
-    function riis_marks_create(result) result(status) bind(c, name='riis_marks_create')
+    function riis_marks_create(marks) result(status) bind(c, name='riis_marks_create')
       import :: c_ptr, riis_status
       implicit none
-      type(c_ptr), intent(inout) :: result
+      type(c_ptr), intent(inout) :: marks
       integer(riis_status) :: status
     end function riis_marks_create
 
-    subroutine riis_marks_destroy(result) bind(c, name='riis_marks_destroy')
+    subroutine riis_marks_destroy(marks) bind(c, name='riis_marks_destroy')
       import :: c_ptr
       implicit none
-      type(c_ptr), intent(inout) :: result
+      type(c_ptr), intent(inout) :: marks
     end subroutine riis_marks_destroy
+
+    !>   struct_size  c_sizeof(resistance)
+    function riis_resistance_init(resistance, struct_size) result(status) bind(c, name='riis_resistance_init')
+      import :: c_int64_t, riis_resistance, riis_status
+      implicit none
+      type(riis_resistance), intent(inout) :: resistance
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_resistance_init
 
     !>   struct_size  c_sizeof(options)
     function riis_mark_options_init(options, struct_size) result(status) bind(c, name='riis_mark_options_init')
@@ -1032,86 +1117,51 @@ module riis_c
     end function riis_mark_options_init
 
     !>   options  left out: all defaults
-    function riis_mark_nodes(surface, mesh, options, result) result(status) bind(c, name='riis_mark_nodes')
+    function riis_mark_nodes(surface, mesh, options, marks) result(status) bind(c, name='riis_mark_nodes')
       import :: c_ptr, riis_mark_options, riis_status
       implicit none
       type(c_ptr), value :: surface
       type(c_ptr), value :: mesh
       type(riis_mark_options), intent(in), optional :: options
-      type(c_ptr), value :: result
+      type(c_ptr), value :: marks
       integer(riis_status) :: status
     end function riis_mark_nodes
 
-    !>   node_id      integer(c_int64_t), (n_marked), ascending, from 0
-    !!   distance     real(c_double), (n_marked)
-    !!   triangle_id  integer(c_int64_t), (n_marked)
-    !!   leaflet_id   integer(c_int32_t), (n_marked)
-    function riis_mark_result_marked(result, n_marked, node_id, distance, triangle_id, leaflet_id) result(status) &
-        bind(c, name='riis_mark_result_marked')
-      import :: c_int64_t, c_ptr, riis_status
+    !>   which        RIIS_LIST_*
+    !!   struct_size  c_sizeof(list)
+    function riis_marks_get_list(marks, which, list, struct_size) result(status) bind(c, name='riis_marks_get_list')
+      import :: c_int32_t, c_int64_t, c_ptr, riis_mark_list, riis_status
       implicit none
-      type(c_ptr), value :: result
-      integer(c_int64_t), intent(inout), optional :: n_marked
-      type(c_ptr), intent(inout), optional :: node_id, distance, triangle_id, leaflet_id
-      integer(riis_status) :: status
-    end function riis_mark_result_marked
-
-    !>   node_id      integer(c_int64_t), (n_within), ascending, from 0
-    !!   distance     real(c_double), (n_within)
-    !!   triangle_id  integer(c_int64_t), (n_within)
-    !!   leaflet_id   integer(c_int32_t), (n_within)
-    function riis_mark_result_within_limit(result, n_within, node_id, distance, triangle_id, leaflet_id) &
-        result(status) bind(c, name='riis_mark_result_within_limit')
-      import :: c_int64_t, c_ptr, riis_status
-      implicit none
-      type(c_ptr), value :: result
-      integer(c_int64_t), intent(inout), optional :: n_within
-      type(c_ptr), intent(inout), optional :: node_id, distance, triangle_id, leaflet_id
-      integer(riis_status) :: status
-    end function riis_mark_result_within_limit
-
-    !>   struct_size  c_sizeof(fields)
-    function riis_mark_result_marked_fields(result, fields, struct_size) result(status) &
-        bind(c, name='riis_mark_result_marked_fields')
-      import :: c_int64_t, c_ptr, riis_mark_fields, riis_status
-      implicit none
-      type(c_ptr), value :: result
-      type(riis_mark_fields), intent(inout) :: fields
+      type(c_ptr), value :: marks
+      integer(c_int32_t), value :: which
+      type(riis_mark_list), intent(inout) :: list
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
-    end function riis_mark_result_marked_fields
+    end function riis_marks_get_list
 
-    !>   struct_size  c_sizeof(fields)
-    function riis_mark_result_within_limit_fields(result, fields, struct_size) result(status) &
-        bind(c, name='riis_mark_result_within_limit_fields')
-      import :: c_int64_t, c_ptr, riis_mark_fields, riis_status
+    !>   struct_size  c_sizeof(arrays)
+    function riis_dense_arrays_init(arrays, struct_size) result(status) bind(c, name='riis_dense_arrays_init')
+      import :: c_int64_t, riis_dense_arrays, riis_status
       implicit none
-      type(c_ptr), value :: result
-      type(riis_mark_fields), intent(inout) :: fields
+      type(riis_dense_arrays), intent(inout) :: arrays
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
-    end function riis_mark_result_within_limit_fields
+    end function riis_dense_arrays_init
 
-    !>   mark, distance, triangle_id, leaflet_id  (n_nodes), contiguous, every entry is written
-    function riis_marks_get_dense(result, n_nodes, far_distance, mark, distance, triangle_id, leaflet_id) &
-        result(status) bind(c, name='riis_marks_get_dense')
-      import :: c_double, c_int8_t, c_int32_t, c_int64_t, c_ptr, riis_status
+    !>   arrays  its arrays are written, every entry
+    function riis_marks_get_dense(marks, arrays) result(status) bind(c, name='riis_marks_get_dense')
+      import :: c_ptr, riis_dense_arrays, riis_status
       implicit none
-      type(c_ptr), value :: result
-      integer(c_int64_t), value :: n_nodes
-      real(c_double), value :: far_distance
-      integer(c_int8_t), intent(inout), optional :: mark(*)
-      real(c_double), intent(inout), optional :: distance(*)
-      integer(c_int64_t), intent(inout), optional :: triangle_id(*)
-      integer(c_int32_t), intent(inout), optional :: leaflet_id(*)
+      type(c_ptr), value :: marks
+      type(riis_dense_arrays), intent(in) :: arrays
       integer(riis_status) :: status
     end function riis_marks_get_dense
 
     !>   struct_size  c_sizeof(stats)
-    function riis_marks_get_stats(result, stats, struct_size) result(status) bind(c, name='riis_marks_get_stats')
+    function riis_marks_get_stats(marks, stats, struct_size) result(status) bind(c, name='riis_marks_get_stats')
       import :: c_int64_t, c_ptr, riis_mark_stats, riis_status
       implicit none
-      type(c_ptr), value :: result
+      type(c_ptr), value :: marks
       type(riis_mark_stats), intent(inout) :: stats
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
@@ -1121,53 +1171,63 @@ module riis_c
     ! Resistance
     ! -----------------------------------------------------------------------------------------------------------------
 
-    !>   struct_size  c_sizeof(resistance)
-    function riis_resistance_init(resistance, struct_size) result(status) bind(c, name='riis_resistance_init')
-      import :: c_int64_t, riis_resistance, riis_status
+    !>   struct_size  c_sizeof(arrays)
+    function riis_resistance_arrays_init(arrays, struct_size) result(status) bind(c, name='riis_resistance_arrays_init')
+      import :: c_int64_t, riis_resistance_arrays, riis_status
       implicit none
-      type(riis_resistance), intent(inout) :: resistance
+      type(riis_resistance_arrays), intent(inout) :: arrays
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
-    end function riis_resistance_init
+    end function riis_resistance_arrays_init
 
-    !>   coefficient  (n_nodes), contiguous; added to at the nodes of the band
-    !!   momentum     (3, n_nodes), contiguous; added to at the nodes of the band
-    function riis_marks_add_resistance(result, resistance, n_nodes, coefficient, momentum) result(status) &
+    !>   arrays  its arrays are added to, at the nodes of the band
+    function riis_marks_add_resistance(marks, resistance, arrays) result(status) &
         bind(c, name='riis_marks_add_resistance')
-      import :: c_double, c_int64_t, c_ptr, riis_resistance, riis_status
+      import :: c_ptr, riis_resistance, riis_resistance_arrays, riis_status
       implicit none
-      type(c_ptr), value :: result
+      type(c_ptr), value :: marks
       type(riis_resistance), intent(in) :: resistance
-      integer(c_int64_t), value :: n_nodes
-      real(c_double), intent(inout), optional :: coefficient(*), momentum(*)
+      type(riis_resistance_arrays), intent(in) :: arrays
       integer(riis_status) :: status
     end function riis_marks_add_resistance
 
-    !>   velocity  (3, n_nodes), contiguous
-    !!   weight    (n_nodes), contiguous
-    !!   force     added to
-    function riis_marks_add_reaction(result, resistance, n_nodes, velocity, weight, force) result(status) &
-        bind(c, name='riis_marks_add_reaction')
-      import :: c_double, c_int64_t, c_ptr, riis_resistance, riis_status
+    !>   struct_size  c_sizeof(flow)
+    function riis_flow_arrays_init(flow, struct_size) result(status) bind(c, name='riis_flow_arrays_init')
+      import :: c_int64_t, riis_flow_arrays, riis_status
       implicit none
-      type(c_ptr), value :: result
+      type(riis_flow_arrays), intent(inout) :: flow
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_flow_arrays_init
+
+    !>   force  added to
+    function riis_marks_add_reaction(marks, resistance, flow, force) result(status) &
+        bind(c, name='riis_marks_add_reaction')
+      import :: c_double, c_ptr, riis_flow_arrays, riis_resistance, riis_status
+      implicit none
+      type(c_ptr), value :: marks
       type(riis_resistance), intent(in) :: resistance
-      integer(c_int64_t), value :: n_nodes
-      real(c_double), intent(in) :: velocity(*), weight(*)
+      type(riis_flow_arrays), intent(in) :: flow
       real(c_double), intent(inout) :: force(3)
       integer(riis_status) :: status
     end function riis_marks_add_reaction
 
-    !>   value, weight  (n_nodes), contiguous
-    !!   struct_size    c_sizeof(sums)
-    function riis_marks_get_band_sums(result, inner, outer, n_nodes, value, weight, sums, struct_size) &
-        result(status) bind(c, name='riis_marks_get_band_sums')
-      import :: c_double, c_int64_t, c_ptr, riis_band_sums, riis_status
+    !>   struct_size  c_sizeof(band)
+    function riis_band_init(band, struct_size) result(status) bind(c, name='riis_band_init')
+      import :: c_int64_t, riis_band, riis_status
       implicit none
-      type(c_ptr), value :: result
-      real(c_double), value :: inner, outer
-      integer(c_int64_t), value :: n_nodes
-      real(c_double), intent(in) :: value(*), weight(*)
+      type(riis_band), intent(inout) :: band
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_band_init
+
+    !>   struct_size  c_sizeof(sums)
+    function riis_marks_get_band_sums(marks, band, sums, struct_size) result(status) &
+        bind(c, name='riis_marks_get_band_sums')
+      import :: c_int64_t, c_ptr, riis_band, riis_band_sums, riis_status
+      implicit none
+      type(c_ptr), value :: marks
+      type(riis_band), intent(in) :: band
       type(riis_band_sums), intent(inout) :: sums
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
@@ -1177,33 +1237,40 @@ module riis_c
     ! Leaks
     ! -----------------------------------------------------------------------------------------------------------------
 
-    !>   options      left out: all defaults
-    !!   struct_size  c_sizeof(leaks)
-    function riis_find_leaks(surface, mesh, options, result, leaks, struct_size) result(status) &
-        bind(c, name='riis_find_leaks')
-      import :: c_int64_t, c_ptr, riis_leaks, riis_mark_options, riis_status
+    function riis_leaks_create(leaks) result(status) bind(c, name='riis_leaks_create')
+      import :: c_ptr, riis_status
+      implicit none
+      type(c_ptr), intent(inout) :: leaks
+      integer(riis_status) :: status
+    end function riis_leaks_create
+
+    subroutine riis_leaks_destroy(leaks) bind(c, name='riis_leaks_destroy')
+      import :: c_ptr
+      implicit none
+      type(c_ptr), intent(inout) :: leaks
+    end subroutine riis_leaks_destroy
+
+    !>   options  left out: all defaults
+    function riis_find_leaks(surface, mesh, marks, options, leaks) result(status) bind(c, name='riis_find_leaks')
+      import :: c_ptr, riis_mark_options, riis_status
       implicit none
       type(c_ptr), value :: surface
       type(c_ptr), value :: mesh
+      type(c_ptr), value :: marks
       type(riis_mark_options), intent(in), optional :: options
-      type(c_ptr), value :: result
-      type(riis_leaks), intent(inout) :: leaks
-      integer(c_int64_t), value :: struct_size
+      type(c_ptr), value :: leaks
       integer(riis_status) :: status
     end function riis_find_leaks
 
-    !>   node_id   integer(c_int64_t), (2, n_edges), from 0, the lower one first
-    !!   length    real(c_double), (n_edges)
-    !!   distance  real(c_double), (n_edges)
-    function riis_mark_result_leaking_edges(result, n_edges, node_id, length, distance) result(status) &
-        bind(c, name='riis_mark_result_leaking_edges')
-      import :: c_int64_t, c_ptr, riis_status
+    !>   struct_size  c_sizeof(list)
+    function riis_leaks_get_list(leaks, list, struct_size) result(status) bind(c, name='riis_leaks_get_list')
+      import :: c_int64_t, c_ptr, riis_leak_list, riis_status
       implicit none
-      type(c_ptr), value :: result
-      integer(c_int64_t), intent(inout), optional :: n_edges
-      type(c_ptr), intent(inout), optional :: node_id, length, distance
+      type(c_ptr), value :: leaks
+      type(riis_leak_list), intent(inout) :: list
+      integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
-    end function riis_mark_result_leaking_edges
+    end function riis_leaks_get_list
 
     ! -----------------------------------------------------------------------------------------------------------------
     ! Open regions and passages
@@ -1211,34 +1278,38 @@ module riis_c
 
     !>   options  left out: all defaults
     !!   label    (n_nodes), contiguous, from 0; nodes in no region get -1
-    function riis_label_open_regions(mesh, options, result, n_nodes, label, n_regions) result(status) &
+    function riis_label_open_regions(mesh, marks, options, n_nodes, label, n_regions) result(status) &
         bind(c, name='riis_label_open_regions')
       import :: c_int64_t, c_ptr, riis_mark_options, riis_status
       implicit none
       type(c_ptr), value :: mesh
+      type(c_ptr), value :: marks
       type(riis_mark_options), intent(in), optional :: options
-      type(c_ptr), value :: result
       integer(c_int64_t), value :: n_nodes
       integer(c_int64_t), intent(inout) :: label(*)
       integer(c_int64_t), intent(inout), optional :: n_regions
       integer(riis_status) :: status
     end function riis_label_open_regions
 
+    !>   struct_size  c_sizeof(ends)
+    function riis_passage_ends_init(ends, struct_size) result(status) bind(c, name='riis_passage_ends_init')
+      import :: c_int64_t, riis_passage_ends, riis_status
+      implicit none
+      type(riis_passage_ends), intent(inout) :: ends
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_passage_ends_init
+
     !>   options      left out: all defaults
-    !!   from         (n_from), from 0
-    !!   to           (n_to), from 0
     !!   struct_size  c_sizeof(passage)
-    function riis_find_passage(surface, mesh, options, n_from, from, n_to, to, passage, struct_size) result(status) &
+    function riis_find_passage(surface, mesh, ends, options, passage, struct_size) result(status) &
         bind(c, name='riis_find_passage')
-      import :: c_int64_t, c_ptr, riis_mark_options, riis_passage, riis_status
+      import :: c_int64_t, c_ptr, riis_mark_options, riis_passage, riis_passage_ends, riis_status
       implicit none
       type(c_ptr), value :: surface
       type(c_ptr), value :: mesh
+      type(riis_passage_ends), intent(in) :: ends
       type(riis_mark_options), intent(in), optional :: options
-      integer(c_int64_t), value :: n_from
-      integer(c_int64_t), intent(in) :: from(*)
-      integer(c_int64_t), value :: n_to
-      integer(c_int64_t), intent(in) :: to(*)
       type(riis_passage), intent(inout) :: passage
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status

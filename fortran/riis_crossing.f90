@@ -1,40 +1,132 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> Crossings: riis_find_crossings of riis.h, as a part of module riis.
+!> Crossings: riis_crossings_* and riis_find_crossings of riis.h, as a part of module riis.
 module riis_crossing
-  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
-  use riis_c, c_find_crossings => riis_find_crossings
+  use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_f_pointer, c_null_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, c_find_crossings => riis_find_crossings, c_crossing_list => riis_crossing_list
   use riis_support
   use riis_surfaces, only: riis_surface
   implicit none
   private
-  public :: riis_find_crossings
+  public :: riis_crossings, riis_crossing_list, riis_find_crossings
+
+  !> Pairs of triangles that cross, by %get_list. The crossings own the arrays, which count from 1. Lengths are in mesh units.
+  type :: riis_crossing_list
+    integer(int64) :: n_pairs = 0                           !< The number of pairs. Without one, ids are -1, and other components
+                                                            !! but seconds 0.
+    integer(int64), pointer :: triangle_id(:, :) => null()  !< (2, n_pairs), from 0, ascending.
+    real(c_double), pointer :: point(:, :) => null()        !< (3, n_pairs): the middle of the pair's intersection.
+    real(c_double), pointer :: depth(:) => null()           !< (n_pairs): the penetration depth.
+    real(c_double), pointer :: length(:) => null()          !< (n_pairs), of the intersection.
+    real(c_double) :: total_length = 0                      !< The sum of length.
+    real(c_double) :: deepest_depth = 0                     !< Of the deepest pair.
+    real(c_double) :: deepest_point(3) = 0                  !< The middle of its intersection.
+    integer(int64) :: deepest_triangle_id(2) = -1           !< Its triangles, ascending, from 0.
+    integer(int32) :: deepest_leaflet_id(2) = -1            !< Their leaflets.
+    real(c_double) :: seconds = 0                           !< Wall time of riis_find_crossings.
+  end type riis_crossing_list
+
+  !> The pairs that riis_find_crossings found. They are empty until it and after %destroy, which must be called.
+  type :: riis_crossings
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    procedure, non_overridable :: get_list => crossings_get_list        !< Gives the pairs.
+    procedure, non_overridable :: is_created => crossings_is_created    !< Tells whether it was created.
+    procedure, non_overridable :: c_handle => crossings_c_handle        !< The handle for calls of riis_c.
+    procedure, non_overridable :: destroy => crossings_destroy          !< Frees its memory.
+    generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
+    procedure, private, non_overridable :: assign => crossings_assign
+  end type riis_crossings
 
   !> Finds every pair of a surface's triangles that go through each other.
   interface riis_find_crossings
     module procedure find_crossings
   end interface riis_find_crossings
 
+  ! The target of pointers to nothing, so that their size can be taken.
+  real(c_double), target, save :: no_reals(0), no_points(3, 0)
+  integer(int64), target, save :: no_pairs(2, 0)
+
 contains
 
   !> Finds every pair of the surface's triangles that go through each other. A pair's depth is its penetration depth: the length
   !! of the shortest translation of one triangle after which both only touch. Triangles that touch or lie in one plane have depth
-  !! 0. Triangles of one leaflet that share a vertex are no pair. %crossing_pairs of the surface gives the pairs. Errors:
-  !! RIIS_INVALID_ARGUMENT naming depth or n_threads; the pairs are then as they were.
+  !! 0. Triangles of one leaflet that share a vertex are no pair. %get_list of the crossings gives the pairs. Errors:
+  !! RIIS_INVALID_ARGUMENT naming depth or n_threads; the crossings are then as they were.
   subroutine find_crossings(surface, crossings, depth, n_threads, status)
-    class(riis_surface), intent(inout) :: surface           !< Created; its pairs are replaced, all else stays.
-    type(riis_crossings), intent(inout) :: crossings        !< The summary; left alone on an error.
+    class(riis_surface), intent(in) :: surface              !< Created.
+    type(riis_crossings), intent(inout) :: crossings        !< Empty, or from a call before; replaced, but not on an error.
     real(c_double), intent(in), optional :: depth           !< Half thicknesses, 0 to 1: a pair at most so deep touches. Default
                                                             !! 1e-6.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: 1 per 4096 triangles, at most 1 a
                                                             !! processor.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_crossing_options) :: options
+    logical :: was_empty
     integer(riis_status) :: code
     code = check_created(surface%c_handle(), 'the surface')
     if (code == RIIS_OK) code = riis_crossing_options_init(options, c_sizeof(options))
     if (present(depth)) options%depth = depth
     call get_integer(n_threads, 'n_threads', options%n_threads, code)
-    if (code == RIIS_OK) code = c_find_crossings(surface%c_handle(), options, crossings, c_sizeof(crossings))
+    was_empty = .not. c_associated(crossings%handle)
+    if (code == RIIS_OK .and. was_empty) code = riis_crossings_create(crossings%handle)
+    if (code == RIIS_OK) code = c_find_crossings(surface%c_handle(), options, crossings%handle)
+    if (code /= RIIS_OK .and. was_empty) call riis_crossings_destroy(crossings%handle) ! empty as before
     call finish(code, status)
   end subroutine find_crossings
+
+  !> Gives the pairs that riis_find_crossings found last, ascending, without a copy. They are valid until the next
+  !! riis_find_crossings with these crossings or their destruction. Do not write to them. On an error all sizes are 0.
+  subroutine crossings_get_list(this, list, status)
+    class(riis_crossings), intent(in) :: this               !< From riis_find_crossings.
+    type(riis_crossing_list), intent(inout) :: list         !< Every component is set.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(c_crossing_list) :: made
+    integer(riis_status) :: code
+    list = riis_crossing_list(triangle_id=no_pairs, point=no_points, depth=no_reals, length=no_reals)
+    code = check_created(this%handle, 'the object crossings')
+    if (code == RIIS_OK) code = riis_crossings_get_list(this%handle, made, c_sizeof(made))
+    if (code == RIIS_OK) then
+      list%n_pairs = made%n_pairs
+      if (c_associated(made%triangle_id)) call c_f_pointer(made%triangle_id, list%triangle_id, [2_int64, made%n_pairs])
+      if (c_associated(made%point)) call c_f_pointer(made%point, list%point, [3_int64, made%n_pairs])
+      if (c_associated(made%depth)) call c_f_pointer(made%depth, list%depth, [made%n_pairs])
+      if (c_associated(made%length)) call c_f_pointer(made%length, list%length, [made%n_pairs])
+      list%total_length = made%total_length
+      list%deepest_depth = made%deepest_depth
+      list%deepest_point = made%deepest_point
+      list%deepest_triangle_id = made%deepest_triangle_id
+      list%deepest_leaflet_id = made%deepest_leaflet_id
+      list%seconds = made%seconds
+    end if
+    call finish(code, status)
+  end subroutine crossings_get_list
+
+  !> Tells whether the crossings were found and not destroyed.
+  pure function crossings_is_created(this) result(is_created)
+    class(riis_crossings), intent(in) :: this               !< Any.
+    logical :: is_created                                   !< .false. for empty ones.
+    is_created = c_associated(this%handle)
+  end function crossings_is_created
+
+  !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
+  function crossings_c_handle(this) result(handle)
+    class(riis_crossings), intent(in) :: this               !< Any.
+    type(c_ptr) :: handle                                   !< c_null_ptr for empty ones.
+    handle = this%handle
+  end function crossings_c_handle
+
+  !> Frees the memory of the crossings, which are then empty and can be used again. Nothing happens to empty ones.
+  subroutine crossings_destroy(this)
+    class(riis_crossings), intent(inout) :: this            !< Any.
+    call riis_crossings_destroy(this%handle)
+  end subroutine crossings_destroy
+
+  !> Stops the program unless both are empty.
+  impure elemental subroutine crossings_assign(left, right)
+    class(riis_crossings), intent(inout) :: left            !< Empty.
+    class(riis_crossings), intent(in) :: right              !< Empty.
+    call refuse_copy(left%handle, right%handle, 'riis_crossings')
+  end subroutine crossings_assign
 end module riis_crossing

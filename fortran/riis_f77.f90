@@ -191,7 +191,7 @@ end subroutine riisf_surface_place
 
 !> Does the same with another way of measuring distances, which riisf_surface_update keeps.
 subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
-    translation, distance, measure_tolerance, status)
+    translation, measure, measure_tolerance, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_update
@@ -206,14 +206,14 @@ subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scal
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for none.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for none.
-  integer(int32), intent(in) :: distance                  !< RIIS_DISTANCE_*.
+  integer(int32), intent(in) :: measure                   !< RIIS_MEASURE_*.
   real(c_double), intent(in) :: measure_tolerance        !< A share of half_thickness, 1e-6 to 1; RIIS_AUTO: tolerance.
                                                           !! RIIS_MEASURE_TRIANGLES does not use it.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
   status = get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options)
   if (status /= RIIS_OK) return
-  options%distance = distance
+  options%measure = measure
   options%measure_tolerance = measure_tolerance
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_measure
@@ -249,8 +249,8 @@ end subroutine riisf_surface_triangulate
 
 !> As riisf_surface_update, with the same triangles, and gives every vertex a velocity: from the point with the same patch, u
 !! and v of the state before to the vertex, over the time between. Errors: as of riisf_surface_create;
-!! RIIS_INVALID_ARGUMENT for seconds out of range; RIIS_INVALID_PARAMETER for a valve_before of another kind or build.
-subroutine riisf_surface_update_moving(surface, valve, valve_before, seconds, status)
+!! RIIS_INVALID_ARGUMENT for dt out of range; RIIS_INVALID_PARAMETER for a valve_before of another kind or build.
+subroutine riisf_surface_update_moving(surface, valve, valve_before, dt, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_c, only: riis_status, riis_surface_update_moving
@@ -259,14 +259,14 @@ subroutine riisf_surface_update_moving(surface, valve, valve_before, seconds, st
   integer(int64), intent(in) :: surface                   !< Created.
   integer(int64), intent(in) :: valve                     !< Created; read during the call only.
   integer(int64), intent(in) :: valve_before              !< The state before; read during the call only.
-  real(c_double), intent(in) :: seconds                   !< From valve_before to valve, 1e-30 to 1e30, or negative as time
+  real(c_double), intent(in) :: dt                        !< From valve_before to valve, 1e-30 to 1e30, or negative as time
                                                           !! goes back.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  status = riis_surface_update_moving(c_handle_of(surface), c_handle_of(valve), c_handle_of(valve_before), seconds)
+  status = riis_surface_update_moving(c_handle_of(surface), c_handle_of(valve), c_handle_of(valve_before), dt)
 end subroutine riisf_surface_update_moving
 
 !> The same for a surface that is placed otherwise, now and before.
-subroutine riisf_surface_place_moving(surface, valve, valve_before, seconds, half_thickness, tolerance, scale, &
+subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thickness, tolerance, scale, &
     rotation_axis, rotation_angle, translation, scale_before, rotation_axis_before, rotation_angle_before, &
     translation_before, status)
   use, intrinsic :: iso_c_binding, only: c_double
@@ -277,7 +277,7 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, seconds, hal
   integer(int64), intent(in) :: surface                   !< Created.
   integer(int64), intent(in) :: valve                     !< Created; read during the call only.
   integer(int64), intent(in) :: valve_before              !< The state before; read during the call only.
-  real(c_double), intent(in) :: seconds                   !< From valve_before to valve.
+  real(c_double), intent(in) :: dt                        !< From valve_before to valve.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
                                                           !! * half_thickness.
@@ -295,7 +295,7 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, seconds, hal
   if (status == RIIS_OK) status = get_placement(half_thickness, tolerance, scale_before, rotation_axis_before, &
     rotation_angle_before, translation_before, before)
   if (status /= RIIS_OK) return
-  status = riis_surface_update_moving(c_handle_of(surface), c_handle_of(valve), c_handle_of(valve_before), seconds, options, &
+  status = riis_surface_update_moving(c_handle_of(surface), c_handle_of(valve), c_handle_of(valve_before), dt, options, &
     before)
 end subroutine riisf_surface_place_moving
 

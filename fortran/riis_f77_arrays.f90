@@ -42,7 +42,7 @@ subroutine riisf_surface_from_arrays(n_vertices, x, y, z, stride, corners_per_fa
   arrays%corners_per_face = corners_per_face
   arrays%n_faces = n_faces
   arrays%vertex_ids = location_of(vertex_ids)
-  arrays%vertex_id_bits = storage_size(n_faces)
+  arrays%id_bits = storage_size(n_faces)
   arrays%index_base = index_base
   arrays%x = location_of(x)
   arrays%y = location_of(y)
@@ -87,7 +87,7 @@ subroutine riisf_surface_update_arrays(surface, n_vertices, x, y, z, stride, vx,
   arrays%corners_per_face = corners_per_face
   arrays%n_faces = n_faces
   arrays%vertex_ids = location_of(vertex_ids)
-  arrays%vertex_id_bits = storage_size(n_faces)
+  arrays%id_bits = storage_size(n_faces)
   arrays%index_base = index_base
   arrays%x = location_of(x)
   arrays%y = location_of(y)
@@ -136,7 +136,7 @@ subroutine riisf_keyframes_create(n_vertices, n_keys, time, xyz, period, interpo
   arrays%corners_per_face = corners_per_face
   arrays%n_faces = n_faces
   arrays%vertex_ids = location_of(vertex_ids)
-  arrays%vertex_id_bits = storage_size(n_faces)
+  arrays%id_bits = storage_size(n_faces)
   arrays%index_base = index_base
   status = riis_keyframe_arrays_init(frames, c_sizeof(frames))
   if (status /= RIIS_OK) return
@@ -188,7 +188,7 @@ subroutine riisf_surface_from_arrays_64(n_vertices, x, y, z, stride, corners_per
   arrays%corners_per_face = corners_per_face
   arrays%n_faces = n_faces
   arrays%vertex_ids = location_of(vertex_ids)
-  arrays%vertex_id_bits = storage_size(n_faces)
+  arrays%id_bits = storage_size(n_faces)
   arrays%index_base = index_base
   arrays%x = location_of(x)
   arrays%y = location_of(y)
@@ -232,7 +232,7 @@ subroutine riisf_surface_update_arrays_64(surface, n_vertices, x, y, z, stride, 
   arrays%corners_per_face = corners_per_face
   arrays%n_faces = n_faces
   arrays%vertex_ids = location_of(vertex_ids)
-  arrays%vertex_id_bits = storage_size(n_faces)
+  arrays%id_bits = storage_size(n_faces)
   arrays%index_base = index_base
   arrays%x = location_of(x)
   arrays%y = location_of(y)
@@ -279,7 +279,7 @@ subroutine riisf_keyframes_create_64(n_vertices, n_keys, time, xyz, period, inte
   arrays%corners_per_face = corners_per_face
   arrays%n_faces = n_faces
   arrays%vertex_ids = location_of(vertex_ids)
-  arrays%vertex_id_bits = storage_size(n_faces)
+  arrays%id_bits = storage_size(n_faces)
   arrays%index_base = index_base
   status = riis_keyframe_arrays_init(frames, c_sizeof(frames))
   if (status /= RIIS_OK) return
@@ -296,7 +296,7 @@ end subroutine riisf_keyframes_create_64
 
 !> Makes a surface from the frames around a time, with velocities, placed as by riisf_surface_create. Errors:
 !! RIIS_INVALID_ARGUMENT for a time or an option out of range, RIIS_INVALID_SURFACE for a face without area.
-subroutine riisf_surface_from_keyframes(keyframes, time, since, half_thickness, tolerance, scale, rotation_axis, &
+subroutine riisf_surface_from_keyframes(keyframes, time, dt, half_thickness, tolerance, scale, rotation_axis, &
     rotation_angle, translation, surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -305,7 +305,7 @@ subroutine riisf_surface_from_keyframes(keyframes, time, since, half_thickness, 
   implicit none
   integer(int64), intent(in) :: keyframes                 !< Created; read during the call only.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
-  real(c_double), intent(in) :: since                     !< The time that the velocity is the mean from; time itself for the
+  real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time; 0 for the
                                                           !! derivative of the interpolation.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
@@ -321,12 +321,12 @@ subroutine riisf_surface_from_keyframes(keyframes, time, since, half_thickness, 
   status = get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options)
   if (status /= RIIS_OK) return
   c_handle = c_null_ptr
-  status = riis_surface_create_from_keyframes(c_handle_of(keyframes), time, since, options, c_handle)
+  status = riis_surface_create_from_keyframes(c_handle_of(keyframes), time, dt, options, c_handle)
   if (status == RIIS_OK) surface = handle_of(c_handle)
 end subroutine riisf_surface_from_keyframes
 
 !> Replaces the surface by that of another time, with the same options. Errors: as of riisf_surface_from_keyframes.
-subroutine riisf_surface_update_keyframes(surface, keyframes, time, since, status)
+subroutine riisf_surface_update_keyframes(surface, keyframes, time, dt, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_c, only: riis_status, riis_surface_update_from_keyframes
@@ -335,9 +335,9 @@ subroutine riisf_surface_update_keyframes(surface, keyframes, time, since, statu
   integer(int64), intent(in) :: surface                   !< Created.
   integer(int64), intent(in) :: keyframes                 !< Created; read during the call only.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
-  real(c_double), intent(in) :: since                     !< As in riisf_surface_from_keyframes.
+  real(c_double), intent(in) :: dt                        !< As in riisf_surface_from_keyframes.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  status = riis_surface_update_from_keyframes(c_handle_of(surface), c_handle_of(keyframes), time, since)
+  status = riis_surface_update_from_keyframes(c_handle_of(surface), c_handle_of(keyframes), time, dt)
 end subroutine riisf_surface_update_keyframes
 
 !> Destroys the keyframes and sets their handle to 0. Surfaces made from them stay. Nothing happens to a handle that is 0.

@@ -2,9 +2,9 @@
 ! Generated from fortran/templates/riis_f77_fields.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> The external subroutines for the fields of closest points. The conventions are those of riis_f77.f90.
 
-!> As riisf_mark_nodes, with fields of the closest points that the result keeps. Errors: RIIS_INVALID_ARGUMENT for fields
+!> As riisf_mark_nodes, with fields of the closest points that the marks keep. Errors: RIIS_INVALID_ARGUMENT for fields
 !! that the surface lacks, such as RIIS_FIELD_VELOCITY without riisf_surface_update_moving.
-subroutine riisf_mark_with_fields(surface, mesh, distance_limit, search, n_threads, fields, result, status)
+subroutine riisf_mark_with_fields(surface, mesh, distance_limit, search, n_threads, fields, marks, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_mark_options, riis_status, RIIS_OK, riis_mark_nodes, riis_mark_options_init, &
@@ -17,7 +17,7 @@ subroutine riisf_mark_with_fields(surface, mesh, distance_limit, search, n_threa
   integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int32), intent(in) :: fields                    !< A sum of RIIS_FIELD_*; 0: none.
-  integer(int64), intent(inout) :: result                 !< 0, which creates one, or from a call before.
+  integer(int64), intent(inout) :: marks                  !< 0, which creates one, or from a call before.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
   type(c_ptr) :: c_handle
@@ -27,34 +27,34 @@ subroutine riisf_mark_with_fields(surface, mesh, distance_limit, search, n_threa
   options%search = search
   options%n_threads = n_threads
   options%fields = fields
-  c_handle = c_handle_of(result)
-  if (result == 0) status = riis_marks_create(c_handle)
+  c_handle = c_handle_of(marks)
+  if (marks == 0) status = riis_marks_create(c_handle)
   if (status == RIIS_OK) status = riis_mark_nodes(c_handle_of(surface), c_handle_of(mesh), options, c_handle)
-  if (status /= RIIS_OK .and. result == 0) call riis_marks_destroy(c_handle) ! 0 as before
-  result = handle_of(c_handle)
+  if (status /= RIIS_OK .and. marks == 0) call riis_marks_destroy(c_handle) ! 0 as before
+  marks = handle_of(c_handle)
 end subroutine riisf_mark_with_fields
 
 !> Copies a field of the nodes that are marked into the caller's array, in the order of riisf_marked.
 !! RIIS_FIELD_POINT, _NORMAL, _BARYCENTRIC and _VELOCITY have three values a node, RIIS_FIELD_UV two. Errors:
 !! RIIS_INVALID_ARGUMENT for another field, or if the array is too short: nothing but n is then written.
-subroutine riisf_marked_reals(result, field, length, n, values, status)
+subroutine riisf_marked_reals(marks, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_mark_fields, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_mark_result_marked_fields, &
+  use riis_c, only: riis_mark_list, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_marks_get_list, RIIS_LIST_MARKED, &
     RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_UV, RIIS_FIELD_VELOCITY
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_with_fields.
+  integer(int64), intent(in) :: marks                     !< Of a call of riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int32), intent(in) :: length                    !< How many nodes the array has room for.
   integer(int32), intent(inout) :: n                      !< How many nodes there are, also if the array is too short.
   real(c_double), intent(inout) :: values(*)              !< (3, length), or (2, length) for RIIS_FIELD_UV; written up to n.
   real(c_double), pointer :: kept(:)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(riis_mark_fields) :: fields
+  type(riis_mark_list) :: fields
   type(c_ptr) :: location
   integer(int64) :: n_values
-  status = riis_mark_result_marked_fields(c_handle_of(result), fields, c_sizeof(fields))
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_MARKED, fields, c_sizeof(fields))
   if (status /= RIIS_OK) return
   select case (field)
   case (RIIS_FIELD_POINT)
@@ -90,24 +90,24 @@ subroutine riisf_marked_reals(result, field, length, n, values, status)
 end subroutine riisf_marked_reals
 
 !> Does the same.
-subroutine riisf_marked_reals_64(result, field, length, n, values, status)
+subroutine riisf_marked_reals_64(marks, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_mark_fields, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_mark_result_marked_fields, &
+  use riis_c, only: riis_mark_list, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_marks_get_list, RIIS_LIST_MARKED, &
     RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_UV, RIIS_FIELD_VELOCITY
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_with_fields.
+  integer(int64), intent(in) :: marks                     !< Of a call of riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int64), intent(in) :: length                    !< How many nodes the array has room for.
   integer(int64), intent(inout) :: n                      !< How many nodes there are, also if the array is too short.
   real(c_double), intent(inout) :: values(*)              !< (3, length), or (2, length) for RIIS_FIELD_UV; written up to n.
   real(c_double), pointer :: kept(:)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(riis_mark_fields) :: fields
+  type(riis_mark_list) :: fields
   type(c_ptr) :: location
   integer(int64) :: n_values
-  status = riis_mark_result_marked_fields(c_handle_of(result), fields, c_sizeof(fields))
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_MARKED, fields, c_sizeof(fields))
   if (status /= RIIS_OK) return
   select case (field)
   case (RIIS_FIELD_POINT)
@@ -143,24 +143,24 @@ subroutine riisf_marked_reals_64(result, field, length, n, values, status)
 end subroutine riisf_marked_reals_64
 
 !> The same for RIIS_FIELD_SIDE, RIIS_FIELD_RIM and RIIS_FIELD_PATCH, which have one value a node.
-subroutine riisf_marked_integers(result, field, length, n, values, status)
+subroutine riisf_marked_integers(marks, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_mark_fields, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_mark_result_marked_fields, &
+  use riis_c, only: riis_mark_list, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_marks_get_list, RIIS_LIST_MARKED, &
     RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_PATCH
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_with_fields.
+  integer(int64), intent(in) :: marks                     !< Of a call of riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int32), intent(in) :: length                    !< How many nodes the array has room for.
   integer(int32), intent(inout) :: n                      !< How many nodes there are, also if the array is too short.
   integer(int32), intent(inout) :: values(*)              !< (length); written up to n.
   integer(int32), pointer :: kept(:)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(riis_mark_fields) :: fields
+  type(riis_mark_list) :: fields
   type(c_ptr) :: location
   integer(int64) :: n_values
-  status = riis_mark_result_marked_fields(c_handle_of(result), fields, c_sizeof(fields))
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_MARKED, fields, c_sizeof(fields))
   if (status /= RIIS_OK) return
   select case (field)
   case (RIIS_FIELD_SIDE)
@@ -190,24 +190,24 @@ subroutine riisf_marked_integers(result, field, length, n, values, status)
 end subroutine riisf_marked_integers
 
 !> Does the same.
-subroutine riisf_marked_integers_64(result, field, length, n, values, status)
+subroutine riisf_marked_integers_64(marks, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_mark_fields, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_mark_result_marked_fields, &
+  use riis_c, only: riis_mark_list, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_marks_get_list, RIIS_LIST_MARKED, &
     RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_PATCH
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_with_fields.
+  integer(int64), intent(in) :: marks                     !< Of a call of riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int64), intent(in) :: length                    !< How many nodes the array has room for.
   integer(int64), intent(inout) :: n                      !< How many nodes there are, also if the array is too short.
   integer(int32), intent(inout) :: values(*)              !< (length); written up to n.
   integer(int32), pointer :: kept(:)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(riis_mark_fields) :: fields
+  type(riis_mark_list) :: fields
   type(c_ptr) :: location
   integer(int64) :: n_values
-  status = riis_mark_result_marked_fields(c_handle_of(result), fields, c_sizeof(fields))
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_MARKED, fields, c_sizeof(fields))
   if (status /= RIIS_OK) return
   select case (field)
   case (RIIS_FIELD_SIDE)
@@ -239,24 +239,24 @@ end subroutine riisf_marked_integers_64
 !> Copies a field of the nodes within the distance limit into the caller's array, in the order of riisf_within_limit.
 !! RIIS_FIELD_POINT, _NORMAL, _BARYCENTRIC and _VELOCITY have three values a node, RIIS_FIELD_UV two. Errors:
 !! RIIS_INVALID_ARGUMENT for another field, or if the array is too short: nothing but n is then written.
-subroutine riisf_within_limit_reals(result, field, length, n, values, status)
+subroutine riisf_within_limit_reals(marks, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_mark_fields, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_mark_result_within_limit_fields, &
+  use riis_c, only: riis_mark_list, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_marks_get_list, RIIS_LIST_WITHIN_LIMIT, &
     RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_UV, RIIS_FIELD_VELOCITY
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_with_fields.
+  integer(int64), intent(in) :: marks                     !< Of a call of riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int32), intent(in) :: length                    !< How many nodes the array has room for.
   integer(int32), intent(inout) :: n                      !< How many nodes there are, also if the array is too short.
   real(c_double), intent(inout) :: values(*)              !< (3, length), or (2, length) for RIIS_FIELD_UV; written up to n.
   real(c_double), pointer :: kept(:)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(riis_mark_fields) :: fields
+  type(riis_mark_list) :: fields
   type(c_ptr) :: location
   integer(int64) :: n_values
-  status = riis_mark_result_within_limit_fields(c_handle_of(result), fields, c_sizeof(fields))
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_WITHIN_LIMIT, fields, c_sizeof(fields))
   if (status /= RIIS_OK) return
   select case (field)
   case (RIIS_FIELD_POINT)
@@ -292,24 +292,24 @@ subroutine riisf_within_limit_reals(result, field, length, n, values, status)
 end subroutine riisf_within_limit_reals
 
 !> Does the same.
-subroutine riisf_within_limit_reals_64(result, field, length, n, values, status)
+subroutine riisf_within_limit_reals_64(marks, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_mark_fields, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_mark_result_within_limit_fields, &
+  use riis_c, only: riis_mark_list, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_marks_get_list, RIIS_LIST_WITHIN_LIMIT, &
     RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_UV, RIIS_FIELD_VELOCITY
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_with_fields.
+  integer(int64), intent(in) :: marks                     !< Of a call of riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int64), intent(in) :: length                    !< How many nodes the array has room for.
   integer(int64), intent(inout) :: n                      !< How many nodes there are, also if the array is too short.
   real(c_double), intent(inout) :: values(*)              !< (3, length), or (2, length) for RIIS_FIELD_UV; written up to n.
   real(c_double), pointer :: kept(:)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(riis_mark_fields) :: fields
+  type(riis_mark_list) :: fields
   type(c_ptr) :: location
   integer(int64) :: n_values
-  status = riis_mark_result_within_limit_fields(c_handle_of(result), fields, c_sizeof(fields))
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_WITHIN_LIMIT, fields, c_sizeof(fields))
   if (status /= RIIS_OK) return
   select case (field)
   case (RIIS_FIELD_POINT)
@@ -345,24 +345,24 @@ subroutine riisf_within_limit_reals_64(result, field, length, n, values, status)
 end subroutine riisf_within_limit_reals_64
 
 !> The same for RIIS_FIELD_SIDE, RIIS_FIELD_RIM and RIIS_FIELD_PATCH, which have one value a node.
-subroutine riisf_within_limit_integers(result, field, length, n, values, status)
+subroutine riisf_within_limit_integers(marks, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_mark_fields, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_mark_result_within_limit_fields, &
+  use riis_c, only: riis_mark_list, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_marks_get_list, RIIS_LIST_WITHIN_LIMIT, &
     RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_PATCH
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_with_fields.
+  integer(int64), intent(in) :: marks                     !< Of a call of riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int32), intent(in) :: length                    !< How many nodes the array has room for.
   integer(int32), intent(inout) :: n                      !< How many nodes there are, also if the array is too short.
   integer(int32), intent(inout) :: values(*)              !< (length); written up to n.
   integer(int32), pointer :: kept(:)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(riis_mark_fields) :: fields
+  type(riis_mark_list) :: fields
   type(c_ptr) :: location
   integer(int64) :: n_values
-  status = riis_mark_result_within_limit_fields(c_handle_of(result), fields, c_sizeof(fields))
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_WITHIN_LIMIT, fields, c_sizeof(fields))
   if (status /= RIIS_OK) return
   select case (field)
   case (RIIS_FIELD_SIDE)
@@ -392,24 +392,24 @@ subroutine riisf_within_limit_integers(result, field, length, n, values, status)
 end subroutine riisf_within_limit_integers
 
 !> Does the same.
-subroutine riisf_within_limit_integers_64(result, field, length, n, values, status)
+subroutine riisf_within_limit_integers_64(marks, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_mark_fields, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_mark_result_within_limit_fields, &
+  use riis_c, only: riis_mark_list, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_marks_get_list, RIIS_LIST_WITHIN_LIMIT, &
     RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_PATCH
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_with_fields.
+  integer(int64), intent(in) :: marks                     !< Of a call of riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int64), intent(in) :: length                    !< How many nodes the array has room for.
   integer(int64), intent(inout) :: n                      !< How many nodes there are, also if the array is too short.
   integer(int32), intent(inout) :: values(*)              !< (length); written up to n.
   integer(int32), pointer :: kept(:)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(riis_mark_fields) :: fields
+  type(riis_mark_list) :: fields
   type(c_ptr) :: location
   integer(int64) :: n_values
-  status = riis_mark_result_within_limit_fields(c_handle_of(result), fields, c_sizeof(fields))
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_WITHIN_LIMIT, fields, c_sizeof(fields))
   if (status /= RIIS_OK) return
   select case (field)
   case (RIIS_FIELD_SIDE)

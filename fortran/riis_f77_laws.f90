@@ -80,7 +80,7 @@ subroutine riisf_opening_switch_init(state, phase, status)
   type(riis_opening_switch_state) :: made
   status = riis_opening_switch_state_init(made, c_sizeof(made))
   if (status /= RIIS_OK) return
-  state = [made%time, made%opening, made%rate, made%progress, made%pressure_difference, made%flow, made%since]
+  state = [made%time, made%opening, made%rate, made%progress, made%pressure_difference, made%flow, made%turn_time]
   phase = made%phase
 end subroutine riisf_opening_switch_init
 
@@ -126,12 +126,12 @@ subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open
   before%progress = state(4)
   before%pressure_difference = state(5)
   before%flow = state(6)
-  before%since = state(7)
+  before%turn_time = state(7)
   before%phase = phase
   now = before
   status = riis_opening_switch_advance(law, before, time, pressure_difference, flow, now)
   if (status /= RIIS_OK) return
-  state = [now%time, now%opening, now%rate, now%progress, now%pressure_difference, now%flow, now%since]
+  state = [now%time, now%opening, now%rate, now%progress, now%pressure_difference, now%flow, now%turn_time]
   phase = now%phase
 end subroutine riisf_opening_switch_advance
 

@@ -4,63 +4,71 @@
 
 !> Finds every edge of the mesh's adjacency that leaks: it crosses the surface between two unmarked nodes. Edges that are at
 !! most two half thicknesses long do not leak. Gaps of the surface itself are not found. Errors: RIIS_INVALID_ARGUMENT if the
-!! mesh has no adjacency, or if the result was never marked with, or was marked with another mesh or half thickness.
-subroutine riisf_find_leaks(surface, mesh, n_threads, result, n_edges, longest, middle, half_thickness, status)
-  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+!! mesh has no adjacency, or if the marks were never marked with, or were marked with another mesh or half thickness.
+subroutine riisf_find_leaks(surface, mesh, marks, n_threads, leaks, n_edges, longest, middle, half_thickness, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_leaks, riis_mark_options, riis_status, RIIS_OK, riis_find_leaks, riis_mark_options_init
-  use riis_support, only: c_handle_of
+  use riis_c, only: riis_leak_list, riis_mark_options, riis_status, RIIS_OK, riis_find_leaks, riis_leaks_create, &
+    riis_leaks_destroy, riis_leaks_get_list, riis_mark_options_init
+  use riis_support, only: c_handle_of, handle_of
   implicit none
   integer(int64), intent(in) :: surface                   !< The surface of the marking.
   integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
-  integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
+  integer(int64), intent(inout) :: leaks                  !< 0, which creates them, or from a call before.
   integer(int64), intent(inout) :: n_edges                !< The number of edges that leak, INTEGER*8.
   real(c_double), intent(inout) :: longest                !< The length of the longest; 0 if none leaks.
   real(c_double), intent(inout) :: middle(3)              !< Its middle.
   real(c_double), intent(inout) :: half_thickness         !< The smallest that closes all of them; 0 if none leaks.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
-  type(riis_leaks) :: leaks
+  type(riis_leak_list) :: list
+  type(c_ptr) :: c_handle
   status = riis_mark_options_init(options, c_sizeof(options))
   if (status /= RIIS_OK) return
   options%n_threads = n_threads
-  status = riis_find_leaks(c_handle_of(surface), c_handle_of(mesh), options, c_handle_of(result), leaks, c_sizeof(leaks))
+  c_handle = c_handle_of(leaks)
+  if (leaks == 0) status = riis_leaks_create(c_handle)
+  if (status == RIIS_OK) &
+    status = riis_find_leaks(c_handle_of(surface), c_handle_of(mesh), c_handle_of(marks), options, c_handle)
+  if (status == RIIS_OK) status = riis_leaks_get_list(c_handle, list, c_sizeof(list))
+  if (status /= RIIS_OK .and. leaks == 0) call riis_leaks_destroy(c_handle) ! 0 as before
+  leaks = handle_of(c_handle)
   if (status /= RIIS_OK) return
-  n_edges = leaks%n_edges
-  longest = leaks%longest_length
-  middle = leaks%longest_middle
-  half_thickness = leaks%half_thickness
+  n_edges = list%n_edges
+  longest = list%longest_length
+  middle = list%longest_middle
+  half_thickness = list%half_thickness
 end subroutine riisf_find_leaks
 
 !> Copies the edges of the last riisf_find_leaks into the caller's array, ascending. Errors: RIIS_INVALID_ARGUMENT if the
 !! array is too short; only n is then written.
-subroutine riisf_leaking_edges(result, length, n, node_num, status)
-  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_null_ptr, c_ptr
+subroutine riisf_leaking_edges(leaks, length, n, node_num, status)
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_LIMIT_EXCEEDED, RIIS_OK, &
-    riis_mark_result_leaking_edges
+    riis_leak_list, riis_leaks_get_list
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: result                    !< From riisf_find_leaks.
+  integer(int64), intent(in) :: leaks                     !< From riisf_find_leaks.
   integer(int32), intent(in) :: length                    !< Of the array.
   integer(int32), intent(inout) :: n                      !< The number of edges, also if the array is too short.
   integer(int32), intent(inout) :: node_num(2, *)         !< (2, length): both nodes, counted from 1; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(c_ptr) :: node_ids
+  type(riis_leak_list) :: list
   integer(int64), pointer :: ids(:, :)
   integer(int64) :: found
-  node_ids = c_null_ptr
-  found = 0
-  status = riis_mark_result_leaking_edges(c_handle_of(result), found, node_ids)
+  status = riis_leaks_get_list(c_handle_of(leaks), list, c_sizeof(list))
   if (status /= RIIS_OK) return
+  found = list%n_edges
   n = int(min(found, int(huge(n), int64)), int32)
   if (found > length) then
     status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; edges that leak: ' // text_of(found))
     return
   end if
   if (found == 0) return
-  call c_f_pointer(node_ids, ids, [2_int64, found])
+  call c_f_pointer(list%node_id, ids, [2_int64, found])
   if (maxval(ids) >= huge(n)) then
     status = fail(RIIS_LIMIT_EXCEEDED, 'node ' // text_of(maxval(ids)) // &
       ' is more than an INTEGER*4 can count: use riisf_leaking_edges_64')
@@ -70,47 +78,60 @@ subroutine riisf_leaking_edges(result, length, n, node_num, status)
 end subroutine riisf_leaking_edges
 
 !> Does the same with INTEGER*8.
-subroutine riisf_leaking_edges_64(result, length, n, node_num, status)
-  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_null_ptr, c_ptr
+subroutine riisf_leaking_edges_64(leaks, length, n, node_num, status)
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, &
-    riis_mark_result_leaking_edges
+    riis_leak_list, riis_leaks_get_list
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: result                    !< From riisf_find_leaks.
+  integer(int64), intent(in) :: leaks                     !< From riisf_find_leaks.
   integer(int64), intent(in) :: length                    !< Of the array.
   integer(int64), intent(inout) :: n                      !< The number of edges, also if the array is too short.
   integer(int64), intent(inout) :: node_num(2, *)         !< (2, length): both nodes, counted from 1; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(c_ptr) :: node_ids
+  type(riis_leak_list) :: list
   integer(int64), pointer :: ids(:, :)
   integer(int64) :: found
-  node_ids = c_null_ptr
-  found = 0
-  status = riis_mark_result_leaking_edges(c_handle_of(result), found, node_ids)
+  status = riis_leaks_get_list(c_handle_of(leaks), list, c_sizeof(list))
   if (status /= RIIS_OK) return
+  found = list%n_edges
   n = int(min(found, int(huge(n), int64)), int64)
   if (found > length) then
     status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; edges that leak: ' // text_of(found))
     return
   end if
   if (found == 0) return
-  call c_f_pointer(node_ids, ids, [2_int64, found])
+  call c_f_pointer(list%node_id, ids, [2_int64, found])
   node_num(:, :n) = int(ids + 1, int64)
 end subroutine riisf_leaking_edges_64
 
+!> Destroys the leaks and sets their handle to 0. Nothing happens to a handle that is 0.
+subroutine riisf_leaks_destroy(handle)
+  use, intrinsic :: iso_c_binding, only: c_ptr
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_leaks_destroy
+  use riis_support, only: c_handle_of, handle_of
+  implicit none
+  integer(int64), intent(inout) :: handle                 !< Any.
+  type(c_ptr) :: c_handle
+  c_handle = c_handle_of(handle)
+  call riis_leaks_destroy(c_handle)
+  handle = handle_of(c_handle)
+end subroutine riisf_leaks_destroy
+
 !> Labels the open regions: the connected components of the nodes that a marking left unmarked, along the edges of the mesh's
-!! adjacency. Edges to ghosts are not looked at. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or if the result
-!! was never marked with, or was marked with another mesh.
-subroutine riisf_label_open_regions(mesh, n_threads, result, n_nodes, region_num, n_regions, status)
+!! adjacency. Edges to ghosts are not looked at. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or if the marks
+!! were never marked with, or were marked with another mesh.
+subroutine riisf_label_open_regions(mesh, marks, n_threads, n_nodes, region_num, n_regions, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_mark_options, riis_status, RIIS_OK, riis_label_open_regions, riis_mark_options_init
   use riis_support, only: c_handle_of, out_of_memory
   implicit none
   integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
-  integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
   integer(int32), intent(in) :: n_nodes                   !< The number of nodes of the marking.
   integer(int32), intent(inout) :: region_num(*)          !< (n_nodes): the lowest node of the node's region, counted from 1;
                                                           !! 0 for marked nodes.
@@ -126,7 +147,7 @@ subroutine riisf_label_open_regions(mesh, n_threads, result, n_nodes, region_num
   found = 0
   allocate (label(max(n_nodes, 1)), stat=stat)
   status = out_of_memory(stat)
-  if (status == RIIS_OK) status = riis_label_open_regions(c_handle_of(mesh), options, c_handle_of(result), &
+  if (status == RIIS_OK) status = riis_label_open_regions(c_handle_of(mesh), c_handle_of(marks), options, &
     int(n_nodes, int64), label, found)
   if (status /= RIIS_OK) return
   region_num(:n_nodes) = int(label(:n_nodes) + 1)
@@ -134,15 +155,15 @@ subroutine riisf_label_open_regions(mesh, n_threads, result, n_nodes, region_num
 end subroutine riisf_label_open_regions
 
 !> Does the same with INTEGER*8, without a copy.
-subroutine riisf_label_open_regions_64(mesh, n_threads, result, n_nodes, region_num, n_regions, status)
+subroutine riisf_label_open_regions_64(mesh, marks, n_threads, n_nodes, region_num, n_regions, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_mark_options, riis_status, RIIS_OK, riis_label_open_regions, riis_mark_options_init
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
-  integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
   integer(int64), intent(in) :: n_nodes                   !< The number of nodes of the marking.
   integer(int64), intent(inout) :: region_num(*)          !< (n_nodes): the lowest node of the node's region, counted from 1;
                                                           !! 0 for marked nodes.
@@ -154,7 +175,7 @@ subroutine riisf_label_open_regions_64(mesh, n_threads, result, n_nodes, region_
   if (status /= RIIS_OK) return
   options%n_threads = n_threads
   found = 0
-  status = riis_label_open_regions(c_handle_of(mesh), options, c_handle_of(result), n_nodes, region_num, found)
+  status = riis_label_open_regions(c_handle_of(mesh), c_handle_of(marks), options, n_nodes, region_num, found)
   if (status /= RIIS_OK) return
   region_num(:n_nodes) = region_num(:n_nodes) + 1
   n_regions = int(found, int64)
@@ -163,20 +184,21 @@ end subroutine riisf_label_open_regions_64
 !> Finds the widest passage from one set of nodes to another: the path along the edges of the mesh's adjacency whose smallest
 !! distance to the surface is largest. Ends count as well. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or for
 !! a node that the mesh lacks, or that is within the half thickness.
-subroutine riisf_find_passage(surface, mesh, n_threads, n_from, from_num, n_to, to_num, state, node_num, distance, &
+subroutine riisf_find_passage(surface, mesh, n_from, from_num, n_to, to_num, n_threads, state, node_num, distance, &
     point, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_mark_options, riis_passage, riis_status, RIIS_OK, riis_find_passage, riis_mark_options_init
+  use riis_c, only: riis_mark_options, riis_passage, riis_status, RIIS_OK, riis_mark_options_init
+  use riis_calls, only: find_passage_between
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: surface                   !< A surface.
   integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. It need not have been marked.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int32), intent(in) :: n_from                    !< At least 1.
   integer(int32), intent(in) :: from_num(n_from)          !< Nodes where paths begin, counted from 1, in any order.
   integer(int32), intent(in) :: n_to                      !< At least 1.
   integer(int32), intent(in) :: to_num(n_to)              !< Nodes where they end.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int32), intent(inout) :: state                  !< RIIS_PASSAGE_*.
   integer(int32), intent(inout) :: node_num               !< The nearest node of the path, counted from 1; 0 without a path.
   real(c_double), intent(inout) :: distance               !< Its distance, the smallest half thickness that closes it.
@@ -187,8 +209,8 @@ subroutine riisf_find_passage(surface, mesh, n_threads, n_from, from_num, n_to, 
   status = riis_mark_options_init(options, c_sizeof(options))
   if (status /= RIIS_OK) return
   options%n_threads = n_threads
-  status = riis_find_passage(c_handle_of(surface), c_handle_of(mesh), options, int(n_from, int64), int(from_num, int64) - 1, &
-    int(n_to, int64), int(to_num, int64) - 1, passage, c_sizeof(passage))
+  status = find_passage_between(c_handle_of(surface), c_handle_of(mesh), options, int(n_from, int64), &
+    int(from_num, int64) - 1, int(n_to, int64), int(to_num, int64) - 1, passage)
   if (status /= RIIS_OK) return
   state = passage%state
   node_num = int(passage%node_id + 1, int32)
@@ -197,20 +219,21 @@ subroutine riisf_find_passage(surface, mesh, n_threads, n_from, from_num, n_to, 
 end subroutine riisf_find_passage
 
 !> Does the same with INTEGER*8.
-subroutine riisf_find_passage_64(surface, mesh, n_threads, n_from, from_num, n_to, to_num, state, node_num, distance, &
+subroutine riisf_find_passage_64(surface, mesh, n_from, from_num, n_to, to_num, n_threads, state, node_num, distance, &
     point, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_mark_options, riis_passage, riis_status, RIIS_OK, riis_find_passage, riis_mark_options_init
+  use riis_c, only: riis_mark_options, riis_passage, riis_status, RIIS_OK, riis_mark_options_init
+  use riis_calls, only: find_passage_between
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: surface                   !< A surface.
   integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. It need not have been marked.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int64), intent(in) :: n_from                    !< At least 1.
   integer(int64), intent(in) :: from_num(n_from)          !< Nodes where paths begin, counted from 1, in any order.
   integer(int64), intent(in) :: n_to                      !< At least 1.
   integer(int64), intent(in) :: to_num(n_to)              !< Nodes where they end.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int32), intent(inout) :: state                  !< RIIS_PASSAGE_*.
   integer(int64), intent(inout) :: node_num               !< The nearest node of the path, counted from 1; 0 without a path.
   real(c_double), intent(inout) :: distance               !< Its distance, the smallest half thickness that closes it.
@@ -221,8 +244,8 @@ subroutine riisf_find_passage_64(surface, mesh, n_threads, n_from, from_num, n_t
   status = riis_mark_options_init(options, c_sizeof(options))
   if (status /= RIIS_OK) return
   options%n_threads = n_threads
-  status = riis_find_passage(c_handle_of(surface), c_handle_of(mesh), options, int(n_from, int64), int(from_num, int64) - 1, &
-    int(n_to, int64), int(to_num, int64) - 1, passage, c_sizeof(passage))
+  status = find_passage_between(c_handle_of(surface), c_handle_of(mesh), options, int(n_from, int64), &
+    int(from_num, int64) - 1, int(n_to, int64), int(to_num, int64) - 1, passage)
   if (status /= RIIS_OK) return
   state = passage%state
   node_num = int(passage%node_id + 1, int64)

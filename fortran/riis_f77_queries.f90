@@ -6,9 +6,9 @@
 !> Copies the surface's vertices, after placement, into the caller's array. Errors: RIIS_INVALID_ARGUMENT if the array is too
 !! short: nothing but n is then written.
 subroutine riisf_surface_vertices(surface, length, n, xyz, status)
-  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_null_ptr, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_vertices
+  use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_get_triangles, riis_triangles
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: surface                   !< Created.
@@ -16,27 +16,25 @@ subroutine riisf_surface_vertices(surface, length, n, xyz, status)
   integer(int32), intent(inout) :: n                      !< How many vertices there are, also if the array is too short.
   real(c_double), intent(inout) :: xyz(*)                 !< (3, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(c_ptr) :: location
+  type(riis_triangles) :: triangles
   real(c_double), pointer :: own(:)
-  integer(int64) :: n_vertices
-  n_vertices = 0
-  location = c_null_ptr
-  status = riis_surface_vertices(c_handle_of(surface), n_vertices, location)
+  status = riis_surface_get_triangles(c_handle_of(surface), triangles, c_sizeof(triangles))
   if (status /= RIIS_OK) return
-  n = int(min(n_vertices, int(huge(n), int64)), int32)
-  if (n_vertices > length) then
-    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; vertices: ' // text_of(n_vertices))
-  else if (c_associated(location)) then
-    call c_f_pointer(location, own, [3 * n_vertices])
-    xyz(:3 * n_vertices) = own
+  n = int(min(triangles%n_vertices, int(huge(n), int64)), int32)
+  if (triangles%n_vertices > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; vertices: ' // &
+      text_of(triangles%n_vertices))
+  else if (c_associated(triangles%xyz)) then
+    call c_f_pointer(triangles%xyz, own, [3 * triangles%n_vertices])
+    xyz(:3 * triangles%n_vertices) = own
   end if
 end subroutine riisf_surface_vertices
 
 !> Does the same.
 subroutine riisf_surface_vertices_64(surface, length, n, xyz, status)
-  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_null_ptr, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_vertices
+  use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_get_triangles, riis_triangles
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: surface                   !< Created.
@@ -44,28 +42,26 @@ subroutine riisf_surface_vertices_64(surface, length, n, xyz, status)
   integer(int64), intent(inout) :: n                      !< How many vertices there are, also if the array is too short.
   real(c_double), intent(inout) :: xyz(*)                 !< (3, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(c_ptr) :: location
+  type(riis_triangles) :: triangles
   real(c_double), pointer :: own(:)
-  integer(int64) :: n_vertices
-  n_vertices = 0
-  location = c_null_ptr
-  status = riis_surface_vertices(c_handle_of(surface), n_vertices, location)
+  status = riis_surface_get_triangles(c_handle_of(surface), triangles, c_sizeof(triangles))
   if (status /= RIIS_OK) return
-  n = int(min(n_vertices, int(huge(n), int64)), int64)
-  if (n_vertices > length) then
-    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; vertices: ' // text_of(n_vertices))
-  else if (c_associated(location)) then
-    call c_f_pointer(location, own, [3 * n_vertices])
-    xyz(:3 * n_vertices) = own
+  n = int(min(triangles%n_vertices, int(huge(n), int64)), int64)
+  if (triangles%n_vertices > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; vertices: ' // &
+      text_of(triangles%n_vertices))
+  else if (c_associated(triangles%xyz)) then
+    call c_f_pointer(triangles%xyz, own, [3 * triangles%n_vertices])
+    xyz(:3 * triangles%n_vertices) = own
   end if
 end subroutine riisf_surface_vertices_64
 
 !> Copies the velocities of the surface's vertices, after placement, into the caller's array. Errors: RIIS_INVALID_ARGUMENT if
 !! the last update gave none, or if the array is too short: nothing but n is then written.
 subroutine riisf_surface_vertex_velocities(surface, length, n, velocity, status)
-  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_null_ptr, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_vertex_velocities
+  use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_get_triangles, riis_triangles
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: surface                   !< Created.
@@ -73,19 +69,17 @@ subroutine riisf_surface_vertex_velocities(surface, length, n, velocity, status)
   integer(int32), intent(inout) :: n                      !< How many vertices there are, also if the array is too short.
   real(c_double), intent(inout) :: velocity(*)            !< (3, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(c_ptr) :: location
+  type(riis_triangles) :: triangles
   real(c_double), pointer :: own(:)
-  integer(int64) :: n_vertices
-  n_vertices = 0
-  location = c_null_ptr
-  status = riis_surface_vertex_velocities(c_handle_of(surface), n_vertices, location)
+  status = riis_surface_get_triangles(c_handle_of(surface), triangles, c_sizeof(triangles))
   if (status /= RIIS_OK) return
-  n = int(min(n_vertices, int(huge(n), int64)), int32)
-  if (n_vertices > length) then
-    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; vertices: ' // text_of(n_vertices))
-  else if (c_associated(location)) then
-    call c_f_pointer(location, own, [3 * n_vertices])
-    velocity(:3 * n_vertices) = own
+  n = int(min(triangles%n_vertices, int(huge(n), int64)), int32)
+  if (triangles%n_vertices > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; vertices: ' // &
+      text_of(triangles%n_vertices))
+  else if (c_associated(triangles%velocity)) then
+    call c_f_pointer(triangles%velocity, own, [3 * triangles%n_vertices])
+    velocity(:3 * triangles%n_vertices) = own
   else
     status = fail(RIIS_INVALID_ARGUMENT, 'surface has no velocities: its last update gave none')
   end if
@@ -93,9 +87,9 @@ end subroutine riisf_surface_vertex_velocities
 
 !> Does the same.
 subroutine riisf_surface_vertex_velocities_64(surface, length, n, velocity, status)
-  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_null_ptr, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_vertex_velocities
+  use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_get_triangles, riis_triangles
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: surface                   !< Created.
@@ -103,19 +97,17 @@ subroutine riisf_surface_vertex_velocities_64(surface, length, n, velocity, stat
   integer(int64), intent(inout) :: n                      !< How many vertices there are, also if the array is too short.
   real(c_double), intent(inout) :: velocity(*)            !< (3, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(c_ptr) :: location
+  type(riis_triangles) :: triangles
   real(c_double), pointer :: own(:)
-  integer(int64) :: n_vertices
-  n_vertices = 0
-  location = c_null_ptr
-  status = riis_surface_vertex_velocities(c_handle_of(surface), n_vertices, location)
+  status = riis_surface_get_triangles(c_handle_of(surface), triangles, c_sizeof(triangles))
   if (status /= RIIS_OK) return
-  n = int(min(n_vertices, int(huge(n), int64)), int64)
-  if (n_vertices > length) then
-    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; vertices: ' // text_of(n_vertices))
-  else if (c_associated(location)) then
-    call c_f_pointer(location, own, [3 * n_vertices])
-    velocity(:3 * n_vertices) = own
+  n = int(min(triangles%n_vertices, int(huge(n), int64)), int64)
+  if (triangles%n_vertices > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; vertices: ' // &
+      text_of(triangles%n_vertices))
+  else if (c_associated(triangles%velocity)) then
+    call c_f_pointer(triangles%velocity, own, [3 * triangles%n_vertices])
+    velocity(:3 * triangles%n_vertices) = own
   else
     status = fail(RIIS_INVALID_ARGUMENT, 'surface has no velocities: its last update gave none')
   end if
@@ -130,7 +122,7 @@ subroutine riisf_closest_points(surface, n_points, x, y, z, stride, &
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_closest_arrays, riis_closest_options, riis_status, RIIS_OK, riis_closest_arrays_init, &
-    riis_closest_options_init, riis_closest_points
+    riis_closest_options_init, riis_closest_points, riis_points, riis_points_init
   use riis_support, only: c_handle_of, location_of
   implicit none
   integer(int64), intent(in) :: surface                   !< Created.
@@ -140,7 +132,7 @@ subroutine riisf_closest_points(surface, n_points, x, y, z, stride, &
   real(c_double), intent(in) :: z(*)                      !< Point i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   real(c_double), intent(in) :: distance_limit            !< >= 0: farther points get RIIS_FAR_DISTANCE, ids -1, side 0, zeros.
-                                                          !! RIIS_AUTO: no limit.
+                                                          !! HUGE(1D0): no limit.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
   real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
@@ -152,10 +144,11 @@ subroutine riisf_closest_points(surface, n_points, x, y, z, stride, &
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_closest_options) :: options
   type(riis_closest_arrays) :: arrays
+  type(riis_points) :: points
   status = riis_closest_options_init(options, c_sizeof(options))
   if (status == RIIS_OK) status = riis_closest_arrays_init(arrays, c_sizeof(arrays))
   if (status /= RIIS_OK) return
-  options%distance_limit = distance_limit
+  if (distance_limit < huge(distance_limit)) options%distance_limit = distance_limit
   options%n_threads = n_threads
   arrays%distance = location_of(distance)
   arrays%point = location_of(point)
@@ -163,7 +156,14 @@ subroutine riisf_closest_points(surface, n_points, x, y, z, stride, &
   arrays%triangle_id = location_of(triangle_id)
   arrays%leaflet_id = location_of(leaflet_id)
   arrays%side = location_of(side)
-  status = riis_closest_points(c_handle_of(surface), int(n_points, int64), x, y, z, int(stride, int64), options, arrays)
+  status = riis_points_init(points, c_sizeof(points))
+  if (status /= RIIS_OK) return
+  points%n_points = n_points
+  points%x = location_of(x)
+  points%y = location_of(y)
+  points%z = location_of(z)
+  points%stride = stride
+  status = riis_closest_points(c_handle_of(surface), points, options, arrays)
 end subroutine riisf_closest_points
 
 !> Does the same.
@@ -173,7 +173,7 @@ subroutine riisf_closest_points_64(surface, n_points, x, y, z, stride, &
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_closest_arrays, riis_closest_options, riis_status, RIIS_OK, riis_closest_arrays_init, &
-    riis_closest_options_init, riis_closest_points
+    riis_closest_options_init, riis_closest_points, riis_points, riis_points_init
   use riis_support, only: c_handle_of, location_of
   implicit none
   integer(int64), intent(in) :: surface                   !< Created.
@@ -183,7 +183,7 @@ subroutine riisf_closest_points_64(surface, n_points, x, y, z, stride, &
   real(c_double), intent(in) :: z(*)                      !< Point i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   real(c_double), intent(in) :: distance_limit            !< >= 0: farther points get RIIS_FAR_DISTANCE, ids -1, side 0, zeros.
-                                                          !! RIIS_AUTO: no limit.
+                                                          !! HUGE(1D0): no limit.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
   real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
@@ -195,10 +195,11 @@ subroutine riisf_closest_points_64(surface, n_points, x, y, z, stride, &
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_closest_options) :: options
   type(riis_closest_arrays) :: arrays
+  type(riis_points) :: points
   status = riis_closest_options_init(options, c_sizeof(options))
   if (status == RIIS_OK) status = riis_closest_arrays_init(arrays, c_sizeof(arrays))
   if (status /= RIIS_OK) return
-  options%distance_limit = distance_limit
+  if (distance_limit < huge(distance_limit)) options%distance_limit = distance_limit
   options%n_threads = n_threads
   arrays%distance = location_of(distance)
   arrays%point = location_of(point)
@@ -206,7 +207,14 @@ subroutine riisf_closest_points_64(surface, n_points, x, y, z, stride, &
   arrays%triangle_id = location_of(triangle_id)
   arrays%leaflet_id = location_of(leaflet_id)
   arrays%side = location_of(side)
-  status = riis_closest_points(c_handle_of(surface), int(n_points, int64), x, y, z, int(stride, int64), options, arrays)
+  status = riis_points_init(points, c_sizeof(points))
+  if (status /= RIIS_OK) return
+  points%n_points = n_points
+  points%x = location_of(x)
+  points%y = location_of(y)
+  points%z = location_of(z)
+  points%stride = stride
+  status = riis_closest_points(c_handle_of(surface), points, options, arrays)
 end subroutine riisf_closest_points_64
 
 !> The same for some of the points: only they are read, and only their entries are written, in their places.
@@ -216,7 +224,7 @@ subroutine riisf_closest_points_listed(surface, n_points, x, y, z, stride, &
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_closest_arrays, riis_closest_options, riis_status, RIIS_OK, riis_closest_arrays_init, &
-    riis_closest_options_init, riis_closest_points
+    riis_closest_options_init, riis_closest_points, riis_points, riis_points_init
   use riis_support, only: c_handle_of, location_of, out_of_memory
   implicit none
   integer(int64), intent(in) :: surface                   !< Created.
@@ -229,7 +237,7 @@ subroutine riisf_closest_points_listed(surface, n_points, x, y, z, stride, &
   integer(int32), intent(in) :: point_num(*)              !< (n_listed), strictly ascending, from 1, as riisf_marked gives
                                                           !! nodes; copied.
   real(c_double), intent(in) :: distance_limit            !< >= 0: farther points get RIIS_FAR_DISTANCE, ids -1, side 0, zeros.
-                                                          !! RIIS_AUTO: no limit.
+                                                          !! HUGE(1D0): no limit.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
   real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
@@ -241,6 +249,7 @@ subroutine riisf_closest_points_listed(surface, n_points, x, y, z, stride, &
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_closest_options) :: options
   type(riis_closest_arrays) :: arrays
+  type(riis_points) :: points
   integer(int64), allocatable, target :: ids(:)
   integer :: stat
   status = riis_closest_options_init(options, c_sizeof(options))
@@ -252,7 +261,7 @@ subroutine riisf_closest_points_listed(surface, n_points, x, y, z, stride, &
   ids(:n_listed) = int(point_num(:n_listed), int64) - 1
   options%n_point_ids = n_listed
   options%point_ids = c_loc(ids)
-  options%distance_limit = distance_limit
+  if (distance_limit < huge(distance_limit)) options%distance_limit = distance_limit
   options%n_threads = n_threads
   arrays%distance = location_of(distance)
   arrays%point = location_of(point)
@@ -260,7 +269,14 @@ subroutine riisf_closest_points_listed(surface, n_points, x, y, z, stride, &
   arrays%triangle_id = location_of(triangle_id)
   arrays%leaflet_id = location_of(leaflet_id)
   arrays%side = location_of(side)
-  status = riis_closest_points(c_handle_of(surface), int(n_points, int64), x, y, z, int(stride, int64), options, arrays)
+  status = riis_points_init(points, c_sizeof(points))
+  if (status /= RIIS_OK) return
+  points%n_points = n_points
+  points%x = location_of(x)
+  points%y = location_of(y)
+  points%z = location_of(z)
+  points%stride = stride
+  status = riis_closest_points(c_handle_of(surface), points, options, arrays)
 end subroutine riisf_closest_points_listed
 
 !> Does the same.
@@ -270,7 +286,7 @@ subroutine riisf_closest_points_listed_64(surface, n_points, x, y, z, stride, &
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_closest_arrays, riis_closest_options, riis_status, RIIS_OK, riis_closest_arrays_init, &
-    riis_closest_options_init, riis_closest_points
+    riis_closest_options_init, riis_closest_points, riis_points, riis_points_init
   use riis_support, only: c_handle_of, location_of, out_of_memory
   implicit none
   integer(int64), intent(in) :: surface                   !< Created.
@@ -283,7 +299,7 @@ subroutine riisf_closest_points_listed_64(surface, n_points, x, y, z, stride, &
   integer(int64), intent(in) :: point_num(*)              !< (n_listed), strictly ascending, from 1, as riisf_marked gives
                                                           !! nodes; copied.
   real(c_double), intent(in) :: distance_limit            !< >= 0: farther points get RIIS_FAR_DISTANCE, ids -1, side 0, zeros.
-                                                          !! RIIS_AUTO: no limit.
+                                                          !! HUGE(1D0): no limit.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
   real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
@@ -295,6 +311,7 @@ subroutine riisf_closest_points_listed_64(surface, n_points, x, y, z, stride, &
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_closest_options) :: options
   type(riis_closest_arrays) :: arrays
+  type(riis_points) :: points
   integer(int64), allocatable, target :: ids(:)
   integer :: stat
   status = riis_closest_options_init(options, c_sizeof(options))
@@ -306,7 +323,7 @@ subroutine riisf_closest_points_listed_64(surface, n_points, x, y, z, stride, &
   ids(:n_listed) = int(point_num(:n_listed), int64) - 1
   options%n_point_ids = n_listed
   options%point_ids = c_loc(ids)
-  options%distance_limit = distance_limit
+  if (distance_limit < huge(distance_limit)) options%distance_limit = distance_limit
   options%n_threads = n_threads
   arrays%distance = location_of(distance)
   arrays%point = location_of(point)
@@ -314,5 +331,12 @@ subroutine riisf_closest_points_listed_64(surface, n_points, x, y, z, stride, &
   arrays%triangle_id = location_of(triangle_id)
   arrays%leaflet_id = location_of(leaflet_id)
   arrays%side = location_of(side)
-  status = riis_closest_points(c_handle_of(surface), int(n_points, int64), x, y, z, int(stride, int64), options, arrays)
+  status = riis_points_init(points, c_sizeof(points))
+  if (status /= RIIS_OK) return
+  points%n_points = n_points
+  points%x = location_of(x)
+  points%y = location_of(y)
+  points%z = location_of(z)
+  points%stride = stride
+  status = riis_closest_points(c_handle_of(surface), points, options, arrays)
 end subroutine riisf_closest_points_listed_64

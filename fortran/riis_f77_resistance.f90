@@ -4,121 +4,126 @@
 
 !> Adds the resistance K = (R / eps) delta(d) to the caller's array, so that several valves add up. At the distance
 !! d < eps delta(d) is (1 + cos(pi d / eps)) / (2 eps). Errors: RIIS_INVALID_ARGUMENT for an argument out of range,
-!! another number of nodes, or a field that the result lacks.
-subroutine riisf_add_resistance(result, resistance, half_thickness, rim, n_nodes, coefficient, status)
+!! another number of nodes, or a field that the marks lack.
+subroutine riisf_add_resistance(marks, R, half_thickness, rim, n_nodes, K, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_marks_add_resistance, riis_resistance_init
+  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_resistance_init
+  use riis_calls, only: add_resistance_to
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
-  real(c_double), intent(in) :: resistance                !< R, 0 to 1e60, mass / (length time): kg/(m s).
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
                                                           !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(inout) :: coefficient(*)         !< (n_nodes): K is added.
+  real(c_double), intent(inout) :: K(*)                   !< (n_nodes): K is added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: made
   status = riis_resistance_init(made, c_sizeof(made))
   if (status /= RIIS_OK) return
-  made%resistance = resistance
+  made%R = R
   made%half_thickness = half_thickness
   made%rim = rim
-  status = riis_marks_add_resistance(c_handle_of(result), made, int(n_nodes, int64), coefficient)
+  status = add_resistance_to(c_handle_of(marks), made, int(n_nodes, int64), K)
 end subroutine riisf_add_resistance
 
 !> Does the same.
-subroutine riisf_add_resistance_64(result, resistance, half_thickness, rim, n_nodes, coefficient, status)
+subroutine riisf_add_resistance_64(marks, R, half_thickness, rim, n_nodes, K, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_marks_add_resistance, riis_resistance_init
+  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_resistance_init
+  use riis_calls, only: add_resistance_to
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: result                    !< From riisf_mark_nodes.
-  real(c_double), intent(in) :: resistance                !< R, 0 to 1e60, mass / (length time): kg/(m s).
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
                                                           !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(inout) :: coefficient(*)         !< (n_nodes): K is added.
+  real(c_double), intent(inout) :: K(*)                   !< (n_nodes): K is added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: made
   status = riis_resistance_init(made, c_sizeof(made))
   if (status /= RIIS_OK) return
-  made%resistance = resistance
+  made%R = R
   made%half_thickness = half_thickness
   made%rim = rim
-  status = riis_marks_add_resistance(c_handle_of(result), made, int(n_nodes, int64), coefficient)
+  status = add_resistance_to(c_handle_of(marks), made, int(n_nodes, int64), K)
 end subroutine riisf_add_resistance_64
 
 !> The same for a surface that moves: adds K u_surface also. A scheme takes (sum of K) u - (sum of K u_surface).
-subroutine riisf_add_moving_resistance(result, resistance, half_thickness, rim, n_nodes, coefficient, momentum, &
+subroutine riisf_add_moving_resistance(marks, R, half_thickness, rim, n_nodes, K, K_u_surface, &
     status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_marks_add_resistance, riis_resistance_init
+  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_resistance_init
+  use riis_calls, only: add_resistance_to
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
-  real(c_double), intent(in) :: resistance                !< R, 0 to 1e60, mass / (length time): kg/(m s).
+  integer(int64), intent(in) :: marks                     !< Of riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
                                                           !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(inout) :: coefficient(*)         !< (n_nodes): K is added.
-  real(c_double), intent(inout) :: momentum(*)            !< (3, n_nodes): K u_surface is added.
+  real(c_double), intent(inout) :: K(*)                   !< (n_nodes): K is added.
+  real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, n_nodes): K u_surface is added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: made
   status = riis_resistance_init(made, c_sizeof(made))
   if (status /= RIIS_OK) return
-  made%resistance = resistance
+  made%R = R
   made%half_thickness = half_thickness
   made%rim = rim
-  status = riis_marks_add_resistance(c_handle_of(result), made, int(n_nodes, int64), coefficient, momentum)
+  status = add_resistance_to(c_handle_of(marks), made, int(n_nodes, int64), K, K_u_surface)
 end subroutine riisf_add_moving_resistance
 
 !> Does the same.
-subroutine riisf_add_moving_resistance_64(result, resistance, half_thickness, rim, n_nodes, coefficient, momentum, &
+subroutine riisf_add_moving_resistance_64(marks, R, half_thickness, rim, n_nodes, K, K_u_surface, &
     status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_marks_add_resistance, riis_resistance_init
+  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_resistance_init
+  use riis_calls, only: add_resistance_to
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
-  real(c_double), intent(in) :: resistance                !< R, 0 to 1e60, mass / (length time): kg/(m s).
+  integer(int64), intent(in) :: marks                     !< Of riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
                                                           !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(inout) :: coefficient(*)         !< (n_nodes): K is added.
-  real(c_double), intent(inout) :: momentum(*)            !< (3, n_nodes): K u_surface is added.
+  real(c_double), intent(inout) :: K(*)                   !< (n_nodes): K is added.
+  real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, n_nodes): K u_surface is added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: made
   status = riis_resistance_init(made, c_sizeof(made))
   if (status /= RIIS_OK) return
-  made%resistance = resistance
+  made%R = R
   made%half_thickness = half_thickness
   made%rim = rim
-  status = riis_marks_add_resistance(c_handle_of(result), made, int(n_nodes, int64), coefficient, momentum)
+  status = add_resistance_to(c_handle_of(marks), made, int(n_nodes, int64), K, K_u_surface)
 end subroutine riisf_add_moving_resistance_64
 
 !> Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface). Ranks add theirs by a reduction.
 !! u_surface counts where the marking had RIIS_FIELD_VELOCITY, and is 0 otherwise. Errors: as of riisf_add_resistance.
-subroutine riisf_add_reaction(result, resistance, half_thickness, rim, n_nodes, velocity, weight, force, status)
+subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_marks_add_reaction, riis_resistance_init
+  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_resistance_init
+  use riis_calls, only: add_reaction_to
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_nodes or riisf_mark_with_fields.
-  real(c_double), intent(in) :: resistance                !< R, 0 to 1e60, mass / (length time): kg/(m s).
+  integer(int64), intent(in) :: marks                     !< Of a call of riisf_mark_nodes or riisf_mark_with_fields.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
                                                           !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(in) :: velocity(*)               !< (3, n_nodes), of the flow.
+  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), of the flow.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that a node stands for; 0 for the nodes
                                                           !! of other ranks.
   real(c_double), intent(inout) :: force(3)               !< Added to.
@@ -126,26 +131,27 @@ subroutine riisf_add_reaction(result, resistance, half_thickness, rim, n_nodes, 
   type(riis_resistance) :: made
   status = riis_resistance_init(made, c_sizeof(made))
   if (status /= RIIS_OK) return
-  made%resistance = resistance
+  made%R = R
   made%half_thickness = half_thickness
   made%rim = rim
-  status = riis_marks_add_reaction(c_handle_of(result), made, int(n_nodes, int64), velocity, weight, force)
+  status = add_reaction_to(c_handle_of(marks), made, int(n_nodes, int64), velocity, weight, force)
 end subroutine riisf_add_reaction
 
 !> Does the same.
-subroutine riisf_add_reaction_64(result, resistance, half_thickness, rim, n_nodes, velocity, weight, force, status)
+subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocity, weight, force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_marks_add_reaction, riis_resistance_init
+  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_resistance_init
+  use riis_calls, only: add_reaction_to
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of a call of riisf_mark_nodes or riisf_mark_with_fields.
-  real(c_double), intent(in) :: resistance                !< R, 0 to 1e60, mass / (length time): kg/(m s).
+  integer(int64), intent(in) :: marks                     !< Of a call of riisf_mark_nodes or riisf_mark_with_fields.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
                                                           !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(in) :: velocity(*)               !< (3, n_nodes), of the flow.
+  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), of the flow.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that a node stands for; 0 for the nodes
                                                           !! of other ranks.
   real(c_double), intent(inout) :: force(3)               !< Added to.
@@ -153,23 +159,24 @@ subroutine riisf_add_reaction_64(result, resistance, half_thickness, rim, n_node
   type(riis_resistance) :: made
   status = riis_resistance_init(made, c_sizeof(made))
   if (status /= RIIS_OK) return
-  made%resistance = resistance
+  made%R = R
   made%half_thickness = half_thickness
   made%rim = rim
-  status = riis_marks_add_reaction(c_handle_of(result), made, int(n_nodes, int64), velocity, weight, force)
+  status = add_reaction_to(c_handle_of(marks), made, int(n_nodes, int64), velocity, weight, force)
 end subroutine riisf_add_reaction_64
 
 !> Sums a value, such as the pressure, over the nodes at a distance from inner to outer, by side. Nodes whose closest point
 !! is on the rim, or that are on neither side, are left out. With an open valve the two sides have no meaning. Errors:
-!! RIIS_INVALID_ARGUMENT for a distance out of range, another number of nodes, or a field that the result lacks.
-subroutine riisf_band_sums(result, inner, outer, n_nodes, value, weight, sum_of_values, sum_of_weights, n_in_band, &
+!! RIIS_INVALID_ARGUMENT for a distance out of range, another number of nodes, or a field that the marks lack.
+subroutine riisf_band_sums(marks, inner, outer, n_nodes, value, weight, sum_of_values, sum_of_weights, n_in_band, &
     status)
-  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_band_sums, riis_status, RIIS_OK, riis_marks_get_band_sums
+  use riis_c, only: riis_band_sums, riis_status, RIIS_OK
+  use riis_calls, only: band_sums_of
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
+  integer(int64), intent(in) :: marks                     !< Of riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
   real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
   real(c_double), intent(in) :: outer                     !< Mesh units, at most the distance limit of the marking.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
@@ -181,8 +188,7 @@ subroutine riisf_band_sums(result, inner, outer, n_nodes, value, weight, sum_of_
   integer(int64), intent(inout) :: n_in_band(2)           !< How many nodes. INTEGER*8.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_band_sums) :: sums
-  status = riis_marks_get_band_sums(c_handle_of(result), inner, outer, int(n_nodes, int64), value, weight, sums, &
-    c_sizeof(sums))
+  status = band_sums_of(c_handle_of(marks), inner, outer, int(n_nodes, int64), value, weight, sums)
   if (status /= RIIS_OK) return
   sum_of_values = sums%sum
   sum_of_weights = sums%weight
@@ -190,14 +196,15 @@ subroutine riisf_band_sums(result, inner, outer, n_nodes, value, weight, sum_of_
 end subroutine riisf_band_sums
 
 !> Does the same.
-subroutine riisf_band_sums_64(result, inner, outer, n_nodes, value, weight, sum_of_values, sum_of_weights, n_in_band, &
+subroutine riisf_band_sums_64(marks, inner, outer, n_nodes, value, weight, sum_of_values, sum_of_weights, n_in_band, &
     status)
-  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_band_sums, riis_status, RIIS_OK, riis_marks_get_band_sums
+  use riis_c, only: riis_band_sums, riis_status, RIIS_OK
+  use riis_calls, only: band_sums_of
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: result                    !< Of riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
+  integer(int64), intent(in) :: marks                     !< Of riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
   real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
   real(c_double), intent(in) :: outer                     !< Mesh units, at most the distance limit of the marking.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
@@ -209,8 +216,7 @@ subroutine riisf_band_sums_64(result, inner, outer, n_nodes, value, weight, sum_
   integer(int64), intent(inout) :: n_in_band(2)           !< How many nodes. INTEGER*8.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_band_sums) :: sums
-  status = riis_marks_get_band_sums(c_handle_of(result), inner, outer, int(n_nodes, int64), value, weight, sums, &
-    c_sizeof(sums))
+  status = band_sums_of(c_handle_of(marks), inner, outer, int(n_nodes, int64), value, weight, sums)
   if (status /= RIIS_OK) return
   sum_of_values = sums%sum
   sum_of_weights = sums%weight

@@ -58,7 +58,7 @@ module riis_laws
                                                  !! over it.
     real(c_double) :: pressure_difference = no_value !< Filtered; NaN: none yet.
     real(c_double) :: flow = no_value            !< Filtered; NaN: none yet.
-    real(c_double) :: since = no_value           !< The time of the last turn; NaN: none yet.
+    real(c_double) :: turn_time = no_value       !< The time of the last turn; NaN: none yet.
     integer(int32) :: phase = RIIS_PHASE_CLOSING !< RIIS_PHASE_*.
   end type riis_opening_switch_state
 
@@ -188,13 +188,13 @@ contains
       before%progress = state%progress
       before%pressure_difference = state%pressure_difference
       before%flow = state%flow
-      before%since = state%since
+      before%turn_time = state%turn_time
       before%phase = state%phase
       now = before
       code = riis_opening_switch_advance(made, before, time, pressure_difference, flow, now)
     end if
     if (code == RIIS_OK) state = riis_opening_switch_state(now%time, now%opening, now%rate, now%progress, &
-      now%pressure_difference, now%flow, now%since, now%phase)
+      now%pressure_difference, now%flow, now%turn_time, now%phase)
     call finish(code, status)
   end subroutine advance_switch
 

@@ -6,6 +6,7 @@ module riis_passages
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
   use riis_c, c_label_open_regions => riis_label_open_regions, c_find_passage => riis_find_passage
   use riis_support
+  use riis_calls
   use riis_surfaces, only: riis_surface
   use riis_meshes, only: riis_mesh
   use riis_marking, only: riis_marks
@@ -32,9 +33,9 @@ contains
   !> Labels the open regions: the connected components of the nodes that a marking left unmarked, along the edges of the
   !! mesh's adjacency. Edges to ghosts are not looked at. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or if
   !! the result was never marked with, or was marked with another mesh. The array is then as it was.
-  subroutine label_open_regions_logical(mesh, result, region_num, n_regions, node_mask, n_threads, status)
+  subroutine label_open_regions_logical(mesh, marks, region_num, n_regions, node_mask, n_threads, status)
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
-    class(riis_marks), intent(in) :: result           !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: marks           !< From riis_mark_nodes.
     integer(int64), intent(inout), contiguous :: region_num(:) !< (n_nodes): the lowest node of the node's region, counted
                                                             !! from 1; 0 for nodes in no region.
     integer(int64), intent(inout), optional :: n_regions    !< How many there are.
@@ -46,14 +47,14 @@ contains
     integer(riis_status) :: code
     code = RIIS_OK
     call get_mask(node_mask, bytes, code)
-    call label(mesh, result, region_num, n_regions, bytes, n_threads, code)
+    call label(mesh, marks, region_num, n_regions, bytes, n_threads, code)
     call finish(code, status)
   end subroutine label_open_regions_logical
 
   !> Does the same with a mask of bytes. Only a section that is not contiguous is copied.
-  subroutine label_open_regions_int8(mesh, result, region_num, n_regions, node_mask, n_threads, status)
+  subroutine label_open_regions_int8(mesh, marks, region_num, n_regions, node_mask, n_threads, status)
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
-    class(riis_marks), intent(in) :: result           !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: marks           !< From riis_mark_nodes.
     integer(int64), intent(inout), contiguous :: region_num(:) !< (n_nodes): the lowest node of the node's region, counted
                                                             !! from 1; 0 for nodes in no region.
     integer(int64), intent(inout), optional :: n_regions    !< How many there are.
@@ -62,14 +63,14 @@ contains
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = RIIS_OK
-    call label(mesh, result, region_num, n_regions, node_mask, n_threads, code)
+    call label(mesh, marks, region_num, n_regions, node_mask, n_threads, code)
     call finish(code, status)
   end subroutine label_open_regions_int8
 
   !> Does the same with a mask of integers, which is copied.
-  subroutine label_open_regions_int32(mesh, result, region_num, n_regions, node_mask, n_threads, status)
+  subroutine label_open_regions_int32(mesh, marks, region_num, n_regions, node_mask, n_threads, status)
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
-    class(riis_marks), intent(in) :: result           !< From riis_mark_nodes.
+    class(riis_marks), intent(in) :: marks           !< From riis_mark_nodes.
     integer(int64), intent(inout), contiguous :: region_num(:) !< (n_nodes): the lowest node of the node's region, counted
                                                             !! from 1; 0 for nodes in no region.
     integer(int64), intent(inout), optional :: n_regions    !< How many there are.
@@ -80,7 +81,7 @@ contains
     integer(riis_status) :: code
     code = RIIS_OK
     call get_mask(node_mask, bytes, code)
-    call label(mesh, result, region_num, n_regions, bytes, n_threads, code)
+    call label(mesh, marks, region_num, n_regions, bytes, n_threads, code)
     call finish(code, status)
   end subroutine label_open_regions_int32
 
@@ -256,9 +257,9 @@ contains
   end subroutine get_options
 
   ! The common part of all specifics; does nothing after an error.
-  subroutine label(mesh, result, region_num, n_regions, mask, n_threads, code)
+  subroutine label(mesh, marks, region_num, n_regions, mask, n_threads, code)
     class(riis_mesh), intent(in) :: mesh
-    class(riis_marks), intent(in) :: result
+    class(riis_marks), intent(in) :: marks
     integer(int64), intent(inout), contiguous :: region_num(:)
     integer(int64), intent(inout), optional :: n_regions
     integer(int8), intent(in), contiguous, optional, target :: mask(:)
@@ -266,9 +267,9 @@ contains
     integer(riis_status), intent(inout) :: code
     type(riis_mark_options) :: options
     call get_options(mesh, mask, n_threads, options, code)
-    if (code == RIIS_OK) code = check_created(result%c_handle(), 'the result')
+    if (code == RIIS_OK) code = check_created(marks%c_handle(), 'the object marks')
     if (code == RIIS_OK) code = check_size(size(region_num, kind=int64), mesh%n_nodes(), 'region_num', 'nodes')
-    if (code == RIIS_OK) code = c_label_open_regions(mesh%c_handle(), options, result%c_handle(), &
+    if (code == RIIS_OK) code = c_label_open_regions(mesh%c_handle(), marks%c_handle(), options, &
       size(region_num, kind=int64), region_num, n_regions)
     if (code == RIIS_OK) region_num = region_num + 1
   end subroutine label
@@ -285,7 +286,7 @@ contains
     type(riis_mark_options) :: options
     if (code == RIIS_OK) code = check_created(surface%c_handle(), 'surface')
     call get_options(mesh, mask, n_threads, options, code)
-    if (code == RIIS_OK) code = c_find_passage(surface%c_handle(), mesh%c_handle(), options, size(from, kind=int64), from, &
-      size(to, kind=int64), to, passage, c_sizeof(passage))
+    if (code == RIIS_OK) code = find_passage_between(surface%c_handle(), mesh%c_handle(), options, &
+      size(from, kind=int64), from, size(to, kind=int64), to, passage)
   end subroutine find
 end module riis_passages

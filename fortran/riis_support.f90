@@ -160,7 +160,7 @@ contains
     if (code /= RIIS_OK) return
     arrays%n_vertices = n_vertices
     arrays%n_faces = n_faces
-    arrays%vertex_id_bits = vertex_id_bits
+    arrays%id_bits = vertex_id_bits
     arrays%corners_per_face = n_corners
     arrays%index_base = 1
     if (n_corners /= 3 .and. n_corners /= 4) &

@@ -4,13 +4,26 @@
 module riis_surfaces
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_f_pointer, c_loc, c_null_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
-  use riis_c
+  use riis_c, c_triangles => riis_triangles
   use riis_support
   use riis_frames, only: riis_keyframes
   use riis_valves, only: riis_valve
   implicit none
   private
-  public :: riis_surface
+  public :: riis_surface, riis_triangles
+
+  !> Pointers to the triangles of a surface, after placement, by %get_triangles. The surface owns the arrays, which count from 1.
+  type :: riis_triangles
+    real(c_double), pointer :: xyz(:, :) => null()          !< (3, n_vertices): the vertices.
+    real(c_double), pointer :: uv(:, :) => null()           !< (2, n_vertices): their places on patches, in [0, 1]; (2, 0) for a
+                                                            !! surface from arrays.
+    real(c_double), pointer :: velocity(:, :) => null()     !< (3, n_vertices): their velocities; (3, 0) unless the last update
+                                                            !! gave velocities.
+    integer(int64), pointer :: vertex_id(:, :) => null()    !< (3, n_triangles), from 0: vertex_id + 1 is the column of xyz.
+    integer(int64), pointer :: triangle_id(:) => null()     !< (n_triangles), ascending, from 0: as queries report.
+    integer(int32), pointer :: leaflet_id(:) => null()      !< (n_triangles): RIIS_LEAFLET_*, or the caller's.
+    integer(int32), pointer :: patch_id(:) => null()        !< (n_triangles), from 0, as in riis.h.
+  end type riis_triangles
 
   !> Triangles in space with a half thickness, which answer closest-point queries. It borrows nothing from the caller. It is
   !! empty until %create or %create_from_arrays and after %destroy, which must be called. Any number of threads may read it
@@ -33,11 +46,7 @@ module riis_surfaces
     procedure, non_overridable :: create_from_keyframes => surface_create_from_keyframes !< Makes it from frames, at a time.
     procedure, non_overridable :: update_from_keyframes => surface_update_from_keyframes !< Replaces it for another time.
     procedure, non_overridable :: get_info => surface_get_info          !< Gives counts, bounds, area and times.
-    procedure, non_overridable :: vertices => surface_vertices          !< Points to the vertices.
-    procedure, non_overridable :: vertex_parameters => surface_vertex_parameters !< Points to their places on patches.
-    procedure, non_overridable :: vertex_velocities => surface_vertex_velocities !< How fast they move.
-    procedure, non_overridable :: triangles => surface_triangles        !< Points to the triangles.
-    procedure, non_overridable :: crossing_pairs => surface_crossing_pairs !< Points to the pairs that riis_find_crossings found.
+    procedure, non_overridable :: get_triangles => surface_get_triangles !< Points to the vertices and triangles.
     procedure, non_overridable :: closest_point => surface_closest_point !< Finds the closest point to one point.
     generic :: closest_points => closest_xyz_logical, closest_xyz_int8, closest_x_y_z_logical, closest_x_y_z_int8
                                                                !< Finds those to many points, in parallel.
@@ -61,9 +70,9 @@ module riis_surfaces
   end type riis_surface
 
   ! The target of pointers to nothing, so that their size can be taken.
-  real(c_double), target, save :: no_points(3, 0), no_uv(2, 0), no_reals(0)
+  real(c_double), target, save :: no_points(3, 0), no_uv(2, 0)
   integer(int32), target, save :: no_int32(0)
-  integer(int64), target, save :: no_int64(0), no_corners(3, 0), no_pairs(2, 0)
+  integer(int64), target, save :: no_int64(0), no_corners(3, 0)
 
 contains
 
@@ -71,7 +80,7 @@ contains
   !! RIIS_INVALID_ARGUMENT for an option out of range; RIIS_INVALID_PARAMETER for parameters that do not go together;
   !! RIIS_LIMIT_EXCEEDED where the tolerance needs more than 16,777,216 triangles, or does not hold on fixed triangles.
   subroutine surface_create(this, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, status, distance, measure_tolerance, n_threads, triangulation)
+      flip_normals, status, measure, measure_tolerance, n_threads, triangulation)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units, 1e-50 to 1e50: nodes within it are marked.
@@ -84,7 +93,7 @@ contains
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units. Default 0.
     logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over. Default .false.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int32), intent(in), optional :: distance        !< RIIS_DISTANCE_*: how distances are measured, from then on.
+    integer(int32), intent(in), optional :: measure         !< RIIS_MEASURE_*: how distances are measured, from then on.
                                                             !! Default RIIS_MEASURE_TRIANGLES.
     real(c_double), intent(in), optional :: measure_tolerance !< Of the other distances: a share of half_thickness, 1e-6 to
                                                             !! 1. Default RIIS_AUTO: tolerance.
@@ -100,7 +109,7 @@ contains
     call create_options(this, options, code)
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
     call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code, distance, measure_tolerance, n_threads, triangulation)
+      flip_normals, code, measure, measure_tolerance, n_threads, triangulation)
     if (code == RIIS_OK) code = riis_surface_create(valve%c_handle(), options, this%handle)
     if (code == RIIS_OK) this%options = options
     call finish(code, status)
@@ -110,7 +119,7 @@ contains
   !! RIIS_AUTO, the default, follows the scale. Pointers got from the surface before end. The errors are those of %create,
   !! and RIIS_INVALID_PARAMETER naming a parameter that moved on fixed triangles; the surface is then as it was.
   subroutine surface_update(this, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, status, distance, measure_tolerance, n_threads, triangulation)
+      flip_normals, status, measure, measure_tolerance, n_threads, triangulation)
     class(riis_surface), intent(inout) :: this              !< Created.
     class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
@@ -121,7 +130,7 @@ contains
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int32), intent(in), optional :: distance        !< RIIS_DISTANCE_*.
+    integer(int32), intent(in), optional :: measure         !< RIIS_MEASURE_*.
     real(c_double), intent(in), optional :: measure_tolerance !< 1e-6 to 1, or RIIS_AUTO.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     integer(int32), intent(in), optional :: triangulation   !< RIIS_TRIANGULATION_*.
@@ -131,7 +140,7 @@ contains
     call update_options(this, options, code)
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
     call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code, distance, measure_tolerance, n_threads, triangulation)
+      flip_normals, code, measure, measure_tolerance, n_threads, triangulation)
     if (code == RIIS_OK) code = riis_surface_update(this%handle, valve%c_handle(), options)
     if (code == RIIS_OK) this%options = options
     call finish(code, status)
@@ -139,16 +148,16 @@ contains
 
   !> Replaces the surface as %update does, with the same triangles to the last bit, and gives every vertex a velocity: from the
   !! point with the same patch, u and v of an earlier state to the vertex, over the time between. Nothing is remembered from
-  !! call to call. A valve at rest is its own state before. Errors: as of %update; RIIS_INVALID_ARGUMENT for seconds out of
+  !! call to call. A valve at rest is its own state before. Errors: as of %update; RIIS_INVALID_ARGUMENT for dt out of
   !! range; RIIS_INVALID_PARAMETER for a valve_before of another kind or build.
-  subroutine surface_update_moving(this, valve, valve_before, seconds, half_thickness, tolerance, scale, rotation_axis, &
-      rotation_angle, translation, flip_normals, distance, measure_tolerance, n_threads, scale_before, &
+  subroutine surface_update_moving(this, valve, valve_before, dt, half_thickness, tolerance, scale, rotation_axis, &
+      rotation_angle, translation, flip_normals, measure, measure_tolerance, n_threads, scale_before, &
       rotation_axis_before, rotation_angle_before, translation_before, status, triangulation)
     class(riis_surface), intent(inout) :: this              !< Created.
     class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
     class(riis_valve), intent(in) :: valve_before           !< The state before: of the same kind; a valve from patches has the
                                                             !! same curves and sides. Read during the call only.
-    real(c_double), intent(in) :: seconds                   !< From valve_before to valve, 1e-30 to 1e30, or negative as time
+    real(c_double), intent(in) :: dt                        !< From valve_before to valve, 1e-30 to 1e30, or negative as time
                                                             !! goes back.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
@@ -157,7 +166,7 @@ contains
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
     logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
-    integer(int32), intent(in), optional :: distance        !< RIIS_DISTANCE_*.
+    integer(int32), intent(in), optional :: measure         !< RIIS_MEASURE_*.
     real(c_double), intent(in), optional :: measure_tolerance !< 1e-6 to 1, or RIIS_AUTO.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     integer(int32), intent(in), optional :: triangulation   !< RIIS_TRIANGULATION_*.
@@ -173,14 +182,14 @@ contains
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'valve')
     if (code == RIIS_OK) code = check_created(valve_before%c_handle(), 'valve_before')
     call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code, distance, measure_tolerance, n_threads, triangulation)
+      flip_normals, code, measure, measure_tolerance, n_threads, triangulation)
     if (code == RIIS_OK) then
       before = options
       if (present(scale_before)) before%scale = scale_before
       if (present(rotation_angle_before)) before%rotation_angle = rotation_angle_before
       call set_vector(rotation_axis_before, 'rotation_axis_before', before%rotation_axis, code)
       call set_vector(translation_before, 'translation_before', before%translation, code)
-      if (code == RIIS_OK) code = riis_surface_update_moving(this%handle, valve%c_handle(), valve_before%c_handle(), seconds, &
+      if (code == RIIS_OK) code = riis_surface_update_moving(this%handle, valve%c_handle(), valve_before%c_handle(), dt, &
         options, before)
       if (code == RIIS_OK) this%options = options
     end if
@@ -583,13 +592,13 @@ contains
 
   !> Makes a surface from the frames around a time, with the velocity of every vertex. The options are those of %create.
   !! Errors: RIIS_INVALID_ARGUMENT for a time or an option out of range, RIIS_INVALID_SURFACE for a face without area.
-  subroutine surface_create_from_keyframes(this, keyframes, time, since, skip_zero_area, half_thickness, tolerance, scale, &
+  subroutine surface_create_from_keyframes(this, keyframes, time, dt, skip_zero_area, half_thickness, tolerance, scale, &
       rotation_axis, rotation_angle, translation, flip_normals, n_threads, status)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
     class(riis_keyframes), intent(in) :: keyframes          !< Created; read during the call only.
     real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
-    real(c_double), intent(in), optional :: since           !< The time that the velocity is the mean from. Default: time
-                                                            !! itself, for the derivative of the interpolation.
+    real(c_double), intent(in), optional :: dt              !< The velocity is the mean from time - dt to time. Default 0: the
+                                                            !! derivative of the interpolation.
     logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
                                                             !! .false..
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
@@ -602,28 +611,28 @@ contains
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_surface_options) :: options
-    real(c_double) :: from
+    real(c_double) :: step
     integer(riis_status) :: code
-    from = time
-    if (present(since)) from = since
+    step = 0
+    if (present(dt)) step = dt
     code = RIIS_OK
     call create_options(this, options, code)
     if (code == RIIS_OK) code = check_created(keyframes%c_handle(), 'keyframes')
     call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
       flip_normals, code, n_threads=n_threads, skip_zero_area=skip_zero_area)
-    if (code == RIIS_OK) code = riis_surface_create_from_keyframes(keyframes%c_handle(), time, from, options, this%handle)
+    if (code == RIIS_OK) code = riis_surface_create_from_keyframes(keyframes%c_handle(), time, step, options, this%handle)
     if (code == RIIS_OK) this%options = options
     call finish(code, status)
   end subroutine surface_create_from_keyframes
 
   !> Replaces the surface as %update does, by that of another time, as in %create_from_keyframes.
-  subroutine surface_update_from_keyframes(this, keyframes, time, since, skip_zero_area, half_thickness, tolerance, scale, &
+  subroutine surface_update_from_keyframes(this, keyframes, time, dt, skip_zero_area, half_thickness, tolerance, scale, &
       rotation_axis, rotation_angle, translation, flip_normals, n_threads, status)
     class(riis_surface), intent(inout) :: this              !< Created.
     class(riis_keyframes), intent(in) :: keyframes          !< Created; read during the call only.
     real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
-    real(c_double), intent(in), optional :: since           !< The time that the velocity is the mean from. Default: time
-                                                            !! itself, for the derivative of the interpolation.
+    real(c_double), intent(in), optional :: dt              !< The velocity is the mean from time - dt to time. Default 0: the
+                                                            !! derivative of the interpolation.
     logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
                                                             !! as before.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
@@ -636,16 +645,16 @@ contains
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_surface_options) :: options
-    real(c_double) :: from
+    real(c_double) :: step
     integer(riis_status) :: code
-    from = time
-    if (present(since)) from = since
+    step = 0
+    if (present(dt)) step = dt
     code = RIIS_OK
     call update_options(this, options, code)
     if (code == RIIS_OK) code = check_created(keyframes%c_handle(), 'keyframes')
     call set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
       flip_normals, code, n_threads=n_threads, skip_zero_area=skip_zero_area)
-    if (code == RIIS_OK) code = riis_surface_update_from_keyframes(this%handle, keyframes%c_handle(), time, from, options)
+    if (code == RIIS_OK) code = riis_surface_update_from_keyframes(this%handle, keyframes%c_handle(), time, step, options)
     if (code == RIIS_OK) this%options = options
     call finish(code, status)
   end subroutine surface_update_from_keyframes
@@ -670,13 +679,13 @@ contains
 
   ! Sets the options that are present; does nothing after an error.
   subroutine set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
-      flip_normals, code, distance, measure_tolerance, n_threads, triangulation, skip_zero_area)
+      flip_normals, code, measure, measure_tolerance, n_threads, triangulation, skip_zero_area)
     type(riis_surface_options), intent(inout) :: options
     real(c_double), intent(in), optional :: half_thickness, tolerance, scale, rotation_axis(:), rotation_angle, &
       translation(:)
     logical, intent(in), optional :: flip_normals, skip_zero_area
     integer(riis_status), intent(inout) :: code
-    integer(int32), intent(in), optional :: distance, n_threads, triangulation
+    integer(int32), intent(in), optional :: measure, n_threads, triangulation
     real(c_double), intent(in), optional :: measure_tolerance
     if (code /= RIIS_OK) return
     if (present(half_thickness)) options%half_thickness = half_thickness
@@ -684,7 +693,7 @@ contains
     if (present(scale)) options%scale = scale
     if (present(rotation_angle)) options%rotation_angle = rotation_angle
     if (present(flip_normals)) options%flip_normals = merge(1, 0, flip_normals)
-    if (present(distance)) options%distance = distance
+    if (present(measure)) options%measure = measure
     if (present(measure_tolerance)) options%measure_tolerance = measure_tolerance
     if (present(n_threads)) options%n_threads = n_threads
     if (present(triangulation)) options%triangulation = triangulation
@@ -718,136 +727,27 @@ contains
     call finish(code, status)
   end subroutine surface_get_info
 
-  !> Points to the surface's own vertices, after placement, without a copy. They are valid until its next update or its
-  !! destruction. Do not write to them.
-  subroutine surface_vertices(this, xyz, status)
+  !> Points to the surface's own vertices and triangles, after placement, without a copy. They are valid until its next update
+  !! or its destruction. Do not write to them. Sizes are 0 on an error.
+  subroutine surface_get_triangles(this, triangles, status)
     class(riis_surface), intent(in) :: this                 !< Created.
-    real(c_double), pointer, intent(out) :: xyz(:, :)       !< (3, n_vertices); (3, 0) on an error.
+    type(riis_triangles), intent(inout) :: triangles        !< Every component is set.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(c_ptr) :: location
-    integer(int64) :: n
+    type(c_triangles) :: made
     integer(riis_status) :: code
-    xyz => no_points
-    location = c_null_ptr
-    n = 0
+    made = c_triangles(0, c_null_ptr, c_null_ptr, c_null_ptr, 0, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr)
     code = check_created(this%handle, 'the surface')
-    if (code == RIIS_OK) code = riis_surface_vertices(this%handle, n, location)
-    if (c_associated(location)) call c_f_pointer(location, xyz, [3_int64, n])
+    if (code == RIIS_OK) code = riis_surface_get_triangles(this%handle, made, c_sizeof(made))
+    triangles = riis_triangles(no_points, no_uv, no_points, no_corners, no_int64, no_int32, no_int32)
+    if (c_associated(made%xyz)) call c_f_pointer(made%xyz, triangles%xyz, [3_int64, made%n_vertices])
+    if (c_associated(made%uv)) call c_f_pointer(made%uv, triangles%uv, [2_int64, made%n_vertices])
+    if (c_associated(made%velocity)) call c_f_pointer(made%velocity, triangles%velocity, [3_int64, made%n_vertices])
+    if (c_associated(made%vertex_id)) call c_f_pointer(made%vertex_id, triangles%vertex_id, [3_int64, made%n_triangles])
+    if (c_associated(made%triangle_id)) call c_f_pointer(made%triangle_id, triangles%triangle_id, [made%n_triangles])
+    if (c_associated(made%leaflet_id)) call c_f_pointer(made%leaflet_id, triangles%leaflet_id, [made%n_triangles])
+    if (c_associated(made%patch_id)) call c_f_pointer(made%patch_id, triangles%patch_id, [made%n_triangles])
     call finish(code, status)
-  end subroutine surface_vertices
-
-  !> Points to each vertex's place on its patch, in [0, 1], without a copy. The places are valid until the surface's next
-  !! update or its destruction. Do not write to them.
-  subroutine surface_vertex_parameters(this, uv, status)
-    class(riis_surface), intent(in) :: this                 !< Created.
-    real(c_double), pointer, intent(out) :: uv(:, :)        !< (2, n_vertices); (2, 0) for a surface from arrays.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(c_ptr) :: location
-    integer(int64) :: n
-    integer(riis_status) :: code
-    uv => no_uv
-    location = c_null_ptr
-    n = 0
-    code = check_created(this%handle, 'the surface')
-    if (code == RIIS_OK) code = riis_surface_vertex_parameters(this%handle, n, location)
-    if (c_associated(location)) call c_f_pointer(location, uv, [2_int64, n])
-    call finish(code, status)
-  end subroutine surface_vertex_parameters
-
-  !> Points to the velocity of each vertex, after placement: no copy. Valid as %vertices; not to be written to.
-  subroutine surface_vertex_velocities(this, velocity, status)
-    class(riis_surface), intent(in) :: this                 !< Created.
-    real(c_double), pointer, intent(out) :: velocity(:, :)  !< (3, n_vertices); (3, 0) unless the last update gave velocities.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(c_ptr) :: location
-    integer(int64) :: n
-    integer(riis_status) :: code
-    velocity => no_points
-    location = c_null_ptr
-    n = 0
-    code = check_created(this%handle, 'the surface')
-    if (code == RIIS_OK) code = riis_surface_vertex_velocities(this%handle, n, location)
-    if (c_associated(location)) call c_f_pointer(location, velocity, [3_int64, n])
-    call finish(code, status)
-  end subroutine surface_vertex_velocities
-
-  !> Points to the surface's own triangles, which answer queries, without a copy. They are valid until its next update or its
-  !! destruction. Do not write to them. Sizes are 0 on an error.
-  subroutine surface_triangles(this, vertex_id, triangle_id, leaflet_id, patch_id, status)
-    class(riis_surface), intent(in) :: this                 !< Created.
-    integer(int64), pointer, intent(out), optional :: vertex_id(:, :) !< (3, n_triangles), from 0: vertex_id + 1 is the
-                                                            !! column of %vertices.
-    integer(int64), pointer, intent(out), optional :: triangle_id(:) !< (n_triangles), ascending, from 0: as queries report.
-    integer(int32), pointer, intent(out), optional :: leaflet_id(:) !< (n_triangles): RIIS_LEAFLET_*, or the caller's.
-    integer(int32), pointer, intent(out), optional :: patch_id(:) !< (n_triangles), from 0, as in riis.h.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(c_ptr) :: vertices, triangles, leaflets, patches
-    integer(int64) :: n
-    integer(riis_status) :: code
-    vertices = c_null_ptr
-    triangles = c_null_ptr
-    leaflets = c_null_ptr
-    patches = c_null_ptr
-    n = 0
-    code = check_created(this%handle, 'the surface')
-    if (code == RIIS_OK) code = riis_surface_triangles(this%handle, n, vertices, triangles, leaflets, patches)
-    if (present(vertex_id)) then
-      vertex_id => no_corners
-      if (c_associated(vertices)) call c_f_pointer(vertices, vertex_id, [3_int64, n])
-    end if
-    if (present(triangle_id)) then
-      triangle_id => no_int64
-      if (c_associated(triangles)) call c_f_pointer(triangles, triangle_id, [n])
-    end if
-    if (present(leaflet_id)) then
-      leaflet_id => no_int32
-      if (c_associated(leaflets)) call c_f_pointer(leaflets, leaflet_id, [n])
-    end if
-    if (present(patch_id)) then
-      patch_id => no_int32
-      if (c_associated(patches)) call c_f_pointer(patches, patch_id, [n])
-    end if
-    call finish(code, status)
-  end subroutine surface_triangles
-
-  !> Points to the surface's own arrays of the pairs that riis_find_crossings found last, ascending, without a copy. They are
-  !! valid until the next riis_find_crossings with the surface, its update or its destruction. Do not write to them. Sizes are 0
-  !! on an error.
-  subroutine surface_crossing_pairs(this, triangle_id, point, depth, length, status)
-    class(riis_surface), intent(in) :: this                 !< From riis_find_crossings.
-    integer(int64), pointer, intent(out), optional :: triangle_id(:, :) !< (2, n_pairs), from 0, the lower one first.
-    real(c_double), pointer, intent(out), optional :: point(:, :) !< (3, n_pairs): the middle of the pair's intersection.
-    real(c_double), pointer, intent(out), optional :: depth(:) !< (n_pairs): the penetration depth.
-    real(c_double), pointer, intent(out), optional :: length(:) !< (n_pairs), of the intersection.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(c_ptr) :: triangles, points, depths, lengths
-    integer(int64) :: n
-    integer(riis_status) :: code
-    triangles = c_null_ptr
-    points = c_null_ptr
-    depths = c_null_ptr
-    lengths = c_null_ptr
-    n = 0
-    code = check_created(this%handle, 'the surface')
-    if (code == RIIS_OK) code = riis_surface_crossing_pairs(this%handle, n, triangles, points, depths, lengths)
-    if (present(triangle_id)) then
-      triangle_id => no_pairs
-      if (c_associated(triangles)) call c_f_pointer(triangles, triangle_id, [2_int64, n])
-    end if
-    if (present(point)) then
-      point => no_points
-      if (c_associated(points)) call c_f_pointer(points, point, [3_int64, n])
-    end if
-    if (present(depth)) then
-      depth => no_reals
-      if (c_associated(depths)) call c_f_pointer(depths, depth, [n])
-    end if
-    if (present(length)) then
-      length => no_reals
-      if (c_associated(lengths)) call c_f_pointer(lengths, length, [n])
-    end if
-    call finish(code, status)
-  end subroutine surface_crossing_pairs
+  end subroutine surface_get_triangles
 
   !> Finds the closest point of the surface to one point. Errors: RIIS_INVALID_ARGUMENT for a point that is not finite.
   subroutine surface_closest_point(this, point, closest, status)
@@ -876,7 +776,7 @@ contains
     class(riis_surface), intent(in) :: this                 !< Created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_points), finite, any positive stride.
     real(c_double), intent(in), optional :: distance_limit  !< >= 0: farther points get far_distance, ids -1, side 0, zeros.
-                                                            !! Default RIIS_AUTO: no limit.
+                                                            !! Default: no limit.
     real(c_double), intent(in), optional :: far_distance    !< Outside [0, distance_limit]. Default RIIS_FAR_DISTANCE.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     real(c_double), intent(inout), contiguous, optional, target :: distance(:) !< (n_points), >= 0.
@@ -911,7 +811,7 @@ contains
     class(riis_surface), intent(in) :: this                 !< Created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_points), finite, any positive stride.
     real(c_double), intent(in), optional :: distance_limit  !< >= 0: farther points get far_distance, ids -1, side 0, zeros.
-                                                            !! Default RIIS_AUTO: no limit.
+                                                            !! Default: no limit.
     real(c_double), intent(in), optional :: far_distance    !< Outside [0, distance_limit]. Default RIIS_FAR_DISTANCE.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     real(c_double), intent(inout), contiguous, optional, target :: distance(:) !< (n_points), >= 0.
@@ -941,7 +841,7 @@ contains
     real(c_double), intent(in), target :: y(:)              !< (n_points), finite, any positive stride.
     real(c_double), intent(in), target :: z(:)              !< (n_points), finite, any positive stride.
     real(c_double), intent(in), optional :: distance_limit  !< >= 0: farther points get far_distance, ids -1, side 0, zeros.
-                                                            !! Default RIIS_AUTO: no limit.
+                                                            !! Default: no limit.
     real(c_double), intent(in), optional :: far_distance    !< Outside [0, distance_limit]. Default RIIS_FAR_DISTANCE.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     real(c_double), intent(inout), contiguous, optional, target :: distance(:) !< (n_points), >= 0.
@@ -978,7 +878,7 @@ contains
     real(c_double), intent(in), target :: y(:)              !< (n_points), finite, any positive stride.
     real(c_double), intent(in), target :: z(:)              !< (n_points), finite, any positive stride.
     real(c_double), intent(in), optional :: distance_limit  !< >= 0: farther points get far_distance, ids -1, side 0, zeros.
-                                                            !! Default RIIS_AUTO: no limit.
+                                                            !! Default: no limit.
     real(c_double), intent(in), optional :: far_distance    !< Outside [0, distance_limit]. Default RIIS_FAR_DISTANCE.
     class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
     real(c_double), intent(inout), contiguous, optional, target :: distance(:) !< (n_points), >= 0.
@@ -1015,7 +915,7 @@ contains
     integer(int64), intent(in), optional, target :: point_id(:) ! gfortran would copy a pointer's target for CONTIGUOUS
     type(riis_closest_options) :: options
     type(riis_closest_arrays) :: arrays
-    real(c_double) :: nothing(1)
+    type(riis_points) :: given
     integer(int64), target :: no_id(1)
     integer(int64), allocatable, target :: ids(:)
 
@@ -1052,7 +952,13 @@ contains
     if (code == RIIS_OK .and. .not. (present(distance) .or. present(point) .or. present(barycentric) .or. present(normal) .or. &
       present(triangle_id) .or. present(leaflet_id) .or. present(side))) code = refuse('none of distance, point, &
       &barycentric, normal, triangle_id, leaflet_id and side is given, or allocated')
-    if (code == RIIS_OK) call query(points%n)
+    if (code == RIIS_OK) code = riis_points_init(given, c_sizeof(given))
+    given%n_points = points%n
+    given%x = points%x
+    given%y = points%y
+    given%z = points%z
+    given%stride = points%stride
+    if (code == RIIS_OK) code = riis_closest_points(this%handle, given, options, arrays)
 
   contains
 
@@ -1084,20 +990,6 @@ contains
         location = c_loc(vectors)
       end if
     end subroutine get_vectors
-
-    ! The binding takes arrays, so every address becomes an array.
-    subroutine query(n)
-      integer(int64), intent(in) :: n
-      real(c_double), pointer :: x(:), y(:), z(:)
-      if (n == 0) then
-        code = riis_closest_points(this%handle, n, nothing, nothing, nothing, 1_int64, options, arrays)
-      else
-        call c_f_pointer(points%x, x, [1])
-        call c_f_pointer(points%y, y, [1])
-        call c_f_pointer(points%z, z, [1])
-        code = riis_closest_points(this%handle, n, x, y, z, points%stride, options, arrays)
-      end if
-    end subroutine query
   end subroutine closest_points
 
   !> Tells whether the surface was created and not destroyed.

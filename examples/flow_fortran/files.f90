@@ -2,7 +2,7 @@
 !> What the solver leaves: a row for each step, slices for the movie, and a restart file.
 module flow_files
   use, intrinsic :: iso_fortran_env, only: int32, int64, real32
-  use riis, only: riis_parameter_info, riis_opening_switch_state
+  use riis, only: riis_triangles, riis_parameter_info, riis_opening_switch_state
   use flow_solver, only: dp, flow
   use flow_valve, only: leaflets, check
   use flow_circulation, only: circulation
@@ -32,6 +32,7 @@ contains
   !> Writes a frame of the movie: velocity and pressure in the cells beside x = 0, velocity in the layer at z = height, and the
   !! leaflets' triangles. Walls are NaN.
   subroutine write_frame(name, fluid, valve, height)
+    type(riis_triangles) :: all_triangles
     character(len=*), intent(in) :: name
     type(flow), intent(in) :: fluid
     type(leaflets), intent(in) :: valve
@@ -44,8 +45,10 @@ contains
     write (unit) int(fluid%n, int32), real([fluid%h, fluid%corner, height, step_time, valve%opening, valve%eps], real32)
     call write_slice(unit, fluid, fluid%cell(fluid%n(1) / 2 + 1::fluid%n(1)), .true.)
     call write_slice(unit, fluid, fluid%cell(layer + 1:layer + product(fluid%n(1:2))), .false.)
-    call valve%surface%vertices(xyz)
-    call valve%surface%triangles(corner)
+    call valve%surface%get_triangles(all_triangles)
+    xyz => all_triangles%xyz
+    call valve%surface%get_triangles(all_triangles)
+    corner => all_triangles%vertex_id
     write (unit) size(corner, 2), real(xyz(:, reshape(corner, [size(corner)]) + 1), real32)
     close (unit)
   end subroutine write_frame

@@ -11,6 +11,7 @@ from header import Problem
 NUMBERS = {"uint8_t": "integer(c_int8_t)", "int32_t": "integer(c_int32_t)", "int64_t": "integer(c_int64_t)",
            "double": "real(c_double)"}
 EITHER_INTEGER = "integer(c_int32_t) or (c_int64_t)"  # an array behind void *
+EITHER_REAL = "real(c_double) or (c_float)"  # an array behind void * with the word "real"
 AS_IN_C = "as in riis.h"  # the table's text of a struct whose comments come from there
 WIDTH = 120  # of what is wrapped
 RULE = "! " + "-" * 113
@@ -177,10 +178,14 @@ class Bindings:
                 self.problems.append(f"{line.place}: {struct.name}: {in_c(type_, names)} points to no array; "
                                      "only a text is wanted, after '-'")
             return ("type(c_ptr)", text or "for riis_c_text") if is_text else (self.number(type_.base), text)
-        kind = EITHER_INTEGER if type_.base == "void" else self.number(type_.base)
+        words = [word for word in line.words if word != "real"] if line else []
+        if type_.base == "void":
+            kind = EITHER_REAL if line and "real" in line.words else EITHER_INTEGER
+        else:
+            kind = self.number(type_.base) or (f"type({type_.base})" if type_.base.startswith("riis_") else "")
         if type_.stars != 1 or not kind:
             self.refuse(field_line.line, f"{struct.name}: the type of {in_c(type_, names)} is not understood")
-        elif not line or not line.shape or len(line.words) != 1:
+        elif not line or not line.shape or len(words) != 1:
             self.need(field_line.line, struct.name, type_, names, "the shape of the array, as in (3, n_points)")
         else:
             text = f"{kind}, {line.shape}" + (", " + text if text else "")

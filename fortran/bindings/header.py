@@ -141,7 +141,7 @@ class Header:
     def arguments(self, words, of, start):
         found = []
         for entry in [] if words == "void" else words.split(","):
-            match = re.fullmatch(r"(.*?[ *])([a-z][a-z0-9_]*)", entry.strip())
+            match = re.fullmatch(r"(.*?[ *])([A-Za-z][A-Za-z0-9_]*)", entry.strip())
             type_ = match and c_type(match[1])
             if type_:
                 found.append(Argument(match[2], type_))
@@ -166,8 +166,8 @@ class Header:
         found = []
         match = re.fullmatch(r"(const )?(\w+) (.*)", words)
         for entry in match[3].split(",") if match else []:
-            declared = re.fullmatch(r"(\**)([a-z][a-z0-9_]*)(?:\[([0-9]+)\])?", entry.strip())
-            if not declared or (declared[1] and declared[3]):
+            declared = re.fullmatch(r"(\**)([A-Za-z][A-Za-z0-9_]*)(?:\[([0-9]+)\])?", entry.strip())
+            if not declared:
                 break
             found.append(Field(declared[2], CType(match[2], bool(match[1]), len(declared[1])), declared[3] or ""))
         else:

@@ -5,7 +5,7 @@ import re
 
 from header import Problem
 
-WORDS = {"optional", "required", "scalar", "borrowed", "out"}
+WORDS = {"optional", "required", "scalar", "borrowed", "out", "real"}
 
 
 class Line:

@@ -17,7 +17,7 @@ if [ "$(printf '%s\n' "$newest" "$version" | sort -V | tail -n 1)" != "$version"
   failed=1
 fi
 
-# Each symbol has its version's name, RIIS_0: under another version it would be another symbol.
+# Each symbol has its version's name, RIIS_1: under another version it would be another symbol.
 soname=$(readelf -d "$library" | sed -n -E 's/.*soname: \[lib(riis|riis_vtk)\.so\.([0-9]+)\].*/\1_\2/p')
 others=$(nm -D --defined-only "$library" | awk -v node="${soname^^}" '$2 != "A" && $3 !~ "@@" node "$" { print $3 }')
 if [ -n "$others" ]; then

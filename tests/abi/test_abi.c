@@ -23,6 +23,16 @@
 
 static void test_structs(void **state) {
   (void)state;
+  SIZE(riis_points, 56);
+  FIELD(riis_points, struct_size, 0, 8);
+  FIELD(riis_points, n_points, 8, 8);
+  FIELD(riis_points, x, 16, 8);
+  FIELD(riis_points, y, 24, 8);
+  FIELD(riis_points, z, 32, 8);
+  FIELD(riis_points, stride, 40, 8);
+  FIELD(riis_points, real_bits, 48, 4);
+  FIELD(riis_points, reserved, 52, 4);
+
   SIZE(riis_patches, 72);
   FIELD(riis_patches, struct_size, 0, 8);
   FIELD(riis_patches, n_curves, 8, 8);
@@ -52,12 +62,12 @@ static void test_structs(void **state) {
   FIELD(riis_surface_options, rotation_axis, 32, 24);
   FIELD(riis_surface_options, rotation_angle, 56, 8);
   FIELD(riis_surface_options, translation, 64, 24);
-  FIELD(riis_surface_options, zero_area, 88, 4);
-  FIELD(riis_surface_options, flip_normals, 92, 4);
-  FIELD(riis_surface_options, distance, 96, 4);
-  FIELD(riis_surface_options, n_threads, 100, 4);
-  FIELD(riis_surface_options, distance_tolerance, 104, 8);
-  FIELD(riis_surface_options, triangulation, 112, 4);
+  FIELD(riis_surface_options, measure_tolerance, 88, 8);
+  FIELD(riis_surface_options, measure, 96, 4);
+  FIELD(riis_surface_options, triangulation, 100, 4);
+  FIELD(riis_surface_options, zero_area, 104, 4);
+  FIELD(riis_surface_options, flip_normals, 108, 4);
+  FIELD(riis_surface_options, n_threads, 112, 4);
   FIELD(riis_surface_options, reserved, 116, 4);
 
   SIZE(riis_surface_arrays, 120);
@@ -67,17 +77,27 @@ static void test_structs(void **state) {
   FIELD(riis_surface_arrays, y, 24, 8);
   FIELD(riis_surface_arrays, z, 32, 8);
   FIELD(riis_surface_arrays, stride, 40, 8);
-  FIELD(riis_surface_arrays, n_faces, 48, 8);
-  FIELD(riis_surface_arrays, vertex_ids, 56, 8);
-  FIELD(riis_surface_arrays, vertex_id_bits, 64, 4);
-  FIELD(riis_surface_arrays, index_base, 68, 4);
-  FIELD(riis_surface_arrays, corners_per_face, 72, 4);
-  FIELD(riis_surface_arrays, reserved, 76, 4);
-  FIELD(riis_surface_arrays, leaflet_id, 80, 8);
-  FIELD(riis_surface_arrays, vx, 88, 8);
-  FIELD(riis_surface_arrays, vy, 96, 8);
-  FIELD(riis_surface_arrays, vz, 104, 8);
-  FIELD(riis_surface_arrays, velocity_stride, 112, 8);
+  FIELD(riis_surface_arrays, vx, 48, 8);
+  FIELD(riis_surface_arrays, vy, 56, 8);
+  FIELD(riis_surface_arrays, vz, 64, 8);
+  FIELD(riis_surface_arrays, velocity_stride, 72, 8);
+  FIELD(riis_surface_arrays, n_faces, 80, 8);
+  FIELD(riis_surface_arrays, vertex_ids, 88, 8);
+  FIELD(riis_surface_arrays, leaflet_id, 96, 8);
+  FIELD(riis_surface_arrays, corners_per_face, 104, 4);
+  FIELD(riis_surface_arrays, id_bits, 108, 4);
+  FIELD(riis_surface_arrays, index_base, 112, 4);
+  FIELD(riis_surface_arrays, real_bits, 116, 4);
+
+  SIZE(riis_keyframe_arrays, 56);
+  FIELD(riis_keyframe_arrays, struct_size, 0, 8);
+  FIELD(riis_keyframe_arrays, n_keys, 8, 8);
+  FIELD(riis_keyframe_arrays, n_vertices, 16, 8);
+  FIELD(riis_keyframe_arrays, time, 24, 8);
+  FIELD(riis_keyframe_arrays, xyz, 32, 8);
+  FIELD(riis_keyframe_arrays, period, 40, 8);
+  FIELD(riis_keyframe_arrays, interpolation, 48, 4);
+  FIELD(riis_keyframe_arrays, real_bits, 52, 4);
 
   SIZE(riis_surface_info, 120);
   FIELD(riis_surface_info, n_vertices, 0, 8);
@@ -92,6 +112,36 @@ static void test_structs(void **state) {
   FIELD(riis_surface_info, error_bound, 104, 8);
   FIELD(riis_surface_info, velocity_error_bound, 112, 8);
 
+  SIZE(riis_triangles, 72);
+  FIELD(riis_triangles, n_vertices, 0, 8);
+  FIELD(riis_triangles, xyz, 8, 8);
+  FIELD(riis_triangles, uv, 16, 8);
+  FIELD(riis_triangles, velocity, 24, 8);
+  FIELD(riis_triangles, n_triangles, 32, 8);
+  FIELD(riis_triangles, vertex_id, 40, 8);
+  FIELD(riis_triangles, triangle_id, 48, 8);
+  FIELD(riis_triangles, leaflet_id, 56, 8);
+  FIELD(riis_triangles, patch_id, 64, 8);
+
+  SIZE(riis_crossing_options, 24);
+  FIELD(riis_crossing_options, struct_size, 0, 8);
+  FIELD(riis_crossing_options, depth, 8, 8);
+  FIELD(riis_crossing_options, n_threads, 16, 4);
+  FIELD(riis_crossing_options, reserved, 20, 4);
+
+  SIZE(riis_crossing_list, 112);
+  FIELD(riis_crossing_list, n_pairs, 0, 8);
+  FIELD(riis_crossing_list, triangle_id, 8, 8);
+  FIELD(riis_crossing_list, point, 16, 8);
+  FIELD(riis_crossing_list, depth, 24, 8);
+  FIELD(riis_crossing_list, length, 32, 8);
+  FIELD(riis_crossing_list, total_length, 40, 8);
+  FIELD(riis_crossing_list, deepest_depth, 48, 8);
+  FIELD(riis_crossing_list, deepest_point, 56, 24);
+  FIELD(riis_crossing_list, deepest_triangle_id, 80, 16);
+  FIELD(riis_crossing_list, deepest_leaflet_id, 96, 8);
+  FIELD(riis_crossing_list, seconds, 104, 8);
+
   SIZE(riis_closest, 96);
   FIELD(riis_closest, distance, 0, 8);
   FIELD(riis_closest, point, 8, 24);
@@ -105,11 +155,11 @@ static void test_structs(void **state) {
   FIELD(riis_closest_options, struct_size, 0, 8);
   FIELD(riis_closest_options, distance_limit, 8, 8);
   FIELD(riis_closest_options, far_distance, 16, 8);
-  FIELD(riis_closest_options, n_threads, 24, 4);
-  FIELD(riis_closest_options, reserved, 28, 4);
-  FIELD(riis_closest_options, point_mask, 32, 8);
-  FIELD(riis_closest_options, n_point_ids, 40, 8);
-  FIELD(riis_closest_options, point_ids, 48, 8);
+  FIELD(riis_closest_options, point_mask, 24, 8);
+  FIELD(riis_closest_options, n_point_ids, 32, 8);
+  FIELD(riis_closest_options, point_ids, 40, 8);
+  FIELD(riis_closest_options, n_threads, 48, 4);
+  FIELD(riis_closest_options, reserved, 52, 4);
 
   SIZE(riis_closest_arrays, 64);
   FIELD(riis_closest_arrays, struct_size, 0, 8);
@@ -132,39 +182,71 @@ static void test_structs(void **state) {
   FIELD(riis_csr, index_base, 48, 4);
   FIELD(riis_csr, reserved, 52, 4);
 
-  SIZE(riis_cells, 56);
-  FIELD(riis_cells, struct_size, 0, 8);
-  FIELD(riis_cells, n_nodes, 8, 8);
-  FIELD(riis_cells, n_cells, 16, 8);
-  FIELD(riis_cells, node_ids, 24, 8);
-  FIELD(riis_cells, offsets, 32, 8);
-  FIELD(riis_cells, nodes_per_cell, 40, 4);
-  FIELD(riis_cells, id_bits, 44, 4);
-  FIELD(riis_cells, index_base, 48, 4);
-  FIELD(riis_cells, n_threads, 52, 4);
+  SIZE(riis_mesh_cells, 56);
+  FIELD(riis_mesh_cells, struct_size, 0, 8);
+  FIELD(riis_mesh_cells, n_nodes, 8, 8);
+  FIELD(riis_mesh_cells, n_cells, 16, 8);
+  FIELD(riis_mesh_cells, node_ids, 24, 8);
+  FIELD(riis_mesh_cells, offsets, 32, 8);
+  FIELD(riis_mesh_cells, nodes_per_cell, 40, 4);
+  FIELD(riis_mesh_cells, id_bits, 44, 4);
+  FIELD(riis_mesh_cells, index_base, 48, 4);
+  FIELD(riis_mesh_cells, n_threads, 52, 4);
 
-  SIZE(riis_faces, 64);
-  FIELD(riis_faces, struct_size, 0, 8);
-  FIELD(riis_faces, n_cells, 8, 8);
-  FIELD(riis_faces, n_faces, 16, 8);
-  FIELD(riis_faces, owner, 24, 8);
-  FIELD(riis_faces, neighbor, 32, 8);
-  FIELD(riis_faces, stride, 40, 8);
-  FIELD(riis_faces, id_bits, 48, 4);
-  FIELD(riis_faces, index_base, 52, 4);
-  FIELD(riis_faces, n_threads, 56, 4);
-  FIELD(riis_faces, reserved, 60, 4);
+  SIZE(riis_mesh_faces, 64);
+  FIELD(riis_mesh_faces, struct_size, 0, 8);
+  FIELD(riis_mesh_faces, n_cells, 8, 8);
+  FIELD(riis_mesh_faces, n_faces, 16, 8);
+  FIELD(riis_mesh_faces, owner, 24, 8);
+  FIELD(riis_mesh_faces, neighbor, 32, 8);
+  FIELD(riis_mesh_faces, stride, 40, 8);
+  FIELD(riis_mesh_faces, id_bits, 48, 4);
+  FIELD(riis_mesh_faces, index_base, 52, 4);
+  FIELD(riis_mesh_faces, n_threads, 56, 4);
+  FIELD(riis_mesh_faces, reserved, 60, 4);
+
+  SIZE(riis_resistance, 32);
+  FIELD(riis_resistance, struct_size, 0, 8);
+  FIELD(riis_resistance, R, 8, 8);
+  FIELD(riis_resistance, half_thickness, 16, 8);
+  FIELD(riis_resistance, rim, 24, 4);
+  FIELD(riis_resistance, reserved, 28, 4);
 
   SIZE(riis_mark_options, 48);
   FIELD(riis_mark_options, struct_size, 0, 8);
   FIELD(riis_mark_options, distance_limit, 8, 8);
   FIELD(riis_mark_options, node_mask, 16, 8);
-  FIELD(riis_mark_options, search, 24, 4);
-  FIELD(riis_mark_options, n_threads, 28, 4);
-  FIELD(riis_mark_options, instructions, 32, 4);
-  FIELD(riis_mark_options, reserved, 36, 4);
-  FIELD(riis_mark_options, fields, 40, 4);
-  FIELD(riis_mark_options, reserved2, 44, 4);
+  FIELD(riis_mark_options, resistance, 24, 8);
+  FIELD(riis_mark_options, fields, 32, 4);
+  FIELD(riis_mark_options, search, 36, 4);
+  FIELD(riis_mark_options, n_threads, 40, 4);
+  FIELD(riis_mark_options, instructions, 44, 4);
+
+  SIZE(riis_mark_list, 120);
+  FIELD(riis_mark_list, n_nodes, 0, 8);
+  FIELD(riis_mark_list, node_id, 8, 8);
+  FIELD(riis_mark_list, distance, 16, 8);
+  FIELD(riis_mark_list, triangle_id, 24, 8);
+  FIELD(riis_mark_list, leaflet_id, 32, 8);
+  FIELD(riis_mark_list, K, 40, 8);
+  FIELD(riis_mark_list, K_u_surface, 48, 8);
+  FIELD(riis_mark_list, point, 56, 8);
+  FIELD(riis_mark_list, normal, 64, 8);
+  FIELD(riis_mark_list, barycentric, 72, 8);
+  FIELD(riis_mark_list, uv, 80, 8);
+  FIELD(riis_mark_list, velocity, 88, 8);
+  FIELD(riis_mark_list, side, 96, 8);
+  FIELD(riis_mark_list, rim, 104, 8);
+  FIELD(riis_mark_list, patch_id, 112, 8);
+
+  SIZE(riis_dense_arrays, 56);
+  FIELD(riis_dense_arrays, struct_size, 0, 8);
+  FIELD(riis_dense_arrays, n_nodes, 8, 8);
+  FIELD(riis_dense_arrays, far_distance, 16, 8);
+  FIELD(riis_dense_arrays, mark, 24, 8);
+  FIELD(riis_dense_arrays, distance, 32, 8);
+  FIELD(riis_dense_arrays, triangle_id, 40, 8);
+  FIELD(riis_dense_arrays, leaflet_id, 48, 8);
 
   SIZE(riis_mark_stats, 64);
   FIELD(riis_mark_stats, n_nodes, 0, 8);
@@ -178,28 +260,44 @@ static void test_structs(void **state) {
   FIELD(riis_mark_stats, instructions, 52, 4);
   FIELD(riis_mark_stats, n_unreached, 56, 8);
 
-  SIZE(riis_crossing_options, 24);
-  FIELD(riis_crossing_options, struct_size, 0, 8);
-  FIELD(riis_crossing_options, depth, 8, 8);
-  FIELD(riis_crossing_options, n_threads, 16, 4);
-  FIELD(riis_crossing_options, reserved, 20, 4);
+  SIZE(riis_resistance_arrays, 64);
+  FIELD(riis_resistance_arrays, struct_size, 0, 8);
+  FIELD(riis_resistance_arrays, n_nodes, 8, 8);
+  FIELD(riis_resistance_arrays, K, 16, 8);
+  FIELD(riis_resistance_arrays, K_stride, 24, 8);
+  FIELD(riis_resistance_arrays, K_u_surface, 32, 24);
+  FIELD(riis_resistance_arrays, K_u_surface_stride, 56, 8);
 
-  SIZE(riis_crossings, 80);
-  FIELD(riis_crossings, n_pairs, 0, 8);
-  FIELD(riis_crossings, length, 8, 8);
-  FIELD(riis_crossings, depth, 16, 8);
-  FIELD(riis_crossings, point, 24, 24);
-  FIELD(riis_crossings, triangle_id, 48, 16);
-  FIELD(riis_crossings, leaflet_id, 64, 8);
-  FIELD(riis_crossings, seconds, 72, 8);
+  SIZE(riis_flow_arrays, 56);
+  FIELD(riis_flow_arrays, struct_size, 0, 8);
+  FIELD(riis_flow_arrays, n_nodes, 8, 8);
+  FIELD(riis_flow_arrays, velocity, 16, 24);
+  FIELD(riis_flow_arrays, velocity_stride, 40, 8);
+  FIELD(riis_flow_arrays, weight, 48, 8);
 
-  SIZE(riis_leaks, 72);
-  FIELD(riis_leaks, n_edges, 0, 8);
-  FIELD(riis_leaks, longest_node_id, 8, 16);
-  FIELD(riis_leaks, longest_length, 24, 8);
-  FIELD(riis_leaks, longest_middle, 32, 24);
-  FIELD(riis_leaks, half_thickness, 56, 8);
-  FIELD(riis_leaks, seconds, 64, 8);
+  SIZE(riis_band_sums, 48);
+  FIELD(riis_band_sums, sum, 0, 16);
+  FIELD(riis_band_sums, weight, 16, 16);
+  FIELD(riis_band_sums, n_nodes, 32, 16);
+
+  SIZE(riis_band, 48);
+  FIELD(riis_band, struct_size, 0, 8);
+  FIELD(riis_band, inner, 8, 8);
+  FIELD(riis_band, outer, 16, 8);
+  FIELD(riis_band, n_nodes, 24, 8);
+  FIELD(riis_band, value, 32, 8);
+  FIELD(riis_band, weight, 40, 8);
+
+  SIZE(riis_leak_list, 96);
+  FIELD(riis_leak_list, n_edges, 0, 8);
+  FIELD(riis_leak_list, node_id, 8, 8);
+  FIELD(riis_leak_list, length, 16, 8);
+  FIELD(riis_leak_list, distance, 24, 8);
+  FIELD(riis_leak_list, half_thickness, 32, 8);
+  FIELD(riis_leak_list, longest_node_id, 40, 16);
+  FIELD(riis_leak_list, longest_length, 56, 8);
+  FIELD(riis_leak_list, longest_middle, 64, 24);
+  FIELD(riis_leak_list, seconds, 88, 8);
 
   SIZE(riis_passage, 56);
   FIELD(riis_passage, node_id, 0, 8);
@@ -209,28 +307,12 @@ static void test_structs(void **state) {
   FIELD(riis_passage, state, 48, 4);
   FIELD(riis_passage, reserved, 52, 4);
 
-  SIZE(riis_mark_fields, 72);
-  FIELD(riis_mark_fields, n_nodes, 0, 8);
-  FIELD(riis_mark_fields, point, 8, 8);
-  FIELD(riis_mark_fields, normal, 16, 8);
-  FIELD(riis_mark_fields, barycentric, 24, 8);
-  FIELD(riis_mark_fields, uv, 32, 8);
-  FIELD(riis_mark_fields, velocity, 40, 8);
-  FIELD(riis_mark_fields, side, 48, 8);
-  FIELD(riis_mark_fields, rim, 56, 8);
-  FIELD(riis_mark_fields, patch_id, 64, 8);
-
-  SIZE(riis_resistance, 32);
-  FIELD(riis_resistance, struct_size, 0, 8);
-  FIELD(riis_resistance, resistance, 8, 8);
-  FIELD(riis_resistance, half_thickness, 16, 8);
-  FIELD(riis_resistance, rim, 24, 4);
-  FIELD(riis_resistance, reserved, 28, 4);
-
-  SIZE(riis_band_sums, 48);
-  FIELD(riis_band_sums, sum, 0, 16);
-  FIELD(riis_band_sums, weight, 16, 16);
-  FIELD(riis_band_sums, n_nodes, 32, 16);
+  SIZE(riis_passage_ends, 40);
+  FIELD(riis_passage_ends, struct_size, 0, 8);
+  FIELD(riis_passage_ends, n_from, 8, 8);
+  FIELD(riis_passage_ends, from, 16, 8);
+  FIELD(riis_passage_ends, n_to, 24, 8);
+  FIELD(riis_passage_ends, to, 32, 8);
 
   SIZE(riis_opening_table, 48);
   FIELD(riis_opening_table, struct_size, 0, 8);
@@ -244,21 +326,21 @@ static void test_structs(void **state) {
   SIZE(riis_opening_times, 64);
   FIELD(riis_opening_times, struct_size, 0, 8);
   FIELD(riis_opening_times, opening_start, 8, 8);
-  FIELD(riis_opening_times, opening_seconds, 16, 8);
+  FIELD(riis_opening_times, opening_duration, 16, 8);
   FIELD(riis_opening_times, closing_start, 24, 8);
-  FIELD(riis_opening_times, closing_seconds, 32, 8);
+  FIELD(riis_opening_times, closing_duration, 32, 8);
   FIELD(riis_opening_times, closed, 40, 8);
   FIELD(riis_opening_times, open, 48, 8);
   FIELD(riis_opening_times, period, 56, 8);
 
   SIZE(riis_opening_switch, 56);
   FIELD(riis_opening_switch, struct_size, 0, 8);
-  FIELD(riis_opening_switch, opening_seconds, 8, 8);
-  FIELD(riis_opening_switch, closing_seconds, 16, 8);
+  FIELD(riis_opening_switch, opening_duration, 8, 8);
+  FIELD(riis_opening_switch, closing_duration, 16, 8);
   FIELD(riis_opening_switch, open_above, 24, 8);
   FIELD(riis_opening_switch, close_below, 32, 8);
-  FIELD(riis_opening_switch, filter_seconds, 40, 8);
-  FIELD(riis_opening_switch, dwell_seconds, 48, 8);
+  FIELD(riis_opening_switch, filter_time, 40, 8);
+  FIELD(riis_opening_switch, dwell_time, 48, 8);
 
   SIZE(riis_opening_switch_state, 72);
   FIELD(riis_opening_switch_state, struct_size, 0, 8);
@@ -268,7 +350,7 @@ static void test_structs(void **state) {
   FIELD(riis_opening_switch_state, progress, 32, 8);
   FIELD(riis_opening_switch_state, pressure_difference, 40, 8);
   FIELD(riis_opening_switch_state, flow, 48, 8);
-  FIELD(riis_opening_switch_state, since, 56, 8);
+  FIELD(riis_opening_switch_state, turn_time, 56, 8);
   FIELD(riis_opening_switch_state, phase, 64, 4);
   FIELD(riis_opening_switch_state, reserved, 68, 4);
 
@@ -291,28 +373,18 @@ static void test_structs(void **state) {
   FIELD(riis_opening_angle_state, pressure_difference, 48, 8);
   FIELD(riis_opening_angle_state, flow, 56, 8);
 
-  SIZE(riis_keyframe_arrays, 56);
-  FIELD(riis_keyframe_arrays, struct_size, 0, 8);
-  FIELD(riis_keyframe_arrays, n_keys, 8, 8);
-  FIELD(riis_keyframe_arrays, n_vertices, 16, 8);
-  FIELD(riis_keyframe_arrays, time, 24, 8);
-  FIELD(riis_keyframe_arrays, xyz, 32, 8);
-  FIELD(riis_keyframe_arrays, period, 40, 8);
-  FIELD(riis_keyframe_arrays, interpolation, 48, 4);
-  FIELD(riis_keyframe_arrays, reserved, 52, 4);
-
   SIZE(riis_vtk_picture_options, 72);
   FIELD(riis_vtk_picture_options, struct_size, 0, 8);
-  FIELD(riis_vtk_picture_options, view, 8, 4);
-  FIELD(riis_vtk_picture_options, width, 12, 4);
-  FIELD(riis_vtk_picture_options, height, 16, 4);
-  FIELD(riis_vtk_picture_options, reserved, 20, 4);
-  FIELD(riis_vtk_picture_options, title, 24, 8);
+  FIELD(riis_vtk_picture_options, title, 8, 8);
+  FIELD(riis_vtk_picture_options, unit, 16, 8);
+  FIELD(riis_vtk_picture_options, n_leaflet_names, 24, 8);
   FIELD(riis_vtk_picture_options, leaflet_names, 32, 8);
-  FIELD(riis_vtk_picture_options, n_leaflet_names, 40, 8);
-  FIELD(riis_vtk_picture_options, n_leaking_edges, 48, 8);
-  FIELD(riis_vtk_picture_options, leaking_edges, 56, 8);
-  FIELD(riis_vtk_picture_options, unit, 64, 8);
+  FIELD(riis_vtk_picture_options, n_leaking_edges, 40, 8);
+  FIELD(riis_vtk_picture_options, leaking_edges, 48, 8);
+  FIELD(riis_vtk_picture_options, view, 56, 4);
+  FIELD(riis_vtk_picture_options, width, 60, 4);
+  FIELD(riis_vtk_picture_options, height, 64, 4);
+  FIELD(riis_vtk_picture_options, reserved, 68, 4);
 }
 
 static void test_constants(void **state) {
@@ -340,9 +412,9 @@ static void test_constants(void **state) {
   assert_int_equal(RIIS_LEAFLET_HOUSING, 2);
   assert_int_equal(RIIS_ZERO_AREA_REFUSE, 0);
   assert_int_equal(RIIS_ZERO_AREA_SKIP, 1);
-  assert_int_equal(RIIS_DISTANCE_TRIANGLES, 0);
-  assert_int_equal(RIIS_DISTANCE_SAMPLING, 1);
-  assert_int_equal(RIIS_DISTANCE_MINIMIZATION, 2);
+  assert_int_equal(RIIS_MEASURE_TRIANGLES, 0);
+  assert_int_equal(RIIS_MEASURE_SAMPLING, 1);
+  assert_int_equal(RIIS_MEASURE_MINIMIZATION, 2);
   assert_int_equal(RIIS_SEARCH_AUTO, 0);
   assert_int_equal(RIIS_SEARCH_EXHAUSTIVE, 1);
   assert_int_equal(RIIS_SEARCH_NEIGHBOR, 2);
@@ -360,6 +432,8 @@ static void test_constants(void **state) {
   assert_int_equal(RIIS_FIELD_UV, 32);
   assert_int_equal(RIIS_FIELD_VELOCITY, 64);
   assert_int_equal(RIIS_FIELD_PATCH, 128);
+  assert_int_equal(RIIS_LIST_MARKED, 0);
+  assert_int_equal(RIIS_LIST_WITHIN_LIMIT, 1);
   assert_int_equal(RIIS_RIM_ROUND, 0);
   assert_int_equal(RIIS_RIM_CUT, 1);
   assert_int_equal(RIIS_INTERPOLATION_LINEAR, 0);
@@ -383,12 +457,14 @@ static void test_signatures(void **state) {
   SIZE(riis_status, 4);
   assert_true((riis_status)-1 < 0);
   assert_true(_Generic((riis_log_function)0, void (*)(void *, int32_t, const char *) : 1, default : 0));
-  SIGNATURE(riis_status_name, const char *, (riis_status));
+  SIGNATURE(riis_status_name, const char *, (int32_t));
   SIGNATURE(riis_last_error, const char *, (void));
-  SIGNATURE(riis_version, void, (int32_t *, int32_t *, int32_t *));
+  SIGNATURE(riis_get_version, void, (int32_t *, int32_t *, int32_t *));
   SIGNATURE(riis_version_string, const char *, (void));
   SIGNATURE(riis_set_log, void, (riis_log_function, void *));
+  SIGNATURE(riis_points_init, int32_t, (riis_points *, int64_t));
   SIGNATURE(riis_valve_create, int32_t, (const char *, riis_valve **));
+  SIGNATURE(riis_valve_copy, int32_t, (const riis_valve *, riis_valve **));
   SIGNATURE(riis_valve_destroy, void, (riis_valve **));
   SIGNATURE(riis_valve_set, int32_t, (riis_valve *, const char *, int64_t, const double *));
   SIGNATURE(riis_valve_set_scalar, int32_t, (riis_valve *, const char *, double));
@@ -396,85 +472,85 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_valve_set_open_state, int32_t, (riis_valve *, const riis_valve *));
   SIGNATURE(riis_patches_init, int32_t, (riis_patches *, int64_t));
   SIGNATURE(riis_valve_create_from_patches, int32_t, (const riis_patches *, riis_valve **));
-  SIGNATURE(riis_valve_n_parameters, int32_t, (const riis_valve *, int64_t *));
-  SIGNATURE(riis_valve_parameter, int32_t, (const riis_valve *, int64_t, riis_parameter *, int64_t));
+  SIGNATURE(riis_valve_get_n_parameters, int32_t, (const riis_valve *, int64_t *));
+  SIGNATURE(riis_valve_get_parameter, int32_t, (const riis_valve *, int64_t, riis_parameter *, int64_t));
   SIGNATURE(riis_surface_options_init, int32_t, (riis_surface_options *, int64_t));
   SIGNATURE(riis_surface_create, int32_t, (const riis_valve *, const riis_surface_options *, riis_surface **));
   SIGNATURE(riis_surface_arrays_init, int32_t, (riis_surface_arrays *, int64_t));
   SIGNATURE(riis_surface_create_from_arrays, int32_t,
             (const riis_surface_arrays *, const riis_surface_options *, riis_surface **));
   SIGNATURE(riis_surface_update, int32_t, (riis_surface *, const riis_valve *, const riis_surface_options *));
+  SIGNATURE(riis_surface_update_moving, int32_t,
+            (riis_surface *, const riis_valve *, const riis_valve *, double, const riis_surface_options *,
+             const riis_surface_options *));
   SIGNATURE(riis_surface_update_from_arrays, int32_t,
             (riis_surface *, const riis_surface_arrays *, const riis_surface_options *));
+  SIGNATURE(riis_keyframe_arrays_init, int32_t, (riis_keyframe_arrays *, int64_t));
+  SIGNATURE(riis_keyframes_create, int32_t,
+            (const riis_surface_arrays *, const riis_keyframe_arrays *, riis_keyframes **));
+  SIGNATURE(riis_keyframes_destroy, void, (riis_keyframes **));
+  SIGNATURE(riis_surface_create_from_keyframes, int32_t,
+            (const riis_keyframes *, double, double, const riis_surface_options *, riis_surface **));
+  SIGNATURE(riis_surface_update_from_keyframes, int32_t,
+            (riis_surface *, const riis_keyframes *, double, double, const riis_surface_options *));
   SIGNATURE(riis_surface_destroy, void, (riis_surface **));
   SIGNATURE(riis_surface_get_info, int32_t, (const riis_surface *, riis_surface_info *, int64_t));
-  SIGNATURE(riis_surface_vertices, int32_t, (const riis_surface *, int64_t *, const double **));
-  SIGNATURE(riis_surface_vertex_parameters, int32_t, (const riis_surface *, int64_t *, const double **));
-  SIGNATURE(riis_surface_triangles, int32_t,
-            (const riis_surface *, int64_t *, const int64_t **, const int64_t **, const int32_t **, const int32_t **));
+  SIGNATURE(riis_surface_get_triangles, int32_t, (const riis_surface *, riis_triangles *, int64_t));
+  SIGNATURE(riis_crossing_options_init, int32_t, (riis_crossing_options *, int64_t));
+  SIGNATURE(riis_crossings_create, int32_t, (riis_crossings **));
+  SIGNATURE(riis_crossings_destroy, void, (riis_crossings **));
+  SIGNATURE(riis_find_crossings, int32_t, (const riis_surface *, const riis_crossing_options *, riis_crossings *));
+  SIGNATURE(riis_crossings_get_list, int32_t, (const riis_crossings *, riis_crossing_list *, int64_t));
   SIGNATURE(riis_closest_point, int32_t, (const riis_surface *, const double *, riis_closest *, int64_t));
   SIGNATURE(riis_closest_options_init, int32_t, (riis_closest_options *, int64_t));
   SIGNATURE(riis_closest_arrays_init, int32_t, (riis_closest_arrays *, int64_t));
   SIGNATURE(riis_closest_points, int32_t,
-            (const riis_surface *, int64_t, const double *, const double *, const double *, int64_t,
-             const riis_closest_options *, const riis_closest_arrays *));
+            (const riis_surface *, const riis_points *, const riis_closest_options *, const riis_closest_arrays *));
   SIGNATURE(riis_mesh_create, int32_t,
             (int64_t, const double *, const double *, const double *, int64_t, riis_mesh **));
   SIGNATURE(riis_mesh_update, int32_t, (riis_mesh *, int64_t, const double *, const double *, const double *, int64_t));
-  SIGNATURE(riis_mesh_prepare, int32_t, (riis_mesh *, int32_t));
+  SIGNATURE(riis_mesh_create_copy, int32_t, (const riis_points *, riis_mesh **));
+  SIGNATURE(riis_mesh_update_copy, int32_t, (riis_mesh *, const riis_points *));
   SIGNATURE(riis_mesh_destroy, void, (riis_mesh **));
+  SIGNATURE(riis_mesh_prepare, int32_t, (riis_mesh *, int32_t));
   SIGNATURE(riis_csr_init, int32_t, (riis_csr *, int64_t));
   SIGNATURE(riis_mesh_set_adjacency, int32_t, (riis_mesh *, const riis_csr *));
-  SIGNATURE(riis_cells_init, int32_t, (riis_cells *, int64_t));
-  SIGNATURE(riis_adjacency_create_from_cells, int32_t, (const riis_cells *, riis_adjacency **));
-  SIGNATURE(riis_faces_init, int32_t, (riis_faces *, int64_t));
-  SIGNATURE(riis_adjacency_create_from_faces, int32_t, (const riis_faces *, riis_adjacency **));
+  SIGNATURE(riis_mesh_cells_init, int32_t, (riis_mesh_cells *, int64_t));
+  SIGNATURE(riis_adjacency_create_from_cells, int32_t, (const riis_mesh_cells *, riis_adjacency **));
+  SIGNATURE(riis_mesh_faces_init, int32_t, (riis_mesh_faces *, int64_t));
+  SIGNATURE(riis_adjacency_create_from_faces, int32_t, (const riis_mesh_faces *, riis_adjacency **));
   SIGNATURE(riis_adjacency_create_from_grid, int32_t, (int64_t, int64_t, int64_t, int32_t, riis_adjacency **));
-  SIGNATURE(riis_adjacency_csr, int32_t, (const riis_adjacency *, riis_csr *, int64_t));
+  SIGNATURE(riis_adjacency_get_csr, int32_t, (const riis_adjacency *, riis_csr *, int64_t));
   SIGNATURE(riis_adjacency_destroy, void, (riis_adjacency **));
-  SIGNATURE(riis_mark_result_create, int32_t, (riis_mark_result **));
-  SIGNATURE(riis_mark_result_destroy, void, (riis_mark_result **));
+  SIGNATURE(riis_marks_create, int32_t, (riis_marks **));
+  SIGNATURE(riis_marks_destroy, void, (riis_marks **));
+  SIGNATURE(riis_resistance_init, int32_t, (riis_resistance *, int64_t));
   SIGNATURE(riis_mark_options_init, int32_t, (riis_mark_options *, int64_t));
   SIGNATURE(riis_mark_nodes, int32_t,
-            (const riis_surface *, const riis_mesh *, const riis_mark_options *, riis_mark_result *));
-  SIGNATURE(
-      riis_mark_result_marked, int32_t,
-      (const riis_mark_result *, int64_t *, const int64_t **, const double **, const int64_t **, const int32_t **));
-  SIGNATURE(
-      riis_mark_result_within_limit, int32_t,
-      (const riis_mark_result *, int64_t *, const int64_t **, const double **, const int64_t **, const int32_t **));
-  SIGNATURE(riis_mark_result_dense, int32_t,
-            (const riis_mark_result *, int64_t, double, uint8_t *, double *, int64_t *, int32_t *));
-  SIGNATURE(riis_mark_result_stats, int32_t, (const riis_mark_result *, riis_mark_stats *, int64_t));
-  SIGNATURE(
-      riis_find_leaks, int32_t,
-      (const riis_surface *, const riis_mesh *, const riis_mark_options *, riis_mark_result *, riis_leaks *, int64_t));
-  SIGNATURE(riis_mark_result_leaking_edges, int32_t,
-            (const riis_mark_result *, int64_t *, const int64_t **, const double **, const double **));
-  SIGNATURE(riis_crossing_options_init, int32_t, (riis_crossing_options *, int64_t));
-  SIGNATURE(riis_find_crossings, int32_t, (riis_surface *, const riis_crossing_options *, riis_crossings *, int64_t));
-  SIGNATURE(riis_surface_crossing_pairs, int32_t,
-            (const riis_surface *, int64_t *, const int64_t **, const double **, const double **, const double **));
+            (const riis_surface *, const riis_mesh *, const riis_mark_options *, riis_marks *));
+  SIGNATURE(riis_marks_get_list, int32_t, (const riis_marks *, int32_t, riis_mark_list *, int64_t));
+  SIGNATURE(riis_dense_arrays_init, int32_t, (riis_dense_arrays *, int64_t));
+  SIGNATURE(riis_marks_get_dense, int32_t, (const riis_marks *, const riis_dense_arrays *));
+  SIGNATURE(riis_marks_get_stats, int32_t, (const riis_marks *, riis_mark_stats *, int64_t));
+  SIGNATURE(riis_resistance_arrays_init, int32_t, (riis_resistance_arrays *, int64_t));
+  SIGNATURE(riis_marks_add_resistance, int32_t,
+            (const riis_marks *, const riis_resistance *, const riis_resistance_arrays *));
+  SIGNATURE(riis_flow_arrays_init, int32_t, (riis_flow_arrays *, int64_t));
+  SIGNATURE(riis_marks_add_reaction, int32_t,
+            (const riis_marks *, const riis_resistance *, const riis_flow_arrays *, double *));
+  SIGNATURE(riis_band_init, int32_t, (riis_band *, int64_t));
+  SIGNATURE(riis_marks_get_band_sums, int32_t, (const riis_marks *, const riis_band *, riis_band_sums *, int64_t));
+  SIGNATURE(riis_leaks_create, int32_t, (riis_leaks **));
+  SIGNATURE(riis_leaks_destroy, void, (riis_leaks **));
+  SIGNATURE(riis_find_leaks, int32_t,
+            (const riis_surface *, const riis_mesh *, const riis_marks *, const riis_mark_options *, riis_leaks *));
+  SIGNATURE(riis_leaks_get_list, int32_t, (const riis_leaks *, riis_leak_list *, int64_t));
   SIGNATURE(riis_label_open_regions, int32_t,
-            (const riis_mesh *, const riis_mark_options *, const riis_mark_result *, int64_t, int64_t *, int64_t *));
+            (const riis_mesh *, const riis_marks *, const riis_mark_options *, int64_t, int64_t *, int64_t *));
+  SIGNATURE(riis_passage_ends_init, int32_t, (riis_passage_ends *, int64_t));
   SIGNATURE(riis_find_passage, int32_t,
-            (const riis_surface *, const riis_mesh *, const riis_mark_options *, int64_t, const int64_t *, int64_t,
-             const int64_t *, riis_passage *, int64_t));
-  SIGNATURE(riis_valve_copy, int32_t, (const riis_valve *, riis_valve **));
-  SIGNATURE(riis_surface_update_moving, int32_t,
-            (riis_surface *, const riis_valve *, const riis_valve *, double, const riis_surface_options *,
-             const riis_surface_options *));
-  SIGNATURE(riis_surface_vertex_velocities, int32_t, (const riis_surface *, int64_t *, const double **));
-  SIGNATURE(riis_mark_result_marked_fields, int32_t, (const riis_mark_result *, riis_mark_fields *, int64_t));
-  SIGNATURE(riis_mark_result_within_limit_fields, int32_t, (const riis_mark_result *, riis_mark_fields *, int64_t));
-  SIGNATURE(riis_resistance_init, int32_t, (riis_resistance *, int64_t));
-  SIGNATURE(riis_mark_result_add_resistance, int32_t,
-            (const riis_mark_result *, const riis_resistance *, int64_t, double *, double *));
-  SIGNATURE(riis_mark_result_add_reaction, int32_t,
-            (const riis_mark_result *, const riis_resistance *, int64_t, const double *, const double *, double *));
-  SIGNATURE(
-      riis_mark_result_band_sums, int32_t,
-      (const riis_mark_result *, double, double, int64_t, const double *, const double *, riis_band_sums *, int64_t));
+            (const riis_surface *, const riis_mesh *, const riis_passage_ends *, const riis_mark_options *,
+             riis_passage *, int64_t));
   SIGNATURE(riis_opening_table_init, int32_t, (riis_opening_table *, int64_t));
   SIGNATURE(riis_opening_from_table, int32_t, (const riis_opening_table *, double, double *, double *));
   SIGNATURE(riis_opening_times_init, int32_t, (riis_opening_times *, int64_t));
@@ -489,56 +565,47 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_opening_angle_advance, int32_t,
             (const riis_opening_angle *, const riis_opening_angle_state *, double, double, double,
              riis_opening_angle_state *));
-  SIGNATURE(riis_keyframe_arrays_init, int32_t, (riis_keyframe_arrays *, int64_t));
-  SIGNATURE(riis_keyframes_create, int32_t,
-            (const riis_surface_arrays *, const riis_keyframe_arrays *, riis_keyframes **));
-  SIGNATURE(riis_keyframes_destroy, void, (riis_keyframes **));
-  SIGNATURE(riis_surface_create_from_keyframes, int32_t,
-            (const riis_keyframes *, double, double, const riis_surface_options *, riis_surface **));
-  SIGNATURE(riis_surface_update_from_keyframes, int32_t,
-            (riis_surface *, const riis_keyframes *, double, double, const riis_surface_options *));
   SIGNATURE(riis_vtk_mesh_read, int32_t, (const char *, riis_vtk_mesh **));
   SIGNATURE(riis_vtk_mesh_destroy, void, (riis_vtk_mesh **));
-  SIGNATURE(riis_vtk_mesh_nodes, int32_t, (const riis_vtk_mesh *, int64_t *, int64_t *, const double **));
-  SIGNATURE(riis_vtk_mesh_adjacency, int32_t, (const riis_vtk_mesh *, int32_t, riis_adjacency **));
-  SIGNATURE(riis_vtk_mesh_long_edges, int32_t,
+  SIGNATURE(riis_vtk_mesh_get_nodes, int32_t, (const riis_vtk_mesh *, int64_t *, int64_t *, const double **));
+  SIGNATURE(riis_vtk_mesh_create_adjacency, int32_t, (const riis_vtk_mesh *, int32_t, riis_adjacency **));
+  SIGNATURE(riis_vtk_mesh_get_volume_cells, int32_t, (const riis_vtk_mesh *, int64_t *, int64_t *));
+  SIGNATURE(riis_vtk_mesh_create_long_edges, int32_t,
             (const riis_vtk_mesh *, const riis_surface *, double, int32_t, int64_t *, riis_adjacency **));
-  SIGNATURE(riis_vtk_mesh_volume_cells, int32_t, (const riis_vtk_mesh *, int64_t *, int64_t *));
-  SIGNATURE(riis_vtk_mesh_set_marks, int32_t, (riis_vtk_mesh *, const riis_mark_result *, double));
-  SIGNATURE(riis_vtk_mesh_set_named_marks, int32_t, (riis_vtk_mesh *, const riis_mark_result *, double, const char *));
+  SIGNATURE(riis_vtk_mesh_set_marks, int32_t, (riis_vtk_mesh *, const riis_marks *, double, const char *));
+  SIGNATURE(riis_vtk_mesh_set_fields, int32_t, (riis_vtk_mesh *, const riis_marks *, int32_t, const char *));
   SIGNATURE(riis_vtk_mesh_set_point_array, int32_t, (riis_vtk_mesh *, const char *, int64_t, int64_t, const double *));
-  SIGNATURE(riis_vtk_mesh_set_fields, int32_t, (riis_vtk_mesh *, const riis_mark_result *, int32_t, const char *));
-  SIGNATURE(riis_vtk_mesh_extract, int32_t, (const riis_vtk_mesh *, int64_t, const int64_t *, riis_vtk_mesh **));
-  SIGNATURE(riis_vtk_mesh_file_size, int32_t, (const riis_vtk_mesh *, int64_t *));
   SIGNATURE(riis_vtk_mesh_has_point_array, int32_t, (const riis_vtk_mesh *, const char *, int32_t *));
-  SIGNATURE(riis_vtk_mesh_median_edge, int32_t, (const riis_vtk_mesh *, double *));
+  SIGNATURE(riis_vtk_mesh_get_median_edge, int32_t, (const riis_vtk_mesh *, double *));
+  SIGNATURE(riis_vtk_mesh_extract, int32_t, (const riis_vtk_mesh *, int64_t, const int64_t *, riis_vtk_mesh **));
+  SIGNATURE(riis_vtk_mesh_get_file_size, int32_t, (const riis_vtk_mesh *, int64_t *));
   SIGNATURE(riis_vtk_mesh_write, int32_t, (const riis_vtk_mesh *, const char *));
-  SIGNATURE(riis_vtk_surface_read, int32_t, (const char *, riis_vtk_surface **));
-  SIGNATURE(riis_vtk_surface_read_with_leaflets, int32_t, (const char *, const char *, riis_vtk_surface **));
+  SIGNATURE(riis_vtk_surface_read, int32_t, (const char *, const char *, riis_vtk_surface **));
   SIGNATURE(riis_vtk_surface_number_pieces, int32_t, (riis_vtk_surface *));
   SIGNATURE(riis_vtk_surface_destroy, void, (riis_vtk_surface **));
-  SIGNATURE(riis_vtk_surface_arrays, int32_t, (const riis_vtk_surface *, riis_surface_arrays *));
+  SIGNATURE(riis_vtk_surface_get_arrays, int32_t, (const riis_vtk_surface *, riis_surface_arrays *, int64_t));
   SIGNATURE(riis_vtk_surface_write, int32_t, (const riis_surface *, const char *));
   SIGNATURE(riis_vtk_motion_read_pvd, int32_t, (const char *, const char *, riis_vtk_motion **));
   SIGNATURE(riis_vtk_motion_read_files, int32_t,
             (int64_t, const char *const *, const double *, const char *, riis_vtk_motion **));
   SIGNATURE(riis_vtk_motion_read_displacements, int32_t,
             (const char *, const char *, int64_t, const double *, const char *, riis_vtk_motion **));
-  SIGNATURE(riis_vtk_motion_files, int32_t, (const riis_vtk_motion *, int64_t *, const char *const **));
+  SIGNATURE(riis_vtk_motion_get_files, int32_t, (const riis_vtk_motion *, int64_t *, const char *const **));
   SIGNATURE(riis_vtk_motion_number_pieces, int32_t, (riis_vtk_motion *));
   SIGNATURE(riis_vtk_motion_destroy, void, (riis_vtk_motion **));
-  SIGNATURE(riis_vtk_motion_arrays, int32_t, (const riis_vtk_motion *, riis_surface_arrays *, riis_keyframe_arrays *));
+  SIGNATURE(riis_vtk_motion_get_arrays, int32_t, (const riis_vtk_motion *, riis_surface_arrays *, int64_t));
+  SIGNATURE(riis_vtk_motion_get_frames, int32_t, (const riis_vtk_motion *, riis_keyframe_arrays *, int64_t));
   SIGNATURE(riis_vtk_picture_options_init, int32_t, (riis_vtk_picture_options *, int64_t));
-  SIGNATURE(
-      riis_vtk_film_create, int32_t,
-      (const riis_vtk_mesh *, const double *, const double *, const riis_vtk_picture_options *, riis_vtk_film **));
-  SIGNATURE(riis_vtk_film_draw, int32_t, (riis_vtk_film *, const riis_surface *, const char *, const char *));
-  SIGNATURE(riis_vtk_film_destroy, void, (riis_vtk_film **));
   SIGNATURE(riis_vtk_draw, int32_t,
             (const riis_surface *, const riis_vtk_mesh *, const riis_vtk_picture_options *, const char *));
   SIGNATURE(riis_vtk_draw_views, int32_t,
             (const riis_surface *, const riis_vtk_mesh *, const riis_vtk_picture_options *, int64_t, const int32_t *,
              const char *const *));
+  SIGNATURE(
+      riis_vtk_film_create, int32_t,
+      (const riis_vtk_mesh *, const double *, const double *, const riis_vtk_picture_options *, riis_vtk_film **));
+  SIGNATURE(riis_vtk_film_draw, int32_t, (riis_vtk_film *, const riis_surface *, const char *, const char *));
+  SIGNATURE(riis_vtk_film_destroy, void, (riis_vtk_film **));
 }
 
 int main(void) {

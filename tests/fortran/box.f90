@@ -5,8 +5,8 @@ module box
   use, intrinsic :: iso_fortran_env, only: int64
   use checks
   use riis
-  use riis_c, only: c_mark_nodes => riis_mark_nodes, c_mark_result_create => riis_marks_create, &
-    c_mark_result_destroy => riis_marks_destroy, c_mark_result_marked => riis_mark_result_marked, &
+  use riis_c, only: c_mark_nodes => riis_mark_nodes, c_marks_create => riis_marks_create, &
+    c_marks_destroy => riis_marks_destroy, c_marks_get_list => riis_marks_get_list, c_mark_list => riis_mark_list, &
     c_mesh_create => riis_mesh_create, c_mesh_destroy => riis_mesh_destroy
   implicit none
   private
@@ -38,7 +38,8 @@ contains
 
   ! The reference, without module riis where it can be.
   subroutine mark_from_c()
-    type(c_ptr) :: mesh, result, ids, distances
+    type(c_mark_list) :: list
+    type(c_ptr) :: mesh, result
     integer(int64), pointer :: id(:)
     real(c_double), pointer :: distance(:)
     real(c_double), pointer :: target_xyz(:, :)
@@ -46,20 +47,19 @@ contains
     allocate (target_xyz, source=xyz)
     mesh = c_null_ptr
     result = c_null_ptr
-    ids = c_null_ptr
-    distances = c_null_ptr
-    n = 0
     call check_ok(c_mesh_create(int(n_nodes, int64), c_loc(target_xyz(1, 1)), c_loc(target_xyz(2, 1)), &
       c_loc(target_xyz(3, 1)), 3_int64, mesh), 'a mesh from riis_c')
-    call check_ok(c_mark_result_create(result), 'a result from riis_c')
-    call check_ok(c_mark_nodes(surface%c_handle(), mesh, result=result), 'marking from riis_c')
-    call check_ok(c_mark_result_marked(result, n, ids, distances), 'the marked nodes from riis_c')
-    call c_f_pointer(ids, id, [n])
-    call c_f_pointer(distances, distance, [n])
+    call check_ok(c_marks_create(result), 'a result from riis_c')
+    call check_ok(c_mark_nodes(surface%c_handle(), mesh, marks=result), 'marking from riis_c')
+    call check_ok(c_marks_get_list(result, RIIS_LIST_MARKED, list, storage_size(list, int64) / 8), &
+      'the marked nodes from riis_c')
+    n = list%n_nodes
+    call c_f_pointer(list%node_id, id, [n])
+    call c_f_pointer(list%distance, distance, [n])
     expected = id
     expected_distance = distance
     call check(n > 100 .and. 2 * n < n_nodes, 'riis_c marks some of the nodes')
-    call c_mark_result_destroy(result)
+    call c_marks_destroy(result)
     call c_mesh_destroy(mesh)
     deallocate (target_xyz)
   end subroutine mark_from_c

@@ -2,6 +2,8 @@
  * The calls of test_calls.f90 made from C, and the layout of the structs in C. */
 #include "c_twin.h"
 
+#include "calls.h"
+
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +13,8 @@ static riis_surface *surface, *plate, *mitral, *opening, *patches, *thin, *movin
 static riis_mesh *mesh;
 static riis_adjacency *of_cells, *of_faces, *of_grid;
 static riis_marks *result, *leaking, *resisting;
+static riis_leaks *leaks_found;
+static riis_crossings *crossings_found;
 static int64_t *region_labels;
 static void *memory[24];
 static int n_memory;
@@ -39,9 +43,7 @@ static riis_status describe_parameters(twin_numbers *numbers) {
 
 static riis_status list_surface(const riis_surface *from, twin_surface *list) {
   TRY(riis_surface_get_info(from, &list->info, sizeof list->info));
-  list->xyz = triangles_of(from).xyz;
-  list->uv = triangles_of(from).uv;
-  return riis_surface_triangles(from, NULL, &list->vertex_id, &list->triangle_id, &list->leaflet_id, &list->patch_id);
+  return riis_surface_get_triangles(from, &list->triangles, sizeof list->triangles);
 }
 
 static riis_status make_surface(twin_numbers *numbers) {
@@ -186,18 +188,8 @@ static riis_status mark(int64_t n_nodes, const double *xyz, twin_numbers *number
   options.n_threads = 2;
   TRY(riis_mark_nodes(surface, mesh, &options, result));
 
-  twin_list *list = &numbers->marked;
-  list->n = marked_list(result).n_nodes;
-  list->node_id = marked_list(result).node_id;
-  list->distance = marked_list(result).distance;
-  list->triangle_id = marked_list(result).triangle_id;
-  list->leaflet_id = marked_list(result).leaflet_id;
-  list = &numbers->within_limit;
-  list->n = within_list(result).n_nodes;
-  list->node_id = within_list(result).node_id;
-  list->distance = within_list(result).distance;
-  list->triangle_id = within_list(result).triangle_id;
-  list->leaflet_id = within_list(result).leaflet_id;
+  TRY(riis_marks_get_list(result, RIIS_LIST_MARKED, &numbers->marked, sizeof numbers->marked));
+  TRY(riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, &numbers->within_limit, sizeof numbers->within_limit));
   uint8_t *dense_mark = allocate(n_nodes, sizeof *dense_mark);
   double *distance = allocate(n_nodes, sizeof *distance);
   int64_t *triangle_id = allocate(n_nodes, sizeof *triangle_id);
@@ -288,8 +280,9 @@ static riis_status find_leaks(twin_leaks *leaks) {
   TRY(riis_mark_nodes(thin, mesh, NULL, leaking));
   TRY(riis_mark_options_init(&options, sizeof options));
   options.n_threads = 2;
-  TRY(riis_find_leaks(thin, mesh, &options, leaking, &leaks->sum, sizeof leaks->sum));
-  TRY(riis_mark_result_leaking_edges(leaking, &leaks->n, &leaks->node_id, &leaks->length, &leaks->distance));
+  TRY(riis_leaks_create(&leaks_found));
+  TRY(riis_find_leaks(thin, mesh, leaking, &options, leaks_found));
+  TRY(riis_leaks_get_list(leaks_found, &leaks->list, sizeof leaks->list));
   const int64_t from = 0, to = csr.n_rows - 1;
   free(region_labels);
   region_labels = malloc((size_t)csr.n_rows * sizeof *region_labels);
@@ -300,7 +293,7 @@ static riis_status find_leaks(twin_leaks *leaks) {
 }
 
 /* The right cusp is turned into its neighbours. */
-static riis_status find_crossings(twin_crossings *crossings) {
+static riis_status find_crossings(riis_crossing_list *list) {
   const double turned[3] = {0, 0, 60};
   riis_valve *crossing_valve = NULL;
   riis_crossing_options options;
@@ -310,9 +303,9 @@ static riis_status find_crossings(twin_crossings *crossings) {
   riis_valve_destroy(&crossing_valve);
   TRY(riis_crossing_options_init(&options, sizeof options));
   options.depth = 1e-3;
-  TRY(riis_find_crossings(crossed, &options, &crossings->sum, sizeof crossings->sum));
-  return riis_surface_crossing_pairs(crossed, &crossings->n, &crossings->triangle_id, &crossings->point,
-                                     &crossings->depth, &crossings->length);
+  TRY(riis_crossings_create(&crossings_found));
+  TRY(riis_find_crossings(crossed, &options, crossings_found));
+  return riis_crossings_get_list(crossings_found, list, sizeof *list);
 }
 
 static riis_status walk_along_all(int64_t per_side, twin_numbers *numbers) {
@@ -350,13 +343,16 @@ static riis_status resist(int64_t n_nodes, const double *xyz, twin_motion *motio
   riis_valve_destroy(&now);
   riis_valve_destroy(&before);
   TRY(list_surface(moving, &motion->surface));
-  motion->vertex_velocity = triangles_of(moving).velocity;
 
   riis_mark_options mark_options;
   TRY(riis_mark_options_init(&mark_options, sizeof mark_options));
   mark_options.distance_limit = 2.5;
   mark_options.n_threads = 2;
   mark_options.fields = 255;
+  riis_resistance listed;
+  TRY(riis_resistance_init(&listed, sizeof listed));
+  listed.R = 3;
+  mark_options.resistance = &listed;
   TRY(riis_marks_create(&resisting));
   TRY(riis_mark_nodes(moving, mesh, &mark_options, resisting));
   TRY(riis_marks_get_list(resisting, RIIS_LIST_MARKED, &motion->marked, sizeof motion->marked));
@@ -400,10 +396,9 @@ static riis_status move_by_frames(twin_motion *motion) {
   frames.xyz = xyz;
   TRY(riis_keyframes_create(&faces, &frames, &keyframes));
   TRY(riis_surface_create_from_keyframes(keyframes, 0, 0, NULL, &framed));
-  TRY(riis_surface_update_from_keyframes(framed, keyframes, 0.25, 0.25 - 0.125, NULL));
+  TRY(riis_surface_update_from_keyframes(framed, keyframes, 0.25, 0.125, NULL));
   riis_keyframes_destroy(&keyframes);
-  TRY(list_surface(framed, &motion->framed));
-  return riis_surface_vertex_velocities(framed, NULL, &motion->framed_velocity);
+  return list_surface(framed, &motion->framed);
 }
 
 static riis_status open_by_laws(twin_laws *laws) {
@@ -463,6 +458,8 @@ void twin_end(void) {
   riis_surface_destroy(&framed);
   riis_surface_destroy(&crossed);
   riis_marks_destroy(&leaking);
+  riis_leaks_destroy(&leaks_found);
+  riis_crossings_destroy(&crossings_found);
   free(region_labels);
   region_labels = NULL;
   riis_surface_destroy(&thin);

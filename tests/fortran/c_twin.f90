@@ -5,19 +5,12 @@ module c_twin
   use riis_c
   implicit none
   private
-  public :: twin_list, twin_surface, twin_walk, twin_leaks, &
-    twin_crossings, twin_motion, twin_laws, twin_numbers, twin_run, twin_end, &
+  public :: twin_surface, twin_walk, twin_leaks, twin_motion, twin_laws, twin_numbers, twin_run, twin_end, &
     twin_layout, twin_n_layouts, twin_auto, twin_far_distance
-
-  type, bind(c) :: twin_list
-    integer(c_int64_t) :: n
-    type(c_ptr) :: node_id, distance, triangle_id, leaflet_id
-  end type twin_list
 
   type, bind(c) :: twin_surface
     type(riis_surface_info) :: info
-    type(c_ptr) :: xyz, uv
-    type(c_ptr) :: vertex_id, triangle_id, leaflet_id, patch_id
+    type(riis_triangles) :: triangles
   end type twin_surface
 
   type, bind(c) :: twin_walk
@@ -26,29 +19,19 @@ module c_twin
   end type twin_walk
 
   type, bind(c) :: twin_leaks
-    type(riis_leaks) :: sum
-    integer(c_int64_t) :: n
-    type(c_ptr) :: node_id, length, distance
+    type(riis_leak_list) :: list
     type(c_ptr) :: label
     integer(c_int64_t) :: n_regions
     type(riis_passage) :: passage
   end type twin_leaks
 
-  type, bind(c) :: twin_crossings
-    type(riis_crossings) :: sum
-    integer(c_int64_t) :: n
-    type(c_ptr) :: triangle_id, point, depth, length
-  end type twin_crossings
-
   type, bind(c) :: twin_motion
     type(twin_surface) :: surface
-    type(c_ptr) :: vertex_velocity
-    type(riis_mark_fields) :: marked, within_limit
+    type(riis_mark_list) :: marked, within_limit
     type(c_ptr) :: coefficient, momentum
     real(c_double) :: force(3)
     type(riis_band_sums) :: sums
     type(twin_surface) :: framed
-    type(c_ptr) :: framed_velocity
   end type twin_motion
 
   type, bind(c) :: twin_laws
@@ -63,13 +46,13 @@ module c_twin
     type(twin_surface) :: aortic, mitral, opening, patches
     type(riis_closest) :: closest
     type(riis_closest_arrays) :: all
-    type(twin_list) :: marked, within_limit
+    type(riis_mark_list) :: marked, within_limit
     type(c_ptr) :: dense_mark, dense_distance, dense_triangle_id, dense_leaflet_id
     type(riis_mark_stats) :: stats
     type(twin_walk) :: cells, faces, grid
     type(riis_mark_stats) :: paper
     type(twin_leaks) :: leaks
-    type(twin_crossings) :: crossings
+    type(riis_crossing_list) :: crossings
     type(twin_motion) :: motion
     type(twin_laws) :: laws
   end type twin_numbers

@@ -5,21 +5,10 @@
 
 #include <riis/riis.h>
 
-/* The lists of a marking. */
-typedef struct twin_list {
-  int64_t n;
-  const int64_t *node_id;
-  const double *distance;
-  const int64_t *triangle_id;
-  const int32_t *leaflet_id;
-} twin_list;
-
 /* The lists of a surface. */
 typedef struct twin_surface {
   riis_surface_info info;
-  const double *xyz, *uv;
-  const int64_t *vertex_id, *triangle_id;
-  const int32_t *leaflet_id, *patch_id;
+  riis_triangles triangles;
 } twin_surface;
 
 /* A mesh's rows and the statistics of a marking by walking along them. */
@@ -30,33 +19,20 @@ typedef struct twin_walk {
 
 /* The list of leaking edges. */
 typedef struct twin_leaks {
-  riis_leaks sum;
-  int64_t n;
-  const int64_t *node_id;
-  const double *length, *distance;
+  riis_leak_list list;
   const int64_t *label; /* of each node's open region */
   int64_t n_regions;
   riis_passage passage; /* from the first node to the last one */
 } twin_leaks;
 
-/* The pairs of triangles that go through each other. */
-typedef struct twin_crossings {
-  riis_crossings sum;
-  int64_t n;
-  const int64_t *triangle_id;
-  const double *point, *depth, *length;
-} twin_crossings;
-
 /* An aortic valve that opens, and the results computed with its fields. */
 typedef struct twin_motion {
   twin_surface surface;
-  const double *vertex_velocity;
   riis_mark_list marked, within_limit;
   const double *coefficient, *momentum; /* (n_nodes), (3, n_nodes) */
   double force[3];
   riis_band_sums sums;
   twin_surface framed; /* half way between two frames of a square */
-  const double *framed_velocity;
 } twin_motion;
 
 /* What the laws of opening say. */
@@ -76,7 +52,7 @@ typedef struct twin_numbers {
   twin_surface patches;    /* a valve from patches */
   riis_closest closest;    /* of the first node, on the aortic valve */
   riis_closest_arrays all; /* of all nodes, on the surface from arrays */
-  twin_list marked, within_limit;
+  riis_mark_list marked, within_limit;
   const uint8_t *dense_mark;
   const double *dense_distance;
   const int64_t *dense_triangle_id;
@@ -85,7 +61,7 @@ typedef struct twin_numbers {
   twin_walk cells, faces, grid; /* RIIS_SEARCH_NEIGHBOR */
   riis_mark_stats paper;        /* RIIS_SEARCH_PAPER along the grid */
   twin_leaks leaks;             /* of a thin aortic valve, along the tetrahedra */
-  twin_crossings crossings;     /* of an aortic valve with a cusp that is turned */
+  riis_crossing_list crossings; /* of an aortic valve with a cusp that is turned */
   twin_motion motion;
   twin_laws laws;
 } twin_numbers;

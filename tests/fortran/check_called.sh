@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_called.sh HEADER OBJECT_FILES...
-# The objects of the Fortran tests must call every function of the header.
+# The Fortran tests, and the modules that they go through, must call every function of the header.
 set -euo pipefail
 header=$1
 shift

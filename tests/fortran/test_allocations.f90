@@ -47,9 +47,10 @@ program test_allocations
 contains
 
   subroutine one_step()
+    type(riis_triangles) :: all_triangles
     type(riis_opening_switch), parameter :: by_switch = riis_opening_switch(0.1d0, 0.1d0)
     type(riis_opening_angle), parameter :: by_angle = riis_opening_angle(5500d0, 2d0, 50d0, 3.5d0)
-    type(riis_mark_fields) :: fields
+    type(riis_mark_list) :: fields
     type(riis_band_sums) :: sums
     type(riis_mark_stats) :: stats
     real(c_double), pointer :: at(:, :), velocity(:, :), marked_distance(:)
@@ -65,15 +66,20 @@ contains
     call before%set('leaflet_angle', 20d0 + step)
     call valve%set('leaflet_angle', 21d0 + step)
     call surface%update_moving(valve, before, 0.01d0)
-    call surface%vertices(at)
-    call surface%vertex_velocities(velocity)
-    call surface%triangles(vertex_id, triangle_id, leaflet_id)
+    call surface%get_triangles(all_triangles)
+    at => all_triangles%xyz
+    call surface%get_triangles(all_triangles)
+    velocity => all_triangles%velocity
+    call surface%get_triangles(all_triangles)
+    vertex_id => all_triangles%vertex_id
+    triangle_id => all_triangles%triangle_id
+    leaflet_id => all_triangles%leaflet_id
     call riis_mark_nodes(surface, mesh, result, distance_limit=0.2d0, node_mask=mask, n_threads=1, &
       fields=RIIS_FIELD_VELOCITY + RIIS_FIELD_SIDE + RIIS_FIELD_RIM)
     call result%marked(node_id, marked_distance)
-    call result%marked_fields(fields)
+    call result%get_list(RIIS_LIST_MARKED, fields)
     call result%add_resistance(1d0, coefficient)
-    call result%add_resistance(1d0, momentum=momentum)
+    call result%add_resistance(1d0, K_u_surface=momentum)
     call result%add_resistance(1d0, coefficient, momentum)
     call result%add_reaction(1d0, momentum, weight, force)
     call result%band_sums(0.1d0, 0.2d0, weight, weight, sums)

@@ -4,6 +4,7 @@
 module log_capture
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_int32_t, c_ptr
   use riis_c
+  use riis_calls
   implicit none
   public
 
@@ -35,6 +36,7 @@ program test_calls
   use c_twin
   use log_capture
   use riis_c
+  use riis_calls
   implicit none
   integer(c_int64_t), parameter :: per_side = 20, n_nodes = per_side**3
   real(c_double), target :: xyz(3, n_nodes) ! a box around the valve, in mm, a node every 1.8 mm
@@ -69,6 +71,27 @@ program test_calls
   call finish()
 
 contains
+
+  ! What the surface's triangles have, by name.
+  function triangles_from(surface, n_vertices, xyz, uv, velocity, n_triangles, vertex_id, triangle_id, leaflet_id, &
+      patch_id) result(status)
+    type(c_ptr), intent(in) :: surface
+    integer(c_int64_t), intent(inout), optional :: n_vertices, n_triangles
+    type(c_ptr), intent(inout), optional :: xyz, uv, velocity, vertex_id, triangle_id, leaflet_id, patch_id
+    integer(riis_status) :: status
+    type(riis_triangles) :: all
+    status = riis_surface_get_triangles(surface, all, c_sizeof(all))
+    if (status /= RIIS_OK) return
+    if (present(n_vertices)) n_vertices = all%n_vertices
+    if (present(xyz)) xyz = all%xyz
+    if (present(uv)) uv = all%uv
+    if (present(velocity)) velocity = all%velocity
+    if (present(n_triangles)) n_triangles = all%n_triangles
+    if (present(vertex_id)) vertex_id = all%vertex_id
+    if (present(triangle_id)) triangle_id = all%triangle_id
+    if (present(leaflet_id)) leaflet_id = all%leaflet_id
+    if (present(patch_id)) patch_id = all%patch_id
+  end function triangles_from
 
   subroutine test_version_and_texts()
     integer(c_int32_t) :: major, minor, patch
@@ -170,7 +193,7 @@ contains
     call check_ok(riis_surface_options_init(options, c_sizeof(options)), 'default surface options')
     call check(options%struct_size == c_sizeof(options) .and. nint(options%scale) == 1 .and. &
       all(nint(options%rotation_axis) == [0, 0, 1]) .and. options%zero_area == RIIS_ZERO_AREA_REFUSE .and. &
-      options%distance == RIIS_MEASURE_TRIANGLES .and. abs(options%measure_tolerance - RIIS_AUTO) <= 0, &
+      options%measure == RIIS_MEASURE_TRIANGLES .and. abs(options%measure_tolerance - RIIS_AUTO) <= 0, &
       'the defaults of the surface options')
     options%half_thickness = 1.1d0
     options%tolerance = 0.1d0
@@ -181,18 +204,18 @@ contains
     call check_ok(riis_surface_update(surface, valve, options), 'update a surface')
 
     call check_same_surface(surface, twin%aortic, 'the aortic valve')
-    call check_ok(riis_surface_triangles(surface, n_triangles, leaflet_id=leaflet_id), 'leaflet ids alone')
+    call check_ok(triangles_from(surface, n_triangles=n_triangles, leaflet_id=leaflet_id), 'leaflet ids alone')
     call check(n_triangles == twin%aortic%info%n_triangles, 'the number of triangles')
     call c_f_pointer(leaflet_id, leaflets, [n_triangles])
     call check(minval(leaflets) == RIIS_LEAFLET_RIGHT .and. maxval(leaflets) == RIIS_LEAFLET_NON_CORONARY .and. &
       any(leaflets == RIIS_LEAFLET_LEFT), 'three leaflets')
     n = -1
-    call check_ok(riis_surface_triangles(surface, n_triangles=n), 'the number of triangles alone')
+    call check_ok(triangles_from(surface, n_triangles=n), 'the number of triangles alone')
     call check(n == n_triangles, 'the number of triangles alone')
 
-    options%distance = 3
-    call check_refused(riis_surface_create(valve, options, other), RIIS_INVALID_ARGUMENT, 'options.distance is 3')
-    options%distance = RIIS_MEASURE_TRIANGLES
+    options%measure = 3
+    call check_refused(riis_surface_create(valve, options, other), RIIS_INVALID_ARGUMENT, 'options.measure is 3')
+    options%measure = RIIS_MEASURE_TRIANGLES
     options%tolerance = 2
     call check_refused(riis_surface_create(valve, options, other), RIIS_INVALID_ARGUMENT, 'tolerance')
     options%struct_size = 12
@@ -201,7 +224,7 @@ contains
     call check_refused(riis_surface_create(valve, surface=other), RIIS_INVALID_PARAMETER, 'bending_height')
     call check(.not. c_associated(other), 'no surface is made by calls that are refused')
     call check_refused(riis_surface_update(surface, valve), RIIS_INVALID_PARAMETER, 'bending_height')
-    call check_ok(riis_surface_triangles(surface, n), 'triangles')
+    call check_ok(triangles_from(surface, n_triangles=n), 'triangles')
     call check(n == n_triangles, 'a surface stays as it was when its update is refused')
   end subroutine test_surface
 
@@ -217,19 +240,20 @@ contains
     ! Times differ: up to them.
     call check_same_bytes(c_loc(info), c_loc(from_c%info), 88_c_int64_t, what // ': description')
     call check(info%seconds_triangles > 0 .and. info%seconds_scene > 0, what // ': a surface takes time')
-    call check_ok(riis_surface_vertices(made, n_vertices, vertices), what // ': vertices')
+    call check_ok(triangles_from(made, n_vertices=n_vertices, xyz=vertices), what // ': vertices')
     call check(n_vertices == info%n_vertices, what // ': the number of vertices')
-    call check_same_bytes(vertices, from_c%xyz, 24 * n_vertices, what // ': vertices')
-    call check_ok(riis_surface_vertex_parameters(made, n_parameters, parameters), what // ': vertex parameters')
+    call check_same_bytes(vertices, from_c%triangles%xyz, 24 * n_vertices, what // ': vertices')
+    call check_ok(triangles_from(made, n_vertices=n_parameters, uv=parameters), what // ': vertex parameters')
     call check(n_parameters == n_vertices, what // ': the number of vertex parameters')
-    call check_same_bytes(parameters, from_c%uv, 16 * n_vertices, what // ': vertex parameters')
-    call check_ok(riis_surface_triangles(made, n_triangles, vertex_id, triangle_id, leaflet_id, patch_id), &
+    call check_same_bytes(parameters, from_c%triangles%uv, 16 * n_vertices, what // ': vertex parameters')
+    call check_ok(triangles_from(made, n_triangles=n_triangles, vertex_id=vertex_id, triangle_id=triangle_id, &
+      leaflet_id=leaflet_id, patch_id=patch_id), &
       what // ': triangles')
     call check(n_triangles == info%n_triangles, what // ': the number of triangles')
-    call check_same_bytes(vertex_id, from_c%vertex_id, 24 * n_triangles, what // ': vertex ids')
-    call check_same_bytes(triangle_id, from_c%triangle_id, 8 * n_triangles, what // ': triangle ids')
-    call check_same_bytes(leaflet_id, from_c%leaflet_id, 4 * n_triangles, what // ': leaflet ids')
-    call check_same_bytes(patch_id, from_c%patch_id, 4 * n_triangles, what // ': patch ids')
+    call check_same_bytes(vertex_id, from_c%triangles%vertex_id, 24 * n_triangles, what // ': vertex ids')
+    call check_same_bytes(triangle_id, from_c%triangles%triangle_id, 8 * n_triangles, what // ': triangle ids')
+    call check_same_bytes(leaflet_id, from_c%triangles%leaflet_id, 4 * n_triangles, what // ': leaflet ids')
+    call check_same_bytes(patch_id, from_c%triangles%patch_id, 4 * n_triangles, what // ': patch ids')
   end subroutine check_same_surface
 
   subroutine test_mitral_valve()
@@ -242,7 +266,7 @@ contains
     call check_ok(riis_valve_set_scalar(mitral, riis_c_string('opening'), 0.5d0), 'open it half')
     call check_ok(riis_surface_create(mitral, surface=made), 'create its surface')
     call check_same_surface(made, twin%mitral, 'the mitral valve')
-    call check_ok(riis_surface_triangles(made, n_triangles, leaflet_id=leaflet_id), 'leaflet ids alone')
+    call check_ok(triangles_from(made, n_triangles=n_triangles, leaflet_id=leaflet_id), 'leaflet ids alone')
     call c_f_pointer(leaflet_id, leaflets, [n_triangles])
     call check(minval(leaflets) == RIIS_LEAFLET_ANTERIOR .and. maxval(leaflets) == RIIS_LEAFLET_POSTERIOR, &
       'two leaflets')
@@ -321,7 +345,7 @@ contains
     leaflet_id = [3, 4, 5]
     call check_refused(riis_surface_arrays_init(arrays, 0_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
     call check_ok(riis_surface_arrays_init(arrays, c_sizeof(arrays)), 'default surface arrays')
-    call check(arrays%struct_size == c_sizeof(arrays) .and. arrays%stride == 1 .and. arrays%vertex_id_bits == 32 .and. &
+    call check(arrays%struct_size == c_sizeof(arrays) .and. arrays%stride == 1 .and. arrays%id_bits == 32 .and. &
       arrays%corners_per_face == 3 .and. .not. c_associated(arrays%x), 'the defaults of the surface arrays')
     arrays%n_vertices = 6
     arrays%x = c_loc(x)
@@ -329,19 +353,19 @@ contains
     arrays%z = c_loc(z)
     arrays%n_faces = 2
     arrays%vertex_ids = c_loc(quads)
-    arrays%vertex_id_bits = 64
+    arrays%id_bits = 64
     arrays%index_base = 1
     arrays%corners_per_face = 4
     call check_ok(riis_surface_create_from_arrays(arrays, surface=plate), 'create a surface from quads')
     call check_ok(riis_surface_get_info(plate, info, c_sizeof(info)), 'describe the plate')
     call check(info%n_triangles == 4 .and. info%n_zero_area == 0, 'two quads are four triangles')
     parameters = c_loc(x)
-    call check_ok(riis_surface_vertex_parameters(plate, uv=parameters), 'vertex parameters of a surface from arrays')
+    call check_ok(triangles_from(plate, uv=parameters), 'vertex parameters of a surface from arrays')
     call check(.not. c_associated(parameters), 'a surface from arrays has no vertex parameters')
 
     arrays%n_faces = 3
     arrays%vertex_ids = c_loc(triangles)
-    arrays%vertex_id_bits = 32
+    arrays%id_bits = 32
     arrays%index_base = 0
     arrays%corners_per_face = 3
     arrays%leaflet_id = c_loc(leaflet_id)
@@ -373,6 +397,7 @@ contains
     type(riis_closest), target :: closest
     type(riis_closest_options) :: options
     type(riis_closest_arrays) :: arrays
+    type(riis_points) :: points
     real(c_double), target, allocatable :: distance(:), point(:, :), barycentric(:, :), normal(:, :)
     integer(c_int64_t), target, allocatable :: triangle_id(:)
     integer(c_int32_t), target, allocatable :: leaflet_id(:), side(:)
@@ -398,11 +423,18 @@ contains
     arrays%side = c_loc(side)
     call check_ok(riis_closest_options_init(options, c_sizeof(options)), 'default closest options')
     call check(options%struct_size == c_sizeof(options) .and. options%far_distance > 9d29 .and. &
-      options%distance_limit < 0, 'the defaults of the closest options')
+      options%distance_limit > huge(1d0), 'the defaults of the closest options')
     options%distance_limit = 12
     options%far_distance = -1
     options%n_threads = 2
-    call check_ok(riis_closest_points(plate, n_nodes, xyz(1, 1), xyz(2, 1), xyz(3, 1), 3_c_int64_t, options, arrays), &
+    call check_ok(riis_points_init(points, c_sizeof(points)), 'default points')
+    call check(points%real_bits == 64 .and. points%stride == 1, 'points are doubles')
+    points%n_points = n_nodes
+    points%x = c_loc(xyz(1, 1))
+    points%y = c_loc(xyz(2, 1))
+    points%z = c_loc(xyz(3, 1))
+    points%stride = 3
+    call check_ok(riis_closest_points(plate, points, options, arrays), &
       'closest points')
     call check_same_bytes(c_loc(distance), twin%all%distance, 8 * n_nodes, 'distances')
     call check_same_bytes(c_loc(point), twin%all%point, 24 * n_nodes, 'points')
@@ -417,10 +449,9 @@ contains
       .not. any(leaflet_id == 4), 'both sides and both leaflets of the plate')
 
     options%far_distance = 3
-    call check_refused(riis_closest_points(plate, n_nodes, xyz(1, 1), xyz(2, 1), xyz(3, 1), 3_c_int64_t, options, &
-      arrays), RIIS_INVALID_ARGUMENT, 'far_distance')
-    call check_refused(riis_closest_points(plate, n_nodes, xyz(1, 1), xyz(2, 1), xyz(3, 1), 0_c_int64_t, &
-      arrays=arrays), RIIS_INVALID_ARGUMENT, 'stride')
+    call check_refused(riis_closest_points(plate, points, options, arrays), RIIS_INVALID_ARGUMENT, 'far_distance')
+    points%stride = 0
+    call check_refused(riis_closest_points(plate, points, arrays=arrays), RIIS_INVALID_ARGUMENT, 'stride')
   end subroutine test_closest_points
 
   subroutine test_marking()
@@ -431,7 +462,7 @@ contains
     real(c_double), target, allocatable :: distance(:)
     integer(c_int64_t), target, allocatable :: triangle_id(:)
     integer(c_int32_t), target, allocatable :: leaflet_id(:)
-    type(twin_list) :: list
+    type(riis_mark_list) :: list
     type(c_ptr) :: other = c_null_ptr
     integer(c_int64_t) :: n_default, n
     integer(c_int64_t), pointer :: ids(:)
@@ -445,11 +476,11 @@ contains
     call check_ok(riis_mesh_prepare(mesh, 2), 'prepare a mesh')
     call check_refused(riis_mesh_prepare(mesh, -1), RIIS_INVALID_ARGUMENT, 'n_threads is -1')
     call check_ok(riis_marks_create(result), 'create a result')
-    n_default = -1
-    call check_ok(riis_mark_result_marked(result, n_default), 'the marked nodes of a new result')
-    call check(n_default == 0, 'a new result has no marked nodes')
-    call check_ok(riis_mark_nodes(surface, mesh, result=result), 'mark with default options')
-    call check_ok(riis_mark_result_marked(result, n_default), 'the number of marked nodes alone')
+    call check_ok(riis_marks_get_list(result, RIIS_LIST_MARKED, list, c_sizeof(list)), 'the marked nodes of new marks')
+    call check(list%n_nodes == 0, 'a new result has no marked nodes')
+    call check_ok(riis_mark_nodes(surface, mesh, marks=result), 'mark with default options')
+    call check_ok(riis_marks_get_list(result, RIIS_LIST_MARKED, list, c_sizeof(list)), 'the marked nodes')
+    n_default = list%n_nodes
     call check(n_default > 0 .and. n_default < n_nodes, 'some nodes are marked')
 
     do n = 1, n_nodes
@@ -465,45 +496,41 @@ contains
     options%n_threads = 2
     call check_ok(riis_mark_nodes(surface, mesh, options, result), 'mark')
 
-    list = twin_list(-1, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr)
-    call check_ok(riis_mark_result_marked(result, list%n, list%node_id, list%distance, list%triangle_id, &
-      list%leaflet_id), 'the marked nodes')
+    call check_ok(riis_marks_get_list(result, RIIS_LIST_MARKED, list, c_sizeof(list)), 'the marked nodes')
     call check_same_list(list, twin%marked, 'marked')
-    call check(list%n > 0 .and. list%n < n_default, 'the mask leaves marked nodes out')
-    call c_f_pointer(list%node_id, ids, [list%n])
-    call c_f_pointer(list%distance, distances, [list%n])
-    call check(all(ids(2:) > ids(:list%n - 1)) .and. all(mod(ids, 7_c_int64_t) /= 0), 'ascending ids, from 0, unmasked')
+    call check(list%n_nodes > 0 .and. list%n_nodes < n_default, 'the mask leaves marked nodes out')
+    call c_f_pointer(list%node_id, ids, [list%n_nodes])
+    call c_f_pointer(list%distance, distances, [list%n_nodes])
+    call check(all(ids(2:) > ids(:list%n_nodes - 1)) .and. all(mod(ids, 7_c_int64_t) /= 0), 'ascending ids, from 0, unmasked')
     call check(maxval(distances) <= 1.1d0, 'marked nodes are within the half thickness')
 
-    list = twin_list(-1, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr)
-    call check_ok(riis_mark_result_within_limit(result, list%n, list%node_id, list%distance, list%triangle_id, &
-      list%leaflet_id), 'the nodes within the limit')
+    call check_ok(riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, list, c_sizeof(list)), 'the nodes within the limit')
     call check_same_list(list, twin%within_limit, 'within the limit')
-    call check(list%n > twin%marked%n, 'more nodes are within the limit')
+    call check(list%n_nodes > twin%marked%n_nodes, 'more nodes are within the limit')
 
     allocate (mark(n_nodes), distance(n_nodes), triangle_id(n_nodes), leaflet_id(n_nodes))
-    call check_ok(riis_marks_get_dense(result, n_nodes, RIIS_FAR_DISTANCE, mark, distance, triangle_id, leaflet_id), &
+    call check_ok(write_dense(result, n_nodes, RIIS_FAR_DISTANCE, mark, distance, triangle_id, leaflet_id), &
       'dense arrays')
     call check_same_bytes(c_loc(mark), twin%dense_mark, n_nodes, 'dense marks')
     call check_same_bytes(c_loc(distance), twin%dense_distance, 8 * n_nodes, 'dense distances')
     call check_same_bytes(c_loc(triangle_id), twin%dense_triangle_id, 8 * n_nodes, 'dense triangle ids')
     call check_same_bytes(c_loc(leaflet_id), twin%dense_leaflet_id, 4 * n_nodes, 'dense leaflet ids')
-    call check(sum(int(mark, c_int64_t)) == twin%marked%n, 'as many dense marks as marked nodes')
+    call check(sum(int(mark, c_int64_t)) == twin%marked%n_nodes, 'as many dense marks as marked nodes')
     leaflet_id = -2
-    call check_ok(riis_marks_get_dense(result, n_nodes, -1d0, leaflet_id=leaflet_id), 'one dense array alone')
+    call check_ok(write_dense(result, n_nodes, -1d0, leaflet_id=leaflet_id), 'one dense array alone')
     call check_same_bytes(c_loc(leaflet_id), twin%dense_leaflet_id, 4 * n_nodes, 'dense leaflet ids alone')
 
     call check_ok(riis_marks_get_stats(result, stats, c_sizeof(stats)), 'statistics')
     call check_same_bytes(c_loc(stats), c_loc(twin%stats), 32_c_int64_t, 'statistics')
-    call check(stats%n_nodes == n_nodes .and. stats%n_marked == twin%marked%n .and. &
-      stats%n_within_limit == list%n .and. stats%n_queries >= list%n .and. stats%seconds > 0 .and. &
+    call check(stats%n_nodes == n_nodes .and. stats%n_marked == twin%marked%n_nodes .and. &
+      stats%n_within_limit == list%n_nodes .and. stats%n_queries >= list%n_nodes .and. stats%seconds > 0 .and. &
       stats%search == RIIS_SEARCH_EXHAUSTIVE .and. stats%complete == 1, 'the statistics of the marking')
     call check(stats%n_threads == twin%stats%n_threads, 'as many threads as from C')
 
-    call check_refused(riis_marks_get_dense(result, n_nodes - 1, -1d0, mark), RIIS_INVALID_ARGUMENT, 'n_nodes')
+    call check_refused(write_dense(result, n_nodes - 1, -1d0, mark), RIIS_INVALID_ARGUMENT, 'n_nodes')
     options%distance_limit = 1
     call check_refused(riis_mark_nodes(surface, mesh, options, result), RIIS_INVALID_ARGUMENT, 'distance_limit')
-    call check_refused(riis_mark_nodes(surface, c_null_ptr, result=result), RIIS_INVALID_ARGUMENT, 'mesh')
+    call check_refused(riis_mark_nodes(surface, c_null_ptr, marks=result), RIIS_INVALID_ARGUMENT, 'mesh')
     call check_refused(riis_marks_get_stats(result, stats, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'struct size')
     bad = [0d0, 1d300, 0d0]
     call check_refused(riis_mesh_create(1_c_int64_t, c_loc(bad(1)), c_loc(bad(2)), c_loc(bad(3)), 3_c_int64_t, other), &
@@ -512,22 +539,22 @@ contains
     call check_refused(riis_mesh_update(mesh, -1_c_int64_t, c_loc(bad(1)), c_loc(bad(2)), c_loc(bad(3)), 3_c_int64_t), &
       RIIS_INVALID_MESH, 'n_nodes')
     call check_ok(riis_mesh_create(0_c_int64_t, c_null_ptr, c_null_ptr, c_null_ptr, 3_c_int64_t, other), 'no nodes')
-    call check_ok(riis_mark_nodes(surface, other, result=result), 'mark no nodes')
-    call check_ok(riis_mark_result_marked(result, n_default), 'the marked nodes of none')
-    call check(n_default == 0, 'none of no nodes is marked')
+    call check_ok(riis_mark_nodes(surface, other, marks=result), 'mark no nodes')
+    call check_ok(riis_marks_get_list(result, RIIS_LIST_MARKED, list, c_sizeof(list)), 'the marked nodes of none')
+    call check(list%n_nodes == 0, 'none of no nodes is marked')
     call riis_mesh_destroy(other)
     call check_ok(riis_mesh_update(mesh, n_nodes, c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), c_loc(xyz(3, 1)), 3_c_int64_t), &
       'the nodes are back')
   end subroutine test_marking
 
   subroutine check_same_list(a, b, what)
-    type(twin_list), intent(in) :: a, b
+    type(riis_mark_list), intent(in) :: a, b
     character(len=*), intent(in) :: what
-    call check(a%n == b%n, what // ': as many nodes as from C')
-    call check_same_bytes(a%node_id, b%node_id, 8 * min(a%n, b%n), what // ': node ids')
-    call check_same_bytes(a%distance, b%distance, 8 * min(a%n, b%n), what // ': distances')
-    call check_same_bytes(a%triangle_id, b%triangle_id, 8 * min(a%n, b%n), what // ': triangle ids')
-    call check_same_bytes(a%leaflet_id, b%leaflet_id, 4 * min(a%n, b%n), what // ': leaflet ids')
+    call check(a%n_nodes == b%n_nodes, what // ': as many nodes as from C')
+    call check_same_bytes(a%node_id, b%node_id, 8 * min(a%n_nodes, b%n_nodes), what // ': node ids')
+    call check_same_bytes(a%distance, b%distance, 8 * min(a%n_nodes, b%n_nodes), what // ': distances')
+    call check_same_bytes(a%triangle_id, b%triangle_id, 8 * min(a%n_nodes, b%n_nodes), what // ': triangle ids')
+    call check_same_bytes(a%leaflet_id, b%leaflet_id, 4 * min(a%n_nodes, b%n_nodes), what // ': leaflet ids')
   end subroutine check_same_list
 
   ! A valve that opens, all fields, and the resistance.
@@ -535,9 +562,10 @@ contains
     type(c_ptr) :: before, now, open, moving, resisting, velocity
     type(riis_surface_options) :: options, options_before
     type(riis_mark_options) :: mark_options
-    type(riis_mark_fields) :: marked, within
+    type(riis_mark_list) :: marked, within
     type(riis_resistance) :: resistance
     type(riis_band_sums), target :: sums
+    type(riis_resistance), target :: listed
     real(c_double), target, allocatable :: coefficient(:), momentum(:, :)
     real(c_double), target :: force(3)
     integer(c_int64_t) :: n
@@ -561,32 +589,38 @@ contains
     options_before%translation(3) = -0.01d0
     call check_ok(riis_surface_create(before, options_before, moving), 'create a surface')
     velocity = c_loc(force)
-    call check_ok(riis_surface_vertex_velocities(moving, velocity=velocity), 'vertex velocities of a surface at rest')
+    call check_ok(triangles_from(moving, velocity=velocity), 'vertex velocities of a surface at rest')
     call check(.not. c_associated(velocity), 'a surface that was not updated so has no velocity')
-    call check_refused(riis_surface_update_moving(moving, now, before, 0d0), RIIS_INVALID_ARGUMENT, 'seconds is 0')
+    call check_refused(riis_surface_update_moving(moving, now, before, 0d0), RIIS_INVALID_ARGUMENT, 'dt is 0')
     call check_refused(riis_surface_update_moving(moving, now, c_null_ptr, 1d0), RIIS_INVALID_ARGUMENT, 'valve_before')
     call check_ok(riis_surface_update_moving(moving, now, before, 0.005d0, options, options_before), 'update a moving surface')
     call riis_valve_destroy(open)
     call riis_valve_destroy(now)
     call riis_valve_destroy(before)
     call check_same_surface(moving, twin%motion%surface, 'the moving valve')
-    call check_ok(riis_surface_vertex_velocities(moving, n, velocity), 'vertex velocities')
+    call check_ok(triangles_from(moving, n_vertices=n, velocity=velocity), 'vertex velocities')
     call check(n == twin%motion%surface%info%n_vertices, 'the number of vertex velocities')
-    call check_same_bytes(velocity, twin%motion%vertex_velocity, 24 * n, 'vertex velocities')
+    call check_same_bytes(velocity, twin%motion%surface%triangles%velocity, 24 * n, 'vertex velocities')
 
     call check_ok(riis_marks_create(resisting), 'create a result')
     call check_ok(riis_mark_options_init(mark_options, c_sizeof(mark_options)), 'default mark options')
     mark_options%distance_limit = 2.5d0
     mark_options%n_threads = 2
+    call check_ok(riis_resistance_init(listed, c_sizeof(listed)), 'a resistance for the lists')
+    mark_options%resistance = c_loc(listed)
+    call check_refused(riis_mark_nodes(moving, mesh, mark_options, resisting), RIIS_INVALID_ARGUMENT, &
+      'options.resistance.R is nan')
+    listed%R = 3
     mark_options%fields = 256
     call check_refused(riis_mark_nodes(moving, mesh, mark_options, resisting), RIIS_INVALID_ARGUMENT, 'fields is 256')
     mark_options%fields = RIIS_FIELD_POINT + RIIS_FIELD_NORMAL + RIIS_FIELD_BARYCENTRIC + RIIS_FIELD_SIDE + &
       RIIS_FIELD_RIM + RIIS_FIELD_UV + RIIS_FIELD_VELOCITY + RIIS_FIELD_PATCH
     call check_ok(riis_mark_nodes(moving, mesh, mark_options, resisting), 'mark with all fields')
-    call check_refused(riis_mark_result_marked_fields(resisting, marked, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'fields')
-    call check_ok(riis_mark_result_marked_fields(resisting, marked, c_sizeof(marked)), 'fields of the marked nodes')
+    call check_refused(riis_marks_get_list(resisting, RIIS_LIST_MARKED, marked, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'list')
+    call check_refused(riis_marks_get_list(resisting, 7, marked, c_sizeof(marked)), RIIS_INVALID_ARGUMENT, 'which is 7')
+    call check_ok(riis_marks_get_list(resisting, RIIS_LIST_MARKED, marked, c_sizeof(marked)), 'fields of the marked nodes')
     call check_same_fields(marked, twin%motion%marked, 'marked')
-    call check_ok(riis_mark_result_within_limit_fields(resisting, within, c_sizeof(within)), 'fields within the limit')
+    call check_ok(riis_marks_get_list(resisting, RIIS_LIST_WITHIN_LIMIT, within, c_sizeof(within)), 'fields within the limit')
     call check_same_fields(within, twin%motion%within_limit, 'within the limit')
 
     call check_refused(riis_resistance_init(resistance, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'resistance')
@@ -594,24 +628,23 @@ contains
     allocate (coefficient(n_nodes), momentum(3, n_nodes))
     coefficient = 0.25d0
     momentum = -1
-    call check_refused(riis_marks_add_resistance(resisting, resistance, n_nodes, coefficient), &
-      RIIS_INVALID_ARGUMENT, 'resistance.resistance is nan')
-    resistance%resistance = 7
+    call check_refused(add_resistance_to(resisting, resistance, n_nodes, coefficient), &
+      RIIS_INVALID_ARGUMENT, 'resistance.R is nan')
+    resistance%R = 7
     resistance%half_thickness = 2
     resistance%rim = RIIS_RIM_CUT
-    call check_refused(riis_marks_add_resistance(resisting, resistance, n_nodes - 1, coefficient), &
+    call check_refused(add_resistance_to(resisting, resistance, n_nodes - 1, coefficient), &
       RIIS_INVALID_ARGUMENT, 'n_nodes is 7999')
-    call check_ok(riis_marks_add_resistance(resisting, resistance, n_nodes, coefficient, momentum), 'add resistance')
+    call check_ok(add_resistance_to(resisting, resistance, n_nodes, coefficient, momentum), 'add resistance')
     call check_same_bytes(c_loc(coefficient), twin%motion%coefficient, 8 * n_nodes, 'resistance')
     call check_same_bytes(c_loc(momentum), twin%motion%momentum, 24 * n_nodes, 'resistance times velocity')
     call check(any(coefficient > 0.25d0) .and. any(momentum > -1), 'there is resistance')
     force = [0, 1, 2]
-    call check_ok(riis_marks_add_reaction(resisting, resistance, n_nodes, xyz, coefficient, force), 'add a reaction')
+    call check_ok(add_reaction_to(resisting, resistance, n_nodes, xyz, coefficient, force), 'add a reaction')
     call check_same_bytes(c_loc(force), c_loc(twin%motion%force), 24_c_int64_t, 'the reaction')
-    call check_refused(riis_marks_get_band_sums(resisting, 0.5d0, 3d0, n_nodes, coefficient, coefficient, sums, &
-      c_sizeof(sums)), RIIS_INVALID_ARGUMENT, 'outer is 3')
-    call check_ok(riis_marks_get_band_sums(resisting, 0.5d0, 2d0, n_nodes, coefficient, coefficient, sums, &
-      c_sizeof(sums)), 'sums of a band')
+    call check_refused(band_sums_of(resisting, 0.5d0, 3d0, n_nodes, coefficient, coefficient, sums), &
+      RIIS_INVALID_ARGUMENT, 'outer is 3')
+    call check_ok(band_sums_of(resisting, 0.5d0, 2d0, n_nodes, coefficient, coefficient, sums), 'sums of a band')
     call check_same_bytes(c_loc(sums), c_loc(twin%motion%sums), int(c_sizeof(sums), c_int64_t), 'sums of a band')
     call check(all(sums%n_nodes > 100), 'both sides have nodes')
     call riis_marks_destroy(resisting)
@@ -619,9 +652,12 @@ contains
   end subroutine test_motion
 
   subroutine check_same_fields(a, b, what)
-    type(riis_mark_fields), intent(in) :: a, b
+    type(riis_mark_list), intent(in) :: a, b
     character(len=*), intent(in) :: what
     call check(a%n_nodes == b%n_nodes .and. a%n_nodes > 0, what // ': as many nodes as from C')
+    call check_same_list(a, b, what)
+    call check_same_bytes(a%K, b%K, 8 * a%n_nodes, what // ': K')
+    call check_same_bytes(a%K_u_surface, b%K_u_surface, 24 * a%n_nodes, what // ': K u_surface')
     call check_same_bytes(a%point, b%point, 24 * a%n_nodes, what // ': points')
     call check_same_bytes(a%normal, b%normal, 24 * a%n_nodes, what // ': normals')
     call check_same_bytes(a%barycentric, b%barycentric, 24 * a%n_nodes, what // ': barycentric coordinates')
@@ -670,10 +706,10 @@ contains
     call check(.not. c_associated(keyframes), 'destroyed keyframes are null')
     call check_ok(riis_surface_get_info(framed, info, c_sizeof(info)), 'describe the framed surface')
     call check_same_bytes(c_loc(info), c_loc(twin%motion%framed%info), 88_c_int64_t, 'the framed surface')
-    call check_ok(riis_surface_vertices(framed, n, parameters), 'framed vertices')
+    call check_ok(triangles_from(framed, n_vertices=n, xyz=parameters), 'framed vertices')
     call check_same_bytes(parameters, twin%motion%framed%xyz, 24 * n, 'framed vertices')
-    call check_ok(riis_surface_vertex_velocities(framed, n, velocity), 'framed velocities')
-    call check_same_bytes(velocity, twin%motion%framed_velocity, 24 * n, 'framed velocities')
+    call check_ok(triangles_from(framed, n_vertices=n, velocity=velocity), 'framed velocities')
+    call check_same_bytes(velocity, twin%motion%framed%triangles%velocity, 24 * n, 'framed velocities')
     call c_f_pointer(velocity, velocities, [3_c_int64_t, n])
     call check(n == 4 .and. all(abs(velocities(3, :) - [2d0, 2d0, 2.5d0, 2d0]) < 1d-14), 'lifted by 1 in half a unit of time')
     call riis_surface_destroy(framed)
@@ -829,12 +865,11 @@ contains
     type(c_ptr), intent(in) :: of_cells
     type(riis_surface_options) :: surface_options
     type(riis_mark_options) :: options
-    type(riis_leaks) :: leaks
-    type(twin_leaks) :: list
+    type(riis_leak_list) :: list
     type(riis_passage) :: passage
     integer(c_int64_t), allocatable, target :: label(:)
     integer(c_int64_t) :: n_regions
-    type(c_ptr) :: thin, thin_valve, leaking
+    type(c_ptr) :: thin, thin_valve, leaking, leaks
 
     thin = c_null_ptr
     thin_valve = c_null_ptr
@@ -847,36 +882,36 @@ contains
     call check_ok(riis_marks_create(leaking), 'create a result')
     call check_ok(riis_mark_options_init(options, c_sizeof(options)), 'default mark options')
     options%n_threads = 2
-    leaks%n_edges = -7
+    leaks = c_null_ptr
+    call check_ok(riis_leaks_create(leaks), 'create leaks')
     call check_ok(riis_mesh_set_adjacency(mesh), 'take the adjacency away')
-    call check_refused(riis_find_leaks(thin, mesh, options, leaking, leaks, c_sizeof(leaks)), RIIS_INVALID_ARGUMENT, &
+    call check_refused(riis_find_leaks(thin, mesh, leaking, options, leaks), RIIS_INVALID_ARGUMENT, &
       'mesh has no adjacency')
     call set_adjacency(of_cells)
-    call check_refused(riis_find_leaks(thin, mesh, options, leaking, leaks, c_sizeof(leaks)), RIIS_INVALID_ARGUMENT, &
+    call check_refused(riis_find_leaks(thin, mesh, leaking, options, leaks), RIIS_INVALID_ARGUMENT, &
       'never marked')
-    call check(leaks%n_edges == -7, 'refused calls write nothing')
-    call check_ok(riis_mark_nodes(thin, mesh, result=leaking), 'mark with a thin surface')
-    call check_ok(riis_find_leaks(thin, mesh, options, leaking, leaks, c_sizeof(leaks)), 'find leaks')
-    list%n = 0
-    call check_ok(riis_mark_result_leaking_edges(leaking, list%n, list%node_id, list%length, list%distance), &
-      'the edges that leak')
-    call check(list%n > 0 .and. list%n == twin%leaks%n .and. leaks%n_edges == list%n .and. &
-      all(leaks%longest_node_id == twin%leaks%sum%longest_node_id) .and. leaks%seconds > 0, 'as many leaks as from C')
-    call check(all(transfer([leaks%longest_length, leaks%longest_middle, leaks%half_thickness], [0_c_int64_t]) == &
-      transfer([twin%leaks%sum%longest_length, twin%leaks%sum%longest_middle, twin%leaks%sum%half_thickness], &
+    call check_ok(riis_leaks_get_list(leaks, list, c_sizeof(list)), 'the edges before')
+    call check(list%n_edges == 0 .and. .not. c_associated(list%node_id), 'refused calls write nothing')
+    call check_ok(riis_mark_nodes(thin, mesh, marks=leaking), 'mark with a thin surface')
+    call check_ok(riis_find_leaks(thin, mesh, leaking, options, leaks), 'find leaks')
+    call check_ok(riis_leaks_get_list(leaks, list, c_sizeof(list)), 'the edges that leak')
+    call check(list%n_edges > 0 .and. list%n_edges == twin%leaks%list%n_edges .and. &
+      all(list%longest_node_id == twin%leaks%list%longest_node_id) .and. list%seconds > 0, 'as many leaks as from C')
+    call check(all(transfer([list%longest_length, list%longest_middle, list%half_thickness], [0_c_int64_t]) == &
+      transfer([twin%leaks%list%longest_length, twin%leaks%list%longest_middle, twin%leaks%list%half_thickness], &
       [0_c_int64_t])), 'the longest leak')
-    call check_same_bytes(list%node_id, twin%leaks%node_id, 16 * list%n, 'nodes of edges that leak')
-    call check_same_bytes(list%length, twin%leaks%length, 8 * list%n, 'their lengths')
-    call check_same_bytes(list%distance, twin%leaks%distance, 8 * list%n, 'their distances')
+    call check_same_bytes(list%node_id, twin%leaks%list%node_id, 16 * list%n_edges, 'nodes of edges that leak')
+    call check_same_bytes(list%length, twin%leaks%list%length, 8 * list%n_edges, 'their lengths')
+    call check_same_bytes(list%distance, twin%leaks%list%distance, 8 * list%n_edges, 'their distances')
     allocate (label(n_nodes))
-    call check_ok(riis_label_open_regions(mesh, options, leaking, n_nodes, label, n_regions), 'open regions')
+    call check_ok(riis_label_open_regions(mesh, leaking, options, n_nodes, label, n_regions), 'open regions')
     call check(n_regions == twin%leaks%n_regions .and. n_regions > 0, 'as many regions as from C')
     call check_same_bytes(c_loc(label), twin%leaks%label, 8 * n_nodes, 'the labels')
-    call check_ok(riis_find_passage(thin, mesh, options, 1_c_int64_t, [0_c_int64_t], 1_c_int64_t, [n_nodes - 1], passage, &
-      c_sizeof(passage)), 'a passage')
+    call check_ok(find_passage_between(thin, mesh, options, 1_c_int64_t, [0_c_int64_t], 1_c_int64_t, [n_nodes - 1], passage), 'a passage')
     call check(passage%node_id == twin%leaks%passage%node_id .and. passage%state == twin%leaks%passage%state .and. &
       all(transfer([passage%distance, passage%point], [0_c_int64_t]) == &
       transfer([twin%leaks%passage%distance, twin%leaks%passage%point], [0_c_int64_t])), 'the passage')
+    call riis_leaks_destroy(leaks)
     call riis_marks_destroy(leaking)
     call riis_surface_destroy(thin)
     call riis_valve_destroy(thin_valve)
@@ -885,9 +920,8 @@ contains
   ! The right cusp of an aortic valve is turned into its neighbours.
   subroutine test_crossings()
     type(riis_crossing_options) :: options
-    type(riis_crossings), target :: crossings
-    type(twin_crossings) :: list
-    type(c_ptr) :: crossed, valve
+    type(riis_crossing_list) :: list
+    type(c_ptr) :: crossed, valve, crossings
 
     crossed = c_null_ptr
     valve = c_null_ptr
@@ -897,21 +931,26 @@ contains
     call check_ok(riis_crossing_options_init(options, c_sizeof(options)), 'default crossing options')
     call check(abs(options%depth - 1d-6) < 1d-20 .and. options%n_threads == 0, 'the default depth')
     options%depth = 2
-    crossings%n_pairs = -7
-    call check_refused(riis_find_crossings(crossed, options, crossings, c_sizeof(crossings)), RIIS_INVALID_ARGUMENT, &
+    crossings = c_null_ptr
+    call check_ok(riis_crossings_create(crossings), 'create crossings')
+    call check_refused(riis_find_crossings(crossed, options, crossings), RIIS_INVALID_ARGUMENT, &
       'options.depth is 2')
-    call check(crossings%n_pairs == -7, 'refused calls write nothing')
+    call check_ok(riis_crossings_get_list(crossings, list, c_sizeof(list)), 'the pairs before')
+    call check(list%n_pairs == 0 .and. .not. c_associated(list%depth), 'refused calls write nothing')
     options%depth = 1d-3
-    call check_ok(riis_find_crossings(crossed, options, crossings, c_sizeof(crossings)), 'find crossings')
-    list%n = 0
-    call check_ok(riis_surface_crossing_pairs(crossed, list%n, list%triangle_id, list%point, list%depth, list%length), &
-      'the pairs that cross')
-    call check(list%n > 0 .and. list%n == twin%crossings%n .and. crossings%seconds > 0, 'as many pairs as from C')
-    call check_same_bytes(c_loc(crossings), c_loc(twin%crossings%sum), 72_c_int64_t, 'the summary')
-    call check_same_bytes(list%triangle_id, twin%crossings%triangle_id, 16 * list%n, 'triangles that cross')
-    call check_same_bytes(list%point, twin%crossings%point, 24 * list%n, 'where they cross')
-    call check_same_bytes(list%depth, twin%crossings%depth, 8 * list%n, 'their depths')
-    call check_same_bytes(list%length, twin%crossings%length, 8 * list%n, 'their lengths')
+    call check_ok(riis_find_crossings(crossed, options, crossings), 'find crossings')
+    call check_ok(riis_crossings_get_list(crossings, list, c_sizeof(list)), 'the pairs that cross')
+    call check(list%n_pairs > 0 .and. list%n_pairs == twin%crossings%n_pairs .and. list%seconds > 0, &
+      'as many pairs as from C')
+    call check(all(transfer([list%total_length, list%deepest_depth, list%deepest_point], [0_c_int64_t]) == &
+      transfer([twin%crossings%total_length, twin%crossings%deepest_depth, twin%crossings%deepest_point], &
+      [0_c_int64_t])) .and. all(list%deepest_triangle_id == twin%crossings%deepest_triangle_id) .and. &
+      all(list%deepest_leaflet_id == twin%crossings%deepest_leaflet_id), 'the summary')
+    call check_same_bytes(list%triangle_id, twin%crossings%triangle_id, 16 * list%n_pairs, 'triangles that cross')
+    call check_same_bytes(list%point, twin%crossings%point, 24 * list%n_pairs, 'where they cross')
+    call check_same_bytes(list%depth, twin%crossings%depth, 8 * list%n_pairs, 'their depths')
+    call check_same_bytes(list%length, twin%crossings%length, 8 * list%n_pairs, 'their lengths')
+    call riis_crossings_destroy(crossings)
     call riis_surface_destroy(crossed)
     call riis_valve_destroy(valve)
   end subroutine test_crossings
@@ -994,7 +1033,7 @@ contains
     integer(c_int8_t), target :: node_mask(n_nodes)
     type(riis_mark_options) :: options
     type(c_ptr) :: walked
-    type(twin_list) :: list
+    type(riis_mark_list) :: list
     integer(c_int64_t) :: n
 
     do n = 1, n_nodes
@@ -1010,10 +1049,10 @@ contains
     call check_ok(riis_mark_nodes(surface, mesh, options, walked), 'mark along an adjacency')
     call check_ok(riis_marks_get_stats(walked, stats, c_sizeof(stats)), 'statistics')
     if (search /= RIIS_SEARCH_PAPER) then
-      call check_ok(riis_mark_result_marked(walked, list%n, list%node_id, list%distance, list%triangle_id, &
+      call check_ok(riis_marks_get_list(walked, RIIS_LIST_MARKED, list, c_sizeof(list) &
         list%leaflet_id), 'the marked nodes')
       call check_same_list(list, twin%marked, 'marked along an adjacency')
-      call check_ok(riis_mark_result_within_limit(walked, list%n, list%node_id, list%distance, list%triangle_id, &
+      call check_ok(riis_marks_get_list(walked, RIIS_LIST_WITHIN_LIMIT, list, c_sizeof(list) &
         list%leaflet_id), 'the nodes within the limit')
       call check_same_list(list, twin%within_limit, 'within the limit along an adjacency')
       call check(stats%complete == 1, 'the search is complete')

@@ -3,6 +3,7 @@
 program test_f2003
   use riis
   implicit none
+  type(riis_triangles) :: all_triangles
   integer, parameter :: n = 11, n_nodes = n**3
   double precision :: xyz(3, n_nodes), resistance(n_nodes), distance(n_nodes), opening
   double precision :: frames(3, 4, 2)
@@ -11,7 +12,7 @@ program test_f2003
   type(riis_keyframes) :: keyframes
   type(riis_mesh) :: mesh
   type(riis_marks) :: result
-  type(riis_mark_fields) :: fields
+  type(riis_mark_list) :: fields
   integer(riis_id), pointer :: node_id(:), triangle_id(:)
   integer(riis_id), allocatable :: node_num(:)
   double precision, pointer :: velocity(:, :)
@@ -28,7 +29,7 @@ program test_f2003
   call riis_mark_nodes(surface, mesh, result, fields=RIIS_FIELD_VELOCITY + RIIS_FIELD_SIDE)
   call result%marked(node_id, triangle_id=triangle_id)
   call result%marked_nodes(node_num)
-  call result%marked_fields(fields)
+  call result%get_list(RIIS_LIST_MARKED, fields)
   call result%add_resistance(1d0, resistance)
   if (size(node_num) < 10 .or. any(node_num /= node_id + 1_riis_id) .or. minval(triangle_id) < 0) stop 1
   if (size(fields%velocity, 2) /= size(node_num) .or. any(abs(fields%velocity) > 0d0)) stop 2
@@ -50,7 +51,8 @@ program test_f2003
   frames(3, :, 2) = 1
   call keyframes%create((/0d0, 0.5d0/), frames, reshape((/1, 2, 3, 4/), (/4, 1/)))
   call surface%update_from_keyframes(keyframes, 0.25d0)
-  call surface%vertex_velocities(velocity)
+  call surface%get_triangles(all_triangles)
+  velocity => all_triangles%velocity
   if (size(velocity, 2) /= 4 .or. any(abs(velocity(3, :) - 2d0) > 1d-12)) stop 7
   call keyframes%destroy()
   call result%destroy()

@@ -7,7 +7,7 @@ program test_frames
   use box
   use checks
   use riis
-  use riis_c, only: c_vertex_velocities => riis_surface_vertex_velocities
+  use riis_c, only: c_get_triangles => riis_surface_get_triangles, c_triangles => riis_triangles
   implicit none
   real(c_double), parameter :: square(3, 4) = reshape([0d0, 0d0, 0d0, 1d0, 0d0, 0d0, 1d0, 1d0, 0d0, 0d0, 1d0, 0d0], [3, 4])
   integer(int32), parameter :: quad(4, 1) = reshape([1, 2, 3, 4], [4, 1]), halves(3, 2) = reshape([1, 2, 3, 1, 3, 4], [3, 2])
@@ -35,12 +35,15 @@ contains
 
   ! The square is at this height everywhere, and moves up with this speed.
   subroutine check_height(surface, height, speed, what)
+    type(riis_triangles) :: all_triangles
     type(riis_surface), intent(in) :: surface
     real(c_double), intent(in) :: height, speed
     character(len=*), intent(in) :: what
     real(c_double), pointer :: xyz(:, :), velocity(:, :)
-    call surface%vertices(xyz)
-    call surface%vertex_velocities(velocity)
+    call surface%get_triangles(all_triangles)
+    xyz => all_triangles%xyz
+    call surface%get_triangles(all_triangles)
+    velocity => all_triangles%velocity
     call check(size(xyz, 2) == 4 .and. size(velocity, 2) == 4 .and. lbound(velocity, 2) == 1, what // ': four vertices')
     if (size(velocity, 2) /= 4) return
     call check(all(abs(xyz(3, :) - height) < 1d-14) .and. all(abs(velocity(3, :) - speed) < 1d-12) .and. &
@@ -48,6 +51,8 @@ contains
   end subroutine check_height
 
   subroutine test_keyframes()
+    type(c_triangles) :: from_c
+    type(riis_triangles) :: all_triangles
     type(riis_keyframes) :: keyframes, others
     type(riis_surface) :: surface
     type(riis_surface_info) :: info
@@ -62,11 +67,12 @@ contains
     mine = 0 ! they were copied
     call surface%create_from_keyframes(keyframes, 0.125d0, half_thickness=0.2d0, scale=2d0, translation=[0d0, 0d0, 5d0])
     call check_height(surface, 5.1d0, 0.8d0, 'placed')
-    call surface%triangles(leaflet_id=leaflet_id)
+    call surface%get_triangles(all_triangles)
+    leaflet_id => all_triangles%leaflet_id
     call check(size(leaflet_id) == 2 .and. all(leaflet_id == 7), 'with leaflets')
     call surface%update_from_keyframes(keyframes, 0.25d0, scale=1d0, translation=[0d0, 0d0, 0d0])
     call check_height(surface, 0.1d0, 0.8d0, 'the velocity behind a key')
-    call surface%update_from_keyframes(keyframes, 0.75d0, since=0.125d0)
+    call surface%update_from_keyframes(keyframes, 0.75d0, dt=0.625d0)
     call check_height(surface, 0.15d0, 0.1d0 / 0.625d0, 'the mean velocity')
     call surface%update_from_keyframes(keyframes, 0.125d0, 0.75d0, .false., 0.3d0, 0.1d0, 1d0, [0d0, 0d0, 1d0], 0d0, &
       [0d0, 0d0, 0d0], .true., 1)
@@ -79,10 +85,11 @@ contains
     ! The velocities are the library's own.
     n = 0
     of_c = c_null_ptr
-    call surface%vertex_velocities(velocity)
+    call surface%get_triangles(all_triangles)
+    velocity => all_triangles%velocity
     own_velocities = c_loc(velocity(1, 1))
-    call check_ok(c_vertex_velocities(surface%c_handle(), n, of_c), 'velocities from riis_c')
-    call check(n == 4 .and. c_associated(own_velocities, of_c), 'no copy of velocities')
+    call check_ok(c_get_triangles(surface%c_handle(), from_c, storage_size(from_c, int64) / 8), 'triangles from riis_c')
+    call check(from_c%n_vertices == 4 .and. c_associated(own_velocities, from_c%velocity), 'no copy of velocities')
     call surface%destroy()
 
     ! Sections, ids of the other kind from 0, cubic.
@@ -186,6 +193,7 @@ contains
   ! Velocities come by xyz or x, y, z, with ids of either kind, at first and later. The placement turns them about z and doubles
   ! them.
   subroutine test_velocities_of_arrays()
+    type(riis_triangles) :: all_triangles
     type(riis_surface) :: surface
     real(c_double), pointer :: velocity(:, :)
     real(c_double) :: v(3, 4), wide(6, 8), placed(3, 4)
@@ -203,7 +211,8 @@ contains
       vy=wide(3, 1::2), vz=wide(5, 1::2))
     call check_velocities(surface, placed, 'sections of vectors')
     call surface%update_from_arrays(square, halves)
-    call surface%vertex_velocities(velocity)
+    call surface%get_triangles(all_triangles)
+    velocity => all_triangles%velocity
     call check(size(velocity) == 0, 'without velocities')
     call surface%destroy()
     call surface%create_from_arrays(square, int(halves, int64), velocity=v)
@@ -215,12 +224,14 @@ contains
   end subroutine test_velocities_of_arrays
 
   subroutine check_velocities(surface, expected, what)
+    type(riis_triangles) :: all_triangles
     type(riis_surface), intent(in) :: surface
     real(c_double), intent(in) :: expected(:, :)
     character(len=*), intent(in) :: what
     real(c_double), pointer :: velocity(:, :)
     logical :: is_same
-    call surface%vertex_velocities(velocity)
+    call surface%get_triangles(all_triangles)
+    velocity => all_triangles%velocity
     is_same = size(velocity, 2) == size(expected, 2)
     if (is_same) is_same = all(abs(velocity - expected) < 1d-13)
     call check(is_same, 'velocities by ' // what)

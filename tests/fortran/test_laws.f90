@@ -165,8 +165,8 @@ contains
     type(riis_opening_switch_state), intent(in) :: state
     type(c_switch_state), intent(in) :: of_c
     is_same_switch = state%phase == of_c%phase .and. all(alike([state%time, state%opening, state%rate, state%progress, &
-      state%pressure_difference, state%flow, state%since], [of_c%time, of_c%opening, of_c%rate, of_c%progress, &
-      of_c%pressure_difference, of_c%flow, of_c%since]))
+      state%pressure_difference, state%flow, state%turn_time], [of_c%time, of_c%opening, of_c%rate, of_c%progress, &
+      of_c%pressure_difference, of_c%flow, of_c%turn_time]))
   end function is_same_switch
 
   subroutine test_angle()

@@ -7,116 +7,145 @@ program test_layout
   use c_twin
   use riis_c
   implicit none
-  type(riis_patches), target :: pa
-  type(riis_parameter), target :: p
-  type(riis_surface_options), target :: so
-  type(riis_surface_arrays), target :: sa
-  type(riis_keyframe_arrays), target :: ka
-  type(riis_surface_info), target :: si
-  type(riis_closest), target :: c
-  type(riis_closest_options), target :: co
-  type(riis_closest_arrays), target :: ca
-  type(riis_csr), target :: cs
-  type(riis_mesh_cells), target :: ce
-  type(riis_mesh_faces), target :: fa
-  type(riis_mark_options), target :: mo
-  type(riis_mark_stats), target :: ms
+  type(riis_points), target :: ps
+  type(riis_patches), target :: ps2
+  type(riis_parameter), target :: ps3
+  type(riis_surface_options), target :: sos
+  type(riis_surface_arrays), target :: sas
+  type(riis_keyframe_arrays), target :: kas
+  type(riis_surface_info), target :: sis
+  type(riis_triangles), target :: ts
+  type(riis_crossing_options), target :: cos
+  type(riis_crossing_list), target :: cls
+  type(riis_closest), target :: cs
+  type(riis_closest_options), target :: cos2
+  type(riis_closest_arrays), target :: cas
+  type(riis_csr), target :: cs2
+  type(riis_mesh_cells), target :: mcs
+  type(riis_mesh_faces), target :: mfs
+  type(riis_resistance), target :: rs
+  type(riis_mark_options), target :: mos
+  type(riis_mark_list), target :: mls
+  type(riis_dense_arrays), target :: das
+  type(riis_mark_stats), target :: mss
+  type(riis_resistance_arrays), target :: ras
+  type(riis_flow_arrays), target :: fas
+  type(riis_band_sums), target :: bss
+  type(riis_band), target :: bs
+  type(riis_leak_list), target :: lls
+  type(riis_passage), target :: ps4
+  type(riis_passage_ends), target :: pes
+  type(riis_opening_table), target :: ots
+  type(riis_opening_times), target :: ots2
+  type(riis_opening_switch), target :: oss
+  type(riis_opening_switch_state), target :: osss
+  type(riis_opening_angle), target :: oas
+  type(riis_opening_angle_state), target :: oass
   integer :: n_compared = 0
-  type(riis_leaks), target :: lk
-  type(riis_crossing_options), target :: xo
-  type(riis_crossings), target :: xs
-  type(riis_passage), target :: pg
-  type(riis_mark_fields), target :: mf
-  type(riis_resistance), target :: re
-  type(riis_band_sums), target :: bs
-  type(riis_opening_table), target :: ot
-  type(riis_opening_times), target :: oi
-  type(riis_opening_switch), target :: ow
-  type(riis_opening_switch_state), target :: os
-  type(riis_opening_angle), target :: oa
-  type(riis_opening_angle_state), target :: og
 
-  call compare('riis_patches', c_sizeof(pa), c_loc(pa), [at(c_loc(pa%struct_size)), at(c_loc(pa%n_curves)), &
-    at(c_loc(pa%degree)), at(c_loc(pa%control)), at(c_loc(pa%n_patches)), at(c_loc(pa%curve_id)), &
-    at(c_loc(pa%reversed)), at(c_loc(pa%leaflet_id)), at(c_loc(pa%index_base)), at(c_loc(pa%reserved))])
-  call compare('riis_parameter', c_sizeof(p), c_loc(p), [at(c_loc(p%name)), at(c_loc(p%unit)), &
-    at(c_loc(p%description)), at(c_loc(p%n_values)), at(c_loc(p%default_values)), at(c_loc(p%minimum)), &
-    at(c_loc(p%maximum))])
-  call compare('riis_surface_options', c_sizeof(so), c_loc(so), [at(c_loc(so%struct_size)), &
-    at(c_loc(so%half_thickness)), at(c_loc(so%tolerance)), at(c_loc(so%scale)), at(c_loc(so%rotation_axis)), &
-    at(c_loc(so%rotation_angle)), at(c_loc(so%translation)), at(c_loc(so%zero_area)), at(c_loc(so%flip_normals)), &
-    at(c_loc(so%distance)), at(c_loc(so%n_threads)), at(c_loc(so%measure_tolerance)), &
-    at(c_loc(so%triangulation)), at(c_loc(so%reserved))])
-  call compare('riis_surface_arrays', c_sizeof(sa), c_loc(sa), [at(c_loc(sa%struct_size)), at(c_loc(sa%n_vertices)), &
-    at(c_loc(sa%x)), at(c_loc(sa%y)), at(c_loc(sa%z)), at(c_loc(sa%stride)), at(c_loc(sa%n_faces)), &
-    at(c_loc(sa%vertex_ids)), at(c_loc(sa%vertex_id_bits)), at(c_loc(sa%index_base)), &
-    at(c_loc(sa%corners_per_face)), at(c_loc(sa%reserved)), at(c_loc(sa%leaflet_id)), at(c_loc(sa%vx)), &
-    at(c_loc(sa%vy)), at(c_loc(sa%vz)), at(c_loc(sa%velocity_stride))])
-  call compare('riis_keyframe_arrays', c_sizeof(ka), c_loc(ka), [at(c_loc(ka%struct_size)), at(c_loc(ka%n_keys)), &
-    at(c_loc(ka%n_vertices)), at(c_loc(ka%time)), at(c_loc(ka%xyz)), at(c_loc(ka%period)), &
-    at(c_loc(ka%interpolation)), at(c_loc(ka%reserved))])
-  call compare('riis_surface_info', c_sizeof(si), c_loc(si), [at(c_loc(si%n_vertices)), at(c_loc(si%n_triangles)), &
-    at(c_loc(si%n_zero_area)), at(c_loc(si%half_thickness)), at(c_loc(si%area)), at(c_loc(si%lower)), &
-    at(c_loc(si%upper)), at(c_loc(si%seconds_triangles)), at(c_loc(si%seconds_scene)), &
-    at(c_loc(si%error_bound)), at(c_loc(si%velocity_error_bound))])
-  call compare('riis_crossing_options', c_sizeof(xo), c_loc(xo), [at(c_loc(xo%struct_size)), at(c_loc(xo%depth)), &
-    at(c_loc(xo%n_threads)), at(c_loc(xo%reserved))])
-  call compare('riis_crossings', c_sizeof(xs), c_loc(xs), [at(c_loc(xs%n_pairs)), at(c_loc(xs%length)), &
-    at(c_loc(xs%depth)), at(c_loc(xs%point)), at(c_loc(xs%triangle_id)), at(c_loc(xs%leaflet_id)), &
-    at(c_loc(xs%seconds))])
-  call compare('riis_closest', c_sizeof(c), c_loc(c), [at(c_loc(c%distance)), at(c_loc(c%point)), &
-    at(c_loc(c%barycentric)), at(c_loc(c%normal)), at(c_loc(c%triangle_id)), at(c_loc(c%leaflet_id)), &
-    at(c_loc(c%side))])
-  call compare('riis_closest_options', c_sizeof(co), c_loc(co), [at(c_loc(co%struct_size)), &
-    at(c_loc(co%distance_limit)), at(c_loc(co%far_distance)), at(c_loc(co%n_threads)), at(c_loc(co%reserved)), &
-    at(c_loc(co%point_mask)), at(c_loc(co%n_point_ids)), at(c_loc(co%point_ids))])
-  call compare('riis_closest_arrays', c_sizeof(ca), c_loc(ca), [at(c_loc(ca%struct_size)), at(c_loc(ca%distance)), &
-    at(c_loc(ca%point)), at(c_loc(ca%barycentric)), at(c_loc(ca%normal)), at(c_loc(ca%triangle_id)), &
-    at(c_loc(ca%leaflet_id)), at(c_loc(ca%side))])
-  call compare('riis_csr', c_sizeof(cs), c_loc(cs), [at(c_loc(cs%struct_size)), at(c_loc(cs%n_rows)), &
-    at(c_loc(cs%n_all)), at(c_loc(cs%offsets)), at(c_loc(cs%columns)), at(c_loc(cs%offset_bits)), &
-    at(c_loc(cs%column_bits)), at(c_loc(cs%index_base)), at(c_loc(cs%reserved))])
-  call compare('riis_mesh_cells', c_sizeof(ce), c_loc(ce), [at(c_loc(ce%struct_size)), at(c_loc(ce%n_nodes)), &
-    at(c_loc(ce%n_cells)), at(c_loc(ce%node_ids)), at(c_loc(ce%offsets)), at(c_loc(ce%nodes_per_cell)), &
-    at(c_loc(ce%id_bits)), at(c_loc(ce%index_base)), at(c_loc(ce%n_threads))])
-  call compare('riis_mesh_faces', c_sizeof(fa), c_loc(fa), [at(c_loc(fa%struct_size)), at(c_loc(fa%n_cells)), &
-    at(c_loc(fa%n_faces)), at(c_loc(fa%owner)), at(c_loc(fa%neighbor)), at(c_loc(fa%stride)), at(c_loc(fa%id_bits)), &
-    at(c_loc(fa%index_base)), at(c_loc(fa%n_threads)), at(c_loc(fa%reserved))])
-  call compare('riis_mark_options', c_sizeof(mo), c_loc(mo), [at(c_loc(mo%struct_size)), &
-    at(c_loc(mo%distance_limit)), at(c_loc(mo%node_mask)), at(c_loc(mo%search)), at(c_loc(mo%n_threads)), &
-    at(c_loc(mo%instructions)), at(c_loc(mo%reserved)), at(c_loc(mo%fields)), at(c_loc(mo%reserved2))])
-  call compare('riis_mark_stats', c_sizeof(ms), c_loc(ms), [at(c_loc(ms%n_nodes)), at(c_loc(ms%n_marked)), &
-    at(c_loc(ms%n_within_limit)), at(c_loc(ms%n_queries)), at(c_loc(ms%seconds)), at(c_loc(ms%search)), &
-    at(c_loc(ms%n_threads)), at(c_loc(ms%complete)), at(c_loc(ms%instructions)), at(c_loc(ms%n_unreached))])
-  call compare('riis_leaks', c_sizeof(lk), c_loc(lk), [at(c_loc(lk%n_edges)), at(c_loc(lk%longest_node_id)), &
-    at(c_loc(lk%longest_length)), at(c_loc(lk%longest_middle)), at(c_loc(lk%half_thickness)), at(c_loc(lk%seconds))])
-  call compare('riis_passage', c_sizeof(pg), c_loc(pg), [at(c_loc(pg%node_id)), at(c_loc(pg%distance)), &
-    at(c_loc(pg%point)), at(c_loc(pg%seconds)), at(c_loc(pg%state)), at(c_loc(pg%reserved))])
-  call compare('riis_mark_fields', c_sizeof(mf), c_loc(mf), [at(c_loc(mf%n_nodes)), at(c_loc(mf%point)), &
-    at(c_loc(mf%normal)), at(c_loc(mf%barycentric)), at(c_loc(mf%uv)), at(c_loc(mf%velocity)), at(c_loc(mf%side)), &
-    at(c_loc(mf%rim)), at(c_loc(mf%patch_id))])
-  call compare('riis_resistance', c_sizeof(re), c_loc(re), [at(c_loc(re%struct_size)), at(c_loc(re%resistance)), &
-    at(c_loc(re%half_thickness)), at(c_loc(re%rim)), at(c_loc(re%reserved))])
-  call compare('riis_band_sums', c_sizeof(bs), c_loc(bs), [at(c_loc(bs%sum)), at(c_loc(bs%weight)), &
-    at(c_loc(bs%n_nodes))])
-  call compare('riis_opening_table', c_sizeof(ot), c_loc(ot), [at(c_loc(ot%struct_size)), at(c_loc(ot%n_keys)), &
-    at(c_loc(ot%time)), at(c_loc(ot%opening)), at(c_loc(ot%period)), at(c_loc(ot%interpolation)), &
-    at(c_loc(ot%reserved))])
-  call compare('riis_opening_times', c_sizeof(oi), c_loc(oi), [at(c_loc(oi%struct_size)), &
-    at(c_loc(oi%opening_start)), at(c_loc(oi%opening_duration)), at(c_loc(oi%closing_start)), &
-    at(c_loc(oi%closing_duration)), at(c_loc(oi%closed)), at(c_loc(oi%open)), at(c_loc(oi%period))])
-  call compare('riis_opening_switch', c_sizeof(ow), c_loc(ow), [at(c_loc(ow%struct_size)), &
-    at(c_loc(ow%opening_duration)), at(c_loc(ow%closing_duration)), at(c_loc(ow%open_above)), &
-    at(c_loc(ow%close_below)), at(c_loc(ow%filter_time)), at(c_loc(ow%dwell_time))])
-  call compare('riis_opening_switch_state', c_sizeof(os), c_loc(os), [at(c_loc(os%struct_size)), at(c_loc(os%time)), &
-    at(c_loc(os%opening)), at(c_loc(os%rate)), at(c_loc(os%progress)), at(c_loc(os%pressure_difference)), &
-    at(c_loc(os%flow)), at(c_loc(os%since)), at(c_loc(os%phase)), at(c_loc(os%reserved))])
-  call compare('riis_opening_angle', c_sizeof(oa), c_loc(oa), [at(c_loc(oa%struct_size)), &
-    at(c_loc(oa%pressure_gain)), at(c_loc(oa%flow_gain)), at(c_loc(oa%friction)), at(c_loc(oa%vortex_gain)), &
-    at(c_loc(oa%angle_min)), at(c_loc(oa%angle_max))])
-  call compare('riis_opening_angle_state', c_sizeof(og), c_loc(og), [at(c_loc(og%struct_size)), at(c_loc(og%time)), &
-    at(c_loc(og%opening)), at(c_loc(og%rate)), at(c_loc(og%angle)), at(c_loc(og%angle_rate)), &
-    at(c_loc(og%pressure_difference)), at(c_loc(og%flow))])
+  call compare('riis_points', c_sizeof(ps), c_loc(ps), [at(c_loc(ps%struct_size)), at(c_loc(ps%n_points)), &
+    at(c_loc(ps%x)), at(c_loc(ps%y)), at(c_loc(ps%z)), at(c_loc(ps%stride)), at(c_loc(ps%real_bits)), &
+    at(c_loc(ps%reserved))])
+  call compare('riis_patches', c_sizeof(ps2), c_loc(ps2), [at(c_loc(ps2%struct_size)), at(c_loc(ps2%n_curves)), &
+    at(c_loc(ps2%degree)), at(c_loc(ps2%control)), at(c_loc(ps2%n_patches)), at(c_loc(ps2%curve_id)), &
+    at(c_loc(ps2%reversed)), at(c_loc(ps2%leaflet_id)), at(c_loc(ps2%index_base)), at(c_loc(ps2%reserved))])
+  call compare('riis_parameter', c_sizeof(ps3), c_loc(ps3), [at(c_loc(ps3%name)), at(c_loc(ps3%unit)), &
+    at(c_loc(ps3%description)), at(c_loc(ps3%n_values)), at(c_loc(ps3%default_values)), at(c_loc(ps3%minimum)), &
+    at(c_loc(ps3%maximum))])
+  call compare('riis_surface_options', c_sizeof(sos), c_loc(sos), [at(c_loc(sos%struct_size)), &
+    at(c_loc(sos%half_thickness)), at(c_loc(sos%tolerance)), at(c_loc(sos%scale)), at(c_loc(sos%rotation_axis)), &
+    at(c_loc(sos%rotation_angle)), at(c_loc(sos%translation)), at(c_loc(sos%measure_tolerance)), &
+    at(c_loc(sos%measure)), at(c_loc(sos%triangulation)), at(c_loc(sos%zero_area)), at(c_loc(sos%flip_normals)), &
+    at(c_loc(sos%n_threads)), at(c_loc(sos%reserved))])
+  call compare('riis_surface_arrays', c_sizeof(sas), c_loc(sas), [at(c_loc(sas%struct_size)), &
+    at(c_loc(sas%n_vertices)), at(c_loc(sas%x)), at(c_loc(sas%y)), at(c_loc(sas%z)), at(c_loc(sas%stride)), &
+    at(c_loc(sas%vx)), at(c_loc(sas%vy)), at(c_loc(sas%vz)), at(c_loc(sas%velocity_stride)), &
+    at(c_loc(sas%n_faces)), at(c_loc(sas%vertex_ids)), at(c_loc(sas%leaflet_id)), at(c_loc(sas%corners_per_face)), &
+    at(c_loc(sas%id_bits)), at(c_loc(sas%index_base)), at(c_loc(sas%real_bits))])
+  call compare('riis_keyframe_arrays', c_sizeof(kas), c_loc(kas), [at(c_loc(kas%struct_size)), &
+    at(c_loc(kas%n_keys)), at(c_loc(kas%n_vertices)), at(c_loc(kas%time)), at(c_loc(kas%xyz)), &
+    at(c_loc(kas%period)), at(c_loc(kas%interpolation)), at(c_loc(kas%real_bits))])
+  call compare('riis_surface_info', c_sizeof(sis), c_loc(sis), [at(c_loc(sis%n_vertices)), &
+    at(c_loc(sis%n_triangles)), at(c_loc(sis%n_zero_area)), at(c_loc(sis%half_thickness)), at(c_loc(sis%area)), &
+    at(c_loc(sis%lower)), at(c_loc(sis%upper)), at(c_loc(sis%seconds_triangles)), at(c_loc(sis%seconds_scene)), &
+    at(c_loc(sis%error_bound)), at(c_loc(sis%velocity_error_bound))])
+  call compare('riis_triangles', c_sizeof(ts), c_loc(ts), [at(c_loc(ts%n_vertices)), at(c_loc(ts%xyz)), &
+    at(c_loc(ts%uv)), at(c_loc(ts%velocity)), at(c_loc(ts%n_triangles)), at(c_loc(ts%vertex_id)), &
+    at(c_loc(ts%triangle_id)), at(c_loc(ts%leaflet_id)), at(c_loc(ts%patch_id))])
+  call compare('riis_crossing_options', c_sizeof(cos), c_loc(cos), [at(c_loc(cos%struct_size)), &
+    at(c_loc(cos%depth)), at(c_loc(cos%n_threads)), at(c_loc(cos%reserved))])
+  call compare('riis_crossing_list', c_sizeof(cls), c_loc(cls), [at(c_loc(cls%n_pairs)), &
+    at(c_loc(cls%triangle_id)), at(c_loc(cls%point)), at(c_loc(cls%depth)), at(c_loc(cls%length)), &
+    at(c_loc(cls%total_length)), at(c_loc(cls%deepest_depth)), at(c_loc(cls%deepest_point)), &
+    at(c_loc(cls%deepest_triangle_id)), at(c_loc(cls%deepest_leaflet_id)), at(c_loc(cls%seconds))])
+  call compare('riis_closest', c_sizeof(cs), c_loc(cs), [at(c_loc(cs%distance)), at(c_loc(cs%point)), &
+    at(c_loc(cs%barycentric)), at(c_loc(cs%normal)), at(c_loc(cs%triangle_id)), at(c_loc(cs%leaflet_id)), &
+    at(c_loc(cs%side))])
+  call compare('riis_closest_options', c_sizeof(cos2), c_loc(cos2), [at(c_loc(cos2%struct_size)), &
+    at(c_loc(cos2%distance_limit)), at(c_loc(cos2%far_distance)), at(c_loc(cos2%point_mask)), &
+    at(c_loc(cos2%n_point_ids)), at(c_loc(cos2%point_ids)), at(c_loc(cos2%n_threads)), at(c_loc(cos2%reserved))])
+  call compare('riis_closest_arrays', c_sizeof(cas), c_loc(cas), [at(c_loc(cas%struct_size)), &
+    at(c_loc(cas%distance)), at(c_loc(cas%point)), at(c_loc(cas%barycentric)), at(c_loc(cas%normal)), &
+    at(c_loc(cas%triangle_id)), at(c_loc(cas%leaflet_id)), at(c_loc(cas%side))])
+  call compare('riis_csr', c_sizeof(cs2), c_loc(cs2), [at(c_loc(cs2%struct_size)), at(c_loc(cs2%n_rows)), &
+    at(c_loc(cs2%n_all)), at(c_loc(cs2%offsets)), at(c_loc(cs2%columns)), at(c_loc(cs2%offset_bits)), &
+    at(c_loc(cs2%column_bits)), at(c_loc(cs2%index_base)), at(c_loc(cs2%reserved))])
+  call compare('riis_mesh_cells', c_sizeof(mcs), c_loc(mcs), [at(c_loc(mcs%struct_size)), at(c_loc(mcs%n_nodes)), &
+    at(c_loc(mcs%n_cells)), at(c_loc(mcs%node_ids)), at(c_loc(mcs%offsets)), at(c_loc(mcs%nodes_per_cell)), &
+    at(c_loc(mcs%id_bits)), at(c_loc(mcs%index_base)), at(c_loc(mcs%n_threads))])
+  call compare('riis_mesh_faces', c_sizeof(mfs), c_loc(mfs), [at(c_loc(mfs%struct_size)), at(c_loc(mfs%n_cells)), &
+    at(c_loc(mfs%n_faces)), at(c_loc(mfs%owner)), at(c_loc(mfs%neighbor)), at(c_loc(mfs%stride)), &
+    at(c_loc(mfs%id_bits)), at(c_loc(mfs%index_base)), at(c_loc(mfs%n_threads)), at(c_loc(mfs%reserved))])
+  call compare('riis_resistance', c_sizeof(rs), c_loc(rs), [at(c_loc(rs%struct_size)), at(c_loc(rs%R)), &
+    at(c_loc(rs%half_thickness)), at(c_loc(rs%rim)), at(c_loc(rs%reserved))])
+  call compare('riis_mark_options', c_sizeof(mos), c_loc(mos), [at(c_loc(mos%struct_size)), &
+    at(c_loc(mos%distance_limit)), at(c_loc(mos%node_mask)), at(c_loc(mos%resistance)), at(c_loc(mos%fields)), &
+    at(c_loc(mos%search)), at(c_loc(mos%n_threads)), at(c_loc(mos%instructions))])
+  call compare('riis_mark_list', c_sizeof(mls), c_loc(mls), [at(c_loc(mls%n_nodes)), at(c_loc(mls%node_id)), &
+    at(c_loc(mls%distance)), at(c_loc(mls%triangle_id)), at(c_loc(mls%leaflet_id)), at(c_loc(mls%K)), &
+    at(c_loc(mls%K_u_surface)), at(c_loc(mls%point)), at(c_loc(mls%normal)), at(c_loc(mls%barycentric)), &
+    at(c_loc(mls%uv)), at(c_loc(mls%velocity)), at(c_loc(mls%side)), at(c_loc(mls%rim)), at(c_loc(mls%patch_id))])
+  call compare('riis_dense_arrays', c_sizeof(das), c_loc(das), [at(c_loc(das%struct_size)), at(c_loc(das%n_nodes)), &
+    at(c_loc(das%far_distance)), at(c_loc(das%mark)), at(c_loc(das%distance)), at(c_loc(das%triangle_id)), &
+    at(c_loc(das%leaflet_id))])
+  call compare('riis_mark_stats', c_sizeof(mss), c_loc(mss), [at(c_loc(mss%n_nodes)), at(c_loc(mss%n_marked)), &
+    at(c_loc(mss%n_within_limit)), at(c_loc(mss%n_queries)), at(c_loc(mss%seconds)), at(c_loc(mss%search)), &
+    at(c_loc(mss%n_threads)), at(c_loc(mss%complete)), at(c_loc(mss%instructions)), at(c_loc(mss%n_unreached))])
+  call compare('riis_resistance_arrays', c_sizeof(ras), c_loc(ras), [at(c_loc(ras%struct_size)), &
+    at(c_loc(ras%n_nodes)), at(c_loc(ras%K)), at(c_loc(ras%K_stride)), at(c_loc(ras%K_u_surface)), &
+    at(c_loc(ras%K_u_surface_stride))])
+  call compare('riis_flow_arrays', c_sizeof(fas), c_loc(fas), [at(c_loc(fas%struct_size)), at(c_loc(fas%n_nodes)), &
+    at(c_loc(fas%velocity)), at(c_loc(fas%velocity_stride)), at(c_loc(fas%weight))])
+  call compare('riis_band_sums', c_sizeof(bss), c_loc(bss), [at(c_loc(bss%sum)), at(c_loc(bss%weight)), &
+    at(c_loc(bss%n_nodes))])
+  call compare('riis_band', c_sizeof(bs), c_loc(bs), [at(c_loc(bs%struct_size)), at(c_loc(bs%inner)), &
+    at(c_loc(bs%outer)), at(c_loc(bs%n_nodes)), at(c_loc(bs%value)), at(c_loc(bs%weight))])
+  call compare('riis_leak_list', c_sizeof(lls), c_loc(lls), [at(c_loc(lls%n_edges)), at(c_loc(lls%node_id)), &
+    at(c_loc(lls%length)), at(c_loc(lls%distance)), at(c_loc(lls%half_thickness)), at(c_loc(lls%longest_node_id)), &
+    at(c_loc(lls%longest_length)), at(c_loc(lls%longest_middle)), at(c_loc(lls%seconds))])
+  call compare('riis_passage', c_sizeof(ps4), c_loc(ps4), [at(c_loc(ps4%node_id)), at(c_loc(ps4%distance)), &
+    at(c_loc(ps4%point)), at(c_loc(ps4%seconds)), at(c_loc(ps4%state)), at(c_loc(ps4%reserved))])
+  call compare('riis_passage_ends', c_sizeof(pes), c_loc(pes), [at(c_loc(pes%struct_size)), at(c_loc(pes%n_from)), &
+    at(c_loc(pes%from)), at(c_loc(pes%n_to)), at(c_loc(pes%to))])
+  call compare('riis_opening_table', c_sizeof(ots), c_loc(ots), [at(c_loc(ots%struct_size)), at(c_loc(ots%n_keys)), &
+    at(c_loc(ots%time)), at(c_loc(ots%opening)), at(c_loc(ots%period)), at(c_loc(ots%interpolation)), &
+    at(c_loc(ots%reserved))])
+  call compare('riis_opening_times', c_sizeof(ots2), c_loc(ots2), [at(c_loc(ots2%struct_size)), &
+    at(c_loc(ots2%opening_start)), at(c_loc(ots2%opening_duration)), at(c_loc(ots2%closing_start)), &
+    at(c_loc(ots2%closing_duration)), at(c_loc(ots2%closed)), at(c_loc(ots2%open)), at(c_loc(ots2%period))])
+  call compare('riis_opening_switch', c_sizeof(oss), c_loc(oss), [at(c_loc(oss%struct_size)), &
+    at(c_loc(oss%opening_duration)), at(c_loc(oss%closing_duration)), at(c_loc(oss%open_above)), &
+    at(c_loc(oss%close_below)), at(c_loc(oss%filter_time)), at(c_loc(oss%dwell_time))])
+  call compare('riis_opening_switch_state', c_sizeof(osss), c_loc(osss), [at(c_loc(osss%struct_size)), &
+    at(c_loc(osss%time)), at(c_loc(osss%opening)), at(c_loc(osss%rate)), at(c_loc(osss%progress)), &
+    at(c_loc(osss%pressure_difference)), at(c_loc(osss%flow)), at(c_loc(osss%turn_time)), at(c_loc(osss%phase)), &
+    at(c_loc(osss%reserved))])
+  call compare('riis_opening_angle', c_sizeof(oas), c_loc(oas), [at(c_loc(oas%struct_size)), &
+    at(c_loc(oas%pressure_gain)), at(c_loc(oas%flow_gain)), at(c_loc(oas%friction)), at(c_loc(oas%vortex_gain)), &
+    at(c_loc(oas%angle_min)), at(c_loc(oas%angle_max))])
+  call compare('riis_opening_angle_state', c_sizeof(oass), c_loc(oass), [at(c_loc(oass%struct_size)), &
+    at(c_loc(oass%time)), at(c_loc(oass%opening)), at(c_loc(oass%rate)), at(c_loc(oass%angle)), &
+    at(c_loc(oass%angle_rate)), at(c_loc(oass%pressure_difference)), at(c_loc(oass%flow))])
 
   call check(n_compared == twin_n_layouts(), 'every struct of riis.h is compared')
 
@@ -137,7 +166,7 @@ contains
     integer(c_size_t), intent(in) :: n_bytes
     type(c_ptr), intent(in) :: start
     integer(c_intptr_t), intent(in) :: fields(:) ! their addresses
-    integer(c_int64_t) :: layout(32), n
+    integer(c_int64_t) :: layout(40), n
     n_compared = n_compared + 1
     n = twin_layout(riis_c_string(name), size(layout, kind=c_int64_t), layout)
     call check(n == size(fields) + 1, name // ' has as many fields in C')

@@ -7,7 +7,8 @@ program test_marking
   use box
   use checks
   use riis
-  use riis_c, only: c_dense => riis_marks_get_dense, c_within_limit => riis_mark_result_within_limit
+  use riis_c, only: c_get_list => riis_marks_get_list, c_mark_list => riis_mark_list
+  use riis_calls, only: c_dense => write_dense
   implicit none
   type(riis_mesh) :: mesh
   integer(riis_status) :: status
@@ -194,14 +195,12 @@ contains
     type(riis_adjacency) :: adjacency
     type(riis_marks) :: result
     type(riis_leaks) :: leaks, masked
-    integer(int64), pointer :: node_id(:, :)
-    real(c_double), pointer :: length(:), distance(:)
+    type(riis_leak_list) :: list
     logical :: mask(n_nodes)
     integer :: i, worst
     call thin%create(valve, half_thickness=0.02d0)
     call joined%create(xyz)
     call riis_mark_nodes(thin, joined, result)
-    leaks%n_edges = -7
     call riis_find_leaks(thin, joined, result, leaks, status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'mesh has no adjacency')
     call adjacency%create_from_grid(per_side, per_side, per_side)
@@ -210,44 +209,55 @@ contains
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'half thickness')
     call riis_find_leaks(thin, joined, result, leaks, n_threads=-1, status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'n_threads is -1')
-    call check(leaks%n_edges == -7, 'refused calls write nothing')
-    call result%leaking_edges(node_id, length, distance)
-    call check(size(node_id) == 0 .and. size(length) == 0 .and. size(distance) == 0, 'nothing was found yet')
+    call check(.not. leaks%is_created() .and. .not. c_associated(leaks%c_handle()), 'refused calls make nothing')
+    call leaks%get_list(list, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object leaks was not created')
+    call check(size(list%node_id) == 0 .and. size(list%length) == 0 .and. size(list%distance) == 0, 'nothing was found yet')
 
     call riis_find_leaks(thin, joined, result, leaks, n_threads=2_int64)
-    call result%leaking_edges(node_id, length, distance)
-    call check(leaks%n_edges > 10 .and. size(node_id, 2) == leaks%n_edges .and. size(node_id, 1) == 2, 'edges that leak')
-    call check(all(node_id(1, :) < node_id(2, :)) .and. all(distance > 0.02d0) .and. all(length > 0.04d0), 'both ends')
-    do i = 1, size(length)
-      if (abs(norm2(xyz(:, node_id(1, i) + 1) - xyz(:, node_id(2, i) + 1)) - length(i)) > 1d-12) exit
+    call leaks%get_list(list)
+    call check(list%n_edges > 10 .and. size(list%node_id, 2) == list%n_edges .and. size(list%node_id, 1) == 2, 'edges that leak')
+    call check(all(list%node_id(1, :) < list%node_id(2, :)) .and. all(list%distance > 0.02d0) .and. all(list%length > 0.04d0), &
+      'both ends')
+    do i = 1, size(list%length)
+      if (abs(norm2(xyz(:, list%node_id(1, i) + 1) - xyz(:, list%node_id(2, i) + 1)) - list%length(i)) > 1d-12) exit
     end do
-    call check(i > size(length), 'their lengths')
-    worst = maxloc(length, 1)
-    call check(all(leaks%longest_node_id == node_id(:, worst)) .and. all(same([leaks%longest_length], [length(worst)])) &
-      .and. all(same([leaks%half_thickness], [maxval(distance)])), 'the longest, and what closes all')
-    call check(norm2(leaks%longest_middle - 0.5d0 * (xyz(:, node_id(1, worst) + 1) + xyz(:, node_id(2, worst) + 1))) < &
-      1d-14, 'its middle')
+    call check(i > size(list%length), 'their lengths')
+    worst = maxloc(list%length, 1)
+    call check(all(list%longest_node_id == list%node_id(:, worst)) .and. &
+      all(same([list%longest_length], [list%length(worst)])) .and. &
+      all(same([list%half_thickness], [maxval(list%distance)])) .and. list%seconds > 0, 'the longest, and what closes all')
+    call check(norm2(list%longest_middle - 0.5d0 * (xyz(:, list%node_id(1, worst) + 1) + &
+      xyz(:, list%node_id(2, worst) + 1))) < 1d-14, 'its middle')
 
     mask = .true.
-    mask(node_id(1, :) + 1) = .false.
+    mask(list%node_id(1, :) + 1) = .false.
     call riis_find_leaks(thin, joined, result, masked, mask)
-    call check(masked%n_edges == 0 .and. all(masked%longest_node_id == -1), 'masked out')
+    call check(n_of(masked) == 0, 'masked out')
     call riis_find_leaks(thin, joined, result, masked, merge(1_int8, 0_int8, mask), 1)
-    call check(masked%n_edges == 0, 'masked out by bytes')
+    call check(n_of(masked) == 0, 'masked out by bytes')
     call riis_find_leaks(thin, joined, result, masked, merge(5, 0, mask))
-    call check(masked%n_edges == 0, 'masked out by integers')
+    call check(n_of(masked) == 0, 'masked out by integers')
     call riis_find_leaks(thin, joined, result, masked, mask(2:), status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of node_mask is 9260')
     call result%destroy()
     call riis_find_leaks(thin, joined, result, masked, status=status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
-    call result%leaking_edges(node_id, status=status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
-    call check(size(node_id) == 0, 'no edges to point to')
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object marks was not created')
+    call check(n_of(leaks) == size(list%length), 'leaks do not need the marks')
+    call leaks%destroy()
+    call masked%destroy()
     call joined%destroy()
     call adjacency%destroy()
     call thin%destroy()
   end subroutine test_leaks
+
+  function n_of(leaks) result(n)
+    type(riis_leaks), intent(in) :: leaks
+    integer(int64) :: n
+    type(riis_leak_list) :: list
+    call leaks%get_list(list)
+    n = list%n_edges
+  end function n_of
 
   ! In the box, by every kind of mask and number; a lone node is a region of its own.
   subroutine test_passages()
@@ -319,7 +329,7 @@ contains
     deallocate (no_nodes)
     call result%destroy()
     call riis_label_open_regions(joined, result, region_num, status=status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object marks was not created')
     call joined%destroy()
     call adjacency%destroy()
     call thin%destroy()
@@ -351,30 +361,30 @@ contains
     call result%destroy()
 
     n = result%n_marked(status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created, or was destroyed')
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object marks was not created, or was destroyed')
     n = n + result%n_within_limit(status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object marks was not created')
     call check(n == 0, 'no nodes')
     call result%marked(node_id, status=status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object marks was not created')
     call check(size(node_id) == 0, 'no nodes to point to')
     call result%within_limit(node_id, status=status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object marks was not created')
     node_num = [7]
     wide_num = [7]
     call result%marked_nodes(node_num, status=status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object marks was not created')
     call result%marked_nodes(wide_num, status=status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object marks was not created')
     call result%nodes_within_limit(node_num, status=status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object marks was not created')
     call result%nodes_within_limit(wide_num, status=status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object marks was not created')
     call check(all(node_num == [7]) .and. all(wide_num == [7_int64]), 'the copies before are left alone')
     call result%dense(mark, status=status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object marks was not created')
     call result%get_stats(stats, status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object marks was not created')
   end subroutine test_errors
 
   subroutine test_assignment()

@@ -26,7 +26,7 @@ program test_objects
   use checks
   use log_lines
   use riis
-  use riis_c, only: c_surface_vertices => riis_surface_vertices, c_surface_triangles => riis_surface_triangles, &
+  use riis_c, only: c_get_triangles => riis_surface_get_triangles, c_triangles => riis_triangles, &
     c_closest_point => riis_closest_point
   implicit none
   real(c_double), parameter :: square(3, 4) = reshape([0d0, 0d0, 0d0, 1d0, 0d0, 0d0, 1d0, 1d0, 0d0, 0d0, 1d0, 0d0], [3, 4])
@@ -53,12 +53,13 @@ contains
     type(riis_valve) :: turned
     type(riis_surface) :: surface
     type(riis_crossings) :: crossings
-    integer(int64), pointer :: triangle_id(:, :)
-    real(c_double), pointer :: point(:, :), depth(:), length(:)
+    type(riis_crossing_list) :: list
     integer :: deepest
-    crossings%n_pairs = -7
     call riis_find_crossings(surface, crossings, status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
+    call crossings%get_list(list, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object crossings was not created')
+    call check(list%n_pairs == 0 .and. size(list%triangle_id) == 0 .and. size(list%length) == 0, 'no pairs to point to')
     call turned%create('aortic')
     call turned%set('right.rotation', [0d0, 0d0, 60d0])
     call surface%create(turned)
@@ -66,23 +67,23 @@ contains
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.depth is -1')
     call riis_find_crossings(surface, crossings, n_threads=-1, status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'n_threads is -1')
-    call check(crossings%n_pairs == -7, 'refused calls write nothing')
-    call surface%crossing_pairs(triangle_id, point, depth, length)
-    call check(size(triangle_id) == 0 .and. size(point) == 0 .and. size(depth) == 0 .and. size(length) == 0, 'none yet')
+    call check(.not. crossings%is_created() .and. .not. c_associated(crossings%c_handle()), 'refused calls make nothing')
     call riis_find_crossings(surface, crossings, 1d-3, 2)
-    call surface%crossing_pairs(triangle_id, point, depth, length)
-    call check(crossings%n_pairs > 10 .and. size(triangle_id, 2) == crossings%n_pairs .and. &
-      size(point, 2) == crossings%n_pairs .and. size(length) == crossings%n_pairs, 'pairs that cross')
-    deepest = maxloc(depth, 1)
-    call check(all(triangle_id(1, :) < triangle_id(2, :)) .and. minval(depth) > 1d-4, 'the lower one first')
-    call check(all(crossings%triangle_id == triangle_id(:, deepest)) .and. &
-      all(same([crossings%depth, crossings%point], [depth(deepest), point(:, deepest)])), 'the deepest pair')
+    call crossings%get_list(list)
+    call check(list%n_pairs > 10 .and. size(list%triangle_id, 2) == list%n_pairs .and. &
+      size(list%point, 2) == list%n_pairs .and. size(list%length) == list%n_pairs, 'pairs that cross')
+    deepest = maxloc(list%depth, 1)
+    call check(all(list%triangle_id(1, :) < list%triangle_id(2, :)) .and. minval(list%depth) > 1d-4, 'the lower one first')
+    call check(all(list%deepest_triangle_id == list%triangle_id(:, deepest)) .and. &
+      all(same([list%deepest_depth, list%deepest_point], [list%depth(deepest), list%point(:, deepest)])), 'the deepest pair')
+    call check(abs(sum(list%length) - list%total_length) < 1d-12 .and. list%seconds > 0 .and. &
+      all(list%deepest_leaflet_id >= 0), 'the summary')
     call surface%update(turned)
-    call surface%crossing_pairs(depth=depth)
-    call check(size(depth) == 0, 'an update leaves no pairs')
+    call crossings%get_list(list)
+    call check(size(list%depth) == list%n_pairs .and. list%n_pairs > 10, 'an update leaves the pairs')
     call surface%destroy()
-    call surface%crossing_pairs(triangle_id, status=status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
+    call crossings%destroy()
+    call crossings%destroy()
     call turned%destroy()
   end subroutine test_crossings
 
@@ -175,6 +176,7 @@ contains
 
   ! A unit square of one patch.
   subroutine test_patches()
+    type(riis_triangles) :: all_triangles
     type(riis_valve) :: valve
     type(riis_surface) :: surface, twin
     type(riis_surface_info) :: info
@@ -191,7 +193,9 @@ contains
     call surface%create(valve, half_thickness=0.1d0)
     call surface%get_info(info)
     call check(abs(info%area - 1) < 1d-12, 'the area of the square')
-    call surface%triangles(leaflet_id=leaflets, patch_id=patches)
+    call surface%get_triangles(all_triangles)
+    leaflets => all_triangles%leaflet_id
+    patches => all_triangles%patch_id
     call check(size(leaflets) > 0 .and. all(leaflets == 5) .and. all(patches == 0), 'the leaflet and patch ids')
     call valve%destroy()
 
@@ -254,6 +258,8 @@ contains
   end subroutine test_options
 
   subroutine test_surface()
+    type(c_triangles) :: from_c
+    type(riis_triangles) :: all_triangles
     type(riis_valve) :: valve
     type(riis_surface) :: surface, twin
     type(riis_surface_info) :: info, again
@@ -271,16 +277,22 @@ contains
     call surface%get_info(info)
     call check(same(info%half_thickness, 0.2d0) .and. info%n_triangles > 0, 'its half thickness')
 
-    call surface%vertices(xyz)
-    call surface%vertex_parameters(uv)
-    call surface%triangles(vertex_id, triangle_id)
+    call surface%get_triangles(all_triangles)
+    xyz => all_triangles%xyz
+    call surface%get_triangles(all_triangles)
+    uv => all_triangles%uv
+    call surface%get_triangles(all_triangles)
+    vertex_id => all_triangles%vertex_id
+    triangle_id => all_triangles%triangle_id
     call check(size(xyz, 2) == info%n_vertices .and. size(uv, 2) == info%n_vertices, 'its vertices')
     call check(all(triangle_id == [(i, i = 0, info%n_triangles - 1)]), 'its triangles')
     c_xyz = c_null_ptr
     c_vertex_id = c_null_ptr
     n = 0
-    status = c_surface_vertices(surface%c_handle(), n, c_xyz)
-    status = c_surface_triangles(surface%c_handle(), n, c_vertex_id)
+    status = c_get_triangles(surface%c_handle(), from_c, storage_size(from_c, int64) / 8)
+    n = from_c%n_triangles
+    c_xyz = from_c%xyz
+    c_vertex_id = from_c%vertex_id
     call check_address(xyz, c_xyz, 'the vertices are the library''s own')
     call check(size(vertex_id, 2) == n .and. minval(vertex_id) == 0, 'the corners count from 0')
 
@@ -348,6 +360,7 @@ contains
   end subroutine test_distances
 
   subroutine test_surface_from_arrays()
+    type(riis_triangles) :: all_triangles
     type(riis_surface) :: surface, twin
     type(riis_surface_info) :: info
     integer(int32) :: faces(3, 2), leaflets(2), wide(6, 2)
@@ -359,7 +372,8 @@ contains
     call surface%create_from_arrays(square, faces, leaflets, half_thickness=0.1d0)
     call surface%get_info(info)
     call check(same(info%area, 1d0) .and. info%n_triangles == 2, 'two triangles')
-    call surface%vertex_parameters(uv)
+    call surface%get_triangles(all_triangles)
+    uv => all_triangles%uv
     call check(size(uv) == 0, 'which have no parameters')
 
     sheet = -9
@@ -503,6 +517,7 @@ contains
 
   ! Handles that there are not.
   subroutine test_empty()
+    type(riis_triangles) :: all_triangles
     type(riis_valve) :: valve
     type(riis_surface) :: surface
     type(riis_surface_info) :: info
@@ -537,11 +552,15 @@ contains
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
     call surface%get_info(info, status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
-    call surface%vertices(xyz, status)
+    call surface%get_triangles(all_triangles, status)
+    xyz => all_triangles%xyz
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
-    call surface%vertex_parameters(uv, status)
+    call surface%get_triangles(all_triangles, status)
+    uv => all_triangles%uv
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
-    call surface%triangles(vertex_id, triangle_id, status=status)
+    call surface%get_triangles(all_triangles, status)
+    vertex_id => all_triangles%vertex_id
+    triangle_id => all_triangles%triangle_id
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
     call check(size(xyz) == 0 .and. size(uv) == 0 .and. size(vertex_id) == 0 .and. size(triangle_id) == 0, 'no arrays')
     call surface%closest_point([0d0, 0d0, 0d0], closest, status)
@@ -568,15 +587,20 @@ contains
   end subroutine test_assignment
 
   subroutine check_same_surface(a, b, what)
+    type(riis_triangles) :: all_triangles
     type(riis_surface), intent(in) :: a, b
     character(len=*), intent(in) :: what
     real(c_double), pointer :: xyz_a(:, :), xyz_b(:, :)
     integer(int64), pointer :: corners_a(:, :), corners_b(:, :)
     type(riis_surface_info) :: info_a, info_b
-    call a%vertices(xyz_a)
-    call b%vertices(xyz_b)
-    call a%triangles(corners_a)
-    call b%triangles(corners_b)
+    call a%get_triangles(all_triangles)
+    xyz_a => all_triangles%xyz
+    call b%get_triangles(all_triangles)
+    xyz_b => all_triangles%xyz
+    call a%get_triangles(all_triangles)
+    corners_a => all_triangles%vertex_id
+    call b%get_triangles(all_triangles)
+    corners_b => all_triangles%vertex_id
     call a%get_info(info_a)
     call b%get_info(info_b)
     call check(size(xyz_a) > 0 .and. size(xyz_a) == size(xyz_b) .and. size(corners_a) == size(corners_b), what // ': sizes')

@@ -6,7 +6,7 @@ program test_resistance
   use box
   use checks
   use riis
-  use riis_c, only: c_mark_fields => riis_mark_fields, c_marked_fields => riis_mark_result_marked_fields
+  use riis_c, only: c_mark_list => riis_mark_list, c_get_list => riis_marks_get_list
   implicit none
   integer, parameter :: all_fields = RIIS_FIELD_POINT + RIIS_FIELD_NORMAL + RIIS_FIELD_BARYCENTRIC + RIIS_FIELD_SIDE + &
     RIIS_FIELD_RIM + RIIS_FIELD_UV + RIIS_FIELD_VELOCITY + RIIS_FIELD_PATCH
@@ -66,6 +66,7 @@ contains
 
   ! A valve that opens: the velocity is the way of each vertex from one opening to the other, by the time.
   subroutine test_velocities()
+    type(riis_triangles) :: all_triangles
     type(riis_valve) :: before, now
     type(riis_surface) :: moving, still
     real(c_double), pointer :: velocity(:, :), from(:, :), to(:, :)
@@ -75,28 +76,36 @@ contains
     call before%set('opening', 0.5d0)
     call now%set('opening', 0.5001d0)
     call moving%create(before)
-    call moving%vertex_velocities(velocity)
+    call moving%get_triangles(all_triangles)
+    velocity => all_triangles%velocity
     call check(size(velocity, 1) == 3 .and. size(velocity, 2) == 0, 'no velocity yet')
     call moving%update_moving(now, before, 0.25d0)
-    call moving%vertices(to)
-    call moving%vertex_velocities(velocity)
+    call moving%get_triangles(all_triangles)
+    to => all_triangles%xyz
+    call moving%get_triangles(all_triangles)
+    velocity => all_triangles%velocity
     call still%create(before)
-    call still%vertices(from)
+    call still%get_triangles(all_triangles)
+    from => all_triangles%xyz
     call check(size(velocity, 2) == size(to, 2) .and. size(from, 2) == size(to, 2), 'a velocity for every vertex')
     ! Parameters of vertices follow the opening, so the ways are those of the same vertex only to second order.
     call check(maxval(abs(velocity - (to - from) / 0.25d0)) < 0.02d0 * maxval(abs(velocity)), 'the way by the time')
     allocate (forth, source=velocity)
     call moving%update_moving(now, before, -0.25d0)
-    call moving%vertex_velocities(velocity)
+    call moving%get_triangles(all_triangles)
+    velocity => all_triangles%velocity
     call check(all(abs(forth + velocity) <= 0), 'back in time')
     call moving%update_moving(now, now, 1d0)
-    call moving%vertex_velocities(velocity)
+    call moving%get_triangles(all_triangles)
+    velocity => all_triangles%velocity
     call check(size(velocity, 2) == size(forth, 2) .and. all(abs(velocity) <= 0), 'at rest')
     call moving%update(now)
-    call moving%vertex_velocities(velocity)
+    call moving%get_triangles(all_triangles)
+    velocity => all_triangles%velocity
     call check(size(velocity) == 0, 'an update without a state before takes the velocity away')
     call moving%destroy()
-    call moving%vertex_velocities(velocity, status)
+    call moving%get_triangles(all_triangles, status)
+    velocity => all_triangles%velocity
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
     call still%destroy()
     call now%destroy()
@@ -105,6 +114,7 @@ contains
 
   ! The placement turns about z and grows: each vertex x comes from where the placement before puts it.
   subroutine test_placement_before()
+    type(riis_triangles) :: all_triangles
     type(riis_surface) :: moving
     real(c_double), pointer :: velocity(:, :), at(:, :)
     real(c_double) :: c, s
@@ -115,8 +125,10 @@ contains
       rotation_axis=[0d0, 0d0, 1d0], rotation_angle=0d0, translation=[1d0, 2d0, 3d0], flip_normals=.true., &
       distance=RIIS_MEASURE_TRIANGLES, measure_tolerance=RIIS_AUTO, n_threads=1, scale_before=1d0, &
       rotation_axis_before=[0d0, 0d0, 2d0], rotation_angle_before=30d0, translation_before=[0d0, 0d0, 0d0])
-    call moving%vertices(at)
-    call moving%vertex_velocities(velocity)
+    call moving%get_triangles(all_triangles)
+    at => all_triangles%xyz
+    call moving%get_triangles(all_triangles)
+    velocity => all_triangles%velocity
     associate (x => (at(1, :) - 1) / 2, y => (at(2, :) - 2) / 2, z => (at(3, :) - 3) / 2)
       call check(maxval(abs(velocity(1, :) - (at(1, :) - (c * x - s * y)) / 0.5d0)) < 1d-12 .and. &
         maxval(abs(velocity(2, :) - (at(2, :) - (s * x + c * y)) / 0.5d0)) < 1d-12 .and. &
@@ -124,13 +136,15 @@ contains
     end associate
     ! What is left out before is as it is now.
     call moving%update_moving(valve, valve, 0.5d0, translation_before=[1d0, 2d0, 2d0])
-    call moving%vertex_velocities(velocity)
+    call moving%get_triangles(all_triangles)
+    velocity => all_triangles%velocity
     call check(all(abs(velocity(3, :) - 2) < 1d-13) .and. all(abs(velocity(:2, :)) < 1d-13), 'moved only')
     call moving%destroy()
   end subroutine test_placement_before
 
   ! Triangles that stay the same while a valve opens, as riis_c makes them.
   subroutine test_fixed_triangles()
+    type(riis_triangles) :: all_triangles
     type(riis_valve) :: mitral, before
     type(riis_surface) :: fixed
     type(riis_surface_info) :: info
@@ -141,13 +155,15 @@ contains
     call mitral%set('opening', 0.2d0)
     call mitral%copy(before)
     call fixed%create(mitral, triangulation=RIIS_TRIANGULATION_FIXED)
-    call fixed%triangles(vertex_id)
+    call fixed%get_triangles(all_triangles)
+    vertex_id => all_triangles%vertex_id
     allocate (first, source=vertex_id)
     do step = 1, 2
       call mitral%set('opening', 0.2d0 + 0.1d0 * step)
       if (step == 1) call fixed%update(mitral)
       if (step == 2) call fixed%update_moving(mitral, before, 0.1d0, triangulation=RIIS_TRIANGULATION_FIXED)
-      call fixed%triangles(vertex_id)
+      call fixed%get_triangles(all_triangles)
+      vertex_id => all_triangles%vertex_id
       call check(size(vertex_id) == size(first), 'as many triangles at another opening')
       if (size(vertex_id) == size(first)) call check(all(vertex_id == first), 'with the same vertices')
       call fixed%get_info(info)
@@ -195,11 +211,12 @@ contains
 
   ! Every field against closest points, and against the triangles' vertices.
   subroutine test_fields()
+    type(riis_triangles) :: all_triangles
     type(riis_surface) :: moving
     type(riis_valve) :: before
     type(riis_marks) :: result
-    type(riis_mark_fields) :: fields, marked
-    type(c_mark_fields) :: from_c
+    type(riis_mark_list) :: fields, marked
+    type(c_mark_list) :: from_c
     type(c_ptr) :: own_points, own_rims
     integer(int64), pointer :: node_id(:), triangle_id(:), vertex_id(:, :), marked_id(:)
     integer(int32), pointer :: patch_id(:)
@@ -214,7 +231,7 @@ contains
     call moving%update_moving(valve, before, 0.01d0)
     call riis_mark_nodes(moving, mesh, result, distance_limit=0.3d0, fields=all_fields)
     call result%within_limit(node_id, triangle_id=triangle_id)
-    call result%within_limit_fields(fields)
+    call result%get_list(RIIS_LIST_WITHIN_LIMIT, fields)
     call check(fields%n_nodes == size(node_id) .and. fields%n_nodes > 1000, 'fields of all nodes within the limit')
     allocate (point, mold=fields%point)
     allocate (normal, mold=fields%normal)
@@ -224,9 +241,13 @@ contains
       barycentric=barycentric, side=side)
     call check(all(same(fields%point, point)) .and. all(same(fields%normal, normal)) .and. &
       all(same(fields%barycentric, barycentric)) .and. all(fields%side == side), 'they are those of closest points')
-    call moving%triangles(vertex_id, patch_id=patch_id)
-    call moving%vertex_parameters(uv)
-    call moving%vertex_velocities(velocity)
+    call moving%get_triangles(all_triangles)
+    vertex_id => all_triangles%vertex_id
+    patch_id => all_triangles%patch_id
+    call moving%get_triangles(all_triangles)
+    uv => all_triangles%uv
+    call moving%get_triangles(all_triangles)
+    velocity => all_triangles%velocity
     is_interpolated = .true.
     n_means = 0
     do i = 1, size(node_id)
@@ -243,7 +264,7 @@ contains
 
     ! Those of the marked nodes are the same, without a copy.
     call result%marked(marked_id)
-    call result%marked_fields(marked)
+    call result%get_list(RIIS_LIST_MARKED, marked)
     call check(marked%n_nodes == size(marked_id) .and. lbound(marked%velocity, 2) == 1, 'fields of marked nodes count from 1')
     j = 0
     do i = 1, size(node_id)
@@ -254,7 +275,7 @@ contains
         .and. marked%side(j) == fields%side(i) .and. marked%patch_id(j) == fields%patch_id(i))) exit
     end do
     call check(j == size(marked_id), 'they are the same')
-    status = c_marked_fields(result%c_handle(), from_c, storage_size(from_c, int64) / 8)
+    status = c_get_list(result%c_handle(), RIIS_LIST_MARKED, from_c, storage_size(from_c, int64) / 8)
     own_points = c_loc(marked%point(1, 1))
     own_rims = c_loc(marked%rim(1))
     call check(c_associated(own_points, from_c%point) .and. c_associated(own_rims, from_c%rim), 'they are the library''s own')
@@ -265,9 +286,9 @@ contains
 
   subroutine test_fields_not_asked_for()
     type(riis_marks) :: result
-    type(riis_mark_fields) :: fields
+    type(riis_mark_list) :: fields
     call riis_mark_nodes(surface, mesh, result, fields=RIIS_FIELD_SIDE)
-    call result%marked_fields(fields)
+    call result%get_list(RIIS_LIST_MARKED, fields)
     call check(size(fields%side) == size(expected) .and. size(fields%point, 2) == 0 .and. size(fields%point, 1) == 3 .and. &
       size(fields%uv, 1) == 2 .and. size(fields%rim) == 0 .and. fields%n_nodes == size(expected), 'one field alone')
     call riis_mark_nodes(surface, mesh, result, fields=RIIS_FIELD_VELOCITY, status=status)
@@ -279,11 +300,11 @@ contains
     call riis_mark_nodes(surface, mesh, result, fields=256, status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.fields is 256')
     call result%destroy()
-    call result%marked_fields(fields, status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call result%get_list(RIIS_LIST_MARKED, fields, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object marks was not created')
     call check(fields%n_nodes == 0 .and. size(fields%side) == 0, 'nothing to point to')
-    call result%within_limit_fields(fields, status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call result%get_list(RIIS_LIST_WITHIN_LIMIT, fields, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object marks was not created')
   end subroutine test_fields_not_asked_for
 
   ! K by the formula, at the distance from the square.
@@ -313,7 +334,7 @@ contains
     call check(all(abs(momentum(3, :) - 5 * formula) < 1d-9) .and. all(abs(momentum(:2, :)) < 1d-9), 'K u_surface')
     call result%add_resistance(R, coefficient)
     call check(all(abs(coefficient - 2 * formula) < 1d-11), 'it is added')
-    call result%add_resistance(R, momentum=momentum, half_thickness=RIIS_AUTO, rim=RIIS_RIM_ROUND)
+    call result%add_resistance(R, K_u_surface=momentum, half_thickness=RIIS_AUTO, rim=RIIS_RIM_ROUND)
     call check(all(abs(momentum(3, :) - 10 * formula) < 1d-9), 'the momentum alone')
     wide = 0
     call result%add_resistance(R, wide(2, :), half_thickness=0.2d0, rim=int(RIIS_RIM_CUT, int64))
@@ -378,11 +399,11 @@ contains
     force = 1
     sums%n_nodes = 7
     call result%add_resistance(R, a, status=status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object marks was not created')
     call result%add_reaction(R, b, a, force, status=status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object marks was not created')
     call result%band_sums(0d0, eps, a, a, sums, status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the result was not created')
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object marks was not created')
     call riis_mark_nodes(plate, mesh, result)
     call result%add_resistance(R, status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'none of coefficient and momentum is given')
@@ -426,9 +447,10 @@ contains
     type(riis_mesh) :: empty
     type(riis_adjacency) :: adjacency
     type(riis_marks) :: result
-    type(riis_mark_fields) :: fields
+    type(riis_mark_list) :: fields
     type(riis_band_sums) :: sums
     type(riis_leaks) :: leaks
+    type(riis_leak_list) :: leak_list
     real(c_double) :: none(0), no_vectors(3, 0), force(3), one(1)
     integer(int64), pointer :: node_id(:)
     integer, allocatable :: node_num(:)
@@ -439,7 +461,7 @@ contains
     call riis_mark_nodes(plate, empty, result, node_mask=marks, fields=all_fields)
     call result%marked(node_id)
     call result%marked_nodes(node_num)
-    call result%marked_fields(fields)
+    call result%get_list(RIIS_LIST_MARKED, fields)
     call result%dense(marks, none)
     call check(size(node_id) == 0 .and. size(node_num) == 0 .and. fields%n_nodes == 0 .and. size(fields%velocity, 2) == 0, &
       'has no marked ones')
@@ -451,7 +473,9 @@ contains
     call empty%set_adjacency([1], node_num)
     call riis_mark_nodes(plate, empty, result, search=RIIS_SEARCH_NEIGHBOR)
     call riis_find_leaks(plate, empty, result, leaks)
-    call check(leaks%n_edges == 0, 'no leaks')
+    call leaks%get_list(leak_list)
+    call leaks%destroy()
+    call check(leak_list%n_edges == 0, 'no leaks')
     call adjacency%create_from_cells(0, reshape([integer ::], [4, 0]))
     call empty%set_adjacency(adjacency)
     call riis_mark_nodes(plate, empty, result, search=RIIS_SEARCH_PAPER)

@@ -1,0 +1,123 @@
+! SPDX-License-Identifier: Apache-2.0
+!> Calls of riis_c whose structs are filled from plain arguments, for module riis and for the external subroutines. Arrays are
+!! contiguous. It is not for users: `use riis` does not give these names.
+module riis_calls
+  use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int8, int32, int64
+  use riis_c
+  use riis_support, only: location_of
+  implicit none
+  private
+  public :: write_dense, add_resistance_to, add_reaction_to, band_sums_of, find_passage_between
+
+contains
+
+  !> Calls riis_marks_get_dense.
+  function write_dense(marks, n_nodes, far_distance, mark, distance, triangle_id, leaflet_id) result(code)
+    type(c_ptr), intent(in) :: marks                        !< A handle.
+    integer(int64), intent(in) :: n_nodes                   !< The number of nodes of the marking.
+    real(c_double), intent(in) :: far_distance              !< The distance of other nodes.
+    integer(int8), intent(inout), optional :: mark(*)       !< (n_nodes).
+    real(c_double), intent(inout), optional :: distance(*)  !< (n_nodes).
+    integer(int64), intent(inout), optional :: triangle_id(*) !< (n_nodes).
+    integer(int32), intent(inout), optional :: leaflet_id(*) !< (n_nodes).
+    integer(riis_status) :: code                            !< RIIS_OK or the error.
+    type(riis_dense_arrays) :: arrays
+    code = riis_dense_arrays_init(arrays, c_sizeof(arrays))
+    if (code /= RIIS_OK) return
+    arrays%n_nodes = n_nodes
+    arrays%far_distance = far_distance
+    if (present(mark)) arrays%mark = location_of(mark)
+    if (present(distance)) arrays%distance = location_of(distance)
+    if (present(triangle_id)) arrays%triangle_id = location_of(triangle_id)
+    if (present(leaflet_id)) arrays%leaflet_id = location_of(leaflet_id)
+    code = riis_marks_get_dense(marks, arrays)
+  end function write_dense
+
+  !> Calls riis_marks_add_resistance.
+  function add_resistance_to(marks, resistance, n_nodes, K, K_u_surface) result(code)
+    type(c_ptr), intent(in) :: marks                        !< A handle.
+    type(riis_resistance), intent(in) :: resistance         !< From its init function.
+    integer(int64), intent(in) :: n_nodes                   !< The number of nodes of the marking.
+    real(c_double), intent(inout), optional :: K(*)         !< (n_nodes).
+    real(c_double), intent(inout), optional :: K_u_surface(3, *) !< (3, n_nodes).
+    integer(riis_status) :: code                            !< RIIS_OK or the error.
+    type(riis_resistance_arrays) :: arrays
+    integer :: i
+    code = riis_resistance_arrays_init(arrays, c_sizeof(arrays))
+    if (code /= RIIS_OK) return
+    arrays%n_nodes = n_nodes
+    if (present(K)) arrays%K = location_of(K)
+    if (present(K_u_surface)) then
+      do i = 1, 3
+        arrays%K_u_surface(i) = location_of(K_u_surface(i, 1))
+      end do
+      arrays%K_u_surface_stride = 3
+    end if
+    code = riis_marks_add_resistance(marks, resistance, arrays)
+  end function add_resistance_to
+
+  !> Calls riis_marks_add_reaction.
+  function add_reaction_to(marks, resistance, n_nodes, velocity, weight, force) result(code)
+    type(c_ptr), intent(in) :: marks                        !< A handle.
+    type(riis_resistance), intent(in) :: resistance         !< From its init function.
+    integer(int64), intent(in) :: n_nodes                   !< The number of nodes of the marking.
+    real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes).
+    real(c_double), intent(in) :: weight(*)                 !< (n_nodes).
+    real(c_double), intent(inout) :: force(3)               !< Added to.
+    integer(riis_status) :: code                            !< RIIS_OK or the error.
+    type(riis_flow_arrays) :: flow
+    integer :: i
+    code = riis_flow_arrays_init(flow, c_sizeof(flow))
+    if (code /= RIIS_OK) return
+    flow%n_nodes = n_nodes
+    do i = 1, 3
+      flow%velocity(i) = location_of(velocity(i, 1))
+    end do
+    flow%velocity_stride = 3
+    flow%weight = location_of(weight)
+    code = riis_marks_add_reaction(marks, resistance, flow, force)
+  end function add_reaction_to
+
+  !> Calls riis_marks_get_band_sums.
+  function band_sums_of(marks, inner, outer, n_nodes, value, weight, sums) result(code)
+    type(c_ptr), intent(in) :: marks                        !< A handle.
+    real(c_double), intent(in) :: inner                     !< Mesh units.
+    real(c_double), intent(in) :: outer                     !< Mesh units.
+    integer(int64), intent(in) :: n_nodes                   !< The number of nodes of the marking.
+    real(c_double), intent(in) :: value(*)                  !< (n_nodes).
+    real(c_double), intent(in) :: weight(*)                 !< (n_nodes).
+    type(riis_band_sums), intent(inout) :: sums             !< Left alone on an error.
+    integer(riis_status) :: code                            !< RIIS_OK or the error.
+    type(riis_band) :: band
+    code = riis_band_init(band, c_sizeof(band))
+    if (code /= RIIS_OK) return
+    band%inner = inner
+    band%outer = outer
+    band%n_nodes = n_nodes
+    band%value = location_of(value)
+    band%weight = location_of(weight)
+    code = riis_marks_get_band_sums(marks, band, sums, c_sizeof(sums))
+  end function band_sums_of
+
+  !> Calls riis_find_passage.
+  function find_passage_between(surface, mesh, options, n_from, from, n_to, to, passage) result(code)
+    type(c_ptr), intent(in) :: surface                      !< A handle.
+    type(c_ptr), intent(in) :: mesh                         !< A handle.
+    type(riis_mark_options), intent(in) :: options          !< From its init function.
+    integer(int64), intent(in) :: n_from                    !< At least 1.
+    integer(int64), intent(in) :: from(*)                   !< (n_from), from 0.
+    integer(int64), intent(in) :: n_to                      !< At least 1.
+    integer(int64), intent(in) :: to(*)                     !< (n_to), from 0.
+    type(riis_passage), intent(inout) :: passage            !< Left alone on an error.
+    integer(riis_status) :: code                            !< RIIS_OK or the error.
+    type(riis_passage_ends) :: ends
+    code = riis_passage_ends_init(ends, c_sizeof(ends))
+    if (code /= RIIS_OK) return
+    ends%n_from = n_from
+    ends%from = location_of(from)
+    ends%n_to = n_to
+    ends%to = location_of(to)
+    code = riis_find_passage(surface, mesh, ends, options, passage, c_sizeof(passage))
+  end function find_passage_between
+end module riis_calls
