@@ -391,7 +391,7 @@ static void struct_sizes_are_checked(void **state) {
   (void)state;
   riis_surface_options options;
   memset(&options, 0x5a, sizeof options);
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 95|96", riis_surface_options_init(&options, 95));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 119|120", riis_surface_options_init(&options, 119));
   char parts[40];
   snprintf(parts, sizeof parts, "options is 128|riis %s ", riis_version_string());
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, parts, riis_surface_options_init(&options, 128));

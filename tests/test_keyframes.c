@@ -160,7 +160,7 @@ static void bad_frames_are_refused(void **state) {
   swing s;
 #define REFUSED(status, parts) CHECK_REFUSED(status, parts, riis_keyframes_create(&faces, &s.frames, &keyframes))
   make_swing(&s, 3, time, height);
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "faces", riis_keyframes_create(NULL, &s.frames, &keyframes));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "arrays is NULL", riis_keyframes_create(NULL, &s.frames, &keyframes));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "frames", riis_keyframes_create(&faces, NULL, &keyframes));
   s.time[1] = 3;
   REFUSED(RIIS_INVALID_ARGUMENT, "frames.time of key 2 is 2");

@@ -295,10 +295,11 @@ static void threads_do_not_matter(void **state) {
   const leak_list a = leaks_of(surface, mesh, &options, one);
   assert_true(a.sum.n_edges > 100);
   for (options.n_threads = 2; options.n_threads <= 5; ++options.n_threads) {
-    leak_list b = leaks_of(surface, mesh, &options, many);
+    const leak_list b = leaks_of(surface, mesh, &options, many);
     const size_t n = (size_t)a.sum.n_edges;
-    b.sum.seconds = a.sum.seconds;
-    assert_memory_equal(&a.sum, &b.sum, sizeof a.sum);
+    const size_t from = offsetof(riis_leak_list, half_thickness), to = offsetof(riis_leak_list, seconds);
+    assert_int_equal(b.sum.n_edges, a.sum.n_edges);
+    assert_memory_equal((const char *)&a.sum + from, (const char *)&b.sum + from, to - from);
     assert_memory_equal(a.node_id, b.node_id, 2 * n * sizeof *a.node_id);
     assert_memory_equal(a.length, b.length, n * sizeof *a.length);
     assert_memory_equal(a.distance, b.distance, n * sizeof *a.distance);

@@ -497,9 +497,9 @@ static void refusals_leave_the_surface_as_it_was(void **state) {
   static const struct {
     double seconds;
     const char *text;
-  } times[] = {{0, "seconds is 0;"},           {-0.0, "seconds is -0;"},        {NAN, "seconds is nan;"},
-               {INFINITY, "seconds is inf;"},  {-INFINITY, "seconds is -inf;"}, {1e-40, "seconds is 1e-40;"},
-               {-1e-40, "seconds is -1e-40;"}, {1e31, "seconds is 1e+31;"}};
+  } times[] = {{0, "dt is 0;"},           {-0.0, "dt is -0;"},        {NAN, "dt is nan;"},
+               {INFINITY, "dt is inf;"},  {-INFINITY, "dt is -inf;"}, {1e-40, "dt is 1e-40;"},
+               {-1e-40, "dt is -1e-40;"}, {1e31, "dt is 1e+31;"}};
   for (size_t i = 0; i < sizeof times / sizeof *times; ++i)
     MOVING_REFUSED(RIIS_INVALID_ARGUMENT, times[i].text, aortic, before, times[i].seconds, NULL, NULL);
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface is NULL",

@@ -449,7 +449,7 @@ static void refusals_leave_the_arrays(void **state) {
                 band_sums_of(f.result, 0, 0.1, 0, f.value, f.weight, &sums, sizeof sums));
   UNCHANGED();
 
-  /* Fields that the result lacks. */
+  /* Fields that the marks lack. */
   const char *lacks = "options.fields = 0";
   resistance.rim = RIIS_RIM_CUT;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "RIIS_RIM_CUT needs RIIS_FIELD_RIM|options.fields = 0",
@@ -457,7 +457,7 @@ static void refusals_leave_the_arrays(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "RIIS_FIELD_RIM",
                 add_reaction_to(bare.result, &resistance, m, bare.velocity, bare.weight, force));
   resistance.rim = RIIS_RIM_ROUND;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "momentum needs RIIS_FIELD_VELOCITY|options.fields = 0",
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "arrays.K_u_surface needs RIIS_FIELD_VELOCITY|options.fields = 0",
                 add_resistance_to(bare.result, &resistance, m, k, momentum));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "needs RIIS_FIELD_SIDE",
                 band_sums_of(bare.result, 0, 0.1, m, bare.value, bare.weight, &sums, sizeof sums));

@@ -444,8 +444,8 @@ static void bad_arguments_are_refused_by_name(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options", riis_crossing_options_init(NULL, sizeof options));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "crossings is NULL", riis_find_crossings(surface, NULL, NULL));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface is NULL", riis_find_crossings(NULL, NULL, crossings));
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "list is 136|128", riis_crossings_get_list(crossings, &list, 136));
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "list is 120|128", riis_crossings_get_list(crossings, &list, 120));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "list is 120|112", riis_crossings_get_list(crossings, &list, 120));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "list is 104|112", riis_crossings_get_list(crossings, &list, 104));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "list is NULL", riis_crossings_get_list(crossings, NULL, sizeof list));
 }
 

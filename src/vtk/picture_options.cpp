@@ -12,7 +12,7 @@
 namespace riis::vtk {
 namespace {
 
-constexpr std::int64_t first_size = 80;  // the struct's size in the first release that had it
+constexpr std::int64_t first_size = 72;  // the struct's size in the first release that had it
 constexpr std::int64_t size_here = sizeof(riis_vtk_picture_options);
 
 [[noreturn]] void refuse(const std::string &text) { fail(RIIS_INVALID_ARGUMENT, "options->" + text); }

@@ -76,12 +76,12 @@ contains
   function triangles_from(surface, n_vertices, xyz, uv, velocity, n_triangles, vertex_id, triangle_id, leaflet_id, &
       patch_id) result(status)
     type(c_ptr), intent(in) :: surface
-    integer(c_int64_t), intent(inout), optional :: n_vertices, n_triangles
-    type(c_ptr), intent(inout), optional :: xyz, uv, velocity, vertex_id, triangle_id, leaflet_id, patch_id
+    integer(c_int64_t), intent(out), optional :: n_vertices, n_triangles
+    type(c_ptr), intent(out), optional :: xyz, uv, velocity, vertex_id, triangle_id, leaflet_id, patch_id
     integer(riis_status) :: status
     type(riis_triangles) :: all
+    all = riis_triangles(0, c_null_ptr, c_null_ptr, c_null_ptr, 0, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr)
     status = riis_surface_get_triangles(surface, all, c_sizeof(all))
-    if (status /= RIIS_OK) return
     if (present(n_vertices)) n_vertices = all%n_vertices
     if (present(xyz)) xyz = all%xyz
     if (present(uv)) uv = all%uv
@@ -707,7 +707,7 @@ contains
     call check_ok(riis_surface_get_info(framed, info, c_sizeof(info)), 'describe the framed surface')
     call check_same_bytes(c_loc(info), c_loc(twin%motion%framed%info), 88_c_int64_t, 'the framed surface')
     call check_ok(triangles_from(framed, n_vertices=n, xyz=parameters), 'framed vertices')
-    call check_same_bytes(parameters, twin%motion%framed%xyz, 24 * n, 'framed vertices')
+    call check_same_bytes(parameters, twin%motion%framed%triangles%xyz, 24 * n, 'framed vertices')
     call check_ok(triangles_from(framed, n_vertices=n, velocity=velocity), 'framed velocities')
     call check_same_bytes(velocity, twin%motion%framed%triangles%velocity, 24 * n, 'framed velocities')
     call c_f_pointer(velocity, velocities, [3_c_int64_t, n])
@@ -907,7 +907,8 @@ contains
     call check_ok(riis_label_open_regions(mesh, leaking, options, n_nodes, label, n_regions), 'open regions')
     call check(n_regions == twin%leaks%n_regions .and. n_regions > 0, 'as many regions as from C')
     call check_same_bytes(c_loc(label), twin%leaks%label, 8 * n_nodes, 'the labels')
-    call check_ok(find_passage_between(thin, mesh, options, 1_c_int64_t, [0_c_int64_t], 1_c_int64_t, [n_nodes - 1], passage), 'a passage')
+    call check_ok(find_passage_between(thin, mesh, options, 1_c_int64_t, [0_c_int64_t], 1_c_int64_t, &
+      [n_nodes - 1], passage), 'a passage')
     call check(passage%node_id == twin%leaks%passage%node_id .and. passage%state == twin%leaks%passage%state .and. &
       all(transfer([passage%distance, passage%point], [0_c_int64_t]) == &
       transfer([twin%leaks%passage%distance, twin%leaks%passage%point], [0_c_int64_t])), 'the passage')
@@ -1049,11 +1050,11 @@ contains
     call check_ok(riis_mark_nodes(surface, mesh, options, walked), 'mark along an adjacency')
     call check_ok(riis_marks_get_stats(walked, stats, c_sizeof(stats)), 'statistics')
     if (search /= RIIS_SEARCH_PAPER) then
-      call check_ok(riis_marks_get_list(walked, RIIS_LIST_MARKED, list, c_sizeof(list) &
-        list%leaflet_id), 'the marked nodes')
+      call check_ok(riis_marks_get_list(walked, RIIS_LIST_MARKED, list, c_sizeof(list)), &
+        'the marked nodes')
       call check_same_list(list, twin%marked, 'marked along an adjacency')
-      call check_ok(riis_marks_get_list(walked, RIIS_LIST_WITHIN_LIMIT, list, c_sizeof(list) &
-        list%leaflet_id), 'the nodes within the limit')
+      call check_ok(riis_marks_get_list(walked, RIIS_LIST_WITHIN_LIMIT, list, c_sizeof(list)), &
+        'the nodes within the limit')
       call check_same_list(list, twin%within_limit, 'within the limit along an adjacency')
       call check(stats%complete == 1, 'the search is complete')
     end if

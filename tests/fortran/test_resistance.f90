@@ -123,7 +123,7 @@ contains
     call moving%create(valve)
     call moving%update_moving(valve, valve, 0.5d0, half_thickness=0.2d0, tolerance=0.1d0, scale=2d0, &
       rotation_axis=[0d0, 0d0, 1d0], rotation_angle=0d0, translation=[1d0, 2d0, 3d0], flip_normals=.true., &
-      distance=RIIS_MEASURE_TRIANGLES, measure_tolerance=RIIS_AUTO, n_threads=1, scale_before=1d0, &
+      measure=RIIS_MEASURE_TRIANGLES, measure_tolerance=RIIS_AUTO, n_threads=1, scale_before=1d0, &
       rotation_axis_before=[0d0, 0d0, 2d0], rotation_angle_before=30d0, translation_before=[0d0, 0d0, 0d0])
     call moving%get_triangles(all_triangles)
     at => all_triangles%xyz

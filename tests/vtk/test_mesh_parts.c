@@ -257,7 +257,7 @@ static void test_fields(void **state) {
   expect_refused(riis_vtk_mesh_set_fields(m.file, m.result, -1, "m"), RIIS_INVALID_ARGUMENT, "fields is -1");
   expect_refused(riis_vtk_mesh_set_fields(m.file, m.result, all, "a b"), RIIS_INVALID_ARGUMENT, "prefix is \"a b\"");
   expect_refused(riis_vtk_mesh_set_fields(NULL, m.result, all, "m"), RIIS_INVALID_ARGUMENT, "mesh is NULL");
-  expect_refused(riis_vtk_mesh_set_fields(m.file, NULL, all, "m"), RIIS_INVALID_ARGUMENT, "result is NULL");
+  expect_refused(riis_vtk_mesh_set_fields(m.file, NULL, all, "m"), RIIS_INVALID_ARGUMENT, "marks is NULL");
   expect_refused(riis_vtk_mesh_set_fields(m.file, m.result, all, NULL), RIIS_INVALID_ARGUMENT, "prefix is NULL");
   forget(&m);
 }
@@ -267,7 +267,7 @@ static void test_fields_that_lack(void **state) {
   (void)state;
   marking m = marked_box("mitral", -0.6, RIIS_FIELD_SIDE);
   expect_refused(riis_vtk_mesh_set_fields(m.file, m.result, RIIS_FIELD_NORMAL, "m"), RIIS_INVALID_ARGUMENT,
-                 "result lacks the field of m_normal");
+                 "marks lack the field of m_normal");
   expect_fine(riis_vtk_mesh_set_fields(m.file, m.result, 0, "m"));
   forget(&m);
   m = marked_box("mitral", 50, RIIS_FIELD_VELOCITY | RIIS_FIELD_PATCH);
