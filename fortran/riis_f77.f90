@@ -393,6 +393,125 @@ subroutine riisf_mesh_update_64(mesh, n_nodes, x, y, z, stride, status)
     int(stride, int64))
 end subroutine riisf_mesh_update_64
 
+!> Copies node coordinates and checks them: REAL*4 with real_bits 32, REAL*8 with 64. The caller's arrays are free afterwards.
+!! Errors: RIIS_INVALID_MESH naming the node, counted from 0, and the value.
+subroutine riisf_mesh_create_copy(n_nodes, x, y, z, stride, real_bits, &
+    mesh, status)
+  use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_points, riis_status, RIIS_OK, riis_mesh_create_copy, riis_points_init
+  use riis_support, only: handle_of, location_of
+  implicit none
+  integer(int32), intent(in) :: n_nodes                   !< >= 0.
+  type(*), intent(in) :: x(*)                             !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  type(*), intent(in) :: y(*)                             !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  type(*), intent(in) :: z(*)                             !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  integer(int32), intent(in) :: real_bits                 !< 32 for REAL*4, 64 for REAL*8.
+  integer(int64), intent(inout) :: mesh                   !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_points) :: nodes
+  type(c_ptr) :: c_handle
+  c_handle = c_null_ptr
+  status = riis_points_init(nodes, c_sizeof(nodes))
+  if (status /= RIIS_OK) return
+  nodes%n_points = n_nodes
+  nodes%x = location_of(x)
+  nodes%y = location_of(y)
+  nodes%z = location_of(z)
+  nodes%stride = stride
+  nodes%real_bits = real_bits
+  status = riis_mesh_create_copy(nodes, c_handle)
+  if (status == RIIS_OK) mesh = handle_of(c_handle)
+end subroutine riisf_mesh_create_copy
+
+!> Does the same.
+subroutine riisf_mesh_create_copy_64(n_nodes, x, y, z, stride, real_bits, &
+    mesh, status)
+  use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_points, riis_status, RIIS_OK, riis_mesh_create_copy, riis_points_init
+  use riis_support, only: handle_of, location_of
+  implicit none
+  integer(int64), intent(in) :: n_nodes                   !< >= 0.
+  type(*), intent(in) :: x(*)                             !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  type(*), intent(in) :: y(*)                             !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  type(*), intent(in) :: z(*)                             !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  integer(int32), intent(in) :: real_bits                 !< 32 for REAL*4, 64 for REAL*8.
+  integer(int64), intent(inout) :: mesh                   !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_points) :: nodes
+  type(c_ptr) :: c_handle
+  c_handle = c_null_ptr
+  status = riis_points_init(nodes, c_sizeof(nodes))
+  if (status /= RIIS_OK) return
+  nodes%n_points = n_nodes
+  nodes%x = location_of(x)
+  nodes%y = location_of(y)
+  nodes%z = location_of(z)
+  nodes%stride = stride
+  nodes%real_bits = real_bits
+  status = riis_mesh_create_copy(nodes, c_handle)
+  if (status == RIIS_OK) mesh = handle_of(c_handle)
+end subroutine riisf_mesh_create_copy_64
+
+!> Copies coordinates that moved. A mesh may change between borrowed and copied coordinates.
+subroutine riisf_mesh_update_copy(mesh, n_nodes, x, y, z, stride, real_bits, &
+    status)
+  use, intrinsic :: iso_c_binding, only: c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_points, riis_status, RIIS_OK, riis_mesh_update_copy, riis_points_init
+  use riis_support, only: c_handle_of, location_of
+  implicit none
+  integer(int64), intent(in) :: mesh                      !< Created.
+  integer(int32), intent(in) :: n_nodes                   !< >= 0.
+  type(*), intent(in) :: x(*)                             !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  type(*), intent(in) :: y(*)                             !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  type(*), intent(in) :: z(*)                             !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  integer(int32), intent(in) :: real_bits                 !< 32 for REAL*4, 64 for REAL*8.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_points) :: nodes
+  status = riis_points_init(nodes, c_sizeof(nodes))
+  if (status /= RIIS_OK) return
+  nodes%n_points = n_nodes
+  nodes%x = location_of(x)
+  nodes%y = location_of(y)
+  nodes%z = location_of(z)
+  nodes%stride = stride
+  nodes%real_bits = real_bits
+  status = riis_mesh_update_copy(c_handle_of(mesh), nodes)
+end subroutine riisf_mesh_update_copy
+
+!> Does the same.
+subroutine riisf_mesh_update_copy_64(mesh, n_nodes, x, y, z, stride, real_bits, &
+    status)
+  use, intrinsic :: iso_c_binding, only: c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_points, riis_status, RIIS_OK, riis_mesh_update_copy, riis_points_init
+  use riis_support, only: c_handle_of, location_of
+  implicit none
+  integer(int64), intent(in) :: mesh                      !< Created.
+  integer(int64), intent(in) :: n_nodes                   !< >= 0.
+  type(*), intent(in) :: x(*)                             !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  type(*), intent(in) :: y(*)                             !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  type(*), intent(in) :: z(*)                             !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  integer(int32), intent(in) :: real_bits                 !< 32 for REAL*4, 64 for REAL*8.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_points) :: nodes
+  status = riis_points_init(nodes, c_sizeof(nodes))
+  if (status /= RIIS_OK) return
+  nodes%n_points = n_nodes
+  nodes%x = location_of(x)
+  nodes%y = location_of(y)
+  nodes%z = location_of(z)
+  nodes%stride = stride
+  nodes%real_bits = real_bits
+  status = riis_mesh_update_copy(c_handle_of(mesh), nodes)
+end subroutine riisf_mesh_update_copy_64
+
 !> Makes the clusters of RIIS_SEARCH_CLUSTERS now, rather than in the first marking that uses them.
 subroutine riisf_mesh_prepare(mesh, n_threads, status)
   use, intrinsic :: iso_fortran_env, only: int32, int64

@@ -2,6 +2,184 @@
 ! Generated from fortran/templates/riis_f77_resistance.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> The external subroutines for the resistance. The conventions are those of riis_f77.f90.
 
+!> As riisf_mark_with_fields, and makes K and K u_surface of the nodes in the lists. K u_surface is there if the surface has
+!! velocities. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
+subroutine riisf_mark_with_resistance(surface, mesh, distance_limit, search, n_threads, fields, R, half_thickness, rim, marks, &
+    status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_mark_options, riis_resistance, riis_status, RIIS_OK, riis_mark_nodes, riis_mark_options_init, &
+    riis_marks_create, riis_marks_destroy, riis_resistance_init
+  use riis_support, only: c_handle_of, handle_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int64), intent(in) :: mesh                      !< Created.
+  real(c_double), intent(in) :: distance_limit            !< Nodes get their distance up to here; RIIS_AUTO: the half thickness.
+  integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int32), intent(in) :: fields                    !< A sum of RIIS_FIELD_*; 0: none.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit; RIIS_AUTO: the half thickness.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND or RIIS_RIM_CUT.
+  integer(int64), intent(inout) :: marks                  !< 0, which creates them, or from a call before.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_options) :: options
+  type(riis_resistance), target :: made
+  type(c_ptr) :: c_handle
+  status = riis_mark_options_init(options, c_sizeof(options))
+  if (status == RIIS_OK) status = riis_resistance_init(made, c_sizeof(made))
+  if (status /= RIIS_OK) return
+  made%R = R
+  made%half_thickness = half_thickness
+  made%rim = rim
+  options%distance_limit = distance_limit
+  options%search = search
+  options%n_threads = n_threads
+  options%fields = fields
+  options%resistance = c_loc(made)
+  c_handle = c_handle_of(marks)
+  if (marks == 0) status = riis_marks_create(c_handle)
+  if (status == RIIS_OK) status = riis_mark_nodes(c_handle_of(surface), c_handle_of(mesh), options, c_handle)
+  if (status /= RIIS_OK .and. marks == 0) call riis_marks_destroy(c_handle) ! 0 as before
+  marks = handle_of(c_handle)
+end subroutine riisf_mark_with_resistance
+
+!> Copies K and K u_surface of the nodes that are marked, in the order of riisf_marked. Without velocities K u_surface is
+!! 0. Errors: RIIS_INVALID_ARGUMENT without riisf_mark_with_resistance, or if the arrays are too short: nothing but n is then
+!! written.
+subroutine riisf_marked_resistance(marks, length, n, K, K_u_surface, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_mark_list, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_marks_get_list, RIIS_LIST_MARKED
+  use riis_support, only: c_handle_of, fail, text_of
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_resistance.
+  integer(int32), intent(in) :: length                    !< How many nodes the arrays have room for.
+  integer(int32), intent(inout) :: n                      !< How many nodes there are, also if the arrays are too short.
+  real(c_double), intent(inout) :: K(*)                   !< (length); written up to n.
+  real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_list) :: list
+  real(c_double), pointer :: own(:), own_vectors(:, :)
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_MARKED, list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  n = int(min(list%n_nodes, int(huge(n), int64)), int32)
+  if (list%n_nodes > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes that are marked: ' // &
+      text_of(list%n_nodes))
+  else if (c_associated(list%K)) then
+    call c_f_pointer(list%K, own, [list%n_nodes])
+    K(:n) = own
+    K_u_surface(:, :n) = 0
+    if (.not. c_associated(list%K_u_surface)) return
+    call c_f_pointer(list%K_u_surface, own_vectors, [3_int64, list%n_nodes])
+    K_u_surface(:, :n) = own_vectors
+  else if (list%n_nodes > 0) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'the nodes have no K: mark with riisf_mark_with_resistance')
+  end if
+end subroutine riisf_marked_resistance
+
+!> Does the same.
+subroutine riisf_marked_resistance_64(marks, length, n, K, K_u_surface, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_mark_list, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_marks_get_list, RIIS_LIST_MARKED
+  use riis_support, only: c_handle_of, fail, text_of
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_resistance.
+  integer(int64), intent(in) :: length                    !< How many nodes the arrays have room for.
+  integer(int64), intent(inout) :: n                      !< How many nodes there are, also if the arrays are too short.
+  real(c_double), intent(inout) :: K(*)                   !< (length); written up to n.
+  real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_list) :: list
+  real(c_double), pointer :: own(:), own_vectors(:, :)
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_MARKED, list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  n = int(min(list%n_nodes, int(huge(n), int64)), int64)
+  if (list%n_nodes > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes that are marked: ' // &
+      text_of(list%n_nodes))
+  else if (c_associated(list%K)) then
+    call c_f_pointer(list%K, own, [list%n_nodes])
+    K(:n) = own
+    K_u_surface(:, :n) = 0
+    if (.not. c_associated(list%K_u_surface)) return
+    call c_f_pointer(list%K_u_surface, own_vectors, [3_int64, list%n_nodes])
+    K_u_surface(:, :n) = own_vectors
+  else if (list%n_nodes > 0) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'the nodes have no K: mark with riisf_mark_with_resistance')
+  end if
+end subroutine riisf_marked_resistance_64
+
+!> Copies K and K u_surface of the nodes within the distance limit, in the order of riisf_within_limit. Without velocities K u_surface is
+!! 0. Errors: RIIS_INVALID_ARGUMENT without riisf_mark_with_resistance, or if the arrays are too short: nothing but n is then
+!! written.
+subroutine riisf_within_limit_resistance(marks, length, n, K, K_u_surface, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_mark_list, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_marks_get_list, RIIS_LIST_WITHIN_LIMIT
+  use riis_support, only: c_handle_of, fail, text_of
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_resistance.
+  integer(int32), intent(in) :: length                    !< How many nodes the arrays have room for.
+  integer(int32), intent(inout) :: n                      !< How many nodes there are, also if the arrays are too short.
+  real(c_double), intent(inout) :: K(*)                   !< (length); written up to n.
+  real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_list) :: list
+  real(c_double), pointer :: own(:), own_vectors(:, :)
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_WITHIN_LIMIT, list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  n = int(min(list%n_nodes, int(huge(n), int64)), int32)
+  if (list%n_nodes > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes within the distance limit: ' // &
+      text_of(list%n_nodes))
+  else if (c_associated(list%K)) then
+    call c_f_pointer(list%K, own, [list%n_nodes])
+    K(:n) = own
+    K_u_surface(:, :n) = 0
+    if (.not. c_associated(list%K_u_surface)) return
+    call c_f_pointer(list%K_u_surface, own_vectors, [3_int64, list%n_nodes])
+    K_u_surface(:, :n) = own_vectors
+  else if (list%n_nodes > 0) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'the nodes have no K: mark with riisf_mark_with_resistance')
+  end if
+end subroutine riisf_within_limit_resistance
+
+!> Does the same.
+subroutine riisf_within_limit_resistance_64(marks, length, n, K, K_u_surface, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_mark_list, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_marks_get_list, RIIS_LIST_WITHIN_LIMIT
+  use riis_support, only: c_handle_of, fail, text_of
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_resistance.
+  integer(int64), intent(in) :: length                    !< How many nodes the arrays have room for.
+  integer(int64), intent(inout) :: n                      !< How many nodes there are, also if the arrays are too short.
+  real(c_double), intent(inout) :: K(*)                   !< (length); written up to n.
+  real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_list) :: list
+  real(c_double), pointer :: own(:), own_vectors(:, :)
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_WITHIN_LIMIT, list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  n = int(min(list%n_nodes, int(huge(n), int64)), int64)
+  if (list%n_nodes > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes within the distance limit: ' // &
+      text_of(list%n_nodes))
+  else if (c_associated(list%K)) then
+    call c_f_pointer(list%K, own, [list%n_nodes])
+    K(:n) = own
+    K_u_surface(:, :n) = 0
+    if (.not. c_associated(list%K_u_surface)) return
+    call c_f_pointer(list%K_u_surface, own_vectors, [3_int64, list%n_nodes])
+    K_u_surface(:, :n) = own_vectors
+  else if (list%n_nodes > 0) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'the nodes have no K: mark with riisf_mark_with_resistance')
+  end if
+end subroutine riisf_within_limit_resistance_64
+
 !> Adds the resistance K = (R / eps) delta(d) to the caller's array, so that several valves add up. At the distance
 !! d < eps delta(d) is (1 + cos(pi d / eps)) / (2 eps). Errors: RIIS_INVALID_ARGUMENT for an argument out of range,
 !! another number of nodes, or a field that the marks lack.

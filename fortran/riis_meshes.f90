@@ -3,7 +3,7 @@
 !> Meshes: riis_mesh_* of riis.h, as a part of module riis.
 module riis_meshes
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_loc, c_null_ptr, c_sizeof
-  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use, intrinsic :: iso_fortran_env, only: int32, int64, real32, real64
   use riis_c
   use riis_adjacencies, only: riis_adjacency
   use riis_support
@@ -35,6 +35,10 @@ module riis_meshes
                                                                         !< Borrows coordinates.
     generic :: update => update_xyz, update_x_y_z, update_first_int32, update_first_int64
                                                                         !< Tells that the coordinates moved.
+    generic :: create_copy => create_copy_xyz_real32, create_copy_xyz_real64, create_copy_x_y_z_real32, create_copy_x_y_z_real64
+                                                                        !< Copies coordinates.
+    generic :: update_copy => update_copy_xyz_real32, update_copy_xyz_real64, update_copy_x_y_z_real32, update_copy_x_y_z_real64
+                                                                        !< Copies coordinates that moved.
     generic :: set_adjacency => adjacency_int32_int32, adjacency_int32_int64, adjacency_int64_int32, adjacency_int64_int64, &
       adjacency_handle                                         !< Gives the adjacency for the neighbour search.
     procedure, non_overridable :: clear_adjacency => mesh_clear_adjacency !< Takes the adjacency away.
@@ -53,6 +57,14 @@ module riis_meshes
     procedure, private, non_overridable :: update_x_y_z => mesh_update_x_y_z
     procedure, private, non_overridable :: update_first_int32 => mesh_update_first_int32
     procedure, private, non_overridable :: update_first_int64 => mesh_update_first_int64
+    procedure, private, non_overridable :: create_copy_xyz_real32 => mesh_create_copy_xyz_real32
+    procedure, private, non_overridable :: create_copy_xyz_real64 => mesh_create_copy_xyz_real64
+    procedure, private, non_overridable :: create_copy_x_y_z_real32 => mesh_create_copy_x_y_z_real32
+    procedure, private, non_overridable :: create_copy_x_y_z_real64 => mesh_create_copy_x_y_z_real64
+    procedure, private, non_overridable :: update_copy_xyz_real32 => mesh_update_copy_xyz_real32
+    procedure, private, non_overridable :: update_copy_xyz_real64 => mesh_update_copy_xyz_real64
+    procedure, private, non_overridable :: update_copy_x_y_z_real32 => mesh_update_copy_x_y_z_real32
+    procedure, private, non_overridable :: update_copy_x_y_z_real64 => mesh_update_copy_x_y_z_real64
     procedure, private, non_overridable :: adjacency_int32_int32 => mesh_adjacency_int32_int32
     procedure, private, non_overridable :: adjacency_int32_int64 => mesh_adjacency_int32_int64
     procedure, private, non_overridable :: adjacency_int64_int32 => mesh_adjacency_int64_int32
@@ -177,6 +189,204 @@ contains
     call update_mesh(this, strided_points(int(n_nodes, int64), int(stride, int64), c_loc(x), c_loc(y), c_loc(z)), code)
     call finish(code, status)
   end subroutine mesh_update_first_int64
+
+  !> Copies node coordinates, in single or double precision, and checks them. Any expression may be passed. Single precision
+  !! becomes double once, exactly. Errors: RIIS_INVALID_MESH naming the node, counted from 0, and the value.
+  subroutine mesh_create_copy_xyz_real32(this, xyz, status)
+    class(riis_mesh), intent(inout) :: this                 !< Must be empty.
+    real(real32), intent(in), contiguous, target :: xyz(:, :) !< (3, n_nodes), finite.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_points) :: nodes
+    integer(riis_status) :: code
+    code = riis_points_init(nodes, c_sizeof(nodes))
+    if (code == RIIS_OK .and. size(xyz, 1) /= 3) &
+      code = refuse('the first extent of xyz is ' // text_of(size(xyz, 1)) // '; it must be 3')
+    nodes%n_points = size(xyz, 2, int64)
+    nodes%stride = 3
+    nodes%real_bits = storage_size(xyz)
+    if (nodes%n_points > 0 .and. size(xyz, 1) == 3) then
+      nodes%x = c_loc(xyz(1, 1))
+      nodes%y = c_loc(xyz(2, 1))
+      nodes%z = c_loc(xyz(3, 1))
+    end if
+    if (code == RIIS_OK) code = check_not_created(this%handle, 'the mesh')
+    if (code == RIIS_OK) code = riis_mesh_create_copy(nodes, this%handle)
+    if (code == RIIS_OK) this%n = nodes%n_points
+    call finish(code, status)
+  end subroutine mesh_create_copy_xyz_real32
+
+  !> Does the same.
+  subroutine mesh_create_copy_xyz_real64(this, xyz, status)
+    class(riis_mesh), intent(inout) :: this                 !< Must be empty.
+    real(real64), intent(in), contiguous, target :: xyz(:, :) !< (3, n_nodes), finite.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_points) :: nodes
+    integer(riis_status) :: code
+    code = riis_points_init(nodes, c_sizeof(nodes))
+    if (code == RIIS_OK .and. size(xyz, 1) /= 3) &
+      code = refuse('the first extent of xyz is ' // text_of(size(xyz, 1)) // '; it must be 3')
+    nodes%n_points = size(xyz, 2, int64)
+    nodes%stride = 3
+    nodes%real_bits = storage_size(xyz)
+    if (nodes%n_points > 0 .and. size(xyz, 1) == 3) then
+      nodes%x = c_loc(xyz(1, 1))
+      nodes%y = c_loc(xyz(2, 1))
+      nodes%z = c_loc(xyz(3, 1))
+    end if
+    if (code == RIIS_OK) code = check_not_created(this%handle, 'the mesh')
+    if (code == RIIS_OK) code = riis_mesh_create_copy(nodes, this%handle)
+    if (code == RIIS_OK) this%n = nodes%n_points
+    call finish(code, status)
+  end subroutine mesh_create_copy_xyz_real64
+
+  !> Does the same.
+  subroutine mesh_create_copy_x_y_z_real32(this, x, y, z, status)
+    class(riis_mesh), intent(inout) :: this                 !< Must be empty.
+    real(real32), intent(in), contiguous, target :: x(:) !< (n_nodes), finite.
+    real(real32), intent(in), contiguous, target :: y(:) !< (n_nodes), finite.
+    real(real32), intent(in), contiguous, target :: z(:) !< (n_nodes), finite.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_points) :: nodes
+    integer(riis_status) :: code
+    code = riis_points_init(nodes, c_sizeof(nodes))
+    nodes%n_points = size(x, kind=int64)
+    nodes%real_bits = storage_size(x)
+    if (code == RIIS_OK) code = check_size(size(y, kind=int64), nodes%n_points, 'y', 'entries in x')
+    if (code == RIIS_OK) code = check_size(size(z, kind=int64), nodes%n_points, 'z', 'entries in x')
+    if (nodes%n_points > 0) then
+      nodes%x = c_loc(x)
+      nodes%y = c_loc(y)
+      nodes%z = c_loc(z)
+    end if
+    if (code == RIIS_OK) code = check_not_created(this%handle, 'the mesh')
+    if (code == RIIS_OK) code = riis_mesh_create_copy(nodes, this%handle)
+    if (code == RIIS_OK) this%n = nodes%n_points
+    call finish(code, status)
+  end subroutine mesh_create_copy_x_y_z_real32
+
+  !> Does the same.
+  subroutine mesh_create_copy_x_y_z_real64(this, x, y, z, status)
+    class(riis_mesh), intent(inout) :: this                 !< Must be empty.
+    real(real64), intent(in), contiguous, target :: x(:) !< (n_nodes), finite.
+    real(real64), intent(in), contiguous, target :: y(:) !< (n_nodes), finite.
+    real(real64), intent(in), contiguous, target :: z(:) !< (n_nodes), finite.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_points) :: nodes
+    integer(riis_status) :: code
+    code = riis_points_init(nodes, c_sizeof(nodes))
+    nodes%n_points = size(x, kind=int64)
+    nodes%real_bits = storage_size(x)
+    if (code == RIIS_OK) code = check_size(size(y, kind=int64), nodes%n_points, 'y', 'entries in x')
+    if (code == RIIS_OK) code = check_size(size(z, kind=int64), nodes%n_points, 'z', 'entries in x')
+    if (nodes%n_points > 0) then
+      nodes%x = c_loc(x)
+      nodes%y = c_loc(y)
+      nodes%z = c_loc(z)
+    end if
+    if (code == RIIS_OK) code = check_not_created(this%handle, 'the mesh')
+    if (code == RIIS_OK) code = riis_mesh_create_copy(nodes, this%handle)
+    if (code == RIIS_OK) this%n = nodes%n_points
+    call finish(code, status)
+  end subroutine mesh_create_copy_x_y_z_real64
+
+  !> Copies coordinates that moved. A mesh may change between borrowed and copied coordinates. The errors are those of
+  !! %create_copy.
+  subroutine mesh_update_copy_xyz_real32(this, xyz, status)
+    class(riis_mesh), intent(inout) :: this                 !< Created.
+    real(real32), intent(in), contiguous, target :: xyz(:, :) !< (3, n_nodes), finite.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_points) :: nodes
+    integer(riis_status) :: code
+    code = riis_points_init(nodes, c_sizeof(nodes))
+    if (code == RIIS_OK .and. size(xyz, 1) /= 3) &
+      code = refuse('the first extent of xyz is ' // text_of(size(xyz, 1)) // '; it must be 3')
+    nodes%n_points = size(xyz, 2, int64)
+    nodes%stride = 3
+    nodes%real_bits = storage_size(xyz)
+    if (nodes%n_points > 0 .and. size(xyz, 1) == 3) then
+      nodes%x = c_loc(xyz(1, 1))
+      nodes%y = c_loc(xyz(2, 1))
+      nodes%z = c_loc(xyz(3, 1))
+    end if
+    if (code == RIIS_OK) code = check_created(this%handle, 'the mesh')
+    if (code == RIIS_OK) code = riis_mesh_update_copy(this%handle, nodes)
+    if (code == RIIS_OK) this%n = nodes%n_points
+    call finish(code, status)
+  end subroutine mesh_update_copy_xyz_real32
+
+  !> Does the same.
+  subroutine mesh_update_copy_xyz_real64(this, xyz, status)
+    class(riis_mesh), intent(inout) :: this                 !< Created.
+    real(real64), intent(in), contiguous, target :: xyz(:, :) !< (3, n_nodes), finite.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_points) :: nodes
+    integer(riis_status) :: code
+    code = riis_points_init(nodes, c_sizeof(nodes))
+    if (code == RIIS_OK .and. size(xyz, 1) /= 3) &
+      code = refuse('the first extent of xyz is ' // text_of(size(xyz, 1)) // '; it must be 3')
+    nodes%n_points = size(xyz, 2, int64)
+    nodes%stride = 3
+    nodes%real_bits = storage_size(xyz)
+    if (nodes%n_points > 0 .and. size(xyz, 1) == 3) then
+      nodes%x = c_loc(xyz(1, 1))
+      nodes%y = c_loc(xyz(2, 1))
+      nodes%z = c_loc(xyz(3, 1))
+    end if
+    if (code == RIIS_OK) code = check_created(this%handle, 'the mesh')
+    if (code == RIIS_OK) code = riis_mesh_update_copy(this%handle, nodes)
+    if (code == RIIS_OK) this%n = nodes%n_points
+    call finish(code, status)
+  end subroutine mesh_update_copy_xyz_real64
+
+  !> Does the same.
+  subroutine mesh_update_copy_x_y_z_real32(this, x, y, z, status)
+    class(riis_mesh), intent(inout) :: this                 !< Created.
+    real(real32), intent(in), contiguous, target :: x(:) !< (n_nodes), finite.
+    real(real32), intent(in), contiguous, target :: y(:) !< (n_nodes), finite.
+    real(real32), intent(in), contiguous, target :: z(:) !< (n_nodes), finite.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_points) :: nodes
+    integer(riis_status) :: code
+    code = riis_points_init(nodes, c_sizeof(nodes))
+    nodes%n_points = size(x, kind=int64)
+    nodes%real_bits = storage_size(x)
+    if (code == RIIS_OK) code = check_size(size(y, kind=int64), nodes%n_points, 'y', 'entries in x')
+    if (code == RIIS_OK) code = check_size(size(z, kind=int64), nodes%n_points, 'z', 'entries in x')
+    if (nodes%n_points > 0) then
+      nodes%x = c_loc(x)
+      nodes%y = c_loc(y)
+      nodes%z = c_loc(z)
+    end if
+    if (code == RIIS_OK) code = check_created(this%handle, 'the mesh')
+    if (code == RIIS_OK) code = riis_mesh_update_copy(this%handle, nodes)
+    if (code == RIIS_OK) this%n = nodes%n_points
+    call finish(code, status)
+  end subroutine mesh_update_copy_x_y_z_real32
+
+  !> Does the same.
+  subroutine mesh_update_copy_x_y_z_real64(this, x, y, z, status)
+    class(riis_mesh), intent(inout) :: this                 !< Created.
+    real(real64), intent(in), contiguous, target :: x(:) !< (n_nodes), finite.
+    real(real64), intent(in), contiguous, target :: y(:) !< (n_nodes), finite.
+    real(real64), intent(in), contiguous, target :: z(:) !< (n_nodes), finite.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_points) :: nodes
+    integer(riis_status) :: code
+    code = riis_points_init(nodes, c_sizeof(nodes))
+    nodes%n_points = size(x, kind=int64)
+    nodes%real_bits = storage_size(x)
+    if (code == RIIS_OK) code = check_size(size(y, kind=int64), nodes%n_points, 'y', 'entries in x')
+    if (code == RIIS_OK) code = check_size(size(z, kind=int64), nodes%n_points, 'z', 'entries in x')
+    if (nodes%n_points > 0) then
+      nodes%x = c_loc(x)
+      nodes%y = c_loc(y)
+      nodes%z = c_loc(z)
+    end if
+    if (code == RIIS_OK) code = check_created(this%handle, 'the mesh')
+    if (code == RIIS_OK) code = riis_mesh_update_copy(this%handle, nodes)
+    if (code == RIIS_OK) this%n = nodes%n_points
+    call finish(code, status)
+  end subroutine mesh_update_copy_x_y_z_real64
 
   ! The common part of all specifics of create; does nothing after an error.
   subroutine create_mesh(this, points, code)

@@ -182,7 +182,7 @@ class Bindings:
         if type_.base == "void":
             kind = EITHER_REAL if line and "real" in line.words else EITHER_INTEGER
         else:
-            kind = self.number(type_.base) or (f"type({type_.base})" if type_.base.startswith("riis_") else "")
+            kind = self.number(type_.base) or (f"type({type_.base})" if type_.base in self.struct_names else "")
         if type_.stars != 1 or not kind:
             self.refuse(field_line.line, f"{struct.name}: the type of {in_c(type_, names)} is not understood")
         elif not line or not line.shape or len(words) != 1:

@@ -103,7 +103,7 @@ def class_of(status: int) -> type[Error]:
 _NAMES = {
     "riis_find_crossings": "riis.find_crossings",
     "riis_mark_nodes": "riis.mark",
-    "riis_marks_get_band_sums": "MarkResult.band_sums",
+    "riis_marks_get_band_sums": "Marks.band_sums",
     "riis_mesh_set_adjacency": "Mesh.set_adjacency",
     "riis_surface_options": "riis.Surface",
     "riis_surface_update_moving": "Surface.update_moving",
@@ -121,7 +121,7 @@ _ARGUMENTS = {
 }
 # Python's words for C's numbers, by the argument.
 WORDS = {
-    "distance": ("triangles", "sampling", "minimization"),
+    "measure": ("triangles", "sampling", "minimization"),
     "instructions": ("auto", "baseline", "avx2", "avx512"),
     "search": ("auto", "exhaustive", "neighbor", "paper", "clusters"),
     "triangulation": ("adapted", "fixed"),

@@ -12,7 +12,7 @@ import numpy
 from riis._errors import InvalidArgumentError
 
 if TYPE_CHECKING:
-    from riis._riis import MarkResult, Mesh, Surface
+    from riis._riis import Marks, Mesh, Surface
 
 
 def _pyvista() -> Any:
@@ -49,14 +49,14 @@ def _look(plotter: Any, zoom: float) -> None:
     plotter.camera.zoom(zoom)
 
 
-def _check_of_mesh(marks: MarkResult | None, mesh: Mesh | None) -> None:
+def _check_of_mesh(marks: Marks | None, mesh: Mesh | None) -> None:
     if mesh is not None and marks is not None and marks._places != mesh._places:
         raise InvalidArgumentError(
             "marks: do not belong to mesh as it is now; pass the mesh that riis.mark took, and mark again after its updates"
         )
 
 
-def _draw(plotter: Any, surface: Surface, mesh: Mesh | None, marks: MarkResult | None) -> None:
+def _draw(plotter: Any, surface: Surface, mesh: Mesh | None, marks: Marks | None) -> None:
     """Draws or replaces the leaflets and the marked nodes."""
     pyvista = _pyvista()
     plotter.add_mesh(
@@ -77,7 +77,7 @@ def _draw(plotter: Any, surface: Surface, mesh: Mesh | None, marks: MarkResult |
 def plot(
     surface: Surface,
     mesh: Mesh | None = None,
-    marks: MarkResult | None = None,
+    marks: Marks | None = None,
     *,
     screenshot: str | os.PathLike[str] | None = None,
     plotter: Any = None,
@@ -107,16 +107,16 @@ def plot(
     return plotter
 
 
-def _frame_of(item: Any, number: int, mesh: Mesh | None) -> tuple[Surface, MarkResult | None, str]:
+def _frame_of(item: Any, number: int, mesh: Mesh | None) -> tuple[Surface, Marks | None, str]:
     """Returns a frame's surface, marks and caption."""
-    from riis._riis import MarkResult, Surface
+    from riis._riis import Marks, Surface
 
     parts = item if isinstance(item, tuple) else (item,)
     surface, marks, caption = (*parts, None, "")[:3] if len(parts) == 1 else (*parts, "")[:3]
     if (
         len(parts) > 3
         or not isinstance(surface, Surface)
-        or not (marks is None or isinstance(marks, MarkResult))
+        or not (marks is None or isinstance(marks, Marks))
         or not isinstance(caption, str)
     ):
         raise TypeError(f"frames: frame {number} must be a Surface, (Surface, marks) or (Surface, marks, caption), not {item!r}")

@@ -108,22 +108,17 @@ class BandSums(NamedTuple):
 
 
 class Leaks(NamedTuple):
-    """Mesh edges that cross the surface between two unmarked nodes."""
+    """Mesh edges that cross the surface between two unmarked nodes, ascending. Lengths are in mesh units."""
 
     n_edges: int
-    longest_node_id: Ids  #: (2,), -1 without an edge
-    longest_length: float  #: mesh units
-    longest_middle: Reals  #: (3,)
-    half_thickness: float  #: the smallest that gives each edge a marked node
-    seconds: float
-
-
-class LeakingEdges(NamedTuple):
-    """The edges of the last find_leaks."""
-
     node_id: Ids  #: (n, 2), the lower one first
     length: Reals  #: (n,)
     distance: Reals  #: (n,): the half thickness that closes the edge
+    half_thickness: float  #: the smallest that gives each edge a marked node
+    longest_node_id: Ids  #: (2,), -1 without an edge
+    longest_length: float
+    longest_middle: Reals  #: (3,)
+    seconds: float
 
 
 class Passage(NamedTuple):
@@ -137,24 +132,19 @@ class Passage(NamedTuple):
 
 
 class Crossings(NamedTuple):
-    """Pairs of triangles that go through each other."""
+    """Pairs of triangles that go through each other, ascending. Lengths are in mesh units."""
 
     n_pairs: int
-    length: float  #: of all intersections together, mesh units
-    depth: float  #: of the deepest pair
-    point: Reals  #: (3,), the middle of its segment
-    triangle_id: Ids  #: (2,), -1 without a pair
-    leaflet_id: Integers  #: (2,)
-    seconds: float
-
-
-class CrossingPairs(NamedTuple):
-    """The pairs of the last find_crossings."""
-
     triangle_id: Ids  #: (n, 2), the lower one first
-    point: Reals  #: (n, 3)
+    point: Reals  #: (n, 3), the middle of the pair's intersection
     depth: Reals  #: (n,)
-    length: Reals  #: (n,)
+    length: Reals  #: (n,), of the intersection
+    total_length: float
+    deepest_depth: float
+    deepest_point: Reals  #: (3,)
+    deepest_triangle_id: Ids  #: (2,), -1 without a pair
+    deepest_leaflet_id: Integers  #: (2,)
+    seconds: float
 
 
 for _record in (
@@ -167,9 +157,7 @@ for _record in (
     Dense,
     BandSums,
     Leaks,
-    LeakingEdges,
     Passage,
     Crossings,
-    CrossingPairs,
 ):
     _record.__module__ = "riis"

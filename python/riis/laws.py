@@ -89,7 +89,7 @@ class OpeningSwitchState:
     progress: float = 0.0  #: share of the way from closed to open
     pressure_difference: float = nan  #: filtered; NaN: none yet
     flow: float = nan  #: filtered; NaN: none yet
-    since: float = nan  #: the time of the last turn; NaN: none yet
+    turn_time: float = nan  #: the time of the last turn; NaN: none yet
     phase: Literal["closing", "opening"] = "closing"
 
 

@@ -22,7 +22,7 @@ nb::object closest_points(Surface &surface, nb::handle points_, nb::handle dista
   const Points points = points_of(points_, "points");
   riis_closest_options options;
   call_shortly(riis_closest_options_init(&options, sizeof options));
-  options.distance_limit = number_or(distance_limit, "distance_limit", RIIS_AUTO);
+  options.distance_limit = number_or(distance_limit, "distance_limit", options.distance_limit);
   options.far_distance = number(far_distance, "far_distance");
   options.n_threads = thread_count(n_threads);
   std::optional<Array> mask, ids;
@@ -58,9 +58,14 @@ nb::object closest_points(Surface &surface, nb::handle points_, nb::handle dista
   arrays.triangle_id = outputs[4].data<std::int64_t>();
   arrays.leaflet_id = outputs[5].data<std::int32_t>();
   arrays.side = outputs[6].data<std::int32_t>();
-  call_library([&] {
-    return riis_closest_points(surface.handle, n, points.x, points.y, points.z, points.stride, &options, &arrays);
-  });
+  riis_points given;
+  call_shortly(riis_points_init(&given, sizeof given));
+  given.n_points = n;
+  given.x = points.x;
+  given.y = points.y;
+  given.z = points.z;
+  given.stride = points.stride;
+  call_library([&] { return riis_closest_points(surface.handle, &given, &options, &arrays); });
   return record("ClosestPoints")(outputs[0].array, outputs[1].array, outputs[2].array, outputs[3].array, outputs[4].array,
                                  outputs[5].array, outputs[6].array);
 }

@@ -77,7 +77,7 @@ const Doubles<riis_opening_switch_state> of_switch_state = {
     {"progress", &riis_opening_switch_state::progress},
     {"pressure_difference", &riis_opening_switch_state::pressure_difference},
     {"flow", &riis_opening_switch_state::flow},
-    {"since", &riis_opening_switch_state::since}};
+    {"turn_time", &riis_opening_switch_state::turn_time}};
 const Doubles<riis_opening_angle> of_angle = {
     {"pressure_gain", &riis_opening_angle::pressure_gain}, {"flow_gain", &riis_opening_angle::flow_gain},
     {"friction", &riis_opening_angle::friction},           {"vortex_gain", &riis_opening_angle::vortex_gain},

@@ -5,37 +5,35 @@
 namespace riis_python {
 namespace {
 
+template <class T, void (*destroy)(T **)>
+struct Destroy {
+  void operator()(T *handle) const { destroy(&handle); }
+};
+
 nb::object pair(nb::object first, nb::object second) { return nb::make_tuple(first, second); }
 
 nb::object find_leaks(nb::handle surface_, nb::handle mesh_, nb::handle marks_, nb::handle mask, nb::handle n_threads) {
   Surface &surface = object<Surface>(surface_, "surface");
   Mesh &mesh = object<Mesh>(mesh_, "mesh");
-  MarkResult &marks = object<MarkResult>(marks_, "marks");
-  const Reading reading_surface(surface.usage, "surface"), reading_mesh(mesh.usage, "mesh");
-  const Writing writing(marks.usage, "marks");
+  Marks &marks = object<Marks>(marks_, "marks");
+  const Reading reading_surface(surface.usage, "surface"), reading_mesh(mesh.usage, "mesh"), reading_marks(marks.usage, "marks");
   if (marks.n_nodes < 0) refuse_value("marks", "is empty; riis.mark fills it");
   const MarkOptions options(mesh, mask, n_threads);
-  riis_leaks leaks;
-  call_to_write(marks.usage, [&] {
-    return riis_find_leaks(surface.handle, mesh.handle, &options.options, marks.handle, &leaks, sizeof leaks);
-  });
-  return record("Leaks")(leaks.n_edges, array_of(leaks.longest_node_id, "int64"), leaks.longest_length,
-                         array_of(leaks.longest_middle, "float64"), leaks.half_thickness, leaks.seconds);
-}
-
-nb::object leaking_edges(MarkResult &marks) {
-  const Reading reading(marks.usage, "marks");
-  std::int64_t n_edges = 0;
-  const std::int64_t *node_id = nullptr;
-  const double *length = nullptr, *distance = nullptr;
-  call_shortly(riis_mark_result_leaking_edges(marks.handle, &n_edges, &node_id, &length, &distance));
-  const auto n = static_cast<std::size_t>(n_edges);
-  return record("LeakingEdges")(copy_of(node_id, {n, 2}), copy_of(length, {n}), copy_of(distance, {n}));
+  riis_leaks *handle = nullptr;
+  call_shortly(riis_leaks_create(&handle));
+  const std::unique_ptr<riis_leaks, Destroy<riis_leaks, riis_leaks_destroy>> leaks(handle);
+  call_library([&] { return riis_find_leaks(surface.handle, mesh.handle, marks.handle, &options.options, handle); });
+  riis_leak_list list;
+  call_shortly(riis_leaks_get_list(handle, &list, sizeof list));
+  const auto n = static_cast<std::size_t>(list.n_edges);
+  return record("Leaks")(list.n_edges, copy_of(list.node_id, {n, 2}), copy_of(list.length, {n}), copy_of(list.distance, {n}),
+                         list.half_thickness, array_of(list.longest_node_id, "int64"), list.longest_length,
+                         array_of(list.longest_middle, "float64"), list.seconds);
 }
 
 nb::object label_open_regions(nb::handle mesh_, nb::handle marks_, nb::handle mask, nb::handle n_threads, nb::handle label_) {
   Mesh &mesh = object<Mesh>(mesh_, "mesh");
-  MarkResult &marks = object<MarkResult>(marks_, "marks");
+  Marks &marks = object<Marks>(marks_, "marks");
   const Reading reading_mesh(mesh.usage, "mesh"), reading_marks(marks.usage, "marks");
   if (marks.n_nodes < 0) refuse_value("marks", "is empty; riis.mark fills it");
   const MarkOptions options(mesh, mask, n_threads);
@@ -44,7 +42,7 @@ nb::object label_open_regions(nb::handle mesh_, nb::handle marks_, nb::handle ma
   const Output label = output_of<std::int64_t>(wanted, "label", "int64", {n});
   std::int64_t n_regions = 0;
   call_library([&] {
-    return riis_label_open_regions(mesh.handle, &options.options, marks.handle, n, label.data<std::int64_t>(), &n_regions);
+    return riis_label_open_regions(mesh.handle, marks.handle, &options.options, n, label.data<std::int64_t>(), &n_regions);
   });
   return pair(label.array, nb::int_(n_regions));
 }
@@ -58,10 +56,15 @@ nb::object find_passage(nb::handle surface_, nb::handle mesh_, nb::handle from_,
   const Array from = Array::of<std::int64_t>(from_, "from_ids"), to = Array::of<std::int64_t>(to_, "to_ids");
   from.expect({-1});
   to.expect({-1});
+  riis_passage_ends ends;
+  call_shortly(riis_passage_ends_init(&ends, sizeof ends));
+  ends.n_from = from.size(0);
+  ends.from = from.data<std::int64_t>();
+  ends.n_to = to.size(0);
+  ends.to = to.data<std::int64_t>();
   riis_passage passage;
   call_library([&] {
-    return riis_find_passage(surface.handle, mesh.handle, &options.options, from.size(0), from.data<std::int64_t>(), to.size(0),
-                             to.data<std::int64_t>(), &passage, sizeof passage);
+    return riis_find_passage(surface.handle, mesh.handle, &ends, &options.options, &passage, sizeof passage);
   });
   static const char *const states[] = {"closed", "open", "none"};
   return record("Passage")(states[passage.state], passage.node_id, passage.distance, array_of(passage.point, "float64"),
@@ -70,26 +73,22 @@ nb::object find_passage(nb::handle surface_, nb::handle mesh_, nb::handle from_,
 
 nb::object find_crossings(nb::handle surface_, nb::handle depth, nb::handle n_threads) {
   Surface &surface = object<Surface>(surface_, "surface");
-  const Writing writing(surface.usage, "surface");
+  const Reading reading(surface.usage, "surface");
   riis_crossing_options options;
   call_shortly(riis_crossing_options_init(&options, sizeof options));
   options.depth = number(depth, "depth");
   options.n_threads = thread_count(n_threads);
-  riis_crossings found;
-  call_to_write(surface.usage, [&] { return riis_find_crossings(surface.handle, &options, &found, sizeof found); });
-  return record("Crossings")(found.n_pairs, found.length, found.depth, array_of(found.point, "float64"),
-                             array_of(found.triangle_id, "int64"), array_of(found.leaflet_id, "int32"), found.seconds);
-}
-
-nb::object crossing_pairs(Surface &surface) {
-  const Reading reading(surface.usage, "surface");
-  std::int64_t n_pairs = 0;
-  const std::int64_t *triangle_id = nullptr;
-  const double *point = nullptr, *depth = nullptr, *length = nullptr;
-  call_shortly(riis_surface_crossing_pairs(surface.handle, &n_pairs, &triangle_id, &point, &depth, &length));
-  const auto n = static_cast<std::size_t>(n_pairs);
-  return record("CrossingPairs")(copy_of(triangle_id, {n, 2}), copy_of(point, {n, 3}), copy_of(depth, {n}),
-                                 copy_of(length, {n}));
+  riis_crossings *handle = nullptr;
+  call_shortly(riis_crossings_create(&handle));
+  const std::unique_ptr<riis_crossings, Destroy<riis_crossings, riis_crossings_destroy>> crossings(handle);
+  call_library([&] { return riis_find_crossings(surface.handle, &options, handle); });
+  riis_crossing_list list;
+  call_shortly(riis_crossings_get_list(handle, &list, sizeof list));
+  const auto n = static_cast<std::size_t>(list.n_pairs);
+  return record("Crossings")(list.n_pairs, copy_of(list.triangle_id, {n, 2}), copy_of(list.point, {n, 3}),
+                             copy_of(list.depth, {n}), copy_of(list.length, {n}), list.total_length, list.deepest_depth,
+                             array_of(list.deepest_point, "float64"), array_of(list.deepest_triangle_id, "int64"),
+                             array_of(list.deepest_leaflet_id, "int32"), list.seconds);
 }
 
 #define RIIS_MASK "mask: numpy.typing.NDArray[numpy.bool_] | numpy.typing.NDArray[numpy.uint8] | None = None"
@@ -97,28 +96,17 @@ nb::object crossing_pairs(Surface &surface) {
 
 }  // namespace
 
-void add_leaking_edges(nb::class_<MarkResult> &result) {
-  result.def_prop_ro("leaking_edges", &leaking_edges, nb::sig("def leaking_edges(self) -> riis._records.LeakingEdges"),
-                     "The edges of the last riis.find_leaks: node_id (n, 2), length and distance (n,). Copies.");
-}
-
-void add_crossing_pairs(nb::class_<Surface> &surface) {
-  surface.def_prop_ro("crossing_pairs", &crossing_pairs, nb::sig("def crossing_pairs(self) -> riis._records.CrossingPairs"),
-                      "The pairs of the last riis.find_crossings: triangle_id (n, 2), point (n, 3), depth and length "
-                      "(n,). Copies.");
-}
-
 void add_leaks(nb::module_ &module) {
   module.def("find_leaks", &find_leaks, nb::arg("surface").none(), nb::arg("mesh").none(), nb::arg("marks").none(), nb::kw_only(),
              nb::arg("mask").none() = nb::none(), nb::arg("n_threads").none() = 0,
-             nb::sig("def find_leaks(surface: Surface, mesh: Mesh, marks: MarkResult, *, " RIIS_MASK
+             nb::sig("def find_leaks(surface: Surface, mesh: Mesh, marks: Marks, *, " RIIS_MASK
                      ", n_threads: int = 0) -> riis._records.Leaks"),
              R"(Finds every edge of the mesh's adjacency that crosses the surface between two unmarked nodes.
 
-surface, mesh and mask are those of the marking. marks keeps the edges (marks.leaking_edges), all else stays.)");
+surface, mesh and mask are those of the marking.)");
   module.def("label_open_regions", &label_open_regions, nb::arg("mesh").none(), nb::arg("marks").none(), nb::kw_only(),
              nb::arg("mask").none() = nb::none(), nb::arg("n_threads").none() = 0, nb::arg("label").none() = nb::none(),
-             nb::sig("def label_open_regions(mesh: Mesh, marks: MarkResult, *, " RIIS_MASK ", n_threads: int = 0, label: "
+             nb::sig("def label_open_regions(mesh: Mesh, marks: Marks, *, " RIIS_MASK ", n_threads: int = 0, label: "
                      RIIS_NODES " | None = None) -> tuple[" RIIS_NODES ", int]"),
              R"(Labels the connected components of the unmarked nodes, along the mesh's adjacency. Returns (label, n_regions).
 
@@ -136,7 +124,7 @@ from_ids, to_ids  (n,) int64, at least one node each, farther from the surface t
                      "riis._records.Crossings"),
              R"(Finds every pair of the surface's triangles that go through each other.
 
-depth  half thicknesses, 0 to 1: a pair at most so deep touches. surface.crossing_pairs has the pairs.)");
+depth  half thicknesses, 0 to 1: a pair at most so deep touches.)");
 }
 
 }  // namespace riis_python

@@ -9,8 +9,8 @@ namespace {
 struct Field {
   const char *name;
   std::int32_t bit;
-  const double *riis_mark_fields::*reals;
-  const std::int32_t *riis_mark_fields::*integers;
+  const double *riis_mark_list::*reals;
+  const std::int32_t *riis_mark_list::*integers;
   std::size_t n_components;
   const char *signature;
   const char *text;
@@ -20,27 +20,31 @@ struct Field {
 #define RIIS_INTEGERS(name) "def " name "(self) -> numpy.typing.NDArray[numpy.int32]"
 
 const Field fields[] = {
-    {"point", RIIS_FIELD_POINT, &riis_mark_fields::point, nullptr, 3, RIIS_REALS("point"),
+    {"point", RIIS_FIELD_POINT, &riis_mark_list::point, nullptr, 3, RIIS_REALS("point"),
      "(n, 3): the closest points of the surface, mesh units. Needs fields='point'. A view."},
-    {"normal", RIIS_FIELD_NORMAL, &riis_mark_fields::normal, nullptr, 3, RIIS_REALS("normal"),
+    {"normal", RIIS_FIELD_NORMAL, &riis_mark_list::normal, nullptr, 3, RIIS_REALS("normal"),
      "(n, 3): the unit normals there. Needs fields='normal'. A view."},
-    {"barycentric", RIIS_FIELD_BARYCENTRIC, &riis_mark_fields::barycentric, nullptr, 3, RIIS_REALS("barycentric"),
+    {"barycentric", RIIS_FIELD_BARYCENTRIC, &riis_mark_list::barycentric, nullptr, 3, RIIS_REALS("barycentric"),
      "(n, 3): the points' weights of their triangles' vertices. Needs fields='barycentric'. A view."},
-    {"side", RIIS_FIELD_SIDE, nullptr, &riis_mark_fields::side, 1, RIIS_INTEGERS("side"),
+    {"side", RIIS_FIELD_SIDE, nullptr, &riis_mark_list::side, 1, RIIS_INTEGERS("side"),
      "(n,): +1 downstream of the surface, -1 upstream, 0 on neither side. Needs fields='side'. A view."},
-    {"rim", RIIS_FIELD_RIM, nullptr, &riis_mark_fields::rim, 1, RIIS_INTEGERS("rim"),
+    {"rim", RIIS_FIELD_RIM, nullptr, &riis_mark_list::rim, 1, RIIS_INTEGERS("rim"),
      "(n,): 1 if the closest point lies on the rim of the surface, else 0. Needs fields='rim'. A view."},
-    {"uv", RIIS_FIELD_UV, &riis_mark_fields::uv, nullptr, 2, RIIS_REALS("uv"),
+    {"uv", RIIS_FIELD_UV, &riis_mark_list::uv, nullptr, 2, RIIS_REALS("uv"),
      "(n, 2): the points' places on their patches, 0 to 1. Needs fields='uv'. A view."},
-    {"velocity", RIIS_FIELD_VELOCITY, &riis_mark_fields::velocity, nullptr, 3, RIIS_REALS("velocity"),
+    {"velocity", RIIS_FIELD_VELOCITY, &riis_mark_list::velocity, nullptr, 3, RIIS_REALS("velocity"),
      "(n, 3): the surface's velocities there, by its last update. Needs fields='velocity'. A view."},
-    {"patch_id", RIIS_FIELD_PATCH, nullptr, &riis_mark_fields::patch_id, 1, RIIS_INTEGERS("patch_id"),
+    {"patch_id", RIIS_FIELD_PATCH, nullptr, &riis_mark_list::patch_id, 1, RIIS_INTEGERS("patch_id"),
      "(n,): the patches of the closest points. Needs fields='patch_id'. A view."},
+    {"K", 0, &riis_mark_list::K, nullptr, 1, RIIS_REALS("K"), "(n,): K of the nodes. Needs R=. A view."},
+    {"K_u_surface", 0, &riis_mark_list::K_u_surface, nullptr, 3, RIIS_REALS("K_u_surface"),
+     "(n, 3): K u_surface of the nodes. Needs R= and a surface with velocities. A view."},
 };
 
 std::int32_t field_of(const std::string &name) {
   std::string all;
   for (const Field &field : fields) {
+    if (!field.bit) continue;
     if (name == field.name) return field.bit;
     all += text_of(all.empty() ? "" : ", ", "'", field.name, "'");
   }
@@ -65,7 +69,8 @@ std::int32_t fields_of(nb::handle wanted) {
 }
 
 nb::object mark(nb::handle surface_, nb::handle mesh_, nb::handle into, nb::handle wanted_fields, nb::handle distance_limit,
-                nb::handle mask, nb::handle search, nb::handle n_threads, nb::handle instructions) {
+                nb::handle mask, nb::handle search, nb::handle n_threads, nb::handle instructions, nb::handle R,
+                nb::handle half_thickness, nb::handle rim) {
   Surface &surface = object<Surface>(surface_, "surface");
   Mesh &mesh = object<Mesh>(mesh_, "mesh");
   const Reading reading_surface(surface.usage, "surface"), reading_mesh(mesh.usage, "mesh");
@@ -84,14 +89,19 @@ nb::object mark(nb::handle surface_, nb::handle mesh_, nb::handle into, nb::hand
                                  {"avx2", RIIS_INSTRUCTIONS_AVX2},
                                  {"avx512", RIIS_INSTRUCTIONS_AVX512}});
   options.fields = fields_of(wanted_fields);
-  const nb::object result_object = into.is_none() ? nb::type<MarkResult>()() : nb::borrow(into);
-  MarkResult &result = object<MarkResult>(result_object, "into");
+  std::optional<riis_resistance> resistance;
+  if (!R.is_none())
+    options.resistance = &resistance.emplace(resistance_of(R, half_thickness, rim));
+  else if (!half_thickness.is_none() || !rim.is_none())
+    refuse_value(half_thickness.is_none() ? "rim" : "half_thickness", "is given, but R is not");
+  const nb::object result_object = into.is_none() ? nb::type<Marks>()() : nb::borrow(into);
+  Marks &result = object<Marks>(result_object, "into");
   const Writing writing(result.usage, "into");
-  const auto mark_into = [&](MarkResult &to) {
+  const auto mark_into = [&](Marks &to) {
     call_to_write(to.usage, [&] { return riis_mark_nodes(surface.handle, mesh.handle, &options, to.handle); });
   };
   if (result.is_shared()) {  // arrays show the last marking
-    MarkResult fresh;
+    Marks fresh;
     call_shortly(riis_marks_create(&fresh.handle));
     mark_into(fresh);
     result.take(fresh);
@@ -111,33 +121,18 @@ struct WithinLimit {
   nb::object result;
 };
 
-// The lists of a result: of the marked nodes, or of those within the limit.
-struct Lists {
-  std::int64_t n = 0;
-  const std::int64_t *node_id = nullptr;
-  const double *distance = nullptr;
-  const std::int64_t *triangle_id = nullptr;
-  const std::int32_t *leaflet_id = nullptr;
-};
-
-// Reads the lists of a MarkResult or of a WithinLimit.
+// Reads the list of Marks or of a WithinLimit.
 struct ListReader {
   explicit ListReader(nb::handle self) {
     is_limit = nb::isinstance<WithinLimit>(self);
     owner = is_limit ? object<WithinLimit>(self, "self").result : nb::borrow(self);
-    result = &object<MarkResult>(owner, "marks");
+    result = &object<Marks>(owner, "marks");
     reading.emplace(result->usage, "marks");
   }
-  Lists lists() const {
-    Lists found;
-    const auto get = is_limit ? riis_mark_result_within_limit : riis_mark_result_marked;
-    call_shortly(get(result->handle, &found.n, &found.node_id, &found.distance, &found.triangle_id, &found.leaflet_id));
-    return found;
-  }
-  riis_mark_fields list_fields() const {
-    riis_mark_fields found;
-    const auto get = is_limit ? riis_mark_result_within_limit_fields : riis_mark_result_marked_fields;
-    call_shortly(get(result->handle, &found, sizeof found));
+  riis_mark_list list() const {
+    riis_mark_list found;
+    const std::int32_t which = is_limit ? RIIS_LIST_WITHIN_LIMIT : RIIS_LIST_MARKED;
+    call_shortly(riis_marks_get_list(result->handle, which, &found, sizeof found));
     return found;
   }
   template <class T>
@@ -148,25 +143,27 @@ struct ListReader {
 
   bool is_limit = false;
   nb::object owner;
-  MarkResult *result = nullptr;
+  Marks *result = nullptr;
   std::optional<Reading> reading;
 };
 
-template <auto Lists::*member>
+template <auto riis_mark_list::*member>
 nb::object list_view(nb::handle self) {
   const ListReader reader(self);
-  const Lists lists = reader.lists();
-  return reader.view(lists.*member, lists.n);
+  const riis_mark_list list = reader.list();
+  return reader.view(list.*member, list.n_nodes);
 }
 
 template <int number>
 nb::object field_view(nb::handle self) {
   const Field &field = fields[number];
   const ListReader reader(self);
-  const riis_mark_fields found = reader.list_fields();
+  const riis_mark_list found = reader.list();
   const void *data = field.reals ? static_cast<const void *>(found.*field.reals) : found.*field.integers;
   if (!data && found.n_nodes > 0)
-    refuse_value(field.name, "the marking did not request it; mark with fields='", field.name, "'");
+    field.bit ? refuse_value(field.name, "the marking did not request it; mark with fields='", field.name, "'")
+              : refuse_value(field.name, "the marking did not make it; mark with R=",
+                             field.n_components == 3 ? " and a surface with velocities" : "");
   return field.reals ? reader.view(found.*field.reals, found.n_nodes, field.n_components)
                      : reader.view(found.*field.integers, found.n_nodes);
 }
@@ -178,19 +175,19 @@ void add_fields(nb::class_<Type> &type, std::integer_sequence<int, numbers...>) 
 
 template <class Type>
 void add_lists(nb::class_<Type> &type) {
-  type.def_prop_ro("ids", &list_view<&Lists::node_id>, nb::sig("def ids(self) -> numpy.typing.NDArray[numpy.int64]"),
+  type.def_prop_ro("ids", &list_view<&riis_mark_list::node_id>, nb::sig("def ids(self) -> numpy.typing.NDArray[numpy.int64]"),
                    "(n,): the nodes, ascending. A view.")
-      .def_prop_ro("distance", &list_view<&Lists::distance>, nb::sig(RIIS_REALS("distance")),
+      .def_prop_ro("distance", &list_view<&riis_mark_list::distance>, nb::sig(RIIS_REALS("distance")),
                    "(n,): their distances to the surface, mesh units. A view.")
-      .def_prop_ro("triangle_id", &list_view<&Lists::triangle_id>,
+      .def_prop_ro("triangle_id", &list_view<&riis_mark_list::triangle_id>,
                    nb::sig("def triangle_id(self) -> numpy.typing.NDArray[numpy.int64]"), "(n,): their closest triangles. A view.")
-      .def_prop_ro("leaflet_id", &list_view<&Lists::leaflet_id>, nb::sig(RIIS_INTEGERS("leaflet_id")),
+      .def_prop_ro("leaflet_id", &list_view<&riis_mark_list::leaflet_id>, nb::sig(RIIS_INTEGERS("leaflet_id")),
                    "(n,): the leaflets of these triangles. A view.")
-      .def("__len__", [](nb::handle self) { return ListReader(self).lists().n; }, nb::sig("def __len__(self) -> int"));
+      .def("__len__", [](nb::handle self) { return ListReader(self).list().n_nodes; }, nb::sig("def __len__(self) -> int"));
   add_fields(type, std::make_integer_sequence<int, static_cast<int>(std::size(fields))>());
 }
 
-nb::object stats(MarkResult &result) {
+nb::object stats(Marks &result) {
   const Reading reading(result.usage, "marks");
   riis_mark_stats found;
   call_shortly(riis_marks_get_stats(result.handle, &found, sizeof found));
@@ -201,7 +198,7 @@ nb::object stats(MarkResult &result) {
                              found.n_unreached);
 }
 
-nb::object dense(MarkResult &result, nb::handle mark_, nb::handle distance, nb::handle triangle_id, nb::handle leaflet_id,
+nb::object dense(Marks &result, nb::handle mark_, nb::handle distance, nb::handle triangle_id, nb::handle leaflet_id,
                  nb::handle far_distance) {
   const Reading reading(result.usage, "marks");
   result.check_threads("marks");
@@ -211,18 +208,23 @@ nb::object dense(MarkResult &result, nb::handle mark_, nb::handle distance, nb::
                distances = output_of<double>(distance, "distance", "float64", {n}),
                triangles = output_of<std::int64_t>(triangle_id, "triangle_id", "int64", {n}),
                leaflets = output_of<std::int32_t>(leaflet_id, "leaflet_id", "int32", {n});
-  call_library([&] {
-    return riis_marks_get_dense(result.handle, n, far, marks.data<std::uint8_t>(), distances.data<double>(),
-                                  triangles.data<std::int64_t>(), leaflets.data<std::int32_t>());
-  });
+  riis_dense_arrays to;
+  call_shortly(riis_dense_arrays_init(&to, sizeof to));
+  to.n_nodes = n;
+  to.far_distance = far;
+  to.mark = marks.data<std::uint8_t>();
+  to.distance = distances.data<double>();
+  to.triangle_id = triangles.data<std::int64_t>();
+  to.leaflet_id = leaflets.data<std::int32_t>();
+  call_library([&] { return riis_marks_get_dense(result.handle, &to); });
   return record("Dense")(marks.array, distances.array, triangles.array, leaflets.array);
 }
 
 std::string description(nb::handle self) {
-  MarkResult &result = object<MarkResult>(self, "self");
-  if (result.usage.is_closed) return "<riis.MarkResult, closed>";
-  if (result.n_nodes < 0) return "<riis.MarkResult, empty>";
-  return text_of("<riis.MarkResult, ", ListReader(self).lists().n, " of ", result.n_nodes, " nodes marked>");
+  Marks &result = object<Marks>(self, "self");
+  if (result.usage.is_closed) return "<riis.Marks, closed>";
+  if (result.n_nodes < 0) return "<riis.Marks, empty>";
+  return text_of("<riis.Marks, ", ListReader(self).list().n_nodes, " of ", result.n_nodes, " nodes marked>");
 }
 
 }  // namespace
@@ -235,24 +237,24 @@ MarkOptions::MarkOptions(const Mesh &mesh, nb::handle mask_, nb::handle n_thread
   options.node_mask = mask->data<std::uint8_t>();
 }
 
-void MarkResult::check_threads(const char *name) const {
+void Marks::check_threads(const char *name) const {
   if (marking_fork != fork_number() && n_threads != 1)
     raise_status(RIIS_UNAVAILABLE, text_of(name, ": the marking was made before the fork, for threads that the child lacks; mark "
                                                  "again, or with n_threads=1 before the fork"));
 }
 
 void add_marking(nb::module_ &module) {
-  nb::class_<MarkResult> result(module, "MarkResult", R"(The nodes that riis.mark found, ascending by their ids.
+  nb::class_<Marks> result(module, "Marks", R"(The nodes that riis.mark found, ascending by their ids.
 
-MarkResult() is empty; riis.mark(..., into=result) fills it and reuses its memory. Arrays are views of that memory:
+Marks() is empty; riis.mark(..., into=result) fills it and reuses its memory. Arrays are views of that memory:
 read-only, without a copy, and kept alive. While any is alive, the next marking takes new memory, so they stay as they are.)");
-  result.def("__init__", [](MarkResult *self) {
-    new (self) MarkResult();
+  result.def("__init__", [](Marks *self) {
+    new (self) Marks();
     call_shortly(riis_marks_create(&self->handle));
   });
   add_lists(result);
   nb::class_<WithinLimit> within(module, "WithinLimit",
-                                 "The nodes of a MarkResult within the distance limit of the marking, marked or not.");
+                                 "The nodes of a Marks within the distance limit of the marking, marked or not.");
   add_lists(within);
   result
       .def_prop_ro(
@@ -261,7 +263,7 @@ read-only, without a copy, and kept alive. While any is alive, the next marking 
             return WithinLimit{nb::borrow(self)};
           },
           nb::sig("def within_limit(self) -> WithinLimit"), "The same lists for the nodes within the distance limit.")
-      .def_prop_ro("_places", [](const MarkResult &self) { return self.places; })
+      .def_prop_ro("_places", [](const Marks &self) { return self.places; })
       .def_prop_ro("stats", &stats, nb::sig("def stats(self) -> riis._records.MarkStats"), "How the last marking went.")
       .def("dense", &dense, nb::kw_only(), nb::arg("mark").none() = true, nb::arg("distance").none() = true, nb::arg("triangle_id").none() = false,
            nb::arg("leaflet_id").none() = false, nb::arg("far_distance").none() = RIIS_FAR_DISTANCE,
@@ -278,7 +280,6 @@ leaflet_id   (n_nodes,) int32, -1 for far nodes
 far_distance  distance of nodes beyond the limit: any value outside [0, distance limit], NaN also)")
       .def("__repr__", &description);
   add_resistance(result);
-  add_leaking_edges(result);
   refuse_pickle(result, "keep the arrays, such as marks.ids");
   refuse_pickle(within, "keep the arrays, such as marks.within_limit.ids");
   add_closing(result);
@@ -286,21 +287,26 @@ far_distance  distance of nodes beyond the limit: any value outside [0, distance
   module.def("mark", &mark, nb::arg("surface").none(), nb::arg("mesh").none(), nb::kw_only(), nb::arg("into").none() = nb::none(),
              nb::arg("fields").none() = nb::none(), nb::arg("distance_limit").none() = nb::none(), nb::arg("mask").none() = nb::none(),
              nb::arg("search").none() = "auto", nb::arg("n_threads").none() = 0, nb::arg("instructions").none() = "auto",
-             nb::sig("def mark(surface: Surface, mesh: Mesh, *, into: MarkResult | None = None, fields: str | "
+             nb::arg("R").none() = nb::none(), nb::arg("half_thickness").none() = nb::none(), nb::arg("rim").none() = nb::none(),
+             nb::sig("def mark(surface: Surface, mesh: Mesh, *, into: Marks | None = None, fields: str | "
                      "collections.abc.Sequence[str] | None = None, distance_limit: float | None = None, mask: "
                      "numpy.typing.NDArray[numpy.bool_] | numpy.typing.NDArray[numpy.uint8] | None = None, search: "
                      "typing.Literal['auto', 'exhaustive', 'neighbor', 'paper', 'clusters'] = 'auto', n_threads: int = 0, "
-                     "instructions: typing.Literal['auto', 'baseline', 'avx2', 'avx512'] = 'auto') -> MarkResult"),
+                     "instructions: typing.Literal['auto', 'baseline', 'avx2', 'avx512'] = 'auto', R: float | None = None, "
+                     "half_thickness: float | None = None, rim: typing.Literal['round', 'cut'] | None = None) -> Marks"),
              R"(Finds every node whose distance to the surface is at most the half thickness.
 
-into            a MarkResult to fill, whose memory is reused; None: a new one
+into            a Marks to fill, whose memory is reused; None: a new one
 fields          'normal, velocity' or ['normal', 'velocity']: fields that the result keeps, of 'point', 'normal',
                 'barycentric', 'side', 'rim', 'uv', 'velocity' and 'patch_id'
 distance_limit  nodes get their distance up to here, mesh units; None: the half thickness
 mask            (n_nodes,) bool or uint8: other nodes are left out
 search          all but 'paper' find the same nodes; 'neighbor' and 'paper' need an adjacency
 n_threads       1 to 1024; 0: as many as the work feeds
-instructions    for tests and measurements; all give the same bits)");
+instructions    for tests and measurements; all give the same bits
+R               mass / (length time): the marks get K, and K_u_surface if the surface has velocities
+half_thickness  eps of K, at most the distance limit; None: that of the surface
+rim             as in add_resistance; None: 'round')");
 }
 
 }  // namespace riis_python

@@ -9,7 +9,7 @@ NB_MODULE(_riis, module) {
   module.doc() = "The compiled half of riis; import riis instead.";
   module.attr("FAR_DISTANCE") = RIIS_FAR_DISTANCE;
   module.def("version_string", &riis_version_string, nb::sig("def version_string() -> str"),
-             "Returns the version of the C library, such as '0.2.0'.");
+             "Returns the version of the C library, such as '1.0.0'.");
   module.def(
       "version",
       [] {

@@ -49,8 +49,8 @@ struct Mesh : Handle<riis_mesh, riis_mesh_destroy> {
   void close(const char *name);
 };
 
-struct MarkResult : Handle<riis_marks, riis_marks_destroy> {
-  static constexpr const char *python_name = "MarkResult";
+struct Marks : Handle<riis_marks, riis_marks_destroy> {
+  static constexpr const char *python_name = "Marks";
   std::int64_t n_nodes = -1;   // of the last marking, -1 before the first
   std::int32_t n_threads = 0;  // that it requested
   int marking_fork = 0;        // fork_number() at the marking
@@ -82,9 +82,9 @@ void add_surface(nb::module_ &module);
 void add_closest(nb::class_<Surface> &surface);
 void add_mesh(nb::module_ &module);
 void add_marking(nb::module_ &module);
-void add_resistance(nb::class_<MarkResult> &result);
-void add_leaking_edges(nb::class_<MarkResult> &result);
-void add_crossing_pairs(nb::class_<Surface> &surface);
+// rim may be None.
+riis_resistance resistance_of(nb::handle R, nb::handle half_thickness, nb::handle rim);
+void add_resistance(nb::class_<Marks> &result);
 void add_leaks(nb::module_ &module);
 void add_laws(nb::module_ &module);
 

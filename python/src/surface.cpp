@@ -9,7 +9,7 @@ namespace {
 #define RIIS_SURFACE_OPTIONS                                                                                    \
   "half_thickness: float | typing.Literal['auto'] | None = None, tolerance: float | None = None, scale: float " \
   "| None = None, rotation_axis: " RIIS_VECTOR ", rotation_angle: float | None = None, translation: "           \
-  RIIS_VECTOR ", flip_normals: bool | None = None, distance: typing.Literal['triangles', 'sampling', "          \
+  RIIS_VECTOR ", flip_normals: bool | None = None, measure: typing.Literal['triangles', 'sampling', "          \
   "'minimization'] | None = None, measure_tolerance: float | typing.Literal['auto'] | None = None, "           \
   "triangulation: typing.Literal['adapted', 'fixed'] | None = None, zero_area: typing.Literal['refuse', "      \
   "'skip'] | None = None, n_threads: int | None = None"
@@ -77,16 +77,16 @@ void update(Surface &self, nb::handle valve_, const nb::kwargs &keywords) {
                  [&](const riis_surface_options &now) { return riis_surface_update(self.handle, valve.handle, &now); });
 }
 
-void update_moving(Surface &self, nb::handle valve_, nb::handle valve_before_, nb::handle seconds_, nb::handle placement_before,
+void update_moving(Surface &self, nb::handle valve_, nb::handle valve_before_, nb::handle dt_, nb::handle placement_before,
                    const nb::kwargs &keywords) {
   Valve &valve = object<Valve>(valve_, "valve"), &before = object<Valve>(valve_before_, "valve_before");
   const Reading reading(valve.usage, "valve"), reading_before(before.usage, "valve_before");
-  const double seconds = number(seconds_, "seconds");
+  const double dt = number(dt_, "dt");
   riis_surface_options placement = self.options;
   set_surface_options(placement, keywords, "options");
   set_placement(placement, placement_before, "placement_before");
   update_content(self, keywords, [&](const riis_surface_options &now) {
-    return riis_surface_update_moving(self.handle, valve.handle, before.handle, seconds, &now, &placement);
+    return riis_surface_update_moving(self.handle, valve.handle, before.handle, dt, &now, &placement);
   });
 }
 
@@ -109,22 +109,22 @@ void update_from_arrays(Surface &self, nb::handle vertices, nb::handle faces, nb
   });
 }
 
-Surface *from_keyframes(nb::handle keyframes_, nb::handle time_, nb::handle since_, const nb::kwargs &keywords) {
+Surface *from_keyframes(nb::handle keyframes_, nb::handle time_, nb::handle dt_, const nb::kwargs &keywords) {
   Keyframes &keyframes = object<Keyframes>(keyframes_, "keyframes");
   const Reading reading(keyframes.usage, "keyframes");
-  const double time = number(time_, "time"), since = number_or(since_, "since", time);
+  const double time = number(time_, "time"), dt = number_or(dt_, "dt", 0);
   return new_surface(keywords, [&](const riis_surface_options &now, riis_surface **made) {
-    return riis_surface_create_from_keyframes(keyframes.handle, time, since, &now, made);
+    return riis_surface_create_from_keyframes(keyframes.handle, time, dt, &now, made);
   });
 }
 
-void update_from_keyframes(Surface &self, nb::handle keyframes_, nb::handle time_, nb::handle since_,
+void update_from_keyframes(Surface &self, nb::handle keyframes_, nb::handle time_, nb::handle dt_,
                            const nb::kwargs &keywords) {
   Keyframes &keyframes = object<Keyframes>(keyframes_, "keyframes");
   const Reading reading(keyframes.usage, "keyframes");
-  const double time = number(time_, "time"), since = number_or(since_, "since", time);
+  const double time = number(time_, "time"), dt = number_or(dt_, "dt", 0);
   update_content(self, keywords, [&](const riis_surface_options &now) {
-    return riis_surface_update_from_keyframes(self.handle, keyframes.handle, time, since, &now);
+    return riis_surface_update_from_keyframes(self.handle, keyframes.handle, time, dt, &now);
   });
 }
 
@@ -142,28 +142,30 @@ nb::object info(Surface &surface) {
                                found.seconds_scene, found.error_bound, found.velocity_error_bound);
 }
 
-using GetPoints = riis_status (*)(const riis_surface *, std::int64_t *, const double **);
+riis_triangles triangles_of(const Surface &surface) {
+  riis_triangles found;
+  call_shortly(riis_surface_get_triangles(surface.handle, &found, sizeof found));
+  return found;
+}
 
 // Returns an array of the vertices, None if there is none.
-nb::object vertex_array(Surface &surface, GetPoints get, std::size_t n_components, nb::object Surface::*copy) {
+nb::object vertex_array(Surface &surface, const double *riis_triangles::*member, std::size_t n_components,
+                        nb::object Surface::*copy) {
   const Reading reading(surface.usage, "surface");
   if ((surface.*copy).is_valid()) return surface.*copy;
-  std::int64_t n = 0;
-  const double *data = nullptr;
-  call_shortly(get(surface.handle, &n, &data));
-  return surface.*copy = data ? copy_of(data, {static_cast<std::size_t>(n), n_components}) : nb::object(nb::none());
+  const riis_triangles found = triangles_of(surface);
+  const double *data = found.*member;
+  return surface.*copy = data ? copy_of(data, {static_cast<std::size_t>(found.n_vertices), n_components})
+                              : nb::object(nb::none());
 }
 
 nb::object triangles(Surface &surface) {
   const Reading reading(surface.usage, "surface");
   if (surface.triangles.is_valid()) return surface.triangles;
-  std::int64_t n_triangles = 0;
-  const std::int64_t *vertex_id = nullptr, *triangle_id = nullptr;
-  const std::int32_t *leaflet_id = nullptr, *patch_id = nullptr;
-  call_shortly(riis_surface_triangles(surface.handle, &n_triangles, &vertex_id, &triangle_id, &leaflet_id, &patch_id));
-  const auto n = static_cast<std::size_t>(n_triangles);
-  return surface.triangles = record("Triangles")(copy_of(vertex_id, {n, 3}), copy_of(triangle_id, {n}),
-                                                 copy_of(leaflet_id, {n}), copy_of(patch_id, {n}));
+  const riis_triangles found = triangles_of(surface);
+  const auto n = static_cast<std::size_t>(found.n_triangles);
+  return surface.triangles = record("Triangles")(copy_of(found.vertex_id, {n, 3}), copy_of(found.triangle_id, {n}),
+                                                 copy_of(found.leaflet_id, {n}), copy_of(found.patch_id, {n}));
 }
 
 std::string description(Surface &surface) {
@@ -184,7 +186,7 @@ FaceArrays::FaceArrays(nb::handle given_faces, nb::handle leaflet_id, nb::handle
     if (arrays.n_faces == 0) raise_status(RIIS_INVALID_SURFACE, "faces: there are none");
     arrays.corners_per_face = static_cast<std::int32_t>(faces->size(1));
     arrays.vertex_ids = faces->data<void>();
-    arrays.vertex_id_bits = faces->bits();
+    arrays.id_bits = faces->bits();
   }
   if (!leaflet_id.is_none()) {
     if (!faces) refuse_value("leaflet_id", "needs faces");
@@ -227,7 +229,7 @@ rotation_axis       (0, 0, 1)
 rotation_angle      0, degrees
 translation         (0, 0, 0), mesh units
 flip_normals        False
-distance            'triangles'; the paper's 'sampling' and 'minimization' serve for comparison
+measure             'triangles'; the paper's 'sampling' and 'minimization' serve for comparison
 measure_tolerance  'auto': tolerance; for these two, in half thicknesses
 triangulation       'adapted', or 'fixed': the same triangles at every opening
 zero_area           'refuse' or 'skip' triangles without area, in from_arrays
@@ -249,28 +251,28 @@ vertices    (n_vertices, 3) float64 of any forward strides, before placement
 faces       (n_faces, 3 or 4) int32 or int64: vertex numbers from index_base; the right-hand rule makes the normal
 leaflet_id  (n_faces,) int32, >= 0; default 0
 velocities  (n_vertices, 3) float64, lengths over the caller's time)")
-      .def_static("from_keyframes", &from_keyframes, nb::arg("keyframes").none(), nb::arg("time").none(), nb::arg("since").none() = nb::none(),
+      .def_static("from_keyframes", &from_keyframes, nb::arg("keyframes").none(), nb::arg("time").none(), nb::arg("dt").none() = nb::none(),
                   nb::arg("options"),
-                  nb::sig("def from_keyframes(keyframes: Keyframes, time: float, since: float | None = None, *, "
+                  nb::sig("def from_keyframes(keyframes: Keyframes, time: float, dt: float | None = None, *, "
                           RIIS_SURFACE_OPTIONS ") -> Surface"),
                   R"(Makes a surface from the frames around a time, with velocities.
 
-since is the time that the velocity is the mean from. None: the derivative of the interpolation.)")
+The velocity is the mean from time - dt to time. None: the derivative of the interpolation.)")
       .def("update", &update, nb::arg("valve").none(), nb::arg("options"),
            nb::sig("def update(self, valve: Valve, *, " RIIS_SURFACE_OPTIONS ") -> None"),
            "Replaces the content by that of a valve, such as one that moved.")
-      .def("update_moving", &update_moving, nb::arg("valve").none(), nb::arg("valve_before").none(), nb::arg("seconds").none(),
+      .def("update_moving", &update_moving, nb::arg("valve").none(), nb::arg("valve_before").none(), nb::arg("dt").none(),
            nb::kw_only(), nb::arg("placement_before").none() = nb::none(), nb::arg("options"),
-           nb::sig("def update_moving(self, valve: Valve, valve_before: Valve, seconds: float, *, placement_before: dict[str, "
+           nb::sig("def update_moving(self, valve: Valve, valve_before: Valve, dt: float, *, placement_before: dict[str, "
                    "typing.Any] | None = None, " RIIS_SURFACE_OPTIONS ") -> None"),
            R"(Replaces the content as update does, and gives every vertex a velocity.
 
 valve_before      the state before, of the same kind
-seconds           from valve_before to valve; negative as time goes back
+dt                from valve_before to valve; negative as time goes back
 placement_before  a dict of scale, rotation_axis, rotation_angle and translation before; entries that it lacks are
                   the present ones
 
-The velocity, in mesh units over the unit of seconds, is the mean of the step.)")
+The velocity, in mesh units over the unit of dt, is the mean of the step.)")
       .def("update_from_arrays", &update_from_arrays, nb::arg("vertices").none(), nb::arg("faces").none() = nb::none(), nb::kw_only(),
            nb::arg("leaflet_id").none() = nb::none(), nb::arg("velocities").none() = nb::none(), nb::arg("index_base").none() = 0, nb::arg("options"),
            nb::sig("def update_from_arrays(self, vertices: " RIIS_POINTS ", faces: " RIIS_FACES
@@ -278,8 +280,8 @@ The velocity, in mesh units over the unit of seconds, is the mean of the step.)"
                    " | None = None, index_base: int = 0, " RIIS_SURFACE_OPTIONS ") -> None"),
            "Replaces the content from arrays, as from_arrays takes them. Without faces the vertices alone move.")
       .def("update_from_keyframes", &update_from_keyframes, nb::arg("keyframes").none(), nb::arg("time").none(),
-           nb::arg("since").none() = nb::none(), nb::arg("options"),
-           nb::sig("def update_from_keyframes(self, keyframes: Keyframes, time: float, since: float | None = None, *, "
+           nb::arg("dt").none() = nb::none(), nb::arg("options"),
+           nb::sig("def update_from_keyframes(self, keyframes: Keyframes, time: float, dt: float | None = None, *, "
                    RIIS_SURFACE_OPTIONS ") -> None"),
            "Replaces the content by the frames around a time, as from_keyframes does.")
       .def_prop_ro("info", &info, nb::sig("def info(self) -> riis._records.SurfaceInfo"),
@@ -287,15 +289,15 @@ The velocity, in mesh units over the unit of seconds, is the mean of the step.)"
       .def_prop_ro(
           "half_thickness", [](Surface &self) { return info_of(self).half_thickness; }, "The half thickness, mesh units.")
       .def_prop_ro(
-          "vertices", [](Surface &self) { return vertex_array(self, riis_surface_vertices, 3, &Surface::vertices); },
+          "vertices", [](Surface &self) { return vertex_array(self, &riis_triangles::xyz, 3, &Surface::vertices); },
           nb::sig("def vertices(self) -> numpy.typing.NDArray[numpy.float64]"),
           "(n_vertices, 3): the vertices after placement.")
       .def_prop_ro(
-          "uv", [](Surface &self) { return vertex_array(self, riis_surface_vertex_parameters, 2, &Surface::uv); },
+          "uv", [](Surface &self) { return vertex_array(self, &riis_triangles::uv, 2, &Surface::uv); },
           nb::sig("def uv(self) -> numpy.typing.NDArray[numpy.float64] | None"),
           "(n_vertices, 2): each vertex's place on its patch, 0 to 1. None for a surface from arrays.")
       .def_prop_ro(
-          "velocities", [](Surface &self) { return vertex_array(self, riis_surface_vertex_velocities, 3, &Surface::velocities); },
+          "velocities", [](Surface &self) { return vertex_array(self, &riis_triangles::velocity, 3, &Surface::velocities); },
           nb::sig("def velocities(self) -> numpy.typing.NDArray[numpy.float64] | None"),
           "(n_vertices, 3): each vertex's velocity. None if the last update gave none.")
       .def_prop_ro("triangles", &triangles, nb::sig("def triangles(self) -> riis._records.Triangles"),
@@ -309,7 +311,6 @@ The velocity, in mesh units over the unit of seconds, is the mean of the step.)"
 Cells have triangle_id, leaflet_id and patch_id; points have velocity if the last update gave velocities.)")
       .def("__repr__", &description);
   add_closest(surface);
-  add_crossing_pairs(surface);
   refuse_pickle(surface, "keep the valve and the options, or the arrays, and make the surface from them");
   add_closing(surface);
 }

@@ -38,9 +38,9 @@ const Keyword keywords[] = {
      false},
     {"flip_normals", [](riis_surface_options &o, nb::handle value, const char *name) { o.flip_normals = flag(value, name); },
      false},
-    {"distance",
+    {"measure",
      [](riis_surface_options &o, nb::handle value, const char *name) {
-       o.distance = choice(value, name,
+       o.measure = choice(value, name,
                            {{"triangles", RIIS_MEASURE_TRIANGLES},
                             {"sampling", RIIS_MEASURE_SAMPLING},
                             {"minimization", RIIS_MEASURE_MINIMIZATION}});

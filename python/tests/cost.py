@@ -18,7 +18,7 @@ BAR = 1.05
 
 def measure(surface, mesh, n_threads, reuse, n_steps=50):
     """Returns the medians of the C function and of the Python layer, in seconds."""
-    own = riis.MarkResult()
+    own = riis.Marks()
     inside, layer = [], []
     for _ in range(n_steps):
         begin = time.perf_counter()

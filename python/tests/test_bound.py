@@ -56,7 +56,7 @@ def test_words_of_numbers_are_those_of_the_header():
 
 def test_names_in_messages_are_those_of_the_package(monkeypatch):
     for text in bound.texts_of_the_library(ROOT):
-        for name in re.findall(r"\b(?:riis|Surface|Mesh|MarkResult|Valve)(?:\.\w+)+", _errors.in_python(text)):
+        for name in re.findall(r"\b(?:riis|Surface|Mesh|Marks|Valve)(?:\.\w+)+", _errors.in_python(text)):
             found = riis
             for part in name.removeprefix("riis.").split("."):
                 found = getattr(found, part)

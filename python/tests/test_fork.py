@@ -114,7 +114,7 @@ def test_a_child_of_a_thread_inside_the_library_makes_no_surface(surface, mesh, 
     is_over, refused, other = threading.Event(), [], riis.Mesh(xyz.copy())
 
     def go_on():
-        own, moving = riis.MarkResult(), riis.Valve("mitral")
+        own, moving = riis.Marks(), riis.Valve("mitral")
         shown = riis.Surface(moving)
         while not is_over.is_set():
             moving["opening"] = 0.5

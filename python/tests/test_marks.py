@@ -87,8 +87,8 @@ def test_searches_instructions_and_threads_give_the_same_marks(surface, grid):
 
 
 def test_a_result_is_reused(surface, mesh, valve):
-    marks = riis.MarkResult()
-    assert repr(marks) == "<riis.MarkResult, empty>" and len(marks) == 0
+    marks = riis.Marks()
+    assert repr(marks) == "<riis.Marks, empty>" and len(marks) == 0
     assert marks.ids.shape == marks.within_limit.distance.shape == (0,) and marks.leaking_edges.node_id.shape == (0, 2)
     assert marks.stats.n_nodes == 0 and marks.dense().mark.shape == (0,)
     for opening in 0.1, 0.9:

@@ -14,7 +14,7 @@ def resident_kib():
 def test_ten_thousand_steps_take_no_memory():
     nodes = numpy.random.default_rng(4).uniform(-2.0, 2.0, (2000, 3))
     mesh, valve = riis.Mesh(nodes), riis.Valve("mitral")
-    before, own = valve.copy(), riis.MarkResult()
+    before, own = valve.copy(), riis.Marks()
     surface = riis.Surface(valve, half_thickness=0.3, tolerance=0.5, n_threads=1)
     coefficient, momentum = numpy.zeros(len(nodes)), numpy.zeros((len(nodes), 3))
 

@@ -47,7 +47,7 @@ def test_nodes_of_another_mesh_are_not_drawn(surface, mesh, marks, xyz, tmp_path
         with refused:
             riis.animate(tmp_path / "valve.gif", [(surface, marks)], other)
     with refused:
-        riis.plot(surface, mesh, riis.MarkResult(), screenshot=tmp_path / "valve.png")
+        riis.plot(surface, mesh, riis.Marks(), screenshot=tmp_path / "valve.png")
     moved = riis.Mesh(xyz.copy())
     riis.mark(surface, moved, into=marks)
     moved.xyz[:] += 1.0
@@ -72,7 +72,7 @@ def test_a_new_picture_looks_at_the_whole_valve(surface, tmp_path):
 def beat(n_frames):
     """Yields a valve that opens, always the same objects."""
     valve = riis.Valve("mitral")
-    surface, marks = riis.Surface(valve), riis.MarkResult()
+    surface, marks = riis.Surface(valve), riis.Marks()
     mesh = riis.Mesh(numpy.random.default_rng(1).uniform(-2.0, 2.0, (20_000, 3)))
     yield mesh
     for i in range(n_frames):

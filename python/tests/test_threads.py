@@ -31,7 +31,7 @@ def in_threads(n, work):
 
 def test_threads_share_a_surface_and_a_mesh(surface, mesh, marks):
     def work(i):
-        own = riis.MarkResult()
+        own = riis.Marks()
         for _ in range(5):
             riis.mark(surface, mesh, into=own, n_threads=1 + i % 2)
         return own.ids.copy(), own.distance.copy()
@@ -61,7 +61,7 @@ def test_the_lock_is_released(surface, xyz):
 
 
 def test_one_object_is_written_by_one_thread(surface, xyz):
-    mesh, own = riis.Mesh(numpy.tile(xyz, (4, 1))), riis.MarkResult()
+    mesh, own = riis.Mesh(numpy.tile(xyz, (4, 1))), riis.Marks()
     found = in_threads(4, lambda i: [riis.mark(surface, mesh, into=own, n_threads=1) for _ in range(10)])
     refused = [error for error in found if isinstance(error, Exception)]
     assert refused  # four threads that mark 10 times into one result meet

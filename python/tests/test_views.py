@@ -70,7 +70,7 @@ def test_a_mesh_keeps_its_coordinates(xyz):
 
 def test_views_outlive_the_markings_that_follow(surface, mesh, valve):
     """What an array showed it goes on showing, and the marks that follow are right."""
-    marks, kept = riis.MarkResult(), []
+    marks, kept = riis.Marks(), []
     for opening in 0.0, 0.3, 0.6, 0.9:
         valve["opening"] = opening
         surface.update(valve)

@@ -18,7 +18,7 @@ def resistance_of(xyz: NDArray[numpy.float64], opening: float) -> NDArray[numpy.
     valve["AP_diameter"] = 3.1
     surface = riis.Surface(valve, half_thickness=0.1)
     mesh = riis.Mesh(xyz)
-    marks: riis.MarkResult = riis.mark(surface, mesh, fields="normal")
+    marks: riis.Marks = riis.mark(surface, mesh, fields="normal")
     ids: NDArray[numpy.int64] = marks.ids
     normals: NDArray[numpy.float64] = marks.normal
     assert len(ids) == len(normals)

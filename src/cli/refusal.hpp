@@ -29,7 +29,8 @@ inline std::string with_option_named(const std::string &text) {
       {"options.measure_tolerance ", "--distance-tolerance "},
       {"options.search ", "--search "},
       {"options.n_threads ", "--threads "},
-      {"far_distance ", "--far-distance "},
+      {"arrays.far_distance ", "--far-distance "},
+      {"resistance.R ", "--resistance "},
       {"time ", "--time "},
       {"frames.period ", "--period "},
       {"frames.time ", "--period: the time "}};

@@ -80,7 +80,7 @@ void add_crossings(const CrossingReport &report, std::ostringstream &out) {
   } else {
     out << counted(report.found.n_pairs, "pair") << " of triangles go through each other";
     if (report.opening) out << " at opening " << *report.opening;
-    out << ", along a length of " << report.found.length << ", up to " << report.found.depth << " deep";
+    out << ", along a length of " << report.found.total_length << ", up to " << report.found.deepest_depth << " deep";
   }
   out << "\n";
 }

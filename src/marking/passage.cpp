@@ -32,7 +32,7 @@ double largest_distance(const SearchRequest &request, const char *name, ArrayVie
         const Vec3 p = checked_point(request.mesh.nodes(), ids[i], "node", RIIS_INVALID_MESH);
         const double d = std::sqrt(distances.closest(p, std::numeric_limits<double>::infinity()).distance_sq);
         if (!(d > half_thickness))
-          fail(RIIS_INVALID_ARGUMENT, name, "[", i, "] is node ", ids[i],
+          fail(RIIS_INVALID_ARGUMENT, "ends.", name, "[", i, "] is node ", ids[i],
                ", in the band: its distance to the surface, ", d, ", is at most the half thickness, ", half_thickness);
         view(distance)[i] = d;
       }

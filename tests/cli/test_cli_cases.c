@@ -76,13 +76,13 @@ static void test_example(void **state) {
   expect_same_array(part, scratch_path("m.vtu"), "mitral_leaflet");
   expect_same_array(part, scratch_path("a.vtu"), "aortic_marked");
   expect_same_array(part, scratch_path("a.vtu"), "aortic_leaflet");
-  assert_false(has_array(part, "mitral_resistance"));
+  assert_false(has_array(part, "mitral_K"));
   /* K is the sum, and the momentum that of K u. */
   const int64_t n = read_array(part, "riis_node_id", ids);
-  read_array(part, "riis_resistance", K);
-  read_array(part, "riis_momentum", momentum);
-  read_array(scratch_path("m.vtu"), "mitral_resistance", of_mitral);
-  read_array(scratch_path("a.vtu"), "aortic_resistance", of_aortic);
+  read_array(part, "riis_K", K);
+  read_array(part, "riis_K_u_surface", momentum);
+  read_array(scratch_path("m.vtu"), "mitral_K", of_mitral);
+  read_array(scratch_path("a.vtu"), "aortic_K", of_aortic);
   read_array(part, "mitral_velocity", u[0]);
   read_array(part, "aortic_velocity", u[1]);
   int n_resisting = 0, n_moving = 0;
@@ -156,16 +156,16 @@ static void test_one_time(void **state) {
     assert_int_equal(read_array(scratch_path("b1.vtu"), names[k], two), n_box);
     assert_memory_equal(one, two, n_box * sizeof *one);
   }
-  read_array(out, "riis_resistance", K);
-  read_array(scratch_path("b1.vtu"), "a_resistance", one);
-  read_array(scratch_path("b1.vtu"), "b_resistance", two);
+  read_array(out, "riis_K", K);
+  read_array(scratch_path("b1.vtu"), "a_K", one);
+  read_array(scratch_path("b1.vtu"), "b_K", two);
   int n_both = 0;
   for (int i = 0; i < n_box; ++i) {
     assert_true(K[i] == one[i] + two[i]);
     n_both += one[i] > 0 && two[i] > 0;
   }
   assert_true(n_both > 0);
-  assert_false(has_array(out, "riis_momentum"));
+  assert_false(has_array(out, "riis_K_u_surface"));
 }
 
 /* A surface from a file is at rest among valves that move. */

@@ -17,7 +17,7 @@ static void test_resistance(void **state) {
   RUN_FINE(scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--resistance", "10", "--output",
            scratch_path("out.vtu"));
   assert_int_equal(shim_read_array(scratch_path("out.vtu"), 'p', "riis_distance", NULL, NULL, NULL, distance), 1);
-  assert_int_equal(shim_read_array(scratch_path("out.vtu"), 'p', "riis_resistance", NULL, NULL, NULL, resistance), 1);
+  assert_int_equal(shim_read_array(scratch_path("out.vtu"), 'p', "riis_K", NULL, NULL, NULL, resistance), 1);
   int n_resisting = 0;
   for (int i = 0; i < n_box; ++i) {
     const double expected = distance[i] < eps ? R / eps * (1 + cos(pi * distance[i] / eps)) / (2 * eps) : 0;
@@ -33,13 +33,13 @@ static void test_no_array_unless_asked(void **state) {
   static double resistance[n_box];
   RUN_FINE(scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--output",
            scratch_path("plain.vtu"));
-  assert_int_equal(shim_read_array(scratch_path("plain.vtu"), 'p', "riis_resistance", NULL, NULL, NULL, resistance), 0);
+  assert_int_equal(shim_read_array(scratch_path("plain.vtu"), 'p', "riis_K", NULL, NULL, NULL, resistance), 0);
 }
 
 static void test_refusals(void **state) {
   (void)state;
-  RUN_REFUSED(2, "resistance is -1", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "-1");
-  RUN_REFUSED(2, "resistance is nan", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "nan");
+  RUN_REFUSED(2, "--resistance is -1", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "-1");
+  RUN_REFUSED(2, "--resistance is nan", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "nan");
   RUN_REFUSED(2, "--resistance", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "ten");
   RUN_REFUSED(2, "--resistance needs a MESH", "--valve", "aortic", "--resistance", "1", "--surface-output",
               scratch_path("s.vtp"));

@@ -61,7 +61,7 @@ static void run_single(int step) {
 static void expect_as_single(int step, const char *part) {
   static double whole[3 * n_box], values[3 * n_box], ids[n_box];
   static const char *const names[] = {"riis_marked",     "riis_distance", "riis_leaflet",
-                                      "riis_resistance", "pressure",      "velocity"};
+                                      "riis_K", "pressure",      "velocity"};
   run_single(step);
   const int64_t n = read_array(part, "riis_node_id", ids);
   for (int k = 0; k < 6; ++k) {
@@ -176,9 +176,9 @@ static void expect_fields(int step, const char *path) {
   expect_fine(riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, &fields, sizeof fields));
   assert_int_equal(read_array(path, "riis_normal", normal), 3 * n_box);
   assert_int_equal(read_array(path, "riis_velocity", velocity), 3 * n_box);
-  assert_int_equal(read_array(path, "riis_momentum", momentum), 3 * n_box);
+  assert_int_equal(read_array(path, "riis_K_u_surface", momentum), 3 * n_box);
   assert_int_equal(read_array(path, "riis_side", side), n_box);
-  assert_int_equal(read_array(path, "riis_resistance", K), n_box);
+  assert_int_equal(read_array(path, "riis_K", K), n_box);
   assert_true(n > 50);
   double speed = 0;
   for (int64_t i = 0; i < n; ++i) {

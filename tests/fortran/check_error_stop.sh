@@ -24,7 +24,7 @@ stops() {
 "$program" none | grep -q 'went on'
 stops library 'riis: RIIS_INVALID_PARAMETER: parameter '\''leaflet_angle'\'' is 1000'
 stops layer 'riis: RIIS_INVALID_ARGUMENT: the mesh was already created: destroy it first'
-stops function 'riis: RIIS_INVALID_ARGUMENT: the result was not created, or was destroyed'
+stops function 'riis: RIIS_INVALID_ARGUMENT: the object marks was not created, or was destroyed'
 stops valve 'riis: a riis_valve cannot be copied'
 stops surface 'riis: a riis_surface cannot be copied'
 stops keyframes 'riis: a riis_keyframes cannot be copied'

@@ -116,9 +116,9 @@ class Fields(Planted):
         self.plant(HEADER, "} riis_mark_options;",
                    "  double planted[2], other; /* a text */\n  int32_t last;\n} riis_mark_options;")
         self.writes()
-        self.assertIn("    integer(c_int32_t) :: reserved2\n    real(c_double) :: planted(2), other\n"
+        self.assertIn("    integer(c_int32_t) :: instructions\n    real(c_double) :: planted(2), other\n"
                       "    integer(c_int32_t) :: last\n  end type riis_mark_options\n", self.text(MODULE))
-        self.assertIn("       AT(instructions), AT(reserved), AT(fields), AT(reserved2), AT(planted), AT(other), AT(last))\n", self.text(LAYOUTS))
+        self.assertIn("       AT(n_threads), AT(instructions), AT(planted), AT(other), AT(last))\n", self.text(LAYOUTS))
 
     def test_the_order_is_that_of_the_header(self):
         self.plant(HEADER, "  int64_t n_curves; ", "  int64_t planted;\n  int64_t n_curves; ")
@@ -158,15 +158,15 @@ class Fields(Planted):
     def test_not_understood(self):
         for field in ("float planted;", "uint16_t planted;", "long planted;", "unsigned long planted;", "riis_closest planted;",
                       "double **planted;", "riis_surface *planted;", "double planted[2][3];", "double planted[N];",
-                      "double *planted[2];", "int32_t planted : 1;", "void (*planted)(void);", "struct { double x; } planted;",
-                      "double Planted;", "struct riis_csr *planted;"):
+                      "int32_t planted : 1;", "void (*planted)(void);", "struct { double x; } planted;",
+                      "struct riis_csr *planted;"):
             self.setUp()
             line = self.plant(HEADER, "} riis_csr;", f"  {field}\n}} riis_csr;")
             self.refuses(f"{HEADER}:{line}: riis_csr: ", "lanted", "is not understood")
 
     def test_a_new_struct(self):
-        self.plant(HEADER, "/* Fills *csr with", "typedef struct riis_planted {\n  int32_t a, b; /* text */\n} riis_planted;\n"
-                                                 "/* Fills *csr with")
+        self.plant(HEADER, "/* Options of a marking. */", "typedef struct riis_planted {\n  int32_t a, b; /* text */\n} riis_planted;\n"
+                                                       "/* Options of a marking. */")
         self.writes()
         self.assertIn("  type, bind(c) :: riis_planted\n    integer(c_int32_t) :: a, b\n  end type riis_planted\n",
                       self.text(MODULE))

@@ -302,12 +302,13 @@ C     The valve moves, and all goes.
       IF (N2 .EQ. N .OR. N2 .LT. 100) CALL FAILED('an open valve')
       CALL RIISF_MARKS_DESTROY(RES)
       CALL RIISF_MESH_DESTROY(MESH)
+      CALL COPIES(SURF, NN, XYZ)
       CALL RIISF_SURFACE_DESTROY(SURF)
       CALL RIISF_VALVE_DESTROY(VALVE)
       IF (RES .NE. 0 .OR. MESH .NE. 0 .OR. SURF .NE. 0) CALL
      &  FAILED('a destroyed handle is 0')
       CALL RIISF_MARKED(RES, NN, N2, NODE2, DIST2, STAT)
-      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'result is NULL')
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'marks is NULL')
       PRINT *, N, ' nodes marked'
       END
 
@@ -532,7 +533,7 @@ C     points, and the resistance of the nodes.
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'has no velocity')
       IF (RES .NE. 0) CALL FAILED('a refused result')
       CALL RIISF_SURFACE_UPDATE_MOVING(SURF, VALVE, TWIN, 0D0, STAT)
-      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'seconds is 0')
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'dt is 0')
 
 C     At rest.
       CALL RIISF_SURFACE_UPDATE_MOVING(SURF, VALVE, TWIN, 1D0, STAT)
@@ -697,8 +698,97 @@ C     K, K u and the reaction to a flow of 6 upwards.
       CALL RIISF_ADD_REACTION(RES, 3D0, RIIS_AUTO, 7, NN, VEL, W, F,
      &  STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'rim is 7')
+
+C     K of the nodes in the lists is K in the array of all nodes.
+      CALL RIISF_MARKED_RESISTANCE(RES, NN, I, K2, KU, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'the nodes have no K')
+      CALL RIISF_MARK_WITH_RESISTANCE(SURF, MESH, 0.3D0,
+     &  RIIS_SEARCH_AUTO, 1, RIIS_FIELD_VELOCITY, -1D0, RIIS_AUTO,
+     &  RIIS_RIM_ROUND, RES, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'options.resistance.R is')
+      CALL RIISF_MARK_WITH_RESISTANCE(SURF, MESH, 0.3D0,
+     &  RIIS_SEARCH_AUTO, 1, RIIS_FIELD_VELOCITY, 3D0, 0.2D0,
+     &  RIIS_RIM_ROUND, RES, STAT)
+      CALL OK(STAT)
+      CALL RIISF_WITHIN_LIMIT(RES, NN, N, NODE, DIST, STAT)
+      CALL OK(STAT)
+      DO 240 I = 1, NN
+        K(I) = 0D0
+  240 CONTINUE
+      CALL RIISF_ADD_RESISTANCE(RES, 3D0, 0.2D0, RIIS_RIM_ROUND, NN, K,
+     &  STAT)
+      CALL OK(STAT)
+      CALL RIISF_WITHIN_LIMIT_RESISTANCE(RES, NN, N2, K2, KU, STAT)
+      CALL OK(STAT)
+      DO 250 I = 1, N2
+        IF (K2(I) .NE. K(NODE(I)) .OR. ABS(KU(3,I) - 5D0 * K2(I)) .GT.
+     &    1D-9 * (1D0 + K2(I))) CALL FAILED('K of the lists')
+  250 CONTINUE
+      IF (N2 .NE. N) CALL FAILED('as many K as nodes')
+      CALL RIISF_WITHIN_LIMIT_RESISTANCE_64(RES, INT(5, 8), NL, K2, KU,
+     &  STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'length is 5')
+      IF (NL .NE. N) CALL FAILED('how many K there are')
+      CALL RIISF_MARKED_RESISTANCE_64(RES, BIG, NL, K2, KU, STAT)
+      CALL OK(STAT)
+      IF (NL .GE. N .OR. NL .LT. 100) CALL FAILED('K of the marked')
       CALL RIISF_MARKS_DESTROY(RES)
       CALL RIISF_SURFACE_DESTROY(SURF)
+      END
+
+C     Coordinates of both precisions, copied.
+      SUBROUTINE COPIES(SURF, NN, XYZ)
+      INTEGER*8 SURF, MESH, RES, BIG
+      INTEGER NN, STAT, N, N2, I, NODE(10000), NODE2(10000)
+      DOUBLE PRECISION XYZ(3,NN), DIST(10000)
+      REAL SINGLE(3,10000)
+      SAVE NODE, NODE2, DIST, SINGLE
+      INCLUDE 'riisf.h'
+      MESH = 0
+      RES = 0
+      BIG = NN
+      DO 10 I = 1, NN
+        SINGLE(1,I) = REAL(XYZ(1,I))
+        SINGLE(2,I) = REAL(XYZ(2,I))
+        SINGLE(3,I) = REAL(XYZ(3,I))
+   10 CONTINUE
+      CALL RIISF_MESH_CREATE_COPY(NN, SINGLE(1,1), SINGLE(2,1),
+     &  SINGLE(3,1), 3, 16, MESH, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'nodes.real_bits is 16')
+      CALL RIISF_MESH_CREATE_COPY(NN, SINGLE(1,1), SINGLE(2,1),
+     &  SINGLE(3,1), 3, 32, MESH, STAT)
+      CALL OK(STAT)
+      CALL RIISF_MARK_NODES(SURF, MESH, RIIS_AUTO, RIIS_SEARCH_AUTO, 1,
+     &  RES, STAT)
+      CALL OK(STAT)
+      CALL RIISF_MARKED(RES, 10000, N, NODE, DIST, STAT)
+      CALL OK(STAT)
+      DO 20 I = 1, NN
+        XYZ(1,I) = SINGLE(1,I)
+        XYZ(2,I) = SINGLE(2,I)
+        XYZ(3,I) = SINGLE(3,I)
+   20 CONTINUE
+      CALL RIISF_MESH_UPDATE_COPY_64(MESH, BIG, XYZ(1,1), XYZ(2,1),
+     &  XYZ(3,1), 3_8, 64, STAT)
+      CALL OK(STAT)
+      CALL RIISF_MARK_NODES(SURF, MESH, RIIS_AUTO, RIIS_SEARCH_AUTO, 1,
+     &  RES, STAT)
+      CALL OK(STAT)
+      CALL RIISF_MARKED(RES, 10000, N2, NODE2, DIST, STAT)
+      CALL OK(STAT)
+      IF (N2 .NE. N .OR. N .LT. 100) CALL FAILED('as many by a copy')
+      DO 30 I = 1, N
+        IF (NODE(I) .NE. NODE2(I)) CALL FAILED('the same by a copy')
+   30 CONTINUE
+      CALL RIISF_MESH_UPDATE_COPY(MESH, NN, SINGLE(1,1), SINGLE(2,1),
+     &  SINGLE(3,1), 3, 32, STAT)
+      CALL OK(STAT)
+      CALL RIISF_MESH_DESTROY(MESH)
+      CALL RIISF_MESH_CREATE_COPY_64(BIG, XYZ(1,1), XYZ(2,1), XYZ(3,1),
+     &  3_8, 64, MESH, STAT)
+      CALL OK(STAT)
+      CALL RIISF_MESH_DESTROY(MESH)
+      CALL RIISF_MARKS_DESTROY(RES)
       END
 
 C     The rows, cells and faces between neighbours of a box of M**3

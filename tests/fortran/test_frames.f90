@@ -74,7 +74,7 @@ contains
     call check_height(surface, 0.1d0, 0.8d0, 'the velocity behind a key')
     call surface%update_from_keyframes(keyframes, 0.75d0, dt=0.625d0)
     call check_height(surface, 0.15d0, 0.1d0 / 0.625d0, 'the mean velocity')
-    call surface%update_from_keyframes(keyframes, 0.125d0, 0.75d0, .false., 0.3d0, 0.1d0, 1d0, [0d0, 0d0, 1d0], 0d0, &
+    call surface%update_from_keyframes(keyframes, 0.125d0, -0.625d0, .false., 0.3d0, 0.1d0, 1d0, [0d0, 0d0, 1d0], 0d0, &
       [0d0, 0d0, 0d0], .true., 1)
     call check_height(surface, 0.05d0, 0.1d0 / 0.625d0, 'back in time')
     call surface%get_info(info)
@@ -94,7 +94,7 @@ contains
 
     ! Sections, ids of the other kind from 0, cubic.
     call others%create(time, frames, int(halves - 1, int64), [7, 8], index_base=0, interpolation=RIIS_INTERPOLATION_CUBIC)
-    call surface%create_from_keyframes(others, 0.25d0, 0.25d0, .true., 0.2d0, 0.1d0, 1d0, [0d0, 0d0, 1d0], 0d0, &
+    call surface%create_from_keyframes(others, 0.25d0, 0d0, .true., 0.2d0, 0.1d0, 1d0, [0d0, 0d0, 1d0], 0d0, &
       [0d0, 0d0, 0d0], .false., 1)
     ! The weighted harmonic mean of the slopes on either side.
     call check_height(surface, 0.1d0, 2 / (1 / 0.4d0 + 1 / 0.8d0), 'cubic')

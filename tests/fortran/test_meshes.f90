@@ -2,7 +2,7 @@
 ! Module riis: meshes without copies, adjacencies of all kinds.
 program test_meshes
   use, intrinsic :: iso_c_binding, only: c_associated, c_double
-  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use, intrinsic :: iso_fortran_env, only: int32, int64, real32, real64
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use box
   use checks
@@ -21,6 +21,7 @@ program test_meshes
   call test_sections()
   call test_in_place()
   call test_mesh_errors()
+  call test_copies()
   call test_rows()
   call test_row_errors()
   call test_adjacencies()
@@ -149,6 +150,55 @@ contains
     call mesh%update(y, y, z, status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the mesh was not created, or was destroyed')
   end subroutine test_mesh_errors
+
+  ! Copies of both precisions, of temporaries: the caller's arrays are free afterwards.
+  subroutine test_copies()
+    type(riis_mesh) :: mesh
+    type(riis_marks) :: marks
+    type(riis_mark_list) :: list
+    real(real32), allocatable :: single(:, :)
+    integer(int64), allocatable :: node_id(:)
+    integer :: n_single
+    allocate (single, source=real(xyz, real32))
+    call mesh%create_copy(xyz + 0d0)
+    call check_marking(mesh, 'a copy in double precision', RIIS_SEARCH_AUTO)
+    call mesh%update_copy(xyz(1, :), xyz(2, :), xyz(3, :))
+    call check_marking(mesh, 'a copy of three arrays', RIIS_SEARCH_AUTO)
+    call mesh%update_copy(2 * single - single)
+    call riis_mark_nodes(surface, mesh, marks)
+    call marks%get_list(RIIS_LIST_MARKED, list)
+    allocate (node_id, source=list%node_id)
+    n_single = size(node_id)
+    call mesh%update(real(single, real64))
+    call mesh%update_copy(real(single, real64))
+    call riis_mark_nodes(surface, mesh, marks)
+    call marks%get_list(RIIS_LIST_MARKED, list)
+    call check(n_single > 100 .and. all(list%node_id == node_id), 'single precision becomes double exactly')
+    call mesh%destroy()
+    call mesh%create_copy(single(1, :), single(2, :), single(3, :))
+    call mesh%update_copy(single(1, :), single(2, :), single(3, :))
+    call riis_mark_nodes(surface, mesh, marks, R=5d0)
+    call marks%get_list(RIIS_LIST_MARKED, list)
+    call check(all(list%node_id == node_id) .and. size(list%K) == n_single .and. maxval(list%K) > 0 .and. &
+      size(list%K_u_surface) == 0, 'three arrays of single precision, with K')
+    call riis_mark_nodes(surface, mesh, marks, rim=RIIS_RIM_CUT, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'half_thickness or rim is given, but R is not')
+    call mesh%destroy()
+    call mesh%create_copy(xyz(1:2, :), status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the first extent of xyz is 2; it must be 3')
+    call mesh%create_copy(single(1, :), single(2, 2:), single(3, :), status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of y is')
+    single(2, 7) = ieee_value(0.0, ieee_quiet_nan)
+    call mesh%create_copy(single, status)
+    call check_refused(status, RIIS_INVALID_MESH, 'y of node 6 is nan')
+    call check(.not. mesh%is_created(), 'a refused copy is empty')
+    call mesh%create_copy(xyz(1, :), xyz(2, :), xyz(3, :))
+    call mesh%destroy()
+    call mesh%create_copy(reshape([real(real64) ::], [3, 0]))
+    call check(mesh%n_nodes() == 0, 'a copy without nodes')
+    call mesh%destroy()
+    call marks%destroy()
+  end subroutine test_copies
 
   subroutine test_rows()
     type(riis_mesh) :: mesh

@@ -350,7 +350,7 @@ contains
       call by_other%closest_point(point, closest)
       call check(same(closest%distance, exact%distance) .and. closest%triangle_id == exact%triangle_id, 'triangles again')
       call by_other%update(valve, measure=7_int32, status=status)
-      call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.distance is 7')
+      call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.measure is 7')
       call by_other%update(valve, measure=method, measure_tolerance=2d0, status=status)
       call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.measure_tolerance is 2')
       call by_other%destroy()
@@ -579,6 +579,11 @@ contains
     end type holder
     type(holder) :: a, b
     type(riis_valve) :: valves(2), others(2)
+    type(riis_leaks) :: leaks, other_leaks
+    type(riis_crossings) :: crossings, other_crossings
+    leaks = other_leaks
+    crossings = other_crossings
+    call check(.not. (leaks%is_created() .or. crossings%is_created()), 'no leaks, no crossings')
     a = b
     valves = others
     a%surface = b%surface

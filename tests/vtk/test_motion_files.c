@@ -189,6 +189,8 @@ static void test_same_as_arrays(void **state) {
   for (int i = 0; i < n_keys; ++i)
     for (int v = 0; v < sheet_n_vertices; ++v) sheet_vertex(v, key_times[i], xyz[i][v], NULL);
   for (int64_t t = 0; t < sheet_n_triangles; ++t) sheet_triangle(t, corners[t], &(int32_t){0});
+  expect_fine(riis_surface_arrays_init(&faces, sizeof faces));
+  expect_fine(riis_keyframe_arrays_init(&frames, sizeof frames));
   faces.n_vertices = frames.n_vertices = sheet_n_vertices;
   faces.n_faces = sheet_n_triangles;
   faces.vertex_ids = corners;
