@@ -20,12 +20,12 @@ using namespace bench;
 constexpr double half_thickness = 0.1;
 constexpr std::size_t n_points = 4096;
 
-Surface surface_of(const char *kind, std::int32_t distance, double tolerance) {
+Surface surface_of(const char *kind, std::int32_t measure, double tolerance) {
   riis_surface_options options;
   check(riis_surface_options_init(&options, sizeof options));
   options.half_thickness = half_thickness;
-  options.distance = distance;
-  (distance == RIIS_MEASURE_TRIANGLES ? options.tolerance : options.measure_tolerance) = tolerance;
+  options.measure = measure;
+  (measure == RIIS_MEASURE_TRIANGLES ? options.tolerance : options.measure_tolerance) = tolerance;
   return make_surface(make_valve(kind).get(), &options);
 }
 
@@ -37,16 +37,13 @@ struct Points {
     const Surface fine = surface_of(kind, RIIS_MEASURE_TRIANGLES, 1e-3);
     riis_surface_info info;
     check(riis_surface_get_info(fine.get(), &info, sizeof info));
-    std::int64_t n_vertices = 0;
-    const double *vertices = nullptr;
-    n_vertices = triangles_of(fine.get()).n_vertices;
-    vertices = triangles_of(fine.get()).xyz;
+    const riis_triangles triangles = triangles_of(fine.get());
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> share(0, 1);
     for (std::size_t i = 0; i < n_points; ++i) {
-      const auto vertex = static_cast<std::size_t>(share(random) * static_cast<double>(n_vertices));
+      const auto vertex = static_cast<std::size_t>(share(random) * static_cast<double>(triangles.n_vertices));
       for (std::size_t c = 0; c < 3; ++c)
-        xyz.push_back(on_surface ? vertices[3 * vertex + c]
+        xyz.push_back(on_surface ? triangles.xyz[3 * vertex + c]
                                  : info.lower[c] - 0.3 + share(random) * (info.upper[c] - info.lower[c] + 0.6));
       riis_closest closest;
       check(riis_closest_point(fine.get(), xyz.data() + 3 * i, &closest, sizeof closest));
@@ -55,7 +52,7 @@ struct Points {
   }
 };
 
-// Arguments: RIIS_DISTANCE_*, the tolerance in tenths of a per cent, and 1 if the points are on the surface.
+// Arguments: RIIS_MEASURE_*, the tolerance in tenths of a per cent, and 1 if the points are on the surface.
 void distance_query(benchmark::State &state, const char *kind) {
   const auto method = static_cast<std::int32_t>(state.range(0));
   const Surface surface = surface_of(kind, method, 1e-3 * static_cast<double>(state.range(1)));

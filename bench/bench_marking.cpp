@@ -76,13 +76,13 @@ std::string of_threads(int n_threads) { return n_threads == 1 ? ", 1 thread" : "
 
 #if defined(RIIS_WITH_CGAL)
 // Tells whether CGAL marks the same nodes. Nodes whose distance equals the half thickness up to rounding may differ.
-bool is_same(const std::vector<double> &distance, const Marked &marked) {
+bool is_same(const std::vector<double> &distance, const riis_mark_list &marked) {
   constexpr double rounding = 1e-12;
   std::int64_t n_different = 0, n_unexplained = 0, next = 0;
   double largest = 0;
   for (std::int64_t node = 0; node < static_cast<std::int64_t>(distance.size()); ++node) {
     const double by_cgal = distance[static_cast<std::size_t>(node)];
-    const bool is_marked = next < marked.n && marked.node_id[next] == node;
+    const bool is_marked = next < marked.n_nodes && marked.node_id[next] == node;
     const double by_step = is_marked ? marked.distance[next++] : by_cgal;
     if (is_marked && by_cgal <= half_thickness) largest = std::max(largest, std::abs(by_cgal - by_step));
     if (is_marked == (by_cgal <= half_thickness)) continue;
@@ -136,7 +136,7 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
   }
 
   // The competitors mark the surface as it is now.
-  const Marked marked = two.step();
+  const riis_mark_list marked = two.step();
   const Triangles triangles(two.surface());
   PaperSearch paper(n, xyz, nodes.rows());
   paper.begin_at(triangles);
@@ -185,8 +185,8 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
 
   std::printf("Aortic valve, half thickness %g cm: %lld triangles, fine %.0f. %lld nodes, %lld marked (%.1f %%).\n",
               half_thickness, static_cast<long long>(triangles.n()), n_triangles_of(fine_two.surface()),
-              static_cast<long long>(n), static_cast<long long>(marked.n),
-              100.0 * static_cast<double>(marked.n) / static_cast<double>(n));
+              static_cast<long long>(n), static_cast<long long>(marked.n_nodes),
+              100.0 * static_cast<double>(marked.n_nodes) / static_cast<double>(n));
   std::fflush(stdout);
   contest.run();
   const double ns_a_pair = 1e6 * contest.least("the paper's search, every triangle, 1 thread") /
@@ -198,12 +198,12 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
       static_cast<long long>(n_by_paper), static_cast<long long>(n_by_query), ns_a_pair);
   const double step_ns = 1e6 * contest.least("step, 1 thread");
   std::printf("A step on one thread takes %.1f ns for each node, and %.0f ns for each marked node.\n\n",
-              step_ns / static_cast<double>(n), step_ns / static_cast<double>(marked.n));
+              step_ns / static_cast<double>(n), step_ns / static_cast<double>(marked.n_nodes));
   counts["nodes"] = n;
   counts["half_thickness"] = half_thickness;
   counts["triangles"] = triangles.n();
   counts["fine_triangles"] = n_triangles_of(fine_two.surface());
-  counts["marked"] = marked.n;
+  counts["marked"] = marked.n_nodes;
   counts["fixed_triangles"] = n_triangles_of(coarse_fixed.surface());
   counts["fine_fixed_triangles"] = n_triangles_of(fine_fixed.surface());
   counts["marked_with_0.3"] = thick.stats().n_marked;

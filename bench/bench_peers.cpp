@@ -99,8 +99,8 @@ Truth truth_of(const riis_surface *surface, const Triangles &triangles, const Cy
   riis_closest_arrays arrays;
   check(riis_closest_arrays_init(&arrays, sizeof arrays));
   arrays.triangle_id = nearest.data();
-  const double *xyz = nodes.xyz().data();
-  check(riis_closest_points(surface, n, xyz, xyz + 1, xyz + 2, 3, nullptr, &arrays));
+  const riis_points points = points_of(n, nodes.xyz().data());
+  check(riis_closest_points(surface, &points, nullptr, &arrays));
   for (const std::int64_t id : nearest) {
     const double *c = triangles.corners.data() + 9 * id;
     double longest = 0, ab[3], ac[3];
@@ -129,23 +129,19 @@ void write(const std::string &path, const std::vector<Number> &numbers) {
 
 // nodes (3, n) and distances (n), vertices (3, n) as float64; triangles (3, n) as int64.
 void write_all(const std::string &prefix, const riis_surface *surface, const CylinderNodes &nodes, const Truth &truth) {
-  std::int64_t n_vertices, n_triangles;
-  const double *xyz;
-  const std::int64_t *vertex_id;
-  n_vertices = triangles_of(surface).n_vertices;
-  xyz = triangles_of(surface).xyz;
-  n_triangles = triangles_of(surface).n_triangles;
-  vertex_id = triangles_of(surface).vertex_id;
+  const riis_triangles triangles = triangles_of(surface);
+  const double *xyz = triangles.xyz;
+  const std::int64_t *vertex_id = triangles.vertex_id;
   write(prefix + "nodes.f64", nodes.xyz());
   write(prefix + "distances.f64", truth.distance);
-  write(prefix + "vertices.f64", std::vector<double>(xyz, xyz + 3 * n_vertices));
-  write(prefix + "triangles.i64", std::vector<std::int64_t>(vertex_id, vertex_id + 3 * n_triangles));
+  write(prefix + "vertices.f64", std::vector<double>(xyz, xyz + 3 * triangles.n_vertices));
+  write(prefix + "triangles.i64", std::vector<std::int64_t>(vertex_id, vertex_id + 3 * triangles.n_triangles));
 }
 
 // The distances of marked nodes, infinity for the others.
 std::vector<double> marked_distances(const riis_marks *result, std::int64_t n_nodes) {
   std::vector<double> distance(static_cast<std::size_t>(n_nodes));
-  check(riis_marks_get_dense(result, n_nodes, infinity, nullptr, distance.data(), nullptr, nullptr));
+  get_distances(result, infinity, distance);
   return distance;
 }
 
@@ -191,7 +187,8 @@ bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_no
     riis_closest_arrays arrays;
     check(riis_closest_arrays_init(&arrays, sizeof arrays));
     arrays.distance = distance.data();
-    check(riis_closest_points(surface, n, xyz, xyz + 1, xyz + 2, 3, &options, &arrays));
+    const riis_points points = points_of(n, nodes.xyz().data());
+    check(riis_closest_points(surface, &points, &options, &arrays));
   };
   const auto add = [&](const std::string &name, int turns, const Contest::Work &work,
                        Measures measures = Measures::triangles) {

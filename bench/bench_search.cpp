@@ -145,13 +145,13 @@ void search_all_distances(benchmark::State &state) {
   riis_closest_arrays arrays;
   check(riis_closest_arrays_init(&arrays, sizeof arrays));
   arrays.distance = distance.data();
-  const double *xyz = mesh.xyz().data();
+  const riis_points points = points_of(mesh.n_nodes(), mesh.xyz().data());
   std::int64_t n_marked = 0;
   Shortest shortest;
   for (auto _ : state) {
     const riis_surface *surface = valve.next();
     shortest.time(
-        [&] { check(riis_closest_points(surface, mesh.n_nodes(), xyz, xyz + 1, xyz + 2, 3, &options, &arrays)); });
+        [&] { check(riis_closest_points(surface, &points, &options, &arrays)); });
     n_marked = 0;
     for (const double d : distance) n_marked += d <= 0.1;
   }

@@ -131,9 +131,7 @@ void brute_force_over_marking(benchmark::State &state) {
     seconds_loop += std::chrono::duration<double>(middle - start).count();
     seconds_marking += std::chrono::duration<double>(end - middle).count();
   }
-  std::int64_t n_marked = 0;
-  n_marked = marked_list(result.get()).n_nodes;
-  if (n_marked != n_marked_by_loop) state.SkipWithError("the loop and the marking differ");
+  if (marked_in(result.get()).n_nodes != n_marked_by_loop) state.SkipWithError("the loop and the marking differ");
   const double pairs =
       static_cast<double>(n_sample) * n_triangles_of(surface.get()) * static_cast<double>(state.iterations());
   state.counters["ratio"] = seconds_loop / seconds_marking;

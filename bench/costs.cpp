@@ -161,7 +161,7 @@ void measure(Table &table, const char *kind, const Cylinder &cylinder, std::int6
   std::vector<double> distance(static_cast<std::size_t>(n));
   table.add(
       "`riis_marks_get_dense`, distances", shortest([&] {
-        check(riis_marks_get_dense(result.get(), n, RIIS_FAR_DISTANCE, nullptr, distance.data(), nullptr, nullptr));
+        get_distances(result.get(), RIIS_FAR_DISTANCE, distance);
       }));
 }
 

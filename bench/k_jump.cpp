@@ -30,8 +30,7 @@ class Change {
     check(riis_mark_nodes(surface_.get(), mesh_.get(), &marking, result_.get()));
     change_.swap(k_);
     std::fill(k_.begin(), k_.end(), 0.0);
-    check(riis_marks_add_resistance(result_.get(), &resistance_, static_cast<std::int64_t>(k_.size()), k_.data(),
-                                          nullptr));
+    add_resistance(result_.get(), resistance_, k_, nullptr);
     for (std::size_t i = 0; i < k_.size(); ++i) change_[i] = k_[i] - change_[i];
     return *std::max_element(k_.begin(), k_.end());
   }

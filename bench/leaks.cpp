@@ -42,15 +42,12 @@ riis_surface_info info_of(const Surface &surface) {
 Surface with_half_thickness(const Surface &surface, double thickness) {
   riis_surface_arrays arrays;
   check(riis_surface_arrays_init(&arrays, sizeof arrays));
-  const double *xyz = nullptr;
-  const std::int64_t *ids = nullptr;
-  arrays.n_vertices = triangles_of(surface.get()).n_vertices;
-  xyz = triangles_of(surface.get()).xyz;
-  arrays.n_faces = triangles_of(surface.get()).n_triangles;
-  ids = triangles_of(surface.get()).vertex_id;
-  arrays.x = xyz, arrays.y = xyz + 1, arrays.z = xyz + 2;
+  const riis_triangles triangles = triangles_of(surface.get());
+  arrays.n_vertices = triangles.n_vertices;
+  arrays.x = triangles.xyz, arrays.y = triangles.xyz + 1, arrays.z = triangles.xyz + 2;
   arrays.stride = 3;
-  arrays.vertex_ids = ids;
+  arrays.n_faces = triangles.n_triangles;
+  arrays.vertex_ids = triangles.vertex_id;
   arrays.id_bits = 64;
   return make_surface(arrays, thickness);
 }
@@ -129,12 +126,16 @@ Mesh mesh_over(const Crystal &crystal) {
   return Mesh(mesh);
 }
 
-riis_leaks leaks_of(const Surface &surface, const Mesh &mesh) {
+// The numbers of the leaks; the arrays are gone.
+riis_leak_list leaks_of(const Surface &surface, const Mesh &mesh) {
   const Result result = make_result();
-  riis_leaks leaks;
+  const Leaks leaks = make_leaks();
+  riis_leak_list list;
   check(riis_mark_nodes(surface.get(), mesh.get(), nullptr, result.get()));
-  check(riis_find_leaks(surface.get(), mesh.get(), nullptr, result.get(), &leaks, sizeof leaks));
-  return leaks;
+  check(riis_find_leaks(surface.get(), mesh.get(), result.get(), nullptr, leaks.get()));
+  check(riis_leaks_get_list(leaks.get(), &list, sizeof list));
+  list.node_id = nullptr, list.length = list.distance = nullptr;
+  return list;
 }
 
 void print_leaks(const char *kind) {
@@ -146,7 +147,7 @@ void print_leaks(const char *kind) {
     for (std::uint64_t seed = 1; seed <= n_seeds; ++seed) {
       const Crystal crystal = crystal_round(info, 2 * half_thickness * ratio, seed);
       const Mesh mesh = mesh_over(crystal);
-      const riis_leaks leaks = leaks_of(surface, mesh);
+      const riis_leak_list leaks = leaks_of(surface, mesh);
       n_crossing += leaks_of(thin, mesh).n_edges;
       n_leaking += leaks.n_edges;
       closing = std::max(closing, leaks.half_thickness);
@@ -163,13 +164,10 @@ double open_share(const Surface &surface, double radius, int n_per_radius) {
   const int side = 2 * n_per_radius + 1;
   const auto place = [&](int i) { return radius * (i - n_per_radius) / n_per_radius; };
   std::vector<char> is_covered(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
-  std::int64_t n = 0;
-  const double *xyz = nullptr;
-  const std::int64_t *ids = nullptr;
-  xyz = triangles_of(surface.get()).xyz;
-  n = triangles_of(surface.get()).n_triangles;
-  ids = triangles_of(surface.get()).vertex_id;
-  for (std::int64_t t = 0; t < n; ++t) {
+  const riis_triangles triangles = triangles_of(surface.get());
+  const double *xyz = triangles.xyz;
+  const std::int64_t *ids = triangles.vertex_id;
+  for (std::int64_t t = 0; t < triangles.n_triangles; ++t) {
     const double *a = xyz + 3 * ids[3 * t], *b = xyz + 3 * ids[3 * t + 1], *c = xyz + 3 * ids[3 * t + 2];
     const auto to_grid = [&](double x) { return x / radius * n_per_radius + n_per_radius; };
     const auto from = [&](int k) {
@@ -215,9 +213,9 @@ void print_cost(double thickness, const CylinderMesh &nodes) {
   check(riis_mesh_prepare(mesh.get(), 1));
   const double marking =
       1e3 * shortest([&] { check(riis_mark_nodes(surface.get(), mesh.get(), &options, result.get())); });
-  riis_leaks leaks;
+  const Leaks leaks = make_leaks();
   const auto find = [&] {
-    check(riis_find_leaks(surface.get(), mesh.get(), &options, result.get(), &leaks, sizeof leaks));
+    check(riis_find_leaks(surface.get(), mesh.get(), result.get(), &options, leaks.get()));
   };
   const double first = 1e3 * shortest(find, [&] { check(riis_mesh_set_adjacency(mesh.get(), &rows)); });
   std::vector<std::int64_t> label(static_cast<std::size_t>(nodes.n_nodes()));
@@ -226,12 +224,18 @@ void print_cost(double thickness, const CylinderMesh &nodes) {
         check(riis_label_open_regions(mesh.get(), result.get(), &options, nodes.n_nodes(), label.data(), nullptr));
       });
   const std::int64_t from = 0, to = nodes.n_nodes() - 1;
+  riis_passage_ends ends;
+  check(riis_passage_ends_init(&ends, sizeof ends));
+  ends.n_from = ends.n_to = 1;
+  ends.from = &from, ends.to = &to;
   riis_passage passage;
   const double passing =
       1e3 * shortest([&] {
-        check(riis_find_passage(surface.get(), mesh.get(), &options, 1, &from, 1, &to, &passage, sizeof passage));
+        check(riis_find_passage(surface.get(), mesh.get(), &ends, &options, &passage, sizeof passage));
       });
-  std::printf("| %g | %lld | %.2f | %.1f | %.3f | %.1f | %.1f |\n", thickness, static_cast<long long>(leaks.n_edges),
+  riis_leak_list list;
+  check(riis_leaks_get_list(leaks.get(), &list, sizeof list));
+  std::printf("| %g | %lld | %.2f | %.1f | %.3f | %.1f | %.1f |\n", thickness, static_cast<long long>(list.n_edges),
               marking, first, 1e3 * shortest(find), labelling, passing);
 }
 

@@ -76,16 +76,14 @@ class MovingSteps {
     check(riis_surface_update_moving(surface_.get(), valve_.get(), before_.get(), 1e-3, nullptr, nullptr));
   }
   void find_crossings() {
-    riis_crossings crossings;
-    check(riis_find_crossings(surface_.get(), &crossing_, &crossings, sizeof crossings));
+    check(riis_find_crossings(surface_.get(), &crossing_, crossings_.get()));
   }
   void mark(std::int32_t fields) {
     marking_.fields = fields;
     check(riis_mark_nodes(surface_.get(), mesh_.get(), &marking_, result_.get()));
   }
   void add_resistance() {
-    check(
-        riis_marks_add_resistance(result_.get(), &resistance_, n_nodes_, coefficient_.data(), momentum_.data()));
+    bench::add_resistance(result_.get(), resistance_, coefficient_, momentum_.data());
   }
   riis_mark_stats stats() const { return stats_of(result_.get()); }
   double n_triangles() const { return n_triangles_of(surface_.get()); }
@@ -107,6 +105,7 @@ class MovingSteps {
   std::int64_t n_nodes_;
   Surface surface_, fixed_;
   Result result_ = make_result();
+  Crossings crossings_ = make_crossings();
   riis_mark_options marking_;
   riis_crossing_options crossing_;
   riis_resistance resistance_;

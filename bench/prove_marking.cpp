@@ -121,11 +121,11 @@ struct Differences {
   }
 };
 
-Differences compare(const Expected &expected, const Marked &marked) {
+Differences compare(const Expected &expected, const riis_mark_list &marked) {
   Differences d;
   const auto n = static_cast<std::int64_t>(expected.node_id.size());
   std::int64_t i = 0, k = 0;
-  while (i < n && k < marked.n) {
+  while (i < n && k < marked.n_nodes) {
     const auto at = static_cast<std::size_t>(i);
     if (expected.node_id[at] != marked.node_id[k]) {
       ++d.marks;
@@ -135,7 +135,7 @@ Differences compare(const Expected &expected, const Marked &marked) {
     d.compare(expected.distance[at], expected.triangle_id[at], marked.distance[k], marked.triangle_id[k]);
     ++i, ++k;
   }
-  d.marks += (n - i) + (marked.n - k);
+  d.marks += (n - i) + (marked.n_nodes - k);
   return d;
 }
 

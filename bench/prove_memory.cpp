@@ -99,7 +99,7 @@ bool prove(const Case &of) {
     if (step == n_warm_steps) allocated_first = now_allocated, resident_first = now_resident;
     stays = stays && now_allocated - allocated_first <= most_growth && now_resident - resident_first <= most_growth;
     std::printf("| %s | %d | %d | %.3f | %.3f | %lld | %lld | %.0f |\n", of.kind, of.n_threads, step,
-                1e-6 * now_resident, 1e-6 * now_allocated, static_cast<long long>(marked_in(steps.result()).n),
+                1e-6 * now_resident, 1e-6 * now_allocated, static_cast<long long>(marked_in(steps.result()).n_nodes),
                 static_cast<long long>(by_markings),
                 static_cast<double>(by_updates) / std::max(1, step - n_warm_steps));
     std::fflush(stdout);

@@ -56,17 +56,12 @@ Point at(const double *p) { return {p[0], p[1], p[2]}; }
 }  // namespace
 
 Triangles::Triangles(const riis_surface *surface) {
-  std::int64_t n;
-  const double *xyz;
-  const std::int64_t *vertex_id;
-  const std::int32_t *leaflets;
-  xyz = triangles_of(surface).xyz;
-  n = triangles_of(surface).n_triangles;
-  vertex_id = triangles_of(surface).vertex_id;
-  leaflets = triangles_of(surface).leaflet_id;
-  for (std::int64_t i = 0; i < 3 * n; ++i)
-    corners.insert(corners.end(), xyz + 3 * vertex_id[i], xyz + 3 * vertex_id[i] + 3);
-  leaflet_id.assign(leaflets, leaflets + n);
+  const riis_triangles triangles = triangles_of(surface);
+  for (std::int64_t i = 0; i < 3 * triangles.n_triangles; ++i) {
+    const double *corner = triangles.xyz + 3 * triangles.vertex_id[i];
+    corners.insert(corners.end(), corner, corner + 3);
+  }
+  leaflet_id.assign(triangles.leaflet_id, triangles.leaflet_id + triangles.n_triangles);
 }
 
 EveryTriangle::EveryTriangle(const Triangles &triangles) {

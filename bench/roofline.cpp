@@ -256,7 +256,7 @@ class StagedSteps {
     put_in_order();
     counted = nullptr;
     const auto n_found = static_cast<double>(found_.size());
-    const riis::NodeList &list = result_.within;
+    const riis::NodeList &list = marks_.within.nodes;
     const auto in_lists = static_cast<double>(bytes_of(list.node_id) + bytes_of(list.distance) +
                                               bytes_of(list.triangle_id) + bytes_of(list.leaflet_id));
     constexpr double found_bytes = sizeof(riis::FoundNode);
@@ -288,18 +288,18 @@ class StagedSteps {
 
   void search(const riis::Kernels &kernels) {
     const riis::SearchRequest request{content(), mesh_, half_thickness, nullptr, 1, riis::best_instruction_set()};
-    riis::search_clusters(request, mesh_.clusters(1), kernels, result_.cluster_scratch, found_);
+    riis::search_clusters(request, mesh_.clusters(1), kernels, marks_.cluster_scratch, found_);
   }
   void put_in_order() {
-    riis::put_in_order(content(), found_, false, mesh_.nodes().n, 1, result_.order_scratch, result_.within,
-                       result_.marked);
+    riis::put_in_order(content(), found_, false, mesh_.nodes().n, 1, marks_.order_scratch, marks_.within.nodes,
+                       marks_.marked.nodes);
   }
 
   TimeSteps steps_;
   const riis::Mesh &mesh_;
   const riis::Kernels &kernels_;
-  riis::MarkResult result_;
-  riis::FoundNodes &found_ = result_.found;
+  riis::Marks marks_;
+  riis::FoundNodes &found_ = marks_.found;
 };
 
 // Measures the stages of a step with triangles of a tolerance.

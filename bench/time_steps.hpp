@@ -9,22 +9,6 @@
 
 namespace bench {
 
-// The marked nodes, as the result lends them.
-struct Marked {
-  std::int64_t n;
-  const std::int64_t *node_id, *triangle_id;
-  const double *distance;
-};
-
-inline Marked marked_in(const riis_marks *result) {
-  Marked marked;
-  marked.n = marked_list(result).n_nodes;
-  marked.node_id = marked_list(result).node_id;
-  marked.distance = marked_list(result).distance;
-  marked.triangle_id = marked_list(result).triangle_id;
-  return marked;
-}
-
 struct StepOptions {
   const char *kind = "aortic";  // of the valve
   double half_thickness = 0.1;
@@ -70,7 +54,7 @@ class TimeSteps {
   }
   void update() { check(riis_surface_update(surface_.get(), valve_.get(), nullptr)); }
   void mark() { check(riis_mark_nodes(surface_.get(), mesh_, &marking_, result_.get())); }
-  Marked step() {
+  riis_mark_list step() {
     update();
     mark();
     return marked_in(result_.get());

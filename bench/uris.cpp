@@ -140,7 +140,7 @@ std::vector<double> distances_by_library(const Corners &corners, double half_thi
   riis_surface_arrays arrays;
   check(riis_surface_arrays_init(&arrays, sizeof arrays));
   arrays.n_vertices = static_cast<std::int64_t>(ids.size());
-  arrays.x = corners.data(), arrays.y = arrays.x + 1, arrays.z = arrays.x + 2;
+  arrays.x = corners.data(), arrays.y = corners.data() + 1, arrays.z = corners.data() + 2;
   arrays.stride = 3;
   arrays.n_faces = arrays.n_vertices / 3;
   arrays.vertex_ids = ids.data();
@@ -150,8 +150,7 @@ std::vector<double> distances_by_library(const Corners &corners, double half_thi
   const Result result = make_result();
   check(riis_mark_nodes(surface.get(), mesh.get(), nullptr, result.get()));
   std::vector<double> distance(static_cast<std::size_t>(nodes.n_nodes()));
-  check(riis_marks_get_dense(result.get(), nodes.n_nodes(), std::numeric_limits<double>::infinity(), nullptr,
-                               distance.data(), nullptr, nullptr));
+  get_distances(result.get(), std::numeric_limits<double>::infinity(), distance);
   return distance;
 }
 

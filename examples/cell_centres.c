@@ -29,7 +29,7 @@ int main(void) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
-  riis_marks *result = NULL;
+  riis_marks *marks = NULL;
   riis_surface_options options;
   check(riis_valve_create("mitral", &valve));
   check(riis_valve_set_scalar(valve, "opening", 0)); /* closed */
@@ -38,7 +38,7 @@ int main(void) {
   options.half_thickness = eps;
   check(riis_surface_create(valve, &options, &surface));
   check(riis_mesh_create(n_cells, centre, centre + 1, centre + 2, 3, &mesh));
-  check(riis_marks_create(&result));
+  check(riis_marks_create(&marks));
 
   /* A round rim would add half a tube around the free edges and the annulus. Cut, the band ends there. */
   riis_mark_options mark_options;
@@ -48,8 +48,12 @@ int main(void) {
   check(riis_resistance_init(&resistance, sizeof resistance));
   resistance.R = R;
   resistance.rim = RIIS_RIM_CUT;
-  check(riis_mark_nodes(surface, mesh, &mark_options, result));
-  check(riis_marks_add_resistance(result, &resistance, n_cells, coefficient, NULL));
+  check(riis_mark_nodes(surface, mesh, &mark_options, marks));
+  riis_resistance_arrays arrays;
+  check(riis_resistance_arrays_init(&arrays, sizeof arrays));
+  arrays.n_nodes = n_cells;
+  arrays.K = coefficient;
+  check(riis_marks_add_resistance(marks, &resistance, &arrays));
 
   int n_resisting = 0;
   double integral = 0; /* of K over the cells */
@@ -63,7 +67,7 @@ int main(void) {
   printf("%d cells, %d resist\n", n_cells, n_resisting);
   printf("integral of K %.4E kg/s, area * R/eps %.4E kg/s\n", integral, expected);
 
-  riis_marks_destroy(&result);
+  riis_marks_destroy(&marks);
   riis_mesh_destroy(&mesh);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);

@@ -58,34 +58,30 @@ int main(void) {
 
   static const int32_t searches[2] = {RIIS_SEARCH_NEIGHBOR, RIIS_SEARCH_EXHAUSTIVE};
   static const char *const names[2] = {"neighbor", "exhaustive"};
-  riis_marks *result[2] = {NULL,
-                                 NULL}; /* kept from step to step: the neighbour search starts from the last nodes */
-  int64_t n_marked[2];
-  const int64_t *node_id[2];
-  const double *distance[2];
+  /* Kept from step to step: the neighbour search starts from the last nodes. */
+  riis_marks *marks[2] = {NULL, NULL};
+  riis_mark_list marked[2];
   printf("%d nodes, %d tetrahedra\n", n_nodes, n_cells);
   for (int i = 0; i < 2; ++i) {
     riis_mark_options options;
     riis_mark_stats stats;
     check(riis_mark_options_init(&options, sizeof options));
     options.search = searches[i];
-    check(riis_marks_create(&result[i]));
-    check(riis_mark_nodes(surface, mesh, &options, result[i]));
-    n_marked[i] = marked_list(result[i]).n_nodes;
-    node_id[i] = marked_list(result[i]).node_id;
-    distance[i] = marked_list(result[i]).distance;
-    check(riis_marks_get_stats(result[i], &stats, sizeof stats));
-    printf("%s search, marked: %lld, %s\n", names[i], (long long)n_marked[i],
+    check(riis_marks_create(&marks[i]));
+    check(riis_mark_nodes(surface, mesh, &options, marks[i]));
+    check(riis_marks_get_list(marks[i], RIIS_LIST_MARKED, &marked[i], sizeof marked[i]));
+    check(riis_marks_get_stats(marks[i], &stats, sizeof stats));
+    printf("%s search, marked: %lld, %s\n", names[i], (long long)marked[i].n_nodes,
            stats.complete ? "complete" : "perhaps not complete");
   }
 
-  int same = n_marked[0] == n_marked[1];
-  for (int64_t i = 0; same && i < n_marked[0]; ++i) {
-    same = node_id[0][i] == node_id[1][i] && distance[0][i] == distance[1][i];
+  int same = marked[0].n_nodes == marked[1].n_nodes;
+  for (int64_t i = 0; same && i < marked[0].n_nodes; ++i) {
+    same = marked[0].node_id[i] == marked[1].node_id[i] && marked[0].distance[i] == marked[1].distance[i];
   }
   printf("nodes and distances: %s\n", same ? "the same, bit for bit" : "different");
 
-  for (int i = 0; i < 2; ++i) riis_marks_destroy(&result[i]);
+  for (int i = 0; i < 2; ++i) riis_marks_destroy(&marks[i]);
   riis_mesh_destroy(&mesh);
   riis_adjacency_destroy(&adjacency);
   riis_surface_destroy(&surface);

@@ -27,30 +27,26 @@ int main(void) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
-  riis_marks *result = NULL;
-  int64_t n_marked = 0;
-  const int64_t *node_id = NULL;
-  const double *distance = NULL;
+  riis_marks *marks = NULL;
 
   check(riis_valve_create("aortic", &valve));
   check(riis_surface_create(valve, NULL, &surface)); /* half thickness 0.1 cm, tolerance 5 % of it */
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  check(riis_marks_create(&result));
-  check(riis_mark_nodes(surface, mesh, NULL, result)); /* once a time step */
-  n_marked = marked_list(result).n_nodes;
-  node_id = marked_list(result).node_id;
-  distance = marked_list(result).distance;
+  check(riis_marks_create(&marks));
+  check(riis_mark_nodes(surface, mesh, NULL, marks)); /* once a time step */
+  riis_mark_list marked;
+  check(riis_marks_get_list(marks, RIIS_LIST_MARKED, &marked, sizeof marked));
 
-  printf("%d nodes, marked: %lld, the first of them:\n", n_nodes, (long long)n_marked);
+  printf("%d nodes, marked: %lld, the first of them:\n", n_nodes, (long long)marked.n_nodes);
   int64_t closest = 0;
-  for (int64_t i = 0; i < n_marked; ++i) {
-    if (i < 5) print_node(xyz + 3 * node_id[i], distance[i]);
-    if (distance[i] < distance[closest]) closest = i;
+  for (int64_t i = 0; i < marked.n_nodes; ++i) {
+    if (i < 5) print_node(xyz + 3 * marked.node_id[i], marked.distance[i]);
+    if (marked.distance[i] < marked.distance[closest]) closest = i;
   }
   printf("and the closest:\n");
-  if (n_marked > 0) print_node(xyz + 3 * node_id[closest], distance[closest]);
+  if (marked.n_nodes > 0) print_node(xyz + 3 * marked.node_id[closest], marked.distance[closest]);
 
-  riis_marks_destroy(&result);
+  riis_marks_destroy(&marks);
   riis_mesh_destroy(&mesh);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);

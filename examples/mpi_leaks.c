@@ -22,7 +22,7 @@ static void check(riis_status status) {
 }
 
 /* Marks n_planes planes of the grid from node `first` on, and labels their open regions by ids that count from there. */
-static int64_t label_part(const riis_surface *surface, riis_marks *result, int first, int n_planes,
+static int64_t label_part(const riis_surface *surface, riis_marks *marks, int first, int n_planes,
                           int64_t *labels) {
   riis_mesh *mesh = NULL;
   riis_adjacency *adjacency = NULL;
@@ -37,8 +37,8 @@ static int64_t label_part(const riis_surface *surface, riis_marks *result, int f
   check(riis_adjacency_create_from_grid(n, n, n_planes, 1, &adjacency));
   check(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
   check(riis_mesh_set_adjacency(mesh, &csr));
-  check(riis_mark_nodes(surface, mesh, &options, result));
-  check(riis_label_open_regions(mesh, result, &options, n_planes * plane, labels, &n_regions));
+  check(riis_mark_nodes(surface, mesh, &options, marks));
+  check(riis_label_open_regions(mesh, marks, &options, n_planes * plane, labels, &n_regions));
   riis_mesh_destroy(&mesh);
   riis_adjacency_destroy(&adjacency);
   return n_regions;
@@ -83,17 +83,17 @@ int main(int argc, char **argv) {
   /* An aortic valve whose cusps nearly meet. The surface is small, so every rank makes it for itself, with the same bits. */
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
-  riis_marks *result = NULL;
+  riis_marks *marks = NULL;
   check(riis_valve_create("aortic", &valve));
   check(riis_valve_set_scalar(valve, "leaflet_radius_in", 0.02));
   check(riis_surface_create(valve, NULL, &surface));
-  check(riis_marks_create(&result));
+  check(riis_marks_create(&marks));
 
   /* The part: whole planes, and the first plane of the next rank, whose nodes both ranks have. */
   int first_plane = n * rank / n_ranks, n_own = n * (rank + 1) / n_ranks - first_plane;
   int first = first_plane * plane, is_last = rank + 1 == n_ranks, n_planes = n_own + !is_last;
   int before = rank > 0 ? rank - 1 : MPI_PROC_NULL, behind = is_last ? MPI_PROC_NULL : rank + 1;
-  label_part(surface, result, first, n_planes, region);
+  label_part(surface, marks, first, n_planes, region);
   for (int i = 0; i < n_planes * plane; ++i) lowest[i] = first + i; /* local ids become global ones */
 
   int changed = 1;
@@ -109,7 +109,7 @@ int main(int argc, char **argv) {
 
   int same = 1;
   if (rank == 0) {
-    int64_t n_regions = label_part(surface, result, 0, n, label);
+    int64_t n_regions = label_part(surface, marks, 0, n, label);
     for (int i = 0; i < n_nodes; ++i) same = same && label[i] == by_ranks[i];
     int inflow = n / 2 + n * (n / 2), outflow = inflow + (n - 1) * plane; /* on the axis, at the ends of the tube */
     printf("%d nodes, %lld open regions: the valve %s\n", n_nodes, (long long)n_regions,
@@ -117,7 +117,7 @@ int main(int argc, char **argv) {
     printf("%d ranks: %s\n", n_ranks, same ? "the same labels" : "other labels");
   }
 
-  riis_marks_destroy(&result);
+  riis_marks_destroy(&marks);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);
   MPI_Finalize();

@@ -45,6 +45,18 @@ static int make_rows(int first, int n_rows) {
   return n_rows + n_before + n_behind;
 }
 
+/* Writes the distances of the nodes, and returns how many are marked. */
+static int64_t read_marks(const riis_marks *marks, int64_t n, double *distances) {
+  riis_dense_arrays arrays;
+  riis_mark_list marked;
+  check(riis_dense_arrays_init(&arrays, sizeof arrays)); /* RIIS_FAR_DISTANCE is the default */
+  arrays.n_nodes = n;
+  arrays.distance = distances;
+  check(riis_marks_get_dense(marks, &arrays));
+  check(riis_marks_get_list(marks, RIIS_LIST_MARKED, &marked, sizeof marked));
+  return marked.n_nodes;
+}
+
 int main(int argc, char **argv) {
   int rank, n_ranks;
   MPI_Init(&argc, &argv);
@@ -61,10 +73,10 @@ int main(int argc, char **argv) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
-  riis_marks *result = NULL;
+  riis_marks *marks = NULL;
   check(riis_valve_create("aortic", &valve));
   check(riis_surface_create(valve, NULL, &surface));
-  check(riis_marks_create(&result));
+  check(riis_marks_create(&marks));
 
   /* One thread suits a rank on every core. Ranks that are bound to several cores each, such as by mpirun --map-by slot:PE=4,
    * leave n_threads at 0, which means all cores of the rank. If nothing binds the ranks, 0 means all cores of the machine for
@@ -86,9 +98,8 @@ int main(int argc, char **argv) {
     csr.columns = columns;
     check(riis_mesh_set_adjacency(mesh, &csr));
     options.search = RIIS_SEARCH_NEIGHBOR;
-    check(riis_mark_nodes(surface, mesh, &options, result));
-    n_marked = marked_list(result).n_nodes;
-    check(riis_marks_get_dense(result, n_rows, RIIS_FAR_DISTANCE, NULL, distance + first, NULL, NULL));
+    check(riis_mark_nodes(surface, mesh, &options, marks));
+    n_marked = read_marks(marks, n_rows, distance + first);
     riis_mesh_destroy(&mesh);
   }
 
@@ -100,9 +111,8 @@ int main(int argc, char **argv) {
   if (rank == 0) {
     options.search = RIIS_SEARCH_EXHAUSTIVE;
     check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
-    check(riis_mark_nodes(surface, mesh, &options, result));
-    n_marked = marked_list(result).n_nodes;
-    check(riis_marks_get_dense(result, n_nodes, RIIS_FAR_DISTANCE, NULL, distance, NULL, NULL));
+    check(riis_mark_nodes(surface, mesh, &options, marks));
+    n_marked = read_marks(marks, n_nodes, distance);
     riis_mesh_destroy(&mesh);
     same = n_marked == n_marked_by_ranks;
     for (int i = 0; i < n_nodes; ++i) same = same && distance[i] == by_ranks[i];
@@ -111,7 +121,7 @@ int main(int argc, char **argv) {
            same ? "the same nodes and distances" : "other nodes or distances");
   }
 
-  riis_marks_destroy(&result);
+  riis_marks_destroy(&marks);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);
   MPI_Finalize();

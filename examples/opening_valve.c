@@ -30,7 +30,7 @@ int main(void) {
   riis_valve *valve = NULL, *valve_before = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
-  riis_marks *result = NULL;
+  riis_marks *marks = NULL;
   check(riis_valve_create("mitral", &valve));
   check(riis_valve_set_scalar(valve, "opening", 0));
   check(riis_valve_copy(valve, &valve_before)); /* its opening is that of the step before */
@@ -40,10 +40,10 @@ int main(void) {
   options.half_thickness = eps; /* in the mesh's unit */
   check(riis_surface_create(valve, &options, &surface));
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  check(riis_marks_create(&result));
+  check(riis_marks_create(&marks));
   riis_mark_options mark_options;
   check(riis_mark_options_init(&mark_options, sizeof mark_options));
-  mark_options.fields = RIIS_FIELD_VELOCITY; /* the result keeps the surface's velocity at the nodes */
+  mark_options.fields = RIIS_FIELD_VELOCITY; /* the marks keep the surface's velocity at the nodes */
   riis_opening_times times; /* the valve opens at 0.45 s in 50 ms, and closes at 0.95 s, every second */
   check(riis_opening_times_init(&times, sizeof times));
   times.opening_start = 0.45;
@@ -55,13 +55,19 @@ int main(void) {
   check(riis_resistance_init(&resistance, sizeof resistance));
   resistance.R = R;
 
-  int64_t n_marked = 0;
-  const int64_t *node_id = NULL;
+  riis_resistance_arrays arrays;
+  check(riis_resistance_arrays_init(&arrays, sizeof arrays));
+  arrays.n_nodes = n_nodes;
+  arrays.K = coefficient;
+  for (int c = 0; c < 3; ++c) arrays.K_u_surface[c] = momentum + c;
+  arrays.K_u_surface_stride = 3;
+
+  riis_mark_list marked = {.n_nodes = 0};
   for (int step = 0; step <= n_steps; ++step) {
-    /* Resets only the nodes that the last step set. Their list lives until the next marking into the result. */
-    for (int64_t i = 0; i < n_marked; ++i) {
-      coefficient[node_id[i]] = 0;
-      for (int c = 0; c < 3; ++c) momentum[3 * node_id[i] + c] = 0;
+    /* Resets only the nodes that the last step set. Their list lives until the next marking with these marks. */
+    for (int64_t i = 0; i < marked.n_nodes; ++i) {
+      coefficient[marked.node_id[i]] = 0;
+      for (int c = 0; c < 3; ++c) momentum[3 * marked.node_id[i] + c] = 0;
     }
 
     const double time = times.opening_start + step * dt;
@@ -70,10 +76,9 @@ int main(void) {
     check(riis_valve_set_scalar(valve, "opening", opening));
     check(riis_surface_update_moving(surface, valve, valve_before, dt, NULL, NULL)); /* NULL: it keeps its options */
     check(riis_valve_set_scalar(valve_before, "opening", opening));
-    check(riis_mark_nodes(surface, mesh, &mark_options, result));
-    check(riis_marks_add_resistance(result, &resistance, n_nodes, coefficient, momentum));
-    n_marked = marked_list(result).n_nodes;
-    node_id = marked_list(result).node_id;
+    check(riis_mark_nodes(surface, mesh, &mark_options, marks));
+    check(riis_marks_add_resistance(marks, &resistance, &arrays));
+    check(riis_marks_get_list(marks, RIIS_LIST_MARKED, &marked, sizeof marked));
 
     double sum = 0, maximum = 0, sum_z = 0;
     for (int i = 0; i < n_nodes; ++i) {
@@ -82,11 +87,11 @@ int main(void) {
       sum_z += momentum[3 * i + 2];
     }
     printf("%4.2f s, opening %5.3f, marked: %5lld, K: sum %.5E, maximum %.5E kg/(m^3 s), ", time, opening,
-           (long long)n_marked, sum, maximum);
+           (long long)marked.n_nodes, sum, maximum);
     printf("z of K u_surface: sum %+.5E N/m^3\n", sum_z);
   }
 
-  riis_marks_destroy(&result);
+  riis_marks_destroy(&marks);
   riis_mesh_destroy(&mesh);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve_before);

@@ -35,67 +35,60 @@ int main(void) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
-  riis_marks *result = NULL;
-  int64_t n_marked = 0;
-  const int64_t *node_id = NULL;
-  const double *distance = NULL;
+  riis_marks *marks = NULL;
   check(riis_valve_create("aortic", &valve));
   check(riis_surface_create(valve, NULL, &surface));
 
   /* One call between parallel regions. Whatever OpenMP's settings, it uses the processors that this thread may run on. For
    * another number, set n_threads in riis_mark_options. */
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
-  check(riis_marks_create(&result));
-  check(riis_mark_nodes(surface, mesh, NULL, result));
-  n_marked = marked_list(result).n_nodes;
-  node_id = marked_list(result).node_id;
-  distance = marked_list(result).distance;
+  check(riis_marks_create(&marks));
+  check(riis_mark_nodes(surface, mesh, NULL, marks));
+  riis_mark_list marked;
+  check(riis_marks_get_list(marks, RIIS_LIST_MARKED, &marked, sizeof marked));
   int kept = omp_get_max_threads() == 3 && !omp_get_dynamic();
   double farthest = 0;
 #pragma omp parallel for reduction(max : farthest)
-  for (int64_t i = 0; i < n_marked; ++i) {
-    if (distance[i] > farthest) farthest = distance[i];
+  for (int64_t i = 0; i < marked.n_nodes; ++i) {
+    if (marked.distance[i] > farthest) farthest = marked.distance[i];
   }
-  printf("one call, marked: %lld, the farthest at %8.6f cm\n", (long long)n_marked, farthest);
+  printf("one call, marked: %lld, the farthest at %8.6f cm\n", (long long)marked.n_nodes, farthest);
   printf("settings of OpenMP: %s\n", kept ? "as they were" : "changed");
 
-  /* A call from each thread. All read one surface, and each has a mesh and a result of its own. While any thread marks, none may
+  /* A call from each thread. All read one surface, and each has a mesh and a marks of its own. While any thread marks, none may
    * update the surface. Do that before the region, or in a single construct, at whose end all threads wait. */
   riis_mark_options options;
   riis_mesh *block_mesh[n_blocks] = {NULL};
-  riis_marks *block_result[n_blocks] = {NULL};
+  riis_marks *block_marks[n_blocks] = {NULL};
   check(riis_mark_options_init(&options, sizeof options));
   options.n_threads = 1;
 #pragma omp parallel for num_threads(n_blocks) schedule(static, 1)
   for (int i = 0; i < n_blocks; ++i) {
     double *block = xyz + 3 * first_node(i);
     check(riis_mesh_create(first_node(i + 1) - first_node(i), block, block + 1, block + 2, 3, &block_mesh[i]));
-    check(riis_marks_create(&block_result[i]));
-    check(riis_mark_nodes(surface, block_mesh[i], &options, block_result[i]));
+    check(riis_marks_create(&block_marks[i]));
+    check(riis_mark_nodes(surface, block_mesh[i], &options, block_marks[i]));
   }
 
   /* The blocks' lists, one after the other, are the list of the whole mesh. */
   int64_t n_found = 0;
   int same = 1;
   for (int i = 0; i < n_blocks; ++i) {
-    int64_t n_in_block = 0;
-    const int64_t *id_in_block = NULL;
-    const double *block_distance = NULL;
-    n_in_block = marked_list(block_result[i]).n_nodes;
-    id_in_block = marked_list(block_result[i]).node_id;
-    block_distance = marked_list(block_result[i]).distance;
-    printf("block %d, marked: %lld\n", i, (long long)n_in_block);
-    same = same && n_found + n_in_block <= n_marked;
-    for (int64_t j = 0; same && j < n_in_block; ++j, ++n_found) {
-      same = node_id[n_found] == first_node(i) + id_in_block[j] && distance[n_found] == block_distance[j];
+    riis_mark_list in_block;
+    check(riis_marks_get_list(block_marks[i], RIIS_LIST_MARKED, &in_block, sizeof in_block));
+    printf("block %d, marked: %lld\n", i, (long long)in_block.n_nodes);
+    same = same && n_found + in_block.n_nodes <= marked.n_nodes;
+    for (int64_t j = 0; same && j < in_block.n_nodes; ++j, ++n_found) {
+      same = marked.node_id[n_found] == first_node(i) + in_block.node_id[j] &&
+             marked.distance[n_found] == in_block.distance[j];
     }
-    riis_marks_destroy(&block_result[i]);
+    riis_marks_destroy(&block_marks[i]);
     riis_mesh_destroy(&block_mesh[i]);
   }
-  same = same && n_found == n_marked;
+  same = same && n_found == marked.n_nodes;
   printf("blocks together: %s\n", same ? "the same nodes and distances" : "other nodes or distances");
 
-  riis_marks_destroy(&result);
+  riis_marks_destroy(&marks);
   riis_mesh_destroy(&mesh);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);

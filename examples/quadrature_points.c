@@ -68,7 +68,7 @@ int main(void) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
-  riis_marks *result = NULL;
+  riis_marks *marks = NULL;
   riis_surface_options options, before;
   check(riis_valve_create("mitral", &valve));
   check(riis_valve_set_scalar(valve, "opening", 0.5));
@@ -80,7 +80,7 @@ int main(void) {
   check(riis_surface_create(valve, &options, &surface));
   check(riis_surface_update_moving(surface, valve, valve, dt, &options, &before));
   check(riis_mesh_create(n_points, point[0], point[0] + 1, point[0] + 2, 3, &mesh));
-  check(riis_marks_create(&result));
+  check(riis_marks_create(&marks));
 
   riis_mark_options mark_options;
   riis_resistance resistance;
@@ -89,8 +89,14 @@ int main(void) {
   check(riis_resistance_init(&resistance, sizeof resistance));
   resistance.R = R;
   resistance.rim = RIIS_RIM_CUT; /* the band ends at the free edges and at the annulus */
-  check(riis_mark_nodes(surface, mesh, &mark_options, result));
-  check(riis_marks_add_resistance(result, &resistance, n_points, coefficient, momentum[0]));
+  check(riis_mark_nodes(surface, mesh, &mark_options, marks));
+  riis_resistance_arrays arrays;
+  check(riis_resistance_arrays_init(&arrays, sizeof arrays));
+  arrays.n_nodes = n_points;
+  arrays.K = coefficient;
+  for (int c = 0; c < 3; ++c) arrays.K_u_surface[c] = momentum[0] + c;
+  arrays.K_u_surface_stride = 3;
+  check(riis_marks_add_resistance(marks, &resistance, &arrays));
   assemble();
 
   double sum = 0, force[3] = {0, 0, 0};
@@ -108,7 +114,7 @@ int main(void) {
   for (int c = 0; c < 3; ++c) is_right = is_right && fabs(force[c] - sum * speed[c]) < 1e-9 * sum * speed[2];
   if (!is_right) fprintf(stderr, "the sums are off\n");
 
-  riis_marks_destroy(&result);
+  riis_marks_destroy(&marks);
   riis_mesh_destroy(&mesh);
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);

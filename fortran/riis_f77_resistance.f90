@@ -44,7 +44,8 @@ subroutine riisf_mark_with_resistance(surface, mesh, distance_limit, search, n_t
   marks = handle_of(c_handle)
 end subroutine riisf_mark_with_resistance
 
-!> Copies K and K u_surface of the nodes that are marked, in the order of riisf_marked. Without velocities K u_surface is
+!> Copies K and K u_surface of the nodes that are marked, in the order of riisf_marked.
+!! Without velocities K u_surface is
 !! 0. Errors: RIIS_INVALID_ARGUMENT without riisf_mark_with_resistance, or if the arrays are too short: nothing but n is then
 !! written.
 subroutine riisf_marked_resistance(marks, length, n, K, K_u_surface, status)
@@ -112,7 +113,8 @@ subroutine riisf_marked_resistance_64(marks, length, n, K, K_u_surface, status)
   end if
 end subroutine riisf_marked_resistance_64
 
-!> Copies K and K u_surface of the nodes within the distance limit, in the order of riisf_within_limit. Without velocities K u_surface is
+!> Copies K and K u_surface of the nodes within the distance limit, in the order of riisf_within_limit.
+!! Without velocities K u_surface is
 !! 0. Errors: RIIS_INVALID_ARGUMENT without riisf_mark_with_resistance, or if the arrays are too short: nothing but n is then
 !! written.
 subroutine riisf_within_limit_resistance(marks, length, n, K, K_u_surface, status)

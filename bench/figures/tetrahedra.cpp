@@ -91,22 +91,16 @@ Marks mark(const TetrahedralMesh &mesh, const char *kind, double opening, double
   Handle<riis_marks, riis_marks_destroy> result;
   check(riis_marks_create(out(result)));
   check(riis_mark_nodes(surface.get(), nodes.get(), nullptr, result.get()));
-  std::int64_t n_marked = 0;
-  const std::int64_t *node_ids = nullptr;
-  const double *distances = nullptr;
-  const std::int32_t *leaflets = nullptr;
-  n_marked = marked_list(result.get()).n_nodes;
-  node_ids = marked_list(result.get()).node_id;
-  distances = marked_list(result.get()).distance;
-  leaflets = marked_list(result.get()).leaflet_id;
+  riis_mark_list marked;
+  check(riis_marks_get_list(result.get(), RIIS_LIST_MARKED, &marked, sizeof marked));
 
   std::vector<std::int32_t> leaflet(mesh.n_nodes(), -1);
   std::vector<double> distance(mesh.n_nodes(), std::numeric_limits<double>::infinity());
-  for (std::int64_t i = 0; i < n_marked; ++i) {
-    leaflet[static_cast<std::size_t>(node_ids[i])] = leaflets[i];
-    distance[static_cast<std::size_t>(node_ids[i])] = distances[i];
+  for (std::int64_t i = 0; i < marked.n_nodes; ++i) {
+    leaflet[static_cast<std::size_t>(marked.node_id[i])] = marked.leaflet_id[i];
+    distance[static_cast<std::size_t>(marked.node_id[i])] = marked.distance[i];
   }
-  Marks marks{static_cast<std::size_t>(n_marked), {}, {}, 0, 0};
+  Marks marks{static_cast<std::size_t>(marked.n_nodes), {}, {}, 0, 0};
   for (const auto &tetrahedron : mesh.tetrahedra) {
     const auto is_marked = [&](std::int64_t node) { return leaflet[static_cast<std::size_t>(node)] >= 0; };
     const bool is_whole = std::all_of(tetrahedron.begin(), tetrahedron.end(), is_marked);

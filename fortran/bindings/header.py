@@ -141,7 +141,7 @@ class Header:
     def arguments(self, words, of, start):
         found = []
         for entry in [] if words == "void" else words.split(","):
-            match = re.fullmatch(r"(.*?[ *])([A-Za-z][A-Za-z0-9_]*)", entry.strip())
+            match = re.fullmatch(r"(.*?[ *])([a-z][a-z0-9_]*)", entry.strip())
             type_ = match and c_type(match[1])
             if type_:
                 found.append(Argument(match[2], type_))

@@ -16,7 +16,7 @@ BEGIN_C_DECLS
 static riis_valve *valve, *valve_before;
 static riis_surface *surface;
 static riis_mesh *mesh;
-static riis_marks *result;
+static riis_marks *marks;
 static riis_mark_options mark_options;
 static riis_resistance resistance;
 static riis_opening_switch law;
@@ -118,7 +118,7 @@ static void create_valve(void) {
   /* A rank without cells makes the same calls. */
   check(riis_mesh_create(m->n_cells, centre, centre + 1, centre + 2, 3, &mesh));
   check(riis_mesh_prepare(mesh, 1));
-  check(riis_marks_create(&result));
+  check(riis_marks_create(&marks));
   check(riis_mark_options_init(&mark_options, sizeof mark_options));
   mark_options.n_threads = 1;
   mark_options.fields = RIIS_FIELD_VELOCITY;
@@ -189,20 +189,22 @@ static void advance_valve(void) {
   check(riis_valve_set_scalar(valve_before, "opening", state.opening));
   check_place();
 
-  int64_t n = 0;
-  const int64_t *cell = NULL;
-  n = marked_list(result).n_nodes;
-  cell = marked_list(result).node_id; /* the cells of the last time step */
-  for (int64_t i = 0; i < n; ++i) {
-    coefficient[cell[i]] = 0;
-    for (int k = 0; k < 3; ++k) momentum[3 * cell[i] + k] = 0;
+  riis_mark_list marked; /* the cells of the last time step */
+  check(riis_marks_get_list(marks, RIIS_LIST_MARKED, &marked, sizeof marked));
+  for (int64_t i = 0; i < marked.n_nodes; ++i) {
+    coefficient[marked.node_id[i]] = 0;
+    for (int k = 0; k < 3; ++k) momentum[3 * marked.node_id[i] + k] = 0;
   }
-  check(riis_mark_nodes(surface, mesh, &mark_options, result));
-  check(riis_marks_add_resistance(result, &resistance, cs_glob_mesh->n_cells, coefficient,
-                                        setting("VALVE_VELOCITY") > 0 ? momentum : NULL));
-  n = marked_list(result).n_nodes;
-  cell = marked_list(result).node_id;
-  record_valve(n, cell, coefficient, state.opening, record_clock() - start);
+  check(riis_mark_nodes(surface, mesh, &mark_options, marks));
+  riis_resistance_arrays arrays;
+  check(riis_resistance_arrays_init(&arrays, sizeof arrays));
+  arrays.n_nodes = cs_glob_mesh->n_cells;
+  arrays.K = coefficient;
+  for (int k = 0; k < 3 && setting("VALVE_VELOCITY") > 0; ++k) arrays.K_u_surface[k] = momentum + k;
+  arrays.K_u_surface_stride = 3;
+  check(riis_marks_add_resistance(marks, &resistance, &arrays));
+  check(riis_marks_get_list(marks, RIIS_LIST_MARKED, &marked, sizeof marked));
+  record_valve(marked.n_nodes, marked.node_id, coefficient, state.opening, record_clock() - start);
 }
 
 /* ---- The hooks of code_saturne. ---- */
@@ -229,13 +231,13 @@ void cs_user_source_terms(cs_domain_t *domain, int f_id, cs_real_t *st_exp, cs_r
   CS_UNUSED(domain);
   CS_UNUSED(st_imp);
   if (f_id != CS_F_(vel)->id || valve == NULL) return;
-  int64_t n = 0;
-  const int64_t *cell = NULL;
-  n = marked_list(result).n_nodes;
-  cell = marked_list(result).node_id;
-  for (int64_t i = 0; i < n; ++i)
+  riis_mark_list marked;
+  check(riis_marks_get_list(marks, RIIS_LIST_MARKED, &marked, sizeof marked));
+  for (int64_t i = 0; i < marked.n_nodes; ++i) {
+    const int64_t cell = marked.node_id[i];
     for (int k = 0; k < 3; ++k)
-      st_exp[3 * cell[i] + k] += momentum[3 * cell[i] + k] * cs_glob_mesh_quantities->cell_vol[cell[i]]; /* N */
+      st_exp[3 * cell + k] += momentum[3 * cell + k] * cs_glob_mesh_quantities->cell_vol[cell]; /* N */
+  }
 }
 
 /* Called at the end of each time step, before code_saturne writes its checkpoint. */

@@ -435,9 +435,16 @@ void riisValve::mark() {
   if (withVelocity_) KU_->primitiveFieldRef() = Zero;
   const label nCells = mesh_.nCells();
   double *momentum = withVelocity_ && nCells > 0 ? KU_->primitiveFieldRef()[0].data() : nullptr;
-  check(riis_marks_add_resistance(result_.get(), &resistance_, nCells, K_.primitiveFieldRef().data(), momentum));
-  int64_t marked = 0;
-  check(riis_mark_result_marked(result_.get(), &marked, nullptr, nullptr, nullptr, nullptr));
+  riis_resistance_arrays arrays;
+  check(riis_resistance_arrays_init(&arrays, sizeof arrays));
+  arrays.n_nodes = nCells;
+  arrays.K = K_.primitiveFieldRef().data();
+  for (int c = 0; momentum && c < 3; ++c) arrays.K_u_surface[c] = momentum + c;
+  arrays.K_u_surface_stride = 3;
+  check(riis_marks_add_resistance(result_.get(), &resistance_, &arrays));
+  riis_mark_stats stats;
+  check(riis_marks_get_stats(result_.get(), &stats, sizeof stats));
+  const int64_t marked = stats.n_marked;
   const std::chrono::duration<scalar> seconds = std::chrono::steady_clock::now() - start;
 
   const label all = returnReduce(label(marked), sumOp<label>());
@@ -468,12 +475,11 @@ void riisValve::writeLeaflets() const {
   mkDir(folder);
   OFstream os(folder / "leaflets.vtk");
   os.precision(9);
-  int64_t nVertices = 0, nTriangles = 0;
-  const double *xyz = nullptr, *velocity = nullptr;
-  const int64_t *corners = nullptr;
-  check(riis_surface_vertices(surface_.get(), &nVertices, &xyz));
-  check(riis_surface_vertex_velocities(surface_.get(), &nVertices, &velocity));
-  check(riis_surface_triangles(surface_.get(), &nTriangles, &corners, nullptr, nullptr, nullptr));
+  riis_triangles triangles;
+  check(riis_surface_get_triangles(surface_.get(), &triangles, sizeof triangles));
+  const int64_t nVertices = triangles.n_vertices, nTriangles = triangles.n_triangles;
+  const double *xyz = triangles.xyz, *velocity = triangles.velocity;
+  const int64_t *corners = triangles.vertex_id;
   os << "# vtk DataFile Version 3.0" << nl << "leaflets of " << name_ << nl << "ASCII" << nl << "DATASET POLYDATA" << nl
      << "POINTS " << label(nVertices) << " double" << nl;
   for (int64_t i = 0; i < nVertices; ++i) os << xyz[3 * i] << ' ' << xyz[3 * i + 1] << ' ' << xyz[3 * i + 2] << nl;
