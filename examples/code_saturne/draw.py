@@ -14,6 +14,16 @@ from matplotlib.tri import Triangulation
 DT = 0.002  # s, RUN_DT of settings.c
 
 
+class Triangles(ctypes.Structure):
+    """riis_triangles of riis.h."""
+
+    _fields_ = [("n_vertices", ctypes.c_int64), ("xyz", ctypes.POINTER(ctypes.c_double)),
+                ("uv", ctypes.POINTER(ctypes.c_double)), ("velocity", ctypes.POINTER(ctypes.c_double)),
+                ("n_triangles", ctypes.c_int64), ("vertex_id", ctypes.POINTER(ctypes.c_int64)),
+                ("triangle_id", ctypes.POINTER(ctypes.c_int64)), ("leaflet_id", ctypes.POINTER(ctypes.c_int32)),
+                ("patch_id", ctypes.POINTER(ctypes.c_int32))]
+
+
 def leaflets_cut(opening):
     """Returns the segments in which the plane y = 0 cuts the valve at an opening: (n, 2, 2), x and z in metres."""
     riis = ctypes.CDLL(os.path.join(os.environ["RIIS_PREFIX"], "lib", "libriis.so"))
@@ -27,12 +37,10 @@ def leaflets_cut(opening):
     check(riis.riis_valve_create(b"trileaflet", ctypes.byref(valve)))
     check(riis.riis_valve_set_scalar(valve, b"opening", ctypes.c_double(opening)))
     check(riis.riis_surface_create(valve, None, ctypes.byref(surface)))
-    n, xyz = ctypes.c_int64(), ctypes.POINTER(ctypes.c_double)()
-    check(riis.riis_surface_vertices(surface, ctypes.byref(n), ctypes.byref(xyz)))
-    points = 0.01 * np.ctypeslib.as_array(xyz, (n.value, 3)).copy()
-    ids = ctypes.POINTER(ctypes.c_int64)()
-    check(riis.riis_surface_triangles(surface, ctypes.byref(n), ctypes.byref(ids), None, None, None))
-    triangles = np.ctypeslib.as_array(ids, (n.value, 3)).copy()
+    found = Triangles()
+    check(riis.riis_surface_get_triangles(surface, ctypes.byref(found), ctypes.c_int64(ctypes.sizeof(found))))
+    points = 0.01 * np.ctypeslib.as_array(found.xyz, (found.n_vertices, 3)).copy()
+    triangles = np.ctypeslib.as_array(found.vertex_id, (found.n_triangles, 3)).copy()
     riis.riis_surface_destroy(ctypes.byref(surface))
     riis.riis_valve_destroy(ctypes.byref(valve))
     segments = []

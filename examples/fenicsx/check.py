@@ -105,7 +105,7 @@ def alone(xyz, fields, rows):
         surface.update_moving(valve, before, DT)
         marks = riis.mark(surface, riis.Mesh(xyz), fields="velocity")
         K, K_u = numpy.zeros(len(xyz)), numpy.zeros((len(xyz), 3))
-        marks.add_resistance(K, K_u, resistance=valve_in_duct.R)
+        marks.add_resistance(K, K_u, R=valve_in_duct.R)
         require(numpy.array_equal(K, fields["K"][step, :, 0]) and numpy.array_equal(K_u, fields["K_u"][step]),
                 f"step {step + 1} has the bits of a marking of all points at once")
 
@@ -176,7 +176,7 @@ def refusals():
         ("a parameter out of range", step(closed_angle=95.0), riis.InvalidParameterError, "closed_angle"),
         ("an opening of NaN", step(float("nan")), riis.InvalidParameterError, "opening"),
         ("a half thickness of 0", step(eps=0.0), riis.InvalidArgumentError, "half_thickness is 0"),
-        ("a time step of 0", step(dt=0.0), riis.InvalidArgumentError, "seconds is 0"),
+        ("a time step of 0", step(dt=0.0), riis.InvalidArgumentError, "dt is 0"),
         ("a valve outside the mesh", step(hinge_height=9.0), ValueError, "step 1: no point of the mesh is within eps = 0.002 m"),
         ("a size in mm", step(size=2.0), ValueError, "size is 2.0; it must be from 2e-4 to 1e-2, in m"),
     )

@@ -46,7 +46,7 @@ def flow(comm, law, dt, n_steps, size=2e-3, eps=2e-3, **parameters):
     K, K_u = fem.Function(fem.functionspace(mesh, ("Lagrange", 2))), fem.Function(V)
     xyz = V.tabulate_dof_coordinates()
     assert numpy.array_equal(xyz, K.function_space.tabulate_dof_coordinates())
-    points, marks = riis.Mesh(xyz), riis.MarkResult()
+    points, marks = riis.Mesh(xyz), riis.Marks()
     valve = riis.Valve("bileaflet", **parameters)
     before = valve.copy()
     surface = riis.Surface(valve, scale=0.01, half_thickness=eps)  # the valve's tables are in cm
@@ -77,7 +77,7 @@ def flow(comm, law, dt, n_steps, size=2e-3, eps=2e-3, **parameters):
         if comm.allreduce(len(marks.ids)) == 0:
             raise ValueError(f"step {step}: no point of the mesh is within eps = {eps} m of the valve")
         K.x.array[:], K_u.x.array[:] = 0, 0
-        marks.add_resistance(K.x.array, K_u.x.array.reshape(-1, 3), resistance=R)
+        marks.add_resistance(K.x.array, K_u.x.array.reshape(-1, 3), R=R)
         problem.solve()
         u_old.interpolate(new.sub(0))
         area, rate, force = (comm.allreduce(fem.assemble_scalar(form)) for form in sums)

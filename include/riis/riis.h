@@ -479,6 +479,7 @@ RIIS_API riis_status riis_crossing_options_init(riis_crossing_options *options, 
 typedef struct riis_crossings riis_crossings;
 /* Makes crossings without a pair. */
 RIIS_API riis_status riis_crossings_create(riis_crossings **crossings);
+/* Destroys the crossings and their list. */
 RIIS_API void riis_crossings_destroy(riis_crossings **crossings);
 
 /* Finds every pair of the surface's triangles that go through each other. A pair's depth is its penetration
@@ -504,9 +505,9 @@ typedef struct riis_crossing_list {
   const double *length;       /* (n_pairs): of the segment */
   double total_length;        /* the sum of length */
   double deepest_depth;       /* of the deepest pair, of equal ones the first */
-  double deepest_point[3];
-  int64_t deepest_triangle_id[2];
-  int32_t deepest_leaflet_id[2];
+  double deepest_point[3];    /* its point */
+  int64_t deepest_triangle_id[2]; /* its triangles */
+  int32_t deepest_leaflet_id[2];  /* their leaflets */
   double seconds;             /* wall time of riis_find_crossings */
 } riis_crossing_list;
 /* Gives the pairs of the last riis_find_crossings with these crossings, until the next or the destruction. */
@@ -697,6 +698,7 @@ RIIS_API void riis_adjacency_destroy(riis_adjacency **adjacency);
 typedef struct riis_marks riis_marks;
 /* Makes empty marks. They belong to no mesh and no surface. */
 RIIS_API riis_status riis_marks_create(riis_marks **marks);
+/* Destroys the marks and their lists. */
 RIIS_API void riis_marks_destroy(riis_marks **marks);
 
 /* How nodes are searched. All but RIIS_SEARCH_PAPER find the same nodes (docs/theory.md, section 7). */
@@ -928,6 +930,7 @@ RIIS_API riis_status riis_marks_get_band_sums(const riis_marks *marks, const rii
 typedef struct riis_leaks riis_leaks;
 /* Makes leaks without an edge. */
 RIIS_API riis_status riis_leaks_create(riis_leaks **leaks);
+/* Destroys the leaks and their list. */
 RIIS_API void riis_leaks_destroy(riis_leaks **leaks);
 
 /* Finds every edge of the mesh's adjacency that crosses the surface's triangles between two unmarked nodes.
@@ -955,8 +958,8 @@ typedef struct riis_leak_list {
   const double *distance;     /* (n_edges): that of its nearer node, the half thickness that closes the edge */
   double half_thickness;      /* the smallest that gives each edge a marked node, by these triangles */
   int64_t longest_node_id[2]; /* the longest edge's nodes, ascending; of equal edges the first listed */
-  double longest_length;
-  double longest_middle[3];
+  double longest_length;      /* its length */
+  double longest_middle[3];   /* the middle of it */
   double seconds;             /* wall time of riis_find_leaks */
 } riis_leak_list;
 /* Gives the edges of the last riis_find_leaks with these leaks, until the next or the destruction. */

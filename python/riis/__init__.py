@@ -8,7 +8,7 @@
     mesh = riis.Mesh(xyz)                               # (n, 3) float64, borrowed
     marks = riis.mark(surface, mesh)
     marks.ids, marks.distance                           # views without a copy
-    marks.add_resistance(K, resistance=1e4)
+    marks.add_resistance(K, R=1e4)
 
 Lengths have one unit of the caller's choice, angles are in degrees. Ids count from 0. Errors are exceptions of classes
 below riis.Error, or TypeError, and name the argument. Calls release the interpreter's lock. Results are the same to the

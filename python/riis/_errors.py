@@ -114,6 +114,10 @@ _NAMES = {
 _ARGUMENTS = {
     "arrays.vertex_ids": "faces",
     "csr.n_rows": "the number of rows",
+    "ends.from": "from_ids",
+    "ends.n_from": "the number of from_ids",
+    "ends.n_to": "the number of to_ids",
+    "ends.to": "to_ids",
     "options.n_point_ids": "the number of ids",
     "options.node_mask": "mask",
     "options.point_ids": "ids",
@@ -150,11 +154,9 @@ _CHANGES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (rf"\boptions\.(fields|{'|'.join(WORDS)})( is | = )(\d+)", _word_of),
     (rf"\bRIIS_(FIELD|INTERPOLATION|PHASE|RIM|{'|'.join(WORDS).upper()})_([A-Z0-9_]+|\*)(?:, \d+)?", _constant_of),
     (r"\briis_[a-z_]+", lambda match: _NAMES.get(match[0], match[0])),
-    (r"(?<!['\w])(?:arrays|cells|csr|faces|frames|law|options|patches|resistance|table|times)\.([a-z]\w*)",
+    (r"(?<!['\w])(?:arrays|band|cells|csr|ends|faces|flow|frames|law|options|patches|points|resistance|table|times)\.([a-z]\w*)",
      lambda match: _ARGUMENTS.get(match[0], match[1])),
-    (r"^result\b", "marks"),
-    (r"^(from|to)\[", r"\1_ids["),
-    (r"^n_(from|to) is", r"the number of \1_ids is"),
+    (r"\bRIIS_LIST_\*", "the lists of riis.Marks"),
     (r"\bNULL\b", "None"),
 )
 

@@ -36,14 +36,13 @@ BOUND = {
     "riis_surface_update_from_keyframes": "Surface.update_from_keyframes",
     "riis_surface_destroy": "Surface.close",
     "riis_surface_get_info": "Surface.info",
-    "riis_surface_vertices": "Surface.vertices",
-    "riis_surface_vertex_parameters": "Surface.uv",
-    "riis_surface_vertex_velocities": "Surface.velocities",
-    "riis_surface_triangles": "Surface.triangles",
+    "riis_surface_get_triangles": "Surface.triangles",
     "riis_keyframes_create": "Keyframes.__init__",
     "riis_keyframes_destroy": "Keyframes.close",
     "riis_find_crossings": "find_crossings",
-    "riis_surface_crossing_pairs": "Surface.crossing_pairs",
+    "riis_crossings_create": "find_crossings",
+    "riis_crossings_destroy": "find_crossings",
+    "riis_crossings_get_list": "find_crossings",
     "riis_closest_point": "Surface.closest_point",
     "riis_closest_points": "Surface.closest_points",
     "riis_mesh_create": "Mesh.__init__",
@@ -59,17 +58,16 @@ BOUND = {
     "riis_marks_create": "Marks.__init__",
     "riis_marks_destroy": "Marks.close",
     "riis_mark_nodes": "mark",
-    "riis_mark_result_marked": "Marks.ids",
-    "riis_mark_result_within_limit": "Marks.within_limit",
-    "riis_mark_result_marked_fields": "Marks.normal",
-    "riis_mark_result_within_limit_fields": "WithinLimit.normal",
+    "riis_marks_get_list": "Marks.ids",
     "riis_marks_get_dense": "Marks.dense",
     "riis_marks_get_stats": "Marks.stats",
     "riis_marks_add_resistance": "Marks.add_resistance",
     "riis_marks_add_reaction": "Marks.add_reaction",
     "riis_marks_get_band_sums": "Marks.band_sums",
     "riis_find_leaks": "find_leaks",
-    "riis_mark_result_leaking_edges": "Marks.leaking_edges",
+    "riis_leaks_create": "find_leaks",
+    "riis_leaks_destroy": "find_leaks",
+    "riis_leaks_get_list": "find_leaks",
     "riis_label_open_regions": "label_open_regions",
     "riis_find_passage": "find_passage",
     "riis_opening_from_table": "OpeningTable.opening_and_rate",
@@ -81,6 +79,7 @@ BOUND = {
 LEFT_OUT = {
     name: "keyword arguments have defaults, so nobody initialises a struct"
     for name in (
+        "riis_points_init",
         "riis_patches_init",
         "riis_surface_options_init",
         "riis_surface_arrays_init",
@@ -92,7 +91,12 @@ LEFT_OUT = {
         "riis_mesh_cells_init",
         "riis_mesh_faces_init",
         "riis_mark_options_init",
+        "riis_dense_arrays_init",
         "riis_resistance_init",
+        "riis_resistance_arrays_init",
+        "riis_flow_arrays_init",
+        "riis_band_init",
+        "riis_passage_ends_init",
         "riis_opening_table_init",
         "riis_opening_times_init",
         "riis_opening_switch_init",
@@ -100,6 +104,9 @@ LEFT_OUT = {
         "riis_opening_angle_init",
         "riis_opening_angle_state_init",
     )
+} | {
+    name: "a mesh of this package shows the coordinates as they are, so it borrows them"
+    for name in ("riis_mesh_create_copy", "riis_mesh_update_copy")
 }
 
 

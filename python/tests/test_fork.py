@@ -49,7 +49,7 @@ def test_a_child_marks(busy_parent, mesh, marks, valve):
         assert found.stats.n_threads == 1
         assert numpy.array_equal(found.ids, marks.ids) and numpy.array_equal(found.distance, marks.distance)
         coefficient = numpy.zeros(len(mesh))
-        found.add_resistance(coefficient, resistance=1.0)
+        found.add_resistance(coefficient, R=1.0)
         assert coefficient.any() and found.dense().mark.sum() == len(found)
         mesh.prepare()
         assert numpy.array_equal(riis.mark(busy_parent, mesh, search="clusters").ids, marks.ids)
@@ -100,11 +100,11 @@ def test_a_child_refuses_marks_that_several_threads_made(busy_parent, mesh, mark
     def work():
         coefficient = numpy.zeros(len(mesh))
         with pytest.raises(riis.UnavailableError, match="marks: the marking was made before the fork"):
-            marks.add_resistance(coefficient, resistance=1.0)
+            marks.add_resistance(coefficient, R=1.0)
         with pytest.raises(riis.UnavailableError, match="marks: the marking was made before the fork"):
             marks.dense()
         assert len(marks.ids) == len(alone)  # reading is no work
-        alone.add_resistance(coefficient, resistance=1.0)
+        alone.add_resistance(coefficient, R=1.0)
         assert coefficient.any()
 
     assert in_child(work)

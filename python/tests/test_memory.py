@@ -24,7 +24,7 @@ def test_ten_thousand_steps_take_no_memory():
         surface.update_moving(valve, before, 0.01)
         riis.mark(surface, mesh, into=own, fields="velocity, normal", n_threads=1)
         fresh = riis.mark(surface, mesh, fields=["velocity"], n_threads=1)
-        fresh.add_resistance(coefficient, momentum, resistance=1.0)
+        fresh.add_resistance(coefficient, momentum, R=1.0)
         total = own.distance.sum() + fresh.velocity.sum() + surface.vertices.sum() + len(own.within_limit)
         try:
             riis.mark(surface, mesh, search="none")

@@ -66,7 +66,8 @@ def test_leaks_regions_and_passages_tell_the_same(grid):
     tight, loose = plate(0.06), plate(0.02)
     marks = riis.mark(tight, grid)
     assert len(marks) == n * n
-    assert riis.find_leaks(tight, grid, marks).n_edges == 0 and marks.leaking_edges.node_id.shape == (0, 2)
+    none = riis.find_leaks(tight, grid, marks)
+    assert none.n_edges == 0 and none.node_id.shape == (0, 2) and none.longest_node_id.tolist() == [-1, -1]
     label, n_regions = riis.label_open_regions(grid, marks)
     assert n_regions == 2 and set(label) == {-1, 0, 21 * n * n} and (label[marks.ids] == -1).all()
     passage = riis.find_passage(tight, grid, below, above)
@@ -75,8 +76,7 @@ def test_leaks_regions_and_passages_tell_the_same(grid):
     assert len(marks) == 0
     leaks = riis.find_leaks(loose, grid, marks)
     assert leaks.n_edges == n * n and numpy.isclose(leaks.longest_length, 0.1) and numpy.isclose(leaks.half_thickness, 0.03)
-    edges = marks.leaking_edges
-    assert edges.node_id.shape == (n * n, 2) and numpy.allclose(edges.length, 0.1) and numpy.allclose(edges.distance, 0.03)
+    assert leaks.node_id.shape == (n * n, 2) and numpy.allclose(leaks.length, 0.1) and numpy.allclose(leaks.distance, 0.03)
     given = numpy.empty(n**3, numpy.int64)
     same, n_regions = riis.label_open_regions(grid, marks, label=given)
     assert same is given and n_regions == 1 and not given.any()

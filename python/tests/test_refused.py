@@ -18,7 +18,7 @@ class Objects:
     def __init__(self):
         self.valve = riis.Valve("mitral", opening=0.3)
         self.surface = riis.Surface(self.valve, half_thickness=0.15)
-        self.sampled = riis.Surface(self.valve, distance="sampling", measure_tolerance=0.5)
+        self.sampled = riis.Surface(self.valve, measure="sampling", measure_tolerance=0.5)
         self.thin = riis.Surface(self.valve, half_thickness=0.005)
         self.xyz = numpy.random.default_rng(1).uniform(-1.0, 1.0, (60, 3))
         self.mesh = riis.Mesh(self.xyz)
@@ -122,7 +122,7 @@ REFUSED = {
                             lambda o: riis.Surface(o.valve, translation=("0", "0", "0"))),
     "translation": (TypeError, "translation: must be three numbers, not float", lambda o: riis.Surface(o.valve, translation=1.0)),
     "flip_normals": (TypeError, "flip_normals: must be True or False, not int", lambda o: riis.Surface(o.valve, flip_normals=1)),
-    "distance": (Argument, "distance: is 'exact'; it must be one of 'triangles'", lambda o: riis.Surface(o.valve, distance="exact")),
+    "measure": (Argument, "measure: is 'exact'; it must be one of 'triangles'", lambda o: riis.Surface(o.valve, measure="exact")),
     "triangulation": (Argument, "triangulation: is ''", lambda o: riis.Surface(o.valve, triangulation="")),
     "n_threads": (Argument, "n_threads", lambda o: riis.Surface(o.valve, n_threads=-1)),
     "float n_threads": (TypeError, "n_threads: must be an integer, not float", lambda o: riis.Surface(o.valve, n_threads=1.0)),
@@ -133,7 +133,7 @@ REFUSED = {
     "type of placement_before": (TypeError, "placement_before: must be a dict, not float",
                                  lambda o: riis.Surface(o.valve).update_moving(o.valve, o.valve, 1.0, placement_before=1.0)),
     "valve_before": (TypeError, "valve_before: must be a riis.Valve", lambda o: riis.Surface(o.valve).update_moving(o.valve, o.mesh, 1.0)),
-    "seconds": (Argument, "seconds", lambda o: riis.Surface(o.valve).update_moving(o.valve, o.valve, 0.0)),
+    "dt": (Argument, "dt", lambda o: riis.Surface(o.valve).update_moving(o.valve, o.valve, 0.0)),
     "faces": (TypeError, "faces: its dtype is float64; it must be int32 or int64",
               lambda o: riis.Surface.from_arrays(o.triangle, o.triangle)),
     "no faces": (TypeError, "faces: must be a numpy array", lambda o: riis.Surface.from_arrays(o.triangle, None)),
@@ -222,8 +222,8 @@ REFUSED = {
     "fields of samples": (Argument, "^fields is 'rim', but .* sampling.* no fields but 'point', 'normal' and 'patch_id'",
                           lambda o: riis.mark(o.sampled, o.mesh, fields="rim")),
     "clusters of samples": (Argument, "^search is 'clusters'", lambda o: riis.mark(o.sampled, o.mesh, search="clusters")),
-    "samples of arrays": (Argument, "^distance is 'sampling', .* it must be 'triangles'$",
-                          lambda o: riis.Surface.from_arrays(o.triangle, o.faces, distance="sampling")),
+    "samples of arrays": (Argument, "^measure is 'sampling', .* it must be 'triangles'$",
+                          lambda o: riis.Surface.from_arrays(o.triangle, o.faces, measure="sampling")),
     "fixed arrays": (Argument, "^triangulation is 'fixed', .* it must be 'adapted'$",
                      lambda o: riis.Surface.from_arrays(o.triangle, o.faces, triangulation="fixed")),
     "walk without adjacency": (Argument, "^search is 'neighbor', .* see Mesh.set_adjacency$",
@@ -237,35 +237,35 @@ REFUSED = {
         o.surface, chain(o), numpy.zeros(0, int), numpy.zeros(1, int))),
     "node to go to": (Argument, r"^to_ids\[0\] is 99; the mesh has 60 nodes", lambda o: riis.find_passage(
         o.thin, chain(o), numpy.zeros(1, int), numpy.full(1, 99))),
-    "marks of another size": (Argument, "^marks is of a mesh with 60 nodes, mesh has 2",
+    "marks of another size": (Argument, "^marks are of a mesh with 60 nodes, mesh has 2",
                               lambda o: riis.label_open_regions(two_nodes(), o.marks)),
-    "marks of another half thickness": (Argument, "^marks is of a surface with the half thickness 0.15",
+    "marks of another half thickness": (Argument, "^marks are of a surface with the half thickness 0.15",
                                         lambda o: riis.find_leaks(o.thin, chain(o), o.marks)),
     "a patch that cannot open": (riis.InvalidParameterError, "opening is 0.5, but .* with Valve.set_open_state$",
                                  lambda o: riis.Surface(opened(patches(o)))),
     # Resistance
-    "cut without rim": (Argument, "^rim='cut' needs 'rim', but the result was marked with fields = None$",
-                        lambda o: o.marks.add_resistance(o.reals, resistance=1.0, rim="cut")),
-    "side of a band": (Argument, "^Marks.band_sums needs 'rim', but the result was marked with fields = 'side'$",
+    "cut without rim": (Argument, "^rim='cut' needs 'rim', but the nodes were marked with fields = None$",
+                        lambda o: o.marks.add_resistance(o.reals, R=1.0, rim="cut")),
+    "side of a band": (Argument, "^Marks.band_sums needs 'rim', but the nodes were marked with fields = 'side'$",
                        lambda o: riis.mark(o.surface, o.mesh, fields="side").band_sums(o.reals, o.reals, 0.0, 0.1)),
-    "coefficient": (Argument, r"coefficient: its shape is \(3,\); it must be \(60,\)",
-                    lambda o: o.marks.add_resistance(numpy.zeros(3), resistance=1.0)),
-    "type of coefficient": (TypeError, "coefficient: its dtype is float32",
-                            lambda o: o.marks.add_resistance(o.reals.astype("f4"), resistance=1.0)),
-    "read-only": (Argument, "coefficient: is read-only", lambda o: o.marks.add_resistance(read_only(o.reals), resistance=1.0)),
-    "order of momentum": (Argument, "momentum: its entries must lie in C order",
-                          lambda o: o.marks.add_resistance(None, numpy.asfortranarray(o.vectors), resistance=1.0)),
-    "momentum": (Argument, "(?i)velocity", lambda o: o.marks.add_resistance(None, o.vectors, resistance=1.0)),
-    "no resistance": (TypeError, "resistance", lambda o: o.marks.add_resistance(o.reals)),
-    "NaN resistance": (Argument, "resistance.*nan", lambda o: o.marks.add_resistance(o.reals, resistance=math.nan)),
-    "rim": (Argument, "rim: is 'square'", lambda o: o.marks.add_resistance(o.reals, resistance=1.0, rim="square")),
+    "K": (Argument, r"K: its shape is \(3,\); it must be \(60,\)",
+                    lambda o: o.marks.add_resistance(numpy.zeros(3), R=1.0)),
+    "type of K": (TypeError, "K: its dtype is float32",
+                            lambda o: o.marks.add_resistance(o.reals.astype("f4"), R=1.0)),
+    "read-only": (Argument, "K: is read-only", lambda o: o.marks.add_resistance(read_only(o.reals), R=1.0)),
+    "order of K_u_surface": (Argument, "K_u_surface: its entries must lie in C order",
+                          lambda o: o.marks.add_resistance(None, numpy.asfortranarray(o.vectors), R=1.0)),
+    "K_u_surface": (Argument, "(?i)velocity", lambda o: o.marks.add_resistance(None, o.vectors, R=1.0)),
+    "no R": (TypeError, "R", lambda o: o.marks.add_resistance(o.reals)),
+    "NaN as R": (Argument, "R.*nan", lambda o: o.marks.add_resistance(o.reals, R=math.nan)),
+    "rim": (Argument, "rim: is 'square'", lambda o: o.marks.add_resistance(o.reals, R=1.0, rim="square")),
     "half_thickness of a resistance": (Argument, "half_thickness",
-                                       lambda o: o.marks.add_resistance(o.reals, resistance=1.0, half_thickness=9.0)),
-    "empty result": (Argument, "marks: is empty", lambda o: riis.Marks().add_resistance(o.reals, resistance=1.0)),
-    "velocity of a reaction": (Argument, "velocity: its shape", lambda o: o.marks.add_reaction(o.reals, o.reals, resistance=1.0)),
-    "weight": (Argument, "weight: its shape", lambda o: o.marks.add_reaction(o.vectors, o.vectors, resistance=1.0)),
+                                       lambda o: o.marks.add_resistance(o.reals, R=1.0, half_thickness=9.0)),
+    "empty result": (Argument, "marks: is empty", lambda o: riis.Marks().add_resistance(o.reals, R=1.0)),
+    "velocity of a reaction": (Argument, "velocity: its shape", lambda o: o.marks.add_reaction(o.reals, o.reals, R=1.0)),
+    "weight": (Argument, "weight: its shape", lambda o: o.marks.add_reaction(o.vectors, o.vectors, R=1.0)),
     "force": (Argument, r"force: its shape is \(2,\)",
-              lambda o: o.marks.add_reaction(o.vectors, o.reals, numpy.zeros(2), resistance=1.0)),
+              lambda o: o.marks.add_reaction(o.vectors, o.reals, numpy.zeros(2), R=1.0)),
     "band": (Argument, "(?i)side|rim", lambda o: o.marks.band_sums(o.reals, o.reals, 0.0, 0.1)),
     "far_distance": (Argument, "far_distance", lambda o: o.marks.dense(far_distance=0.01)),
     "dense": (Argument, r"distance: its shape", lambda o: o.marks.dense(distance=numpy.zeros(2))),
@@ -363,8 +363,8 @@ READ = [
     ("offsets", lambda o: numpy.array([0, 4]), lambda o, a: riis.Adjacency.from_cells(o.tetrahedron[0], 4, offsets=a)),
     ("owner", lambda o: numpy.array([0]), lambda o, a: riis.Adjacency.from_faces(a, numpy.array([1]), 2)),
     ("neighbor", lambda o: numpy.array([1]), lambda o, a: riis.Adjacency.from_faces(numpy.array([0]), a, 2)),
-    ("velocity", lambda o: o.vectors, lambda o, a: o.marks.add_reaction(a, o.reals, resistance=1.0)),
-    ("weight", lambda o: o.reals, lambda o, a: o.marks.add_reaction(o.vectors, a, resistance=1.0)),
+    ("velocity", lambda o: o.vectors, lambda o, a: o.marks.add_reaction(a, o.reals, R=1.0)),
+    ("weight", lambda o: o.reals, lambda o, a: o.marks.add_reaction(o.vectors, a, R=1.0)),
     ("value", lambda o: o.reals, lambda o, a: with_sides(o).band_sums(a, o.reals, 0.0, 0.1)),
     ("weight", lambda o: o.reals, lambda o, a: with_sides(o).band_sums(o.reals, a, 0.0, 0.1)),
     ("from_ids", lambda o: numpy.array([0]), lambda o, a: riis.find_passage(o.thin, chain(o), a, numpy.array([o.n - 1]))),
@@ -380,8 +380,8 @@ READ = [
 WRITTEN = [
     ("distance", lambda o: o.reals, lambda o, a: o.surface.closest_points(o.xyz, distance=a)),
     ("mark", lambda o: numpy.zeros(o.n, bool), lambda o, a: o.marks.dense(mark=a)),
-    ("coefficient", lambda o: o.reals, lambda o, a: o.marks.add_resistance(a, resistance=1.0)),
-    ("force", lambda o: numpy.zeros(3), lambda o, a: o.marks.add_reaction(o.vectors, o.reals, a, resistance=1.0)),
+    ("K", lambda o: o.reals, lambda o, a: o.marks.add_resistance(a, R=1.0)),
+    ("force", lambda o: numpy.zeros(3), lambda o, a: o.marks.add_reaction(o.vectors, o.reals, a, R=1.0)),
     ("label", lambda o: numpy.zeros(o.n, int), lambda o, a: riis.label_open_regions(chain(o), o.marks, label=a)),
 ]
 
@@ -491,7 +491,7 @@ def test_a_refusal_changes_nothing(o):
     assert surface.half_thickness == 0.2
     coefficient = numpy.zeros(o.n)
     with pytest.raises(riis.InvalidArgumentError):
-        o.marks.add_resistance(coefficient, o.vectors, resistance=1.0)
+        o.marks.add_resistance(coefficient, o.vectors, R=1.0)
     assert not coefficient.any()
     mesh = riis.Mesh(o.xyz)
     with pytest.raises(riis.InvalidMeshError):

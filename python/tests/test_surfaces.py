@@ -107,7 +107,7 @@ def test_a_surface_comes_from_keyframes():
     surface = riis.Surface.from_keyframes(keyframes, 0.25)
     assert numpy.array_equal(surface.vertices, CORNERS + [0, 0, 0.5]) and set(surface.triangles.leaflet_id) == {2}
     assert numpy.allclose(surface.velocities, [0, 0, 2])
-    surface.update_from_keyframes(keyframes, 1.0, since=0.0)
+    surface.update_from_keyframes(keyframes, 1.0, dt=1.0)
     assert numpy.array_equal(surface.vertices, CORNERS + [0, 0, 1]) and numpy.allclose(surface.velocities, [0, 0, 1])
     keyframes.close()
     assert surface.info.n_triangles == 4
@@ -136,8 +136,8 @@ def test_points_are_chosen_by_mask_or_ids(surface, xyz):
 
 def test_other_distances_are_the_paper_s(valve):
     exact = riis.Surface(valve).closest_point((0.0, 0.0, 0.5))
-    for distance in "sampling", "minimization":
-        surface = riis.Surface(valve, distance=distance, measure_tolerance=0.1)
+    for measure in "sampling", "minimization":
+        surface = riis.Surface(valve, measure=measure, measure_tolerance=0.1)
         assert abs(surface.closest_point((0.0, 0.0, 0.5)).distance - exact.distance) < 0.02
         with pytest.raises(riis.InvalidArgumentError, match="side"):
             surface.closest_points(numpy.zeros((1, 3)), side=True)
@@ -147,10 +147,9 @@ def test_crossings_are_found():
     crossed = numpy.array([[-1, -1, 0], [1, -1, 0], [0, 1, 0], [0, 0, -1], [0, 0, 1], [0, 3, 0]], float)
     surface = riis.Surface.from_arrays(crossed, numpy.array([[0, 1, 2], [3, 4, 5]]))
     found = riis.find_crossings(surface)
-    pairs = surface.crossing_pairs
-    assert found.n_pairs == 1 and found.triangle_id.tolist() == [0, 1] and pairs.triangle_id.tolist() == [[0, 1]]
-    assert numpy.isclose(found.length, 1.0) and pairs.length[0] == found.length and pairs.depth[0] == found.depth > 0.0
-    assert numpy.allclose(pairs.point, [[0.0, 0.5, 0.0]])
-    del pairs
+    assert found.n_pairs == 1 and found.triangle_id.tolist() == [[0, 1]] and found.deepest_triangle_id.tolist() == [0, 1]
+    assert numpy.isclose(found.total_length, 1.0) and found.length[0] == found.total_length
+    assert found.depth[0] == found.deepest_depth > 0.0
+    assert numpy.allclose(found.point, [[0.0, 0.5, 0.0]]) and numpy.allclose(found.deepest_point, [0.0, 0.5, 0.0])
     none = riis.find_crossings(riis.Surface.from_arrays(CORNERS, FACES))
-    assert none.n_pairs == 0 and none.triangle_id.tolist() == [-1, -1]
+    assert none.n_pairs == 0 and none.triangle_id.shape == (0, 2) and none.deepest_triangle_id.tolist() == [-1, -1]

@@ -135,9 +135,10 @@ def test_pairs_and_edges_outlive_the_next_search(surface, grid):
     for half_thickness in 0.02, 0.01:
         surface.update(riis.Valve("trileaflet", leaflet_height=1.3, opening=0.0), half_thickness=half_thickness)
         riis.mark(surface, grid, into=marks)
-        assert riis.find_leaks(surface, grid, marks).n_edges == len(marks.leaking_edges.length) > 100
-        assert riis.find_crossings(surface).n_pairs == len(surface.crossing_pairs.depth) > 0
-        kept += [(array, array.copy()) for array in (*marks.leaking_edges, *surface.crossing_pairs)]
+        leaks, crossings = riis.find_leaks(surface, grid, marks), riis.find_crossings(surface)
+        assert leaks.n_edges == len(leaks.length) > 100 and crossings.n_pairs == len(crossings.depth) > 0
+        kept += [(array, array.copy()) for array in (leaks.node_id, leaks.length, leaks.distance, crossings.triangle_id,
+                                                     crossings.point, crossings.depth, crossings.length)]
     marks.close()
     surface.close()
     assert all(numpy.array_equal(array, copy) for array, copy in kept) and len(kept[0][0]) != len(kept[7][0])
@@ -204,7 +205,7 @@ def test_closed_objects_are_refused(surface, mesh, marks, valve):
         (mesh, "mesh", lambda: riis.mark(surface, mesh)),
         (mesh, "mesh", lambda: len(mesh)),
         (marks, "marks", lambda: marks.ids),
-        (marks, "marks", lambda: marks.add_resistance(resistance=1.0)),
+        (marks, "marks", lambda: marks.add_resistance(R=1.0)),
         (marks, "into", lambda: riis.mark(surface, riis.Mesh(numpy.zeros((1, 3))), into=marks)),
         (valve, "valve", lambda: riis.Surface(valve)),
         (valve, "valve", lambda: valve["opening"]),

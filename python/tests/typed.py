@@ -22,11 +22,11 @@ def resistance_of(xyz: NDArray[numpy.float64], opening: float) -> NDArray[numpy.
     ids: NDArray[numpy.int64] = marks.ids
     normals: NDArray[numpy.float64] = marks.normal
     assert len(ids) == len(normals)
-    lengths: NDArray[numpy.float64] = marks.leaking_edges.length
-    depths: NDArray[numpy.float64] = surface.crossing_pairs.depth
+    depths: NDArray[numpy.float64] = riis.find_crossings(surface).depth
+    lengths: NDArray[numpy.float64] = riis.find_crossings(surface).length
     assert len(lengths) == len(depths) == 0 and largest(valve) == max(valve.values())
     coefficient = numpy.zeros(mesh.n_nodes)
-    marks.add_resistance(coefficient, resistance=1e4)
+    marks.add_resistance(coefficient, R=1e4)
     lowest: float = surface.info.lower[2]
     assert lowest < surface.closest_point((0.0, 0.0, 9.0)).point[2]
     law = riis.OpeningTimes(0.45, 0.05, 0.95, 0.05, period=1.0)

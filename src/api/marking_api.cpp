@@ -115,8 +115,7 @@ const double *require_of_nodes(const double *array, const char *name, std::int64
 }
 
 riis_mark_options whole_of(const riis_mark_options *options) {
-  const riis_mark_options whole = riis::completed(options, "options", default_options);
-  return whole;
+  return riis::completed(options, "options", default_options);
 }
 
 riis::Threads threads_of(const riis_mark_options &options, const riis::Mesh &mesh) {
@@ -129,13 +128,12 @@ riis::SearchRequest request_of(const riis::Surface &surface, const riis_mesh *me
           options.node_mask, threads_of(options, mesh->mesh), instructions_asked_for(options.instructions)};
 }
 
-// Checks the surface first, then the mesh, the marks and the options.
-riis::SearchRequest checked_request(const riis_surface *surface, const riis_mesh *mesh, const riis_marks *marks,
-                                    const riis_mark_options &options) {
+// Checks the handles of a marking, the surface first, and returns its content.
+const riis::Surface &require_handles(const riis_surface *surface, const riis_mesh *mesh, const riis_marks *marks) {
   const riis::Surface &content = riis::content_of(surface);
   require_handle(mesh, "mesh");
   require_handle(marks, "marks");
-  return request_of(content, mesh, options);
+  return content;
 }
 
 // Returns nothing if the options have no resistance.
@@ -212,8 +210,9 @@ riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_si
 riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *options,
                             riis_marks *marks) {
   return guarded([&] {
+    const riis::Surface &content = require_handles(surface, mesh, marks);
     const riis_mark_options whole = whole_of(options);
-    const riis::SearchRequest request = checked_request(surface, mesh, marks, whole);
+    const riis::SearchRequest request = request_of(content, mesh, whole);
     const std::optional<riis::Resistance> resistance = resistance_of(request, whole);
     riis::mark_nodes(request, {whole.search, whole.fields, resistance ? &*resistance : nullptr}, marks->marks);
     riis::check_proportions(
@@ -324,8 +323,9 @@ void riis_leaks_destroy(riis_leaks **leaks) { riis::destroy_handle(leaks, "leaks
 riis_status riis_find_leaks(const riis_surface *surface, const riis_mesh *mesh, const riis_marks *marks,
                             const riis_mark_options *options, riis_leaks *leaks) {
   return guarded([&] {
-    const riis::SearchRequest request = checked_request(surface, mesh, marks, whole_of(options));
+    const riis::Surface &content = require_handles(surface, mesh, marks);
     require_handle(leaks, "leaks");
+    const riis::SearchRequest request = request_of(content, mesh, whole_of(options));
     check_are_of_marking(request, marks->marks);
     leaks->leaks = riis::find_leaks(request, marks->marks);
   });

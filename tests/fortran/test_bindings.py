@@ -362,8 +362,6 @@ class Words(Planted):
         for words in ("optional", "(*)", "scalar", "optional borrowed", "required optional (*)", "required scalar (*)"):
             self.refused("  values        required (*)  (n_values), c", f"  values        {words}  (n_values), c",
                          "riis_valve_set: ", "'const double *values': 'required', or 'optional'")
-        self.refused("  xyz          optional (3, n_vertices)", "  xyz          optional", "TABLE: riis_surface_vertices: ",
-                     "'const double **xyz': 'required'")
         self.refused("  kind          -", "  kind          scalar",
                      "TABLE: riis_valve_create: 'scalar' does not suit 'const char *kind'")
         self.refused("  parameter_id  -", "  parameter_id  optional",
@@ -374,14 +372,14 @@ class Words(Planted):
         self.refused("riis_csr\n", "riis_parameter\n  unit  (3)\n\nriis_csr\n",
                      "riis_parameter: 'const char *unit' points to no array")
         self.refused("  degree       (n_curves)", "  degree       optional", "'const int32_t *degree': the shape of the array")
-        self.refused("  x, y, z      (n_vertices)", "  x, y      (n_vertices)",
+        self.refused("  x, y, z      real (n_vertices)", "  x, y         real (n_vertices)",
                      "riis_surface_arrays: x, y, z belong into one line")
 
     def test_types_that_share_a_line(self):
-        self.refused("  vertex_id    optional (3, n_triangles)  from 0\n  triangle_id  optional (n_triangles)\n"
-                     "  leaflet_id, patch_id  ",
-                     "  vertex_id, leaflet_id  optional (3, n_triangles)  from 0\n  triangle_id, patch_id  ",
-                     "TABLE: riis_surface_triangles: vertex_id, leaflet_id are of several types, so each needs a line of its own")
+        self.plant_function("const int64_t **planted, const int32_t **other")
+        line = self.plant(TABLE, "riis_valve_get\n", "riis_valve_planted\n  planted, other  optional (n_values)\n\nriis_valve_get\n")
+        self.refuses(f"{TABLE}:{line + 1}: riis_valve_planted: planted, other are of several types, "
+                     "so each needs a line of its own")
 
     def test_lines_that_are_not_understood(self):
         entry = "  csr      optional  "

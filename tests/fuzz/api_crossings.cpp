@@ -1,34 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls of riis_find_crossings and riis_surface_crossing_pairs.
+// Calls of riis_find_crossings.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "api_state.hpp"
 
 namespace fuzz {
 namespace {
 
-struct PairList {
-  std::int64_t n = -9;
-  const std::int64_t *triangle_id = nullptr;
-  const double *point = nullptr, *depth = nullptr, *length = nullptr;
-};
-
-PairList pairs_of(const riis_surface *surface) {
-  PairList p;
-  EXPECT_OK(riis_surface_crossing_pairs(surface, &p.n, &p.triangle_id, &p.point, &p.depth, &p.length));
-  EXPECT((p.n > 0) == (p.depth != nullptr), "%lld pairs", static_cast<long long>(p.n));
-  return p;
+riis_crossing_list list_of(const riis_crossings *crossings) {
+  riis_crossing_list list;
+  EXPECT_OK(riis_crossings_get_list(crossings, &list, sizeof list));
+  EXPECT((list.n_pairs > 0) == (list.depth != nullptr), "%lld pairs", static_cast<long long>(list.n_pairs));
+  return list;
 }
 
 // Checks that the pairs ascend and agree with the summary. test_self_crossings.c checks that they are the right ones.
-void check_pairs(const riis_surface *surface, const riis_crossings &crossings, double depth) {
+void check_pairs(const riis_surface *surface, const riis_crossing_list &p, double depth) {
   riis_surface_info info;
   EXPECT_OK(riis_surface_get_info(surface, &info, sizeof info));
-  const PairList p = pairs_of(surface);
   double deepest = 0, length = 0;
-  for (std::int64_t i = 0; i < p.n; ++i) {
+  for (std::int64_t i = 0; i < p.n_pairs; ++i) {
     const std::int64_t *id = p.triangle_id + 2 * i;
     EXPECT(id[0] >= 0 && id[0] < id[1], "pair %lld", static_cast<long long>(i));
     EXPECT(i == 0 || std::lexicographical_compare(id - 2, id, id, id + 2), "pair %lld", static_cast<long long>(i));
@@ -39,10 +31,10 @@ void check_pairs(const riis_surface *surface, const riis_crossings &crossings, d
     deepest = std::max(deepest, p.depth[i]);
     length += p.length[i];
   }
-  EXPECT(crossings.n_pairs == p.n && crossings.depth == deepest && crossings.length == length && crossings.seconds >= 0,
-         "%lld pairs", static_cast<long long>(crossings.n_pairs));
-  EXPECT((p.n > 0) == (crossings.triangle_id[0] >= 0), "triangle %lld",
-         static_cast<long long>(crossings.triangle_id[0]));
+  EXPECT(p.deepest_depth == deepest && p.total_length == length && p.seconds >= 0, "%lld pairs",
+         static_cast<long long>(p.n_pairs));
+  EXPECT((p.n_pairs > 0) == (p.deepest_triangle_id[0] >= 0), "triangle %lld",
+         static_cast<long long>(p.deepest_triangle_id[0]));
 }
 
 }  // namespace
@@ -54,20 +46,20 @@ void find_crossings(Input &in, State &state) {
   options.n_threads = in.n_threads();
   if (in.one_in(2)) options.depth = in.number();
   const riis_crossing_options *how = in.one_in(4) ? nullptr : &options;
-  riis_crossings crossings;
-  std::memset(static_cast<void *>(&crossings), 0x5a, sizeof crossings);
-  const std::int64_t n_before = slot ? pairs_of(slot).n : -1;
-  const std::int64_t size = in.mostly<std::int64_t>(sizeof crossings);
-  const riis_status status =
-      call(in, [&] { return riis_find_crossings(surface.handle, how, mostly(in, &crossings), size); });
-  if (!surface.is_right) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
+  riis_crossings *&crossings_slot = state.crossings[in.slot()];
+  if (!crossings_slot)
+    crossings_slot = made_by<riis_crossings>(in, [](riis_crossings **made) { return riis_crossings_create(made); });
+  if (!crossings_slot) return;
+  const Given<riis_crossings> crossings = given(in, state, State::crossing, crossings_slot);
+  const std::int64_t n_before = list_of(crossings_slot).n_pairs;
+  const riis_status status = call(in, [&] { return riis_find_crossings(surface.handle, how, crossings.handle); });
+  if (!(surface.is_right && crossings.is_right)) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
   if (status != RIIS_OK) {
-    EXPECT(crossings.n_pairs == 0x5a5a5a5a5a5a5a5a, "refused crossings were written");
-    EXPECT(!slot || pairs_of(slot).n == n_before, "a refused call changed the pairs");
+    EXPECT(list_of(crossings_slot).n_pairs == n_before, "a refused call changed the pairs");
     return;
   }
   EXPECT(!how || (options.depth >= 0 && options.depth <= 1), "depth %g", options.depth);
-  check_pairs(slot, crossings, how ? options.depth : 1e-6);
+  check_pairs(slot, list_of(crossings_slot), how ? options.depth : 1e-6);
 }
 
 }  // namespace fuzz

@@ -2,6 +2,7 @@
 // Calls of riis_mark_*.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "api_state.hpp"
 
@@ -9,13 +10,6 @@ namespace fuzz {
 namespace {
 
 ResultSlot &slot_of(Input &in, State &state) { return state.results[in.slot()]; }
-
-struct List {
-  std::int64_t n = -9;
-  const std::int64_t *node_id = nullptr, *triangle_id = nullptr;
-  const double *distance = nullptr;
-  const std::int32_t *leaflet_id = nullptr;
-};
 
 struct Found {
   std::int64_t node, triangle_id;
@@ -26,30 +20,10 @@ struct Found {
   }
 };
 
-List marked_of(const riis_marks *result) {
-  List l;
-  l.n = marked_list(result).n_nodes;
-  l.node_id = marked_list(result).node_id;
-  l.distance = marked_list(result).distance;
-  l.triangle_id = marked_list(result).triangle_id;
-  l.leaflet_id = marked_list(result).leaflet_id;
-  return l;
-}
-
-List within_of(const riis_marks *result) {
-  List l;
-  l.n = within_list(result).n_nodes;
-  l.node_id = within_list(result).node_id;
-  l.distance = within_list(result).distance;
-  l.triangle_id = within_list(result).triangle_id;
-  l.leaflet_id = within_list(result).leaflet_id;
-  return l;
-}
-
-std::vector<Found> copy_of(const List &list) {
-  EXPECT((list.n == 0) == (list.node_id == nullptr), "%lld nodes", static_cast<long long>(list.n));
+std::vector<Found> copy_of(const riis_mark_list &list) {
+  EXPECT((list.n_nodes == 0) == (list.node_id == nullptr), "%lld nodes", static_cast<long long>(list.n_nodes));
   std::vector<Found> found;
-  for (std::int64_t i = 0; i < list.n; ++i)
+  for (std::int64_t i = 0; i < list.n_nodes; ++i)
     found.push_back({list.node_id[i], list.triangle_id[i], list.distance[i], list.leaflet_id[i]});
   for (std::size_t i = 1; i < found.size(); ++i) EXPECT(found[i].node > found[i - 1].node, "not ascending at %zu", i);
   return found;
@@ -74,7 +48,7 @@ void expect_part(const std::vector<Found> &found, const std::vector<Found> &whol
 // Returns every node within the limit, by a query for each node's closest point.
 std::vector<Found> expected_of(const riis_surface *surface, const Nodes &nodes, double limit,
                                const std::uint8_t *mask) {
-  const Triangles t = triangles_of(surface);
+  const riis_triangles t = triangles_of(surface);
   const bool by_loop = is_small(t, nodes.n) && is_by_triangles(surface);
   std::vector<Found> found;
   for (std::int64_t i = 0; i < nodes.n; ++i) {
@@ -117,26 +91,24 @@ void check_fields(const riis_surface *surface, const Nodes &nodes, std::int32_t 
                   const riis_marks *result) {
   riis_mark_list made;
   EXPECT_OK(riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, &made, sizeof made));
-  const List within = within_of(result);
-  EXPECT(made.n_nodes == within.n, "%lld nodes", static_cast<long long>(made.n_nodes));
   const auto is_as_asked = [&](const void *array, std::int32_t field) {
-    return (array != nullptr) == ((fields & field) != 0 && within.n > 0);
+    return (array != nullptr) == ((fields & field) != 0 && made.n_nodes > 0);
   };
   EXPECT(is_as_asked(made.point, RIIS_FIELD_POINT) && is_as_asked(made.normal, RIIS_FIELD_NORMAL) &&
              is_as_asked(made.barycentric, RIIS_FIELD_BARYCENTRIC) && is_as_asked(made.side, RIIS_FIELD_SIDE) &&
              is_as_asked(made.rim, RIIS_FIELD_RIM) && is_as_asked(made.uv, RIIS_FIELD_UV) &&
              is_as_asked(made.velocity, RIIS_FIELD_VELOCITY) && is_as_asked(made.patch_id, RIIS_FIELD_PATCH),
          "fields %d", fields);
-  for (std::int64_t i = 0; i < within.n && i < 64; ++i) {
-    const std::array<double, 3> p = nodes[within.node_id[i]];
+  for (std::int64_t i = 0; i < made.n_nodes && i < 64; ++i) {
+    const std::array<double, 3> p = nodes[made.node_id[i]];
     riis_closest closest;
     EXPECT_OK(riis_closest_point(surface, p.data(), &closest, sizeof closest));
     for (int k = 0; k < 3; ++k)
       EXPECT((!made.point || made.point[3 * i + k] == closest.point[k]) &&
                  (!made.normal || made.normal[3 * i + k] == closest.normal[k]) &&
                  (!made.barycentric || made.barycentric[3 * i + k] == closest.barycentric[k]),
-             "node %lld", static_cast<long long>(within.node_id[i]));
-    EXPECT(!made.side || made.side[i] == closest.side, "node %lld", static_cast<long long>(within.node_id[i]));
+             "node %lld", static_cast<long long>(made.node_id[i]));
+    EXPECT(!made.side || made.side[i] == closest.side, "node %lld", static_cast<long long>(made.node_id[i]));
     EXPECT(!made.rim || made.rim[i] == 0 || made.rim[i] == 1, "rim %d", made.rim[i]);
   }
 }
@@ -147,7 +119,7 @@ void check_marking(Input &in, const riis_surface *surface, const MeshSlot &mesh,
   EXPECT_OK(riis_surface_get_info(surface, &info, sizeof info));
   riis_mark_stats stats;
   EXPECT_OK(riis_marks_get_stats(slot.handle, &stats, sizeof stats));
-  const std::vector<Found> marked = copy_of(marked_of(slot.handle)), within = copy_of(within_of(slot.handle));
+  const std::vector<Found> marked = copy_of(marked_list(slot.handle)), within = copy_of(within_list(slot.handle));
   EXPECT(stats.n_nodes == mesh.nodes->n && stats.n_marked == static_cast<std::int64_t>(marked.size()) &&
              stats.n_within_limit == static_cast<std::int64_t>(within.size()) && stats.n_queries >= 0 &&
              stats.seconds >= 0 && stats.n_threads >= 1 && stats.n_unreached >= 0 &&
@@ -216,9 +188,12 @@ void mark(Input &in, State &state) {
       m = (bits = bits * 1664525u + 1013904223u) >> 28 > 5 ? static_cast<std::uint8_t>(1 + (bits >> 30)) : 0;
     options.node_mask = mask.data();
   }
+  riis_resistance resistance = initialised(in, riis_resistance_init);
+  resistance.R = in.number();
+  if (in.one_in(4)) options.resistance = &resistance;
   if (in.one_in(4)) options.fields = in.one_in(16) ? in.raw<std::int32_t>() : in.below(256);
   const bool by_default = in.one_in(16);
-  const std::vector<Found> before = copy_of(within_of(slot.handle));
+  const std::vector<Found> before = copy_of(within_list(slot.handle));
   const riis_status status = call(
       in, [&] { return riis_mark_nodes(surface.handle, mesh.handle, by_default ? nullptr : &options, result.handle); });
   const bool are_right = surface.is_right && mesh.is_right && result.is_right;
@@ -226,7 +201,7 @@ void mark(Input &in, State &state) {
   if (status != RIIS_OK) {
     EXPECT(status != RIIS_INVALID_MESH || !mesh_slot.was_told, "a mesh that was accepted is refused: %s",
            riis_last_error());
-    expect_same(copy_of(within_of(slot.handle)), before, "after a refusal");
+    expect_same(copy_of(within_list(slot.handle)), before, "after a refusal");
     return;
   }
   if (by_default) EXPECT_OK(riis_mark_options_init(&options, sizeof options));
@@ -246,12 +221,13 @@ void read_marks(Input &in, State &state) {
   if (!result.is_right) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
   if (status != RIIS_OK) EXPECT(stats->n_nodes == 0x5a5a5a5a5a5a5a5a, "refused counts were written");
 
-  List list;
-  const auto get = in.one_in(2) ? riis_mark_result_marked : riis_mark_result_within_limit;
-  status = call(in, [&] {
-    return get(result.handle, mostly(in, &list.n), nullptr, mostly(in, &list.distance), nullptr, nullptr);
-  });
-  if (!result.is_right) EXPECT(status == RIIS_INVALID_ARGUMENT && list.n == -9, "%d", status);
+  const auto list = std::make_unique<riis_mark_list>();
+  std::memset(static_cast<void *>(list.get()), 0x5a, sizeof *list);
+  const std::int64_t room = in.mostly<std::int64_t>(sizeof *list);
+  const std::int32_t which = in.mostly(in.below(2));
+  status = call(in, [&] { return riis_marks_get_list(result.handle, which, mostly(in, list.get()), room); });
+  if (!result.is_right) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
+  if (status != RIIS_OK) EXPECT(list->n_nodes == 0x5a5a5a5a5a5a5a5a, "a refused list was written");
 
   std::int64_t n_nodes = 0;
   if (slot.handle) {
@@ -281,29 +257,23 @@ void read_marks(Input &in, State &state) {
 
 namespace {
 
-struct EdgeList {
-  std::int64_t n = -9;
-  const std::int64_t *node_id = nullptr;
-  const double *length = nullptr, *distance = nullptr;
-};
-
-EdgeList leaking_of(const riis_marks *result) {
-  EdgeList l;
-  EXPECT_OK(riis_mark_result_leaking_edges(result, &l.n, &l.node_id, &l.length, &l.distance));
-  EXPECT((l.n == 0) == (l.node_id == nullptr) && l.n >= 0, "%lld edges", static_cast<long long>(l.n));
-  return l;
+riis_leak_list list_of(const riis_leaks *leaks) {
+  riis_leak_list list;
+  EXPECT_OK(riis_leaks_get_list(leaks, &list, sizeof list));
+  EXPECT((list.n_edges == 0) == (list.node_id == nullptr) && list.n_edges >= 0, "%lld edges",
+         static_cast<long long>(list.n_edges));
+  return list;
 }
 
 // Checks that the edges ascend, join unmarked nodes and agree with the summary. test_leaks.c checks that no leaking edge is
 // missing.
-void check_leaks(const riis_marks *result, std::int64_t n_nodes, const riis_leaks &leaks) {
-  const EdgeList list = leaking_of(result);
-  const std::vector<Found> marked = copy_of(marked_of(result));
+void check_leaks(const riis_marks *result, std::int64_t n_nodes, const riis_leak_list &list) {
+  const std::vector<Found> marked = copy_of(marked_list(result));
   const auto is_marked = [&](std::int64_t node) {
     return std::any_of(marked.begin(), marked.end(), [&](const Found &one) { return one.node == node; });
   };
   double longest = 0, farthest = 0;
-  for (std::int64_t i = 0; i < list.n; ++i) {
+  for (std::int64_t i = 0; i < list.n_edges; ++i) {
     const std::int64_t *edge = list.node_id + 2 * i, a = edge[0], b = edge[1];
     EXPECT(a >= 0 && a < b && b < n_nodes, "edge %lld %lld", static_cast<long long>(a), static_cast<long long>(b));
     EXPECT(i == 0 || edge[-2] < a || (edge[-2] == a && edge[-1] < b), "not ascending at %lld",
@@ -313,9 +283,9 @@ void check_leaks(const riis_marks *result, std::int64_t n_nodes, const riis_leak
     longest = std::max(longest, list.length[i]);
     farthest = std::max(farthest, list.distance[i]);
   }
-  EXPECT(leaks.n_edges == list.n && leaks.longest_length == longest && leaks.half_thickness == farthest &&
-             leaks.seconds >= 0 && (list.n > 0 || leaks.longest_node_id[0] == -1),
-         "%lld edges", static_cast<long long>(leaks.n_edges));
+  EXPECT(list.longest_length == longest && list.half_thickness == farthest && list.seconds >= 0 &&
+             (list.n_edges > 0 || list.longest_node_id[0] == -1),
+         "%lld edges", static_cast<long long>(list.n_edges));
 }
 
 }  // namespace
@@ -329,22 +299,22 @@ void find_leaks(Input &in, State &state) {
   const Given<riis_marks> result = given(in, state, State::result, slot.handle);
   riis_mark_options options = initialised(in, riis_mark_options_init);
   options.n_threads = in.n_threads();
-  riis_leaks leaks;
-  std::memset(static_cast<void *>(&leaks), 0x5a, sizeof leaks);
-  const std::int64_t n_before = slot.handle ? leaking_of(slot.handle).n : -1;
-  const std::int64_t size = in.mostly<std::int64_t>(sizeof leaks);
+  riis_leaks *&leaks_slot = state.leaks[in.slot()];
+  if (!leaks_slot) leaks_slot = made_by<riis_leaks>(in, [](riis_leaks **made) { return riis_leaks_create(made); });
+  if (!leaks_slot) return;
+  const Given<riis_leaks> leaks = given(in, state, State::leak, leaks_slot);
+  const std::int64_t n_before = list_of(leaks_slot).n_edges;
   const riis_status status = call(in, [&] {
-    return riis_find_leaks(surface.handle, mesh.handle, in.one_in(2) ? &options : nullptr, result.handle,
-                           mostly(in, &leaks), size);
+    return riis_find_leaks(surface.handle, mesh.handle, result.handle, in.one_in(2) ? &options : nullptr, leaks.handle);
   });
-  if (!(surface.is_right && mesh.is_right && result.is_right)) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
+  if (!(surface.is_right && mesh.is_right && result.is_right && leaks.is_right))
+    EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
   if (status != RIIS_OK) {
-    EXPECT(leaks.n_edges == 0x5a5a5a5a5a5a5a5a, "refused leaks were written");
-    EXPECT(!slot.handle || leaking_of(slot.handle).n == n_before, "a refused call changed the edges");
+    EXPECT(list_of(leaks_slot).n_edges == n_before, "a refused call changed the edges");
     return;
   }
   EXPECT(mesh_slot.adjacency, "leaks without an adjacency");
-  check_leaks(slot.handle, mesh_slot.nodes->n, leaks);
+  check_leaks(slot.handle, mesh_slot.nodes->n, list_of(leaks_slot));
 }
 
 }  // namespace fuzz

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "api_call.hpp"
+#include "../support/calls.h"
 #include "input.hpp"
 
 namespace fuzz {
@@ -57,6 +58,8 @@ struct State {
   std::array<MeshSlot, n_slots> meshes;
   std::array<std::shared_ptr<OwnedAdjacency>, n_slots> adjacencies;
   std::array<ResultSlot, n_slots> results;
+  std::array<riis_leaks *, n_slots> leaks{};
+  std::array<riis_crossings *, n_slots> crossings{};
 
   State() = default;
   State(const State &) = delete;
@@ -64,7 +67,7 @@ struct State {
   ~State();
 
   // Returns a handle of any other kind than the given one, for a place where it does not belong, or NULL if there is none.
-  enum Kind { valve, surface, mesh, adjacency, result, n_kinds };
+  enum Kind { valve, surface, mesh, adjacency, result, leak, crossing, n_kinds };
   void *handle_of_another_kind(Input &in, Kind but) const;
 };
 
@@ -120,17 +123,10 @@ struct Closest {
   double distance;
   std::int64_t triangle;
 };
-struct Triangles {
-  std::int64_t n = 0, n_vertices = 0;
-  const std::int64_t *vertex_id = nullptr, *triangle_id = nullptr;
-  const std::int32_t *leaflet_id = nullptr, *patch_id = nullptr;
-  const double *xyz = nullptr;
-};
-Triangles triangles_of(const riis_surface *surface);
 // Tells whether the surface's distances are to triangles, by its own answer.
 bool is_by_triangles(const riis_surface *surface);
-Closest closest_by_loop(const Triangles &triangles, const std::array<double, 3> &point);
+Closest closest_by_loop(const riis_triangles &triangles, const std::array<double, 3> &point);
 // Tells whether n_points loops over all triangles are worth their time.
-inline bool is_small(const Triangles &triangles, std::int64_t n_points) { return triangles.n * n_points <= 60'000; }
+inline bool is_small(const riis_triangles &triangles, std::int64_t n_points) { return triangles.n_triangles * n_points <= 60'000; }
 
 }  // namespace fuzz

@@ -8,24 +8,12 @@
 
 namespace fuzz {
 
-Triangles triangles_of(const riis_surface *surface) {
-  Triangles t;
-  t.n = triangles_of(surface).n_triangles;
-  t.vertex_id = triangles_of(surface).vertex_id;
-  t.triangle_id = triangles_of(surface).triangle_id;
-  t.leaflet_id = triangles_of(surface).leaflet_id;
-  t.patch_id = triangles_of(surface).patch_id;
-  t.n_vertices = triangles_of(surface).n_vertices;
-  t.xyz = triangles_of(surface).xyz;
-  return t;
-}
-
-Closest closest_by_loop(const Triangles &t, const std::array<double, 3> &point) {
+Closest closest_by_loop(const riis_triangles &t, const std::array<double, 3> &point) {
   const riis::Vec3 p{point[0], point[1], point[2]};
   const auto vertex = [&](std::int64_t id) { return riis::Vec3{t.xyz[3 * id], t.xyz[3 * id + 1], t.xyz[3 * id + 2]}; };
   double best_sq = INFINITY;
   std::int64_t best = -1;
-  for (std::int64_t i = 0; i < t.n; ++i) {
+  for (std::int64_t i = 0; i < t.n_triangles; ++i) {
     const std::int64_t *id = t.vertex_id + 3 * i;
     const double sq = riis::closest_point_on_triangle(p, vertex(id[0]), vertex(id[1]), vertex(id[2])).distance_sq;
     if (sq < best_sq) best_sq = sq, best = i;
@@ -101,11 +89,11 @@ void make_coarse(Input &in, double size, riis_surface_options &options) {
 std::vector<double> picture_of(const riis_surface *surface) {
   riis_surface_info info;
   EXPECT_OK(riis_surface_get_info(surface, &info, sizeof info));
-  const Triangles t = triangles_of(surface);
+  const riis_triangles t = triangles_of(surface);
   std::vector<double> all = {static_cast<double>(info.n_triangles), info.half_thickness, info.area, info.lower[0],
                              info.upper[2]};
   all.insert(all.end(), t.xyz, t.xyz + 3 * t.n_vertices);
-  all.insert(all.end(), t.vertex_id, t.vertex_id + 3 * t.n);
+  all.insert(all.end(), t.vertex_id, t.vertex_id + 3 * t.n_triangles);
   return all;
 }
 
@@ -143,9 +131,8 @@ namespace {
 
 // Returns the velocities of all vertices; empty if there are none.
 std::vector<double> velocities_of(const riis_surface *surface) {
-  const std::int64_t n = triangles_of(surface).n_vertices;
-  const double *velocity = triangles_of(surface).velocity;
-  return velocity ? std::vector<double>(velocity, velocity + 3 * n) : std::vector<double>();
+  const riis_triangles t = triangles_of(surface);
+  return t.velocity ? std::vector<double>(t.velocity, t.velocity + 3 * t.n_vertices) : std::vector<double>();
 }
 
 }  // namespace
@@ -217,7 +204,6 @@ void make_surface_of_arrays(Input &in, State &state) {
     arrays.vz = mostly(in, velocities.data() + 2);
     arrays.velocity_stride = in.one_in(16) ? -in.below(2) : 3;
   }
-  arrays.reserved = in.one_in(64) ? -1 : 0;
   if (in.one_in(8)) {  // vertices alone
     arrays.n_faces = 0;
     arrays.vertex_ids = nullptr;
@@ -250,12 +236,12 @@ void read_surface(Input &in, State &state) {
     EXPECT(info->error_bound >= 0, "%g", info->error_bound);
     if (size >= static_cast<std::int64_t>(sizeof *info))
       EXPECT(info->velocity_error_bound >= 0, "%g", info->velocity_error_bound);
-    const Triangles t = triangles_of(surface.handle);
-    EXPECT(info->n_triangles == t.n && info->n_vertices == t.n_vertices && t.n > 0, "%lld",
-           static_cast<long long>(t.n));
+    const riis_triangles t = triangles_of(surface.handle);
+    EXPECT(info->n_triangles == t.n_triangles && info->n_vertices == t.n_vertices && t.n_triangles > 0, "%lld",
+           static_cast<long long>(t.n_triangles));
     EXPECT(info->area >= 0, "area %g", info->area);
     EXPECT(info->half_thickness > 0 && info->n_zero_area >= 0, "half thickness %g", info->half_thickness);
-    for (std::int64_t i = 0; i < t.n; ++i) {
+    for (std::int64_t i = 0; i < t.n_triangles; ++i) {
       EXPECT(i == 0 || t.triangle_id[i] > t.triangle_id[i - 1], "triangle %lld", static_cast<long long>(i));
       EXPECT(t.leaflet_id[i] >= 0 && t.patch_id[i] >= 0, "triangle %lld", static_cast<long long>(i));
       for (int k = 0; k < 3; ++k) {
@@ -267,20 +253,24 @@ void read_surface(Input &in, State &state) {
       }
     }
   }
-  std::int64_t n = -9;
-  const double *uv = nullptr;
-  status = call(in, [&] { return riis_surface_vertex_parameters(surface.handle, &n, mostly(in, &uv)); });
-  EXPECT((status == RIIS_OK) == (n >= 0), "%d", status);
-  for (std::int64_t i = 0; uv && i < 2 * n; ++i) EXPECT(uv[i] >= 0 && uv[i] <= 1, "uv %g", uv[i]);
-  static_cast<void>(
-      call(in, [&] { return riis_surface_triangles(surface.handle, nullptr, nullptr, nullptr, nullptr, nullptr); }));
-  static_cast<void>(call(in, [&] { return riis_surface_vertices(surface.handle, nullptr, nullptr); }));
+  const auto triangles = std::make_unique<riis_triangles>();
+  std::memset(static_cast<void *>(triangles.get()), 0x5a, sizeof *triangles);
+  const std::int64_t room = in.mostly<std::int64_t>(sizeof *triangles);
+  status = call(in, [&] { return riis_surface_get_triangles(surface.handle, mostly(in, triangles.get()), room); });
+  if (!surface.is_right) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
+  if (status != RIIS_OK) {
+    EXPECT(triangles->n_vertices == 0x5a5a5a5a5a5a5a5a, "refused triangles were written");
+    return;
+  }
+  const double *uv = triangles->uv;
+  for (std::int64_t i = 0; uv && i < 2 * triangles->n_vertices; ++i)
+    EXPECT(uv[i] >= 0 && uv[i] <= 1, "uv %g", uv[i]);
 }
 
 namespace {
 
 void check_closest(const riis_surface *surface, const std::array<double, 3> &p, const riis_closest &closest) {
-  const Triangles t = triangles_of(surface);
+  const riis_triangles t = triangles_of(surface);
   if (closest.triangle_id < 0) {
     double sum = 0, normal_sq = 0;
     for (int axis = 0; axis < 3; ++axis) {

@@ -8,6 +8,8 @@
 namespace fuzz {
 
 State::~State() {
+  for (riis_leaks *&found : leaks) riis_leaks_destroy(&found);
+  for (riis_crossings *&found : crossings) riis_crossings_destroy(&found);
   for (ResultSlot &slot : results) riis_marks_destroy(&slot.handle);
   for (MeshSlot &slot : meshes) riis_mesh_destroy(&slot.handle);
   for (riis_surface *&surface : surfaces) riis_surface_destroy(&surface);
@@ -26,8 +28,12 @@ void *State::handle_of_another_kind(Input &in, Kind but) const {
       return meshes[i].handle;
     case adjacency:
       return adjacencies[i] ? adjacencies[i]->handle : nullptr;
-    default:
+    case result:
       return results[i].handle;
+    case leak:
+      return leaks[i];
+    default:
+      return crossings[i];
   }
 }
 
@@ -64,7 +70,7 @@ void init(Input &in, riis_status (*init_function)(Struct *, int64_t)) {
 }  // namespace
 
 void call_init_functions(Input &in) {
-  switch (in.below(14)) {
+  switch (in.below(18)) {
     case 0:
       return init(in, riis_patches_init);
     case 1:
@@ -91,6 +97,14 @@ void call_init_functions(Input &in) {
       return in.one_in(2) ? init(in, riis_opening_switch_init) : init(in, riis_opening_switch_state_init);
     case 12:
       return in.one_in(2) ? init(in, riis_opening_angle_init) : init(in, riis_opening_angle_state_init);
+    case 13:
+      return in.one_in(2) ? init(in, riis_points_init) : init(in, riis_dense_arrays_init);
+    case 14:
+      return in.one_in(2) ? init(in, riis_resistance_arrays_init) : init(in, riis_flow_arrays_init);
+    case 15:
+      return in.one_in(2) ? init(in, riis_band_init) : init(in, riis_passage_ends_init);
+    case 16:
+      return init(in, riis_crossing_options_init);
     default:
       return in.one_in(2) ? init(in, riis_mesh_faces_init) : init(in, riis_mark_options_init);
   }
@@ -126,6 +140,10 @@ void destroy_something(Input &in, State &state) {
     case State::adjacency:
       state.adjacencies[i].reset();
       return;
+    case State::leak:
+      return destroy(in, state, State::leak, riis_leaks_destroy, state.leaks[i]);
+    case State::crossing:
+      return destroy(in, state, State::crossing, riis_crossings_destroy, state.crossings[i]);
     default:
       destroy(in, state, State::result, riis_marks_destroy, state.results[i].handle);
       state.results[i] = {};

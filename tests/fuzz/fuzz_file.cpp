@@ -101,7 +101,8 @@ void use_motion(riis_status status, riis_vtk_motion *read, const char *named) {
   riis_keyframe_arrays frames;
   EXPECT(riis_surface_arrays_init(&faces, sizeof faces) == RIIS_OK, "%s", riis_last_error());
   EXPECT(riis_keyframe_arrays_init(&frames, sizeof frames) == RIIS_OK, "%s", riis_last_error());
-  EXPECT(riis_vtk_motion_arrays(read, &faces, &frames) == RIIS_OK, "%s", riis_last_error());
+  EXPECT(riis_vtk_motion_get_arrays(read, &faces, sizeof faces) == RIIS_OK, "%s", riis_last_error());
+  EXPECT(riis_vtk_motion_get_frames(read, &frames, sizeof frames) == RIIS_OK, "%s", riis_last_error());
   riis_keyframes *keyframes = nullptr;
   is_fine(riis_keyframes_create(&faces, &frames, &keyframes), RIIS_INVALID_SURFACE);
   riis_keyframes_destroy(&keyframes);
