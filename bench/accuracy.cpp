@@ -112,7 +112,7 @@ std::string broken_promise(const Setting &setting, const json &run) {
     const double share = run.at(where).at("share_over_tolerance");
     const double allowed = setting.method == RIIS_MEASURE_TRIANGLES  ? 0
                            : setting.method == RIIS_MEASURE_SAMPLING ? sampling_share
-                                                                      : 1;
+                                                                     : 1;
     if (share > allowed)
       return std::string(name_of(setting.method)) + " " + setting.name + ", " + where + ": " +
              std::to_string(100 * share) + " % of the points are off by more than the tolerance";

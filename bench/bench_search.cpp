@@ -150,8 +150,7 @@ void search_all_distances(benchmark::State &state) {
   Shortest shortest;
   for (auto _ : state) {
     const riis_surface *surface = valve.next();
-    shortest.time(
-        [&] { check(riis_closest_points(surface, &points, &options, &arrays)); });
+    shortest.time([&] { check(riis_closest_points(surface, &points, &options, &arrays)); });
     n_marked = 0;
     for (const double d : distance) n_marked += d <= 0.1;
   }

@@ -159,10 +159,8 @@ void measure(Table &table, const char *kind, const Cylinder &cylinder, std::int6
   const Result result = make_result();
   check(riis_mark_nodes(surface.get(), mesh.get(), nullptr, result.get()));
   std::vector<double> distance(static_cast<std::size_t>(n));
-  table.add(
-      "`riis_marks_get_dense`, distances", shortest([&] {
-        get_distances(result.get(), RIIS_FAR_DISTANCE, distance);
-      }));
+  table.add("`riis_marks_get_dense`, distances",
+            shortest([&] { get_distances(result.get(), RIIS_FAR_DISTANCE, distance); }));
 }
 
 }  // namespace

@@ -214,9 +214,7 @@ void print_cost(double thickness, const CylinderMesh &nodes) {
   const double marking =
       1e3 * shortest([&] { check(riis_mark_nodes(surface.get(), mesh.get(), &options, result.get())); });
   const Leaks leaks = make_leaks();
-  const auto find = [&] {
-    check(riis_find_leaks(surface.get(), mesh.get(), result.get(), &options, leaks.get()));
-  };
+  const auto find = [&] { check(riis_find_leaks(surface.get(), mesh.get(), result.get(), &options, leaks.get())); };
   const double first = 1e3 * shortest(find, [&] { check(riis_mesh_set_adjacency(mesh.get(), &rows)); });
   std::vector<std::int64_t> label(static_cast<std::size_t>(nodes.n_nodes()));
   const double labelling =
@@ -230,9 +228,8 @@ void print_cost(double thickness, const CylinderMesh &nodes) {
   ends.from = &from, ends.to = &to;
   riis_passage passage;
   const double passing =
-      1e3 * shortest([&] {
-        check(riis_find_passage(surface.get(), mesh.get(), &ends, &options, &passage, sizeof passage));
-      });
+      1e3 *
+      shortest([&] { check(riis_find_passage(surface.get(), mesh.get(), &ends, &options, &passage, sizeof passage)); });
   riis_leak_list list;
   check(riis_leaks_get_list(leaks.get(), &list, sizeof list));
   std::printf("| %g | %lld | %.2f | %.1f | %.3f | %.1f | %.1f |\n", thickness, static_cast<long long>(list.n_edges),

@@ -75,16 +75,12 @@ class MovingSteps {
   void update_moving() {
     check(riis_surface_update_moving(surface_.get(), valve_.get(), before_.get(), 1e-3, nullptr, nullptr));
   }
-  void find_crossings() {
-    check(riis_find_crossings(surface_.get(), &crossing_, crossings_.get()));
-  }
+  void find_crossings() { check(riis_find_crossings(surface_.get(), &crossing_, crossings_.get())); }
   void mark(std::int32_t fields) {
     marking_.fields = fields;
     check(riis_mark_nodes(surface_.get(), mesh_.get(), &marking_, result_.get()));
   }
-  void add_resistance() {
-    bench::add_resistance(result_.get(), resistance_, coefficient_, momentum_.data());
-  }
+  void add_resistance() { bench::add_resistance(result_.get(), resistance_, coefficient_, momentum_.data()); }
   riis_mark_stats stats() const { return stats_of(result_.get()); }
   double n_triangles() const { return n_triangles_of(surface_.get()); }
   double n_fixed_triangles() const { return n_triangles_of(fixed_.get()); }

@@ -7,8 +7,9 @@
 #include <stdlib.h>
 
 enum { n = 64, n_cells = n * n * n };
-static double centre[3 * n_cells];   /* [m] of the cells in a cube of 4.8 cm around the valve, each 0.75 mm wide */
-static double coefficient[n_cells];  /* [kg/(m^3 s)] K of each cell: a scheme adds K V u to the cell's momentum balance */
+static double centre[3 * n_cells]; /* [m] of the cells in a cube of 4.8 cm around the valve, each 0.75 mm wide */
+static double
+    coefficient[n_cells]; /* [kg/(m^3 s)] K of each cell: a scheme adds K V u to the cell's momentum balance */
 static const double width = 0.00075; /* [m] */
 static const double R = 1e4;         /* [kg/(m s)] of the model */
 static const double eps = 1e-3;      /* [m] the half thickness */

@@ -22,8 +22,7 @@ static void check(riis_status status) {
 }
 
 /* Marks n_planes planes of the grid from node `first` on, and labels their open regions by ids that count from there. */
-static int64_t label_part(const riis_surface *surface, riis_marks *marks, int first, int n_planes,
-                          int64_t *labels) {
+static int64_t label_part(const riis_surface *surface, riis_marks *marks, int first, int n_planes, int64_t *labels) {
   riis_mesh *mesh = NULL;
   riis_adjacency *adjacency = NULL;
   riis_csr csr;

@@ -8,14 +8,14 @@
 #include <stdlib.h>
 
 enum { n = 33, n_nodes = n * n * n, n_cells = 6 * (n - 1) * (n - 1) * (n - 1), n_points = 4 * n_cells };
-static double xyz[n_nodes][3];           /* [m] a cube of 4.8 cm around the valve, a node every 1.5 mm */
-static int node_ids[n_cells][4];         /* four nodes per tetrahedron */
-static double point[n_points][3];        /* [m] four quadrature points per tetrahedron, of degree 2 */
-static double weight[n_points];          /* [m^3] a quarter of the tetrahedron's volume each */
-static double coefficient[n_points];     /* [kg/(m^3 s)] K */
-static double momentum[n_points][3];     /* [N/m^3] K u_surface */
-static double lumped[n_nodes];           /* [kg/s] integral of K times the node's shape function */
-static double right_hand_side[n_nodes][3]; /* [N] integral of K u_surface times it */
+static double xyz[n_nodes][3];                        /* [m] a cube of 4.8 cm around the valve, a node every 1.5 mm */
+static int node_ids[n_cells][4];                      /* four nodes per tetrahedron */
+static double point[n_points][3];                     /* [m] four quadrature points per tetrahedron, of degree 2 */
+static double weight[n_points];                       /* [m^3] a quarter of the tetrahedron's volume each */
+static double coefficient[n_points];                  /* [kg/(m^3 s)] K */
+static double momentum[n_points][3];                  /* [N/m^3] K u_surface */
+static double lumped[n_nodes];                        /* [kg/s] integral of K times the node's shape function */
+static double right_hand_side[n_nodes][3];            /* [N] integral of K u_surface times it */
 static const double R = 1e4, eps = 1.5e-3, dt = 1e-3; /* [kg/(m s)], [m], [s] */
 static const double speed[3] = {0, 0.01, 0.05};       /* [m/s] of the heart */
 

@@ -91,8 +91,7 @@ static void state_is_the_one_of_the_formulas(void **state) {
     const double opening = trial < 3 ? 0.5 * trial : random_between(&random, 0, 1);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
     CHECK_OK(riis_valve_set_scalar(given, "opening", opening));
-    const riis_triangles a = triangles_of(new_surface(valve, NULL)),
-                          b = triangles_of(new_surface(given, NULL));
+    const riis_triangles a = triangles_of(new_surface(valve, NULL)), b = triangles_of(new_surface(given, NULL));
     assert_int_equal(a.n_vertices, b.n_vertices);
     for (int64_t i = 0; i < 3 * a.n_vertices; ++i) CHECK_NEAR(a.xyz[i], b.xyz[i], 1e-12);
     free_owned_after(owned_before);

@@ -336,9 +336,9 @@ static void every_parameter_by_name(void **state) {
                         info_of(before).upper[0] != info_of(after).upper[0];
     free_owned_after(owned_before);
     /* At opening 0 the open state does not matter. */
-    const int matters = strcmp(name, "root_height") && strcmp(name, "open_radius_ratio") && strcmp(name, "commissure_expansion");
-    if (changed != matters)
-      fail_msg("%s: the surface %s", name, changed ? "changed" : "did not change");
+    const int matters =
+        strcmp(name, "root_height") && strcmp(name, "open_radius_ratio") && strcmp(name, "commissure_expansion");
+    if (changed != matters) fail_msg("%s: the surface %s", name, changed ? "changed" : "did not change");
     CHECK_OK(riis_valve_set(valve, name, n_values, expected));
   }
   for (int64_t i = 0; i < n; ++i) {

@@ -233,8 +233,7 @@ static void nothing_leaks(void **state) {
   riis_marks *result = new_result();
   riis_leak_list leaks;
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "mesh has no adjacency",
-                find_leaks_in(surface, mesh, result, NULL, &leaks));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "mesh has no adjacency", find_leaks_in(surface, mesh, result, NULL, &leaks));
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
   for (int32_t n_threads = 0; n_threads <= 3; ++n_threads) {
     riis_mark_options options = mark_options();
@@ -255,8 +254,7 @@ static void nothing_leaks(void **state) {
                 find_passage_between(surface, mesh, NULL, 1, &node, 1, &node, &passage, sizeof passage));
   /* What an empty result is not of: a marking. */
   riis_marks *empty = new_result();
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "never marked",
-                find_leaks_in(surface, mesh, empty, NULL, &leaks));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "never marked", find_leaks_in(surface, mesh, empty, NULL, &leaks));
 }
 
 static void sums_over_no_nodes(void **state) {
@@ -277,8 +275,7 @@ static void sums_over_no_nodes(void **state) {
     CHECK_OK(add_resistance_to(result, &resistance, 0, nothing, nothing));
     CHECK_OK(add_reaction_to(result, &resistance, 0, nothing, nothing, force));
     CHECK_OK(add_reaction_to(result, &resistance, 0, NULL, NULL, force));
-    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "force is NULL",
-                  add_reaction_to(result, &resistance, 0, NULL, NULL, NULL));
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "force is NULL", add_reaction_to(result, &resistance, 0, NULL, NULL, NULL));
   }
   assert_true(nothing[0] == 4 && nothing[2] == 4 && force[0] == 1 && force[1] == 2 && force[2] == 3);
   riis_band_sums sums;

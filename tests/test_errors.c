@@ -343,8 +343,7 @@ static void points_and_meshes_are_refused_by_name(void **state) {
   const double not_a_point[3] = {0, 0, NAN};
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "z of point 0 is nan",
                 riis_closest_point(surface, not_a_point, &closest, sizeof closest));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_points is -1",
-                closest_points_of(surface, -1, xyz, xyz, xyz, 1, NULL, &out));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_points is -1", closest_points_of(surface, -1, xyz, xyz, xyz, 1, NULL, &out));
   options.n_threads = 1025;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_threads is 1025",
                 closest_points_of(surface, 1, xyz, xyz, xyz, 1, &options, &out));

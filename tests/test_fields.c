@@ -157,8 +157,7 @@ static int is_rim(const rims *r, int64_t triangle, const double *w) {
 
 /* Compares all fields of the nodes within the limit with single queries and with the rim. Velocities are those of the closest
  * triangle, but for places that are equally near. */
-static void check_fields(const riis_surface *surface, const double *xyz, const rims *r,
-                         const riis_marks *result) {
+static void check_fields(const riis_surface *surface, const double *xyz, const rims *r, const riis_marks *result) {
   const riis_mark_list f = within_fields(result);
   const found_nodes nodes = within_in(result);
   const double *velocity = velocity_of(surface), fastest = f.velocity ? largest_velocity(&r->c, velocity) : 0;
@@ -405,7 +404,8 @@ static void valves_have_a_rim_all_around_and_none_inside(void **state) {
     printf("%s: %lld nodes on the rim, %lld beyond edges of the rim, %lld beyond others, %lld at closed edges\n",
            is_mitral ? "mitral" : "aortic", (long long)n_rim, (long long)n_free, (long long)n_inside,
            (long long)n_free_closed);
-    assert_true(step * n_rim > 2000 && step * n_free > 2000 && step * n_inside > 5000 && (n_free_closed > 10) == is_mitral);
+    assert_true(step * n_rim > 2000 && step * n_free > 2000 && step * n_inside > 5000 &&
+                (n_free_closed > 10) == is_mitral);
   }
 }
 
@@ -574,9 +574,11 @@ static void fields_are_refused_by_name(void **state) {
 
   riis_mark_list f;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks is NULL", riis_marks_get_list(NULL, RIIS_LIST_MARKED, &f, sizeof f));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks is NULL", riis_marks_get_list(NULL, RIIS_LIST_WITHIN_LIMIT, &f, sizeof f));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks is NULL",
+                riis_marks_get_list(NULL, RIIS_LIST_WITHIN_LIMIT, &f, sizeof f));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "list is NULL", riis_marks_get_list(result, RIIS_LIST_MARKED, NULL, sizeof f));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "list is NULL", riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, NULL, sizeof f));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "list is NULL",
+                riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, NULL, sizeof f));
   static const int64_t sizes[] = {0, -8, sizeof f - 8, sizeof f + 8};
   for (int i = 0; i < 4; ++i) {
     CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "list", riis_marks_get_list(result, RIIS_LIST_MARKED, &f, sizes[i]));

@@ -153,7 +153,8 @@ static int with_status(const scene *s, int32_t n_threads, riis_status expected, 
   EXPECT(riis_label_open_regions(s->mesh, s->result, &options, s->nodes.n, label, NULL));
   EXPECT(find_passage_between(s->surface, s->mesh, &options, 1, &first, 1, &last, &passage, sizeof passage));
   EXPECT(find_crossings_in(s->surface, &of_crossings, &crossings));
-  EXPECT(closest_points_of(s->surface, s->nodes.n, s->nodes.xyz, s->nodes.xyz + 1, s->nodes.xyz + 2, 3, &of_points, &found));
+  EXPECT(closest_points_of(s->surface, s->nodes.n, s->nodes.xyz, s->nodes.xyz + 1, s->nodes.xyz + 2, 3, &of_points,
+                           &found));
   EXPECT(riis_adjacency_create_from_cells(&cells, &adjacency[0]));
   EXPECT(riis_adjacency_create_from_faces(&faces, &adjacency[1]));
   EXPECT(riis_adjacency_create_from_grid(30, 40, 50, n_threads, &adjacency[2]));
@@ -172,8 +173,7 @@ static riis_status use_result(const scene *s) {
   riis_status status = riis_resistance_init(&resistance, sizeof resistance);
   resistance.R = 1;
   if (!status) status = add_resistance_to(s->result, &resistance, s->nodes.n, s->k, NULL);
-  return status ? status
-                : dense_of(s->result, s->nodes.n, RIIS_FAR_DISTANCE, NULL, s->k, NULL, NULL);
+  return status ? status : dense_of(s->result, s->nodes.n, RIIS_FAR_DISTANCE, NULL, s->k, NULL, NULL);
 }
 
 /* What a child checks. Returns 0 if all is right. */

@@ -139,8 +139,7 @@ static void wider_limit_lists_more_and_marks_the_same(void **state) {
   CHECK_OK(dense_of(wide, n, -1, mark, NULL, NULL, NULL));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "far_distance is 0.25|limit 0.25",
                 dense_of(wide, n, 0.25, mark, NULL, NULL, NULL));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_nodes is 19999|20000",
-                dense_of(wide, n - 1, 1e30, mark, NULL, NULL, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_nodes is 19999|20000", dense_of(wide, n - 1, 1e30, mark, NULL, NULL, NULL));
 }
 
 static void mask_leaves_nodes_out(void **state) {

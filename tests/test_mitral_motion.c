@@ -15,7 +15,8 @@
 static random_source rng;
 
 /* The parameters by name. */
-#define FIELD(name) {#name, offsetof(mitral_parameters, name)}
+#define FIELD(name) \
+  { #name, offsetof(mitral_parameters, name) }
 static const struct {
   const char *name;
   size_t at;
@@ -121,9 +122,9 @@ static double largest_speed(const riis_surface *surface) {
 typedef struct compared {
   double vertices, points; /* the largest difference from the mean velocity of the oracle */
   double sides;            /* the same where v is 0 or 1, on the annulus and on the free edges */
-  double exact;            /* the share of vertices that differ by rounding only: all but some on sides of split quads */
-  double from_derivative;  /* at vertices, from the velocity of a short while around now; -1: not compared */
-  double sum, speed;       /* mean difference at random points; largest speed */
+  double exact;           /* the share of vertices that differ by rounding only: all but some on sides of split quads */
+  double from_derivative; /* at vertices, from the velocity of a short while around now; -1: not compared */
+  double sum, speed;      /* mean difference at random points; largest speed */
 } compared;
 
 static const int32_t *patches_of_vertices(const riis_triangles *c) {

@@ -361,8 +361,7 @@ static void time_goes_back(void **state) {
     CHECK_OK(riis_surface_update_moving(on, valve, before, seconds, NULL, trial % 2 ? &then : NULL));
     CHECK_OK(riis_surface_update_moving(back, valve, before, -seconds, NULL, trial % 2 ? &then : NULL));
     assert_true(largest_speed(on, -1) > 0);
-    for (int64_t i = 0; i < 3 * triangles_of(on).n_vertices; ++i)
-      CHECK_SAME(velocity_of(on)[i], -velocity_of(back)[i]);
+    for (int64_t i = 0; i < 3 * triangles_of(on).n_vertices; ++i) CHECK_SAME(velocity_of(on)[i], -velocity_of(back)[i]);
     free_owned_after(owned_before);
   }
 }
@@ -522,7 +521,8 @@ static void refusals_leave_the_surface_as_it_was(void **state) {
   CHECK_OK(riis_valve_set_scalar(bad, "opening", 0.25));
   CHECK_OK(riis_valve_set_scalar(bad, "left.leaflet_radius_out", 5));
   CHECK_OK(riis_valve_set_scalar(bad, "commissure_expansion", 0.5));
-  MOVING_REFUSED(RIIS_INVALID_PARAMETER, "in valve_before: in the open state, the left cusp", aortic, bad, 1, NULL, NULL);
+  MOVING_REFUSED(RIIS_INVALID_PARAMETER, "in valve_before: in the open state, the left cusp", aortic, bad, 1, NULL,
+                 NULL);
 
   /* Options, those of before by their own name. */
   riis_surface_options options = surface_options();

@@ -153,7 +153,8 @@ static int64_t allocations_of_a_cycle(moving_valve *valve) {
         has_velocity ? riis_surface_update_moving(valve->surface, valve->now, valve->before, 0.02, NULL, NULL)
                      : riis_surface_update(valve->surface, valve->now, NULL);
     const riis_status marked = riis_mark_nodes(valve->surface, valve->mesh, &valve->options, valve->result);
-    const riis_status added = add_resistance_to(valve->result, &resistance, valve->n_nodes, valve->k, has_velocity ? valve->k_u : NULL);
+    const riis_status added =
+        add_resistance_to(valve->result, &resistance, valve->n_nodes, valve->k, has_velocity ? valve->k_u : NULL);
     n += end_to_count();
     CHECK_OK(moved);
     CHECK_OK(marked);
@@ -196,8 +197,7 @@ static void a_steady_moving_step_allocates_nothing(void **state) {
 #if defined(COUNTS_ALLOCATIONS)
   static const char *const kinds[5] = {"aortic", "trileaflet", "mitral", "bileaflet", "aortic"};
   for (int kind = 0; kind < 5; ++kind)
-    for (int32_t triangulation = RIIS_TRIANGULATION_ADAPTED; triangulation <= RIIS_TRIANGULATION_FIXED;
-         ++triangulation)
+    for (int32_t triangulation = RIIS_TRIANGULATION_ADAPTED; triangulation <= RIIS_TRIANGULATION_FIXED; ++triangulation)
       for (int has_velocity = 0; has_velocity < 2; ++has_velocity) {
         const int owned_before = n_owned();
         moving_valve valve = moving_valve_of(kinds[kind], kind == 4, triangulation, has_velocity, 1);

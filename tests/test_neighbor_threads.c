@@ -63,8 +63,7 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
 }
 
 /* Returns 1 if any of several markings with a result of its own is not the expected one. */
-static int marks_wrong(const riis_surface *surface, const riis_mesh *mesh, const riis_marks *expected,
-                       int n_threads) {
+static int marks_wrong(const riis_surface *surface, const riis_mesh *mesh, const riis_marks *expected, int n_threads) {
   riis_mark_options options = {0};
   riis_marks *result = NULL;
   int wrong = riis_mark_options_init(&options, sizeof options) || riis_marks_create(&result);

@@ -49,13 +49,13 @@ static void fill_arrays(int64_t side) {
 /* Returns the number of hexahedra of the lattice. */
 static int64_t fill_cells(void) {
   const int64_t step[8] = {0,
-                                  1,
-                                  1 + n_side,
-                                  n_side,
-                                  n_side * n_side,
-                                  n_side * n_side + 1,
-                                  n_side * n_side + n_side + 1,
-                                  n_side * n_side + n_side};
+                           1,
+                           1 + n_side,
+                           n_side,
+                           n_side * n_side,
+                           n_side * n_side + 1,
+                           n_side * n_side + n_side + 1,
+                           n_side * n_side + n_side};
   int64_t n = 0;
   for (int64_t i = 0; i < n_nodes; ++i) {
     if (i % n_side == n_side - 1 || i / n_side % n_side == n_side - 1 || i / (n_side * n_side) == n_side - 1) continue;
@@ -240,9 +240,8 @@ static void two_threads_are_more(void **state) {
 int main(void) {
   n_threads_at_first = n_threads_now();
   n_threads_asked = 1;
-  const struct CMUnitTest tests[] = {cmocka_unit_test(surfaces_of_valves), cmocka_unit_test(other_distances),
-                                     cmocka_unit_test(surfaces_from_arrays), cmocka_unit_test(markings),
-                                     cmocka_unit_test(little_work_by_default),
-                                     cmocka_unit_test(two_threads_are_more)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(surfaces_of_valves),     cmocka_unit_test(other_distances),
+                                     cmocka_unit_test(surfaces_from_arrays),   cmocka_unit_test(markings),
+                                     cmocka_unit_test(little_work_by_default), cmocka_unit_test(two_threads_are_more)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

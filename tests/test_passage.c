@@ -384,7 +384,8 @@ static void what_makes_no_sense_is_refused(void **state) {
   riis_passage found;
   memset(&found, 0x5a, sizeof found);
 #define REFUSED(status, parts, mesh, options, n_from, from, n_to, to) \
-  CHECK_REFUSED(status, parts, find_passage_between(surface, mesh, options, n_from, from, n_to, to, &found, sizeof found))
+  CHECK_REFUSED(status, parts,                                        \
+                find_passage_between(surface, mesh, options, n_from, from, n_to, to, &found, sizeof found))
   REFUSED(RIIS_INVALID_ARGUMENT, "mesh has no adjacency|riis_mesh_set_adjacency", bare, NULL, 1, good, 1, good + 1);
   REFUSED(RIIS_INVALID_ARGUMENT, "n_from is 0|at least 1", mesh, NULL, 0, good, 1, good + 1);
   REFUSED(RIIS_INVALID_ARGUMENT, "n_to is -3|at least 1", mesh, NULL, 1, good, -3, good + 1);

@@ -403,10 +403,9 @@ static void refusals_leave_the_arrays(void **state) {
   } while (0)
 #define CALLS_REFUSED(status, parts)                                                                      \
   do {                                                                                                    \
-    CHECK_REFUSED(status, parts, add_resistance_to(f.result, &resistance, n, k, momentum)); \
+    CHECK_REFUSED(status, parts, add_resistance_to(f.result, &resistance, n, k, momentum));               \
     UNCHANGED();                                                                                          \
-    CHECK_REFUSED(status, parts,                                                                          \
-                  add_reaction_to(f.result, &resistance, n, f.velocity, f.weight, force));  \
+    CHECK_REFUSED(status, parts, add_reaction_to(f.result, &resistance, n, f.velocity, f.weight, force)); \
     UNCHANGED();                                                                                          \
   } while (0)
 #define CHANGED_IS_REFUSED(change, parts)        \
@@ -416,8 +415,8 @@ static void refusals_leave_the_arrays(void **state) {
     CALLS_REFUSED(RIIS_INVALID_ARGUMENT, parts); \
   } while (0)
   CHECK_OK(riis_resistance_init(&resistance, sizeof resistance));
-  assert_true(isnan(resistance.R) && resistance.half_thickness == RIIS_AUTO &&
-              resistance.rim == RIIS_RIM_ROUND && resistance.reserved == 0);
+  assert_true(isnan(resistance.R) && resistance.half_thickness == RIIS_AUTO && resistance.rim == RIIS_RIM_ROUND &&
+              resistance.reserved == 0);
   CALLS_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.R is nan;|from 0 to 1e+60");
   CHANGED_IS_REFUSED(R = -1, "resistance.R is -1;");
   CHANGED_IS_REFUSED(R = -1e-300, "resistance.R is -1e-300;");
@@ -470,11 +469,11 @@ static void refusals_leave_the_arrays(void **state) {
   UNCHANGED();
 
   /* Bands. */
-#define BAND_REFUSED(inner, outer, parts)                                                                        \
-  do {                                                                                                           \
-    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts,                                                                  \
+#define BAND_REFUSED(inner, outer, parts)                                                          \
+  do {                                                                                             \
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts,                                                    \
                   band_sums_of(f.result, inner, outer, n, f.value, f.weight, &sums, sizeof sums)); \
-    UNCHANGED();                                                                                                 \
+    UNCHANGED();                                                                                   \
   } while (0)
   BAND_REFUSED(0.15, 0.1, "inner is 0.15;|outer, which is 0.1");
   BAND_REFUSED(-0.01, 0.1, "inner is -0.01;");
@@ -490,14 +489,11 @@ static void refusals_leave_the_arrays(void **state) {
 
   /* NULLs. */
   const void *no_result = f.mesh;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks is NULL",
-                add_resistance_to(NULL, &resistance, n, k, momentum));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks is NULL", add_resistance_to(NULL, &resistance, n, k, momentum));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks is a handle of another kind",
                 add_resistance_to(no_result, &resistance, n, k, momentum));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance is NULL",
-                add_resistance_to(f.result, NULL, n, k, momentum));
-#define REACTION_REFUSED(parts, ...) \
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts, add_reaction_to(__VA_ARGS__))
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance is NULL", add_resistance_to(f.result, NULL, n, k, momentum));
+#define REACTION_REFUSED(parts, ...) CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts, add_reaction_to(__VA_ARGS__))
   REACTION_REFUSED("marks is NULL", NULL, &resistance, n, f.velocity, f.weight, force);
   REACTION_REFUSED("resistance is NULL", f.result, NULL, n, f.velocity, f.weight, force);
   REACTION_REFUSED("flow.velocity[0] is NULL", f.result, &resistance, n, NULL, f.weight, force);

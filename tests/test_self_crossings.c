@@ -232,7 +232,8 @@ static void check_soup(const soup *s, const riis_crossing_list *pairs, double li
         a[k] = s->xyz[3 * s->ids[3 * i + k / 3] + k % 3];
         b[k] = s->xyz[3 * s->ids[3 * j + k / 3] + k % 3];
       }
-      const int is_found = next < pairs->n_pairs && pairs->triangle_id[2 * next] == i && pairs->triangle_id[2 * next + 1] == j;
+      const int is_found =
+          next < pairs->n_pairs && pairs->triangle_id[2 * next] == i && pairs->triangle_id[2 * next + 1] == j;
       const int is_no_pair = s->leaflet_id[i] == s->leaflet_id[j] && are_neighbours(a, b);
       const double depth = is_no_pair || !boxes_overlap(a, b) ? 0 : oracle_depth(a, b);
       const double longest = fmax(longest_edge(a), longest_edge(b));
@@ -435,8 +436,7 @@ static void bad_arguments_are_refused_by_name(void **state) {
   }
   options.depth = 1e-6;
   options.n_threads = -1;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.n_threads is -1",
-                riis_find_crossings(surface, &options, crossings));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.n_threads is -1", riis_find_crossings(surface, &options, crossings));
   options.n_threads = 0;
   options.struct_size = 16;
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options|16", riis_find_crossings(surface, &options, crossings));
@@ -483,8 +483,10 @@ static void fixed_triangles_cross_within_their_error(void **state) {
     if (i > 0) {
       assert_int_equal(crossings.n_pairs, 0);
     } else {
-      print_message("closed mitral valve, fixed triangles: %lld pairs cross by up to %.2g half thicknesses, error bound %.2g\n",
-                    (long long)crossings.n_pairs, crossings.deepest_depth / info.half_thickness, info.error_bound / info.half_thickness);
+      print_message(
+          "closed mitral valve, fixed triangles: %lld pairs cross by up to %.2g half thicknesses, error bound %.2g\n",
+          (long long)crossings.n_pairs, crossings.deepest_depth / info.half_thickness,
+          info.error_bound / info.half_thickness);
     }
   }
 }

@@ -128,7 +128,7 @@ static void check_searches(const riis_surface *surface, const test_mesh *from, c
   }
   const int32_t others = RIIS_FIELD_POINT | RIIS_FIELD_NORMAL | RIIS_FIELD_BARYCENTRIC | RIIS_FIELD_SIDE;
   const riis_marks *without = marked(surface, mesh, others, RIIS_SEARCH_CLUSTERS),
-                         *with = marked(surface, mesh, others | RIIS_FIELD_VELOCITY, RIIS_SEARCH_CLUSTERS);
+                   *with = marked(surface, mesh, others | RIIS_FIELD_VELOCITY, RIIS_SEARCH_CLUSTERS);
   const riis_mark_list a = fields_in(without), b = fields_in(with);
   assert_true(same_results(without, with));
   assert_memory_equal(a.point, b.point, (size_t)n * 24);
@@ -224,8 +224,8 @@ static term term_of(const riis_surface *surface, const test_mesh *mesh, int n_pa
   resistance.R = 1;
   for (int part = 0; part < n_parts; ++part) {
     const int64_t begin = mesh->n * part / n_parts, m = mesh->n * (part + 1) / n_parts - begin;
-    riis_marks *result =
-        marked(surface, mesh_of(m, xyz + 3 * begin), RIIS_FIELD_VELOCITY, part % 2 ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_AUTO);
+    riis_marks *result = marked(surface, mesh_of(m, xyz + 3 * begin), RIIS_FIELD_VELOCITY,
+                                part % 2 ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_AUTO);
     CHECK_OK(add_resistance_to(result, &resistance, m, made.k + begin, made.ku + 3 * begin));
   }
   return made;
@@ -279,7 +279,8 @@ static void reaction_takes_the_means(void **state) {
   riis_resistance resistance;
   CHECK_OK(riis_resistance_init(&resistance, sizeof resistance));
   resistance.R = 1;
-  CHECK_OK(add_reaction_to(marked(surface, mesh_of(mesh.n, mesh.xyz), RIIS_FIELD_VELOCITY, RIIS_SEARCH_AUTO), &resistance, mesh.n, flow, weight, force));
+  CHECK_OK(add_reaction_to(marked(surface, mesh_of(mesh.n, mesh.xyz), RIIS_FIELD_VELOCITY, RIIS_SEARCH_AUTO),
+                           &resistance, mesh.n, flow, weight, force));
   for (int way = -1; way <= 1; ++way) {
     const term moved = term_of(surface, &mesh, 2, 1e-12 * way);
     for (size_t c = 0; c < 3; ++c) {
@@ -310,7 +311,7 @@ static void other_nodes_have_the_closest_triangle_s(void **state) {
     const test_mesh from = symmetric_cells(surface, between(0.08, 0.12));
     riis_mesh *mesh = mesh_of(from.n, from.xyz);
     const riis_marks *result = marked(surface, mesh, RIIS_FIELD_VELOCITY, RIIS_SEARCH_CLUSTERS),
-                           *plain = marked(surface_from(&arrays, NULL), mesh, RIIS_FIELD_VELOCITY, RIIS_SEARCH_CLUSTERS);
+                     *plain = marked(surface_from(&arrays, NULL), mesh, RIIS_FIELD_VELOCITY, RIIS_SEARCH_CLUSTERS);
     const found_nodes a = within_in(result), b = within_in(plain);
     assert_int_equal(a.n, b.n);
     for (int64_t i = 0; i < a.n; ++i) {
@@ -336,8 +337,8 @@ static void ties_end_at_a_millionth(void **state) {
   static const struct {
     double nearer;
     int ties, of_one_leaflet;
-  } cases[] = {{0, 1, 0},       {0.9e-6, 1, 0},  {-0.9e-6, 1, 0}, {1.1e-6, 0, 0},
-               {-1.1e-6, 0, 0}, {1e-3, 0, 0},    {0, 0, 1},       {0.9e-9, 0, 1}};
+  } cases[] = {{0, 1, 0},       {0.9e-6, 1, 0}, {-0.9e-6, 1, 0}, {1.1e-6, 0, 0},
+               {-1.1e-6, 0, 0}, {1e-3, 0, 0},   {0, 0, 1},       {0.9e-9, 0, 1}};
   static const int32_t ids[6] = {0, 1, 2, 3, 4, 5};
   static const double velocity[18] = {1, 2, 3, 1, 2, 3, 1, 2, 3, -5, 0, 4, -5, 0, 4, -5, 0, 4},
                       xyz[18] = {-9, -9, 0, 9, -9, 0, 0, 9, 0, -9, -9, 2, 9, -9, 2, 0, 9, 2};

@@ -287,7 +287,7 @@ static void so_it_does_for_other_aortic_valves(void **state) {
     riis_valve *valve = new_valve("aortic");
     CHECK_OK(riis_valve_get_n_parameters(valve, &n_parameters));
     CHECK_OK(riis_valve_get_parameter(valve, (int64_t)(random_bits(&rng) % (uint64_t)n_parameters), &parameter,
-                                  sizeof parameter));
+                                      sizeof parameter));
     const double value = parameter.default_values[0] * random_between(&rng, 0.67, 1.33);
     if (parameter.n_values == 1 && riis_valve_set_scalar(valve, parameter.name, value) == RIIS_OK &&
         aortic_patches(parameter.name, value, &set) == RIIS_OK) {

@@ -45,7 +45,7 @@ PatchSet patches_of(const Leaflet &leaflet) {
 const char *name_of(std::int32_t method) {
   return method == RIIS_MEASURE_TRIANGLES  ? "triangulation"
          : method == RIIS_MEASURE_SAMPLING ? "sampling"
-                                            : "minimisation";
+                                           : "minimisation";
 }
 
 MeasuredSurface::MeasuredSurface(const PatchSet &patches, std::int32_t method, double tolerance) {

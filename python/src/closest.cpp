@@ -10,14 +10,15 @@ nb::object closest_point(Surface &surface, nb::handle point_) {
   three_numbers(point_, "point", point);
   riis_closest found;
   call_shortly(riis_closest_point(surface.handle, point, &found, sizeof found));
-  return record("ClosestPoint")(found.distance, array_of(found.point, "float64"), array_of(found.barycentric, "float64"),
-                                array_of(found.normal, "float64"), found.triangle_id, found.leaflet_id, found.side);
+  return record("ClosestPoint")(found.distance, array_of(found.point, "float64"),
+                                array_of(found.barycentric, "float64"), array_of(found.normal, "float64"),
+                                found.triangle_id, found.leaflet_id, found.side);
 }
 
-nb::object closest_points(Surface &surface, nb::handle points_, nb::handle distance, nb::handle point, nb::handle barycentric,
-                          nb::handle normal, nb::handle triangle_id, nb::handle leaflet_id, nb::handle side,
-                          nb::handle distance_limit, nb::handle far_distance, nb::handle mask_, nb::handle ids_,
-                          nb::handle n_threads) {
+nb::object closest_points(Surface &surface, nb::handle points_, nb::handle distance, nb::handle point,
+                          nb::handle barycentric, nb::handle normal, nb::handle triangle_id, nb::handle leaflet_id,
+                          nb::handle side, nb::handle distance_limit, nb::handle far_distance, nb::handle mask_,
+                          nb::handle ids_, nb::handle n_threads) {
   const Reading reading(surface.usage, "surface");
   const Points points = points_of(points_, "points");
   riis_closest_options options;
@@ -66,8 +67,8 @@ nb::object closest_points(Surface &surface, nb::handle points_, nb::handle dista
   given.z = points.z;
   given.stride = points.stride;
   call_library([&] { return riis_closest_points(surface.handle, &given, &options, &arrays); });
-  return record("ClosestPoints")(outputs[0].array, outputs[1].array, outputs[2].array, outputs[3].array, outputs[4].array,
-                                 outputs[5].array, outputs[6].array);
+  return record("ClosestPoints")(outputs[0].array, outputs[1].array, outputs[2].array, outputs[3].array,
+                                 outputs[4].array, outputs[5].array, outputs[6].array);
 }
 
 #define RIIS_OUTPUT(name, type, wanted) name ": bool | numpy.typing.NDArray[numpy." type "] = " wanted ", "
@@ -77,23 +78,28 @@ nb::object closest_points(Surface &surface, nb::handle points_, nb::handle dista
 void add_closest(nb::class_<Surface> &surface) {
   surface
       .def("closest_point", &closest_point, nb::arg("point").none(),
-           nb::sig("def closest_point(self, point: collections.abc.Sequence[float] | numpy.typing.NDArray[numpy.float64]) -> "
+           nb::sig("def closest_point(self, point: collections.abc.Sequence[float] | "
+                   "numpy.typing.NDArray[numpy.float64]) -> "
                    "riis._records.ClosestPoint"),
            "Finds the closest point of the surface to one point of three coordinates, mesh units.")
-      .def("closest_points", &closest_points, nb::arg("points").none(), nb::kw_only(), nb::arg("distance").none() = true,
-           nb::arg("point").none() = true, nb::arg("barycentric").none() = false, nb::arg("normal").none() = true, nb::arg("triangle_id").none() = true,
-           nb::arg("leaflet_id").none() = true, nb::arg("side").none() = false, nb::arg("distance_limit").none() = nb::none(),
-           nb::arg("far_distance").none() = RIIS_FAR_DISTANCE, nb::arg("mask").none() = nb::none(), nb::arg("ids").none() = nb::none(),
-           nb::arg("n_threads").none() = 0,
-           nb::sig("def closest_points(self, points: numpy.typing.NDArray[numpy.float64], *, "
-                   RIIS_OUTPUT("distance", "float64", "True") RIIS_OUTPUT("point", "float64", "True")
-                   RIIS_OUTPUT("barycentric", "float64", "False") RIIS_OUTPUT("normal", "float64", "True")
-                   RIIS_OUTPUT("triangle_id", "int64", "True") RIIS_OUTPUT("leaflet_id", "int32", "True")
-                   RIIS_OUTPUT("side", "int32", "False")
-                   "distance_limit: float | None = None, far_distance: float = 1e30, mask: "
-                   "numpy.typing.NDArray[numpy.bool_] | numpy.typing.NDArray[numpy.uint8] | None = None, ids: "
-                   "numpy.typing.NDArray[numpy.int64] | None = None, n_threads: int = 0) -> riis._records.ClosestPoints"),
-           R"(Finds the closest points of many points, in parallel.
+      .def(
+          "closest_points", &closest_points, nb::arg("points").none(), nb::kw_only(), nb::arg("distance").none() = true,
+          nb::arg("point").none() = true, nb::arg("barycentric").none() = false, nb::arg("normal").none() = true,
+          nb::arg("triangle_id").none() = true, nb::arg("leaflet_id").none() = true, nb::arg("side").none() = false,
+          nb::arg("distance_limit").none() = nb::none(), nb::arg("far_distance").none() = RIIS_FAR_DISTANCE,
+          nb::arg("mask").none() = nb::none(), nb::arg("ids").none() = nb::none(), nb::arg("n_threads").none() = 0,
+          nb::sig(
+              "def closest_points(self, points: numpy.typing.NDArray[numpy.float64], *, " RIIS_OUTPUT(
+                  "distance", "float64", "True") RIIS_OUTPUT("point", "float64", "True")
+                  RIIS_OUTPUT("barycentric", "float64", "False") RIIS_OUTPUT("normal", "float64", "True")
+                      RIIS_OUTPUT("triangle_id", "int64", "True") RIIS_OUTPUT("leaflet_id", "int32", "True")
+                          RIIS_OUTPUT("side", "int32",
+                                      "False") "distance_limit: float | None = None, far_distance: float = 1e30, mask: "
+                                               "numpy.typing.NDArray[numpy.bool_] | numpy.typing.NDArray[numpy.uint8] "
+                                               "| None = None, ids: "
+                                               "numpy.typing.NDArray[numpy.int64] | None = None, n_threads: int = 0) "
+                                               "-> riis._records.ClosestPoints"),
+          R"(Finds the closest points of many points, in parallel.
 
 points          (n, 3) float64 of any forward strides, mesh units
 distance        (n,) float64         each of these is True for a new array, False for none, or an array that is

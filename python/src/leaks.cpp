@@ -16,7 +16,8 @@ nb::object find_leaks(nb::handle surface_, nb::handle mesh_, nb::handle marks_, 
   Surface &surface = object<Surface>(surface_, "surface");
   Mesh &mesh = object<Mesh>(mesh_, "mesh");
   Marks &marks = object<Marks>(marks_, "marks");
-  const Reading reading_surface(surface.usage, "surface"), reading_mesh(mesh.usage, "mesh"), reading_marks(marks.usage, "marks");
+  const Reading reading_surface(surface.usage, "surface"), reading_mesh(mesh.usage, "mesh"),
+      reading_marks(marks.usage, "marks");
   if (marks.n_nodes < 0) refuse_value("marks", "is empty; riis.mark fills it");
   const MarkOptions options(mesh, mask, n_threads);
   riis_leaks *handle = nullptr;
@@ -26,12 +27,13 @@ nb::object find_leaks(nb::handle surface_, nb::handle mesh_, nb::handle marks_, 
   riis_leak_list list;
   call_shortly(riis_leaks_get_list(handle, &list, sizeof list));
   const auto n = static_cast<std::size_t>(list.n_edges);
-  return record("Leaks")(list.n_edges, copy_of(list.node_id, {n, 2}), copy_of(list.length, {n}), copy_of(list.distance, {n}),
-                         list.half_thickness, array_of(list.longest_node_id, "int64"), list.longest_length,
-                         array_of(list.longest_middle, "float64"), list.seconds);
+  return record("Leaks")(list.n_edges, copy_of(list.node_id, {n, 2}), copy_of(list.length, {n}),
+                         copy_of(list.distance, {n}), list.half_thickness, array_of(list.longest_node_id, "int64"),
+                         list.longest_length, array_of(list.longest_middle, "float64"), list.seconds);
 }
 
-nb::object label_open_regions(nb::handle mesh_, nb::handle marks_, nb::handle mask, nb::handle n_threads, nb::handle label_) {
+nb::object label_open_regions(nb::handle mesh_, nb::handle marks_, nb::handle mask, nb::handle n_threads,
+                              nb::handle label_) {
   Mesh &mesh = object<Mesh>(mesh_, "mesh");
   Marks &marks = object<Marks>(marks_, "marks");
   const Reading reading_mesh(mesh.usage, "mesh"), reading_marks(marks.usage, "marks");
@@ -42,7 +44,8 @@ nb::object label_open_regions(nb::handle mesh_, nb::handle marks_, nb::handle ma
   const Output label = output_of<std::int64_t>(wanted, "label", "int64", {n});
   std::int64_t n_regions = 0;
   call_library([&] {
-    return riis_label_open_regions(mesh.handle, marks.handle, &options.options, n, label.data<std::int64_t>(), &n_regions);
+    return riis_label_open_regions(mesh.handle, marks.handle, &options.options, n, label.data<std::int64_t>(),
+                                   &n_regions);
   });
   return pair(label.array, nb::int_(n_regions));
 }
@@ -97,29 +100,31 @@ nb::object find_crossings(nb::handle surface_, nb::handle depth, nb::handle n_th
 }  // namespace
 
 void add_leaks(nb::module_ &module) {
-  module.def("find_leaks", &find_leaks, nb::arg("surface").none(), nb::arg("mesh").none(), nb::arg("marks").none(), nb::kw_only(),
-             nb::arg("mask").none() = nb::none(), nb::arg("n_threads").none() = 0,
+  module.def("find_leaks", &find_leaks, nb::arg("surface").none(), nb::arg("mesh").none(), nb::arg("marks").none(),
+             nb::kw_only(), nb::arg("mask").none() = nb::none(), nb::arg("n_threads").none() = 0,
              nb::sig("def find_leaks(surface: Surface, mesh: Mesh, marks: Marks, *, " RIIS_MASK
                      ", n_threads: int = 0) -> riis._records.Leaks"),
              R"(Finds every edge of the mesh's adjacency that crosses the surface between two unmarked nodes.
 
 surface, mesh and mask are those of the marking.)");
-  module.def("label_open_regions", &label_open_regions, nb::arg("mesh").none(), nb::arg("marks").none(), nb::kw_only(),
-             nb::arg("mask").none() = nb::none(), nb::arg("n_threads").none() = 0, nb::arg("label").none() = nb::none(),
-             nb::sig("def label_open_regions(mesh: Mesh, marks: Marks, *, " RIIS_MASK ", n_threads: int = 0, label: "
-                     RIIS_NODES " | None = None) -> tuple[" RIIS_NODES ", int]"),
-             R"(Labels the connected components of the unmarked nodes, along the mesh's adjacency. Returns (label, n_regions).
+  module.def(
+      "label_open_regions", &label_open_regions, nb::arg("mesh").none(), nb::arg("marks").none(), nb::kw_only(),
+      nb::arg("mask").none() = nb::none(), nb::arg("n_threads").none() = 0, nb::arg("label").none() = nb::none(),
+      nb::sig("def label_open_regions(mesh: Mesh, marks: Marks, *, " RIIS_MASK
+              ", n_threads: int = 0, label: " RIIS_NODES " | None = None) -> tuple[" RIIS_NODES ", int]"),
+      R"(Labels the connected components of the unmarked nodes, along the mesh's adjacency. Returns (label, n_regions).
 
 label  (n_nodes,) int64: the lowest node of the node's region, -1 for nodes in no region; None: a new array)");
-  module.def("find_passage", &find_passage, nb::arg("surface").none(), nb::arg("mesh").none(), nb::arg("from_ids").none(),
-             nb::arg("to_ids").none(), nb::kw_only(), nb::arg("mask").none() = nb::none(), nb::arg("n_threads").none() = 0,
+  module.def("find_passage", &find_passage, nb::arg("surface").none(), nb::arg("mesh").none(),
+             nb::arg("from_ids").none(), nb::arg("to_ids").none(), nb::kw_only(), nb::arg("mask").none() = nb::none(),
+             nb::arg("n_threads").none() = 0,
              nb::sig("def find_passage(surface: Surface, mesh: Mesh, from_ids: " RIIS_NODES ", to_ids: " RIIS_NODES
                      ", *, " RIIS_MASK ", n_threads: int = 0) -> riis._records.Passage"),
              R"(Finds the widest passage along the mesh's adjacency from one set of nodes to another.
 
 from_ids, to_ids  (n,) int64, at least one node each, farther from the surface than the half thickness)");
-  module.def("find_crossings", &find_crossings, nb::arg("surface").none(), nb::kw_only(), nb::arg("depth").none() = 1e-6,
-             nb::arg("n_threads").none() = 0,
+  module.def("find_crossings", &find_crossings, nb::arg("surface").none(), nb::kw_only(),
+             nb::arg("depth").none() = 1e-6, nb::arg("n_threads").none() = 0,
              nb::sig("def find_crossings(surface: Surface, *, depth: float = 1e-6, n_threads: int = 0) -> "
                      "riis._records.Crossings"),
              R"(Finds every pair of the surface's triangles that go through each other.

@@ -63,14 +63,15 @@ std::int32_t fields_of(nb::handle wanted) {
     for (std::string name; words >> name;) sum |= field_of(name);
     return sum;
   }
-  if (!PySequence_Check(wanted.ptr())) refuse_type("fields", "must be a str or a sequence of str, not ", name_of_type(wanted));
+  if (!PySequence_Check(wanted.ptr()))
+    refuse_type("fields", "must be a str or a sequence of str, not ", name_of_type(wanted));
   for (const nb::handle name : nb::borrow(wanted)) sum |= field_of(text(name, "fields"));
   return sum;
 }
 
-nb::object mark(nb::handle surface_, nb::handle mesh_, nb::handle into, nb::handle wanted_fields, nb::handle distance_limit,
-                nb::handle mask, nb::handle search, nb::handle n_threads, nb::handle instructions, nb::handle R,
-                nb::handle half_thickness, nb::handle rim) {
+nb::object mark(nb::handle surface_, nb::handle mesh_, nb::handle into, nb::handle wanted_fields,
+                nb::handle distance_limit, nb::handle mask, nb::handle search, nb::handle n_threads,
+                nb::handle instructions, nb::handle R, nb::handle half_thickness, nb::handle rim) {
   Surface &surface = object<Surface>(surface_, "surface");
   Mesh &mesh = object<Mesh>(mesh_, "mesh");
   const Reading reading_surface(surface.usage, "surface"), reading_mesh(mesh.usage, "mesh");
@@ -138,7 +139,8 @@ struct ListReader {
   template <class T>
   nb::object view(const T *data, std::int64_t n, std::size_t n_components = 1) const {
     const auto size = static_cast<std::size_t>(n);
-    return n_components == 1 ? view_of(data, {size}, result->share()) : view_of(data, {size, n_components}, result->share());
+    return n_components == 1 ? view_of(data, {size}, result->share())
+                             : view_of(data, {size, n_components}, result->share());
   }
 
   bool is_limit = false;
@@ -170,20 +172,25 @@ nb::object field_view(nb::handle self) {
 
 template <class Type, int... numbers>
 void add_fields(nb::class_<Type> &type, std::integer_sequence<int, numbers...>) {
-  (type.def_prop_ro(fields[numbers].name, &field_view<numbers>, nb::sig(fields[numbers].signature), fields[numbers].text), ...);
+  (type.def_prop_ro(fields[numbers].name, &field_view<numbers>, nb::sig(fields[numbers].signature),
+                    fields[numbers].text),
+   ...);
 }
 
 template <class Type>
 void add_lists(nb::class_<Type> &type) {
-  type.def_prop_ro("ids", &list_view<&riis_mark_list::node_id>, nb::sig("def ids(self) -> numpy.typing.NDArray[numpy.int64]"),
-                   "(n,): the nodes, ascending. A view.")
+  type.def_prop_ro("ids", &list_view<&riis_mark_list::node_id>,
+                   nb::sig("def ids(self) -> numpy.typing.NDArray[numpy.int64]"), "(n,): the nodes, ascending. A view.")
       .def_prop_ro("distance", &list_view<&riis_mark_list::distance>, nb::sig(RIIS_REALS("distance")),
                    "(n,): their distances to the surface, mesh units. A view.")
       .def_prop_ro("triangle_id", &list_view<&riis_mark_list::triangle_id>,
-                   nb::sig("def triangle_id(self) -> numpy.typing.NDArray[numpy.int64]"), "(n,): their closest triangles. A view.")
+                   nb::sig("def triangle_id(self) -> numpy.typing.NDArray[numpy.int64]"),
+                   "(n,): their closest triangles. A view.")
       .def_prop_ro("leaflet_id", &list_view<&riis_mark_list::leaflet_id>, nb::sig(RIIS_INTEGERS("leaflet_id")),
                    "(n,): the leaflets of these triangles. A view.")
-      .def("__len__", [](nb::handle self) { return ListReader(self).list().n_nodes; }, nb::sig("def __len__(self) -> int"));
+      .def(
+          "__len__", [](nb::handle self) { return ListReader(self).list().n_nodes; },
+          nb::sig("def __len__(self) -> int"));
   add_fields(type, std::make_integer_sequence<int, static_cast<int>(std::size(fields))>());
 }
 
@@ -194,8 +201,8 @@ nb::object stats(Marks &result) {
   static const char *const searches[] = {"auto", "exhaustive", "neighbor", "paper", "clusters"};
   static const char *const instructions[] = {"auto", "baseline", "avx2", "avx512"};
   return record("MarkStats")(found.n_nodes, found.n_marked, found.n_within_limit, found.n_queries, found.seconds,
-                             searches[found.search], found.n_threads, found.complete != 0, instructions[found.instructions],
-                             found.n_unreached);
+                             searches[found.search], found.n_threads, found.complete != 0,
+                             instructions[found.instructions], found.n_unreached);
 }
 
 nb::object dense(Marks &result, nb::handle mark_, nb::handle distance, nb::handle triangle_id, nb::handle leaflet_id,
@@ -239,8 +246,10 @@ MarkOptions::MarkOptions(const Mesh &mesh, nb::handle mask_, nb::handle n_thread
 
 void Marks::check_threads(const char *name) const {
   if (marking_fork != fork_number() && n_threads != 1)
-    raise_status(RIIS_UNAVAILABLE, text_of(name, ": the marking was made before the fork, for threads that the child lacks; mark "
-                                                 "again, or with n_threads=1 before the fork"));
+    raise_status(RIIS_UNAVAILABLE,
+                 text_of(name,
+                         ": the marking was made before the fork, for threads that the child lacks; mark "
+                         "again, or with n_threads=1 before the fork"));
 }
 
 void add_marking(nb::module_ &module) {
@@ -258,18 +267,18 @@ read-only, without a copy, and kept alive. While any is alive, the next marking 
   add_lists(within);
   result
       .def_prop_ro(
-          "within_limit",
-          [](nb::handle self) {
-            return WithinLimit{nb::borrow(self)};
-          },
+          "within_limit", [](nb::handle self) { return WithinLimit{nb::borrow(self)}; },
           nb::sig("def within_limit(self) -> WithinLimit"), "The same lists for the nodes within the distance limit.")
       .def_prop_ro("_places", [](const Marks &self) { return self.places; })
       .def_prop_ro("stats", &stats, nb::sig("def stats(self) -> riis._records.MarkStats"), "How the last marking went.")
-      .def("dense", &dense, nb::kw_only(), nb::arg("mark").none() = true, nb::arg("distance").none() = true, nb::arg("triangle_id").none() = false,
-           nb::arg("leaflet_id").none() = false, nb::arg("far_distance").none() = RIIS_FAR_DISTANCE,
-           nb::sig("def dense(self, *, mark: bool | numpy.typing.NDArray[numpy.bool_] | numpy.typing.NDArray[numpy.uint8] = True, "
+      .def("dense", &dense, nb::kw_only(), nb::arg("mark").none() = true, nb::arg("distance").none() = true,
+           nb::arg("triangle_id").none() = false, nb::arg("leaflet_id").none() = false,
+           nb::arg("far_distance").none() = RIIS_FAR_DISTANCE,
+           nb::sig("def dense(self, *, mark: bool | numpy.typing.NDArray[numpy.bool_] | "
+                   "numpy.typing.NDArray[numpy.uint8] = True, "
                    "distance: bool | numpy.typing.NDArray[numpy.float64] = True, triangle_id: bool | "
-                   "numpy.typing.NDArray[numpy.int64] = False, leaflet_id: bool | numpy.typing.NDArray[numpy.int32] = False, "
+                   "numpy.typing.NDArray[numpy.int64] = False, leaflet_id: bool | numpy.typing.NDArray[numpy.int32] = "
+                   "False, "
                    "far_distance: float = 1e30) -> riis._records.Dense"),
            R"(Returns arrays with an entry for every node of the mesh.
 
@@ -284,17 +293,20 @@ far_distance  distance of nodes beyond the limit: any value outside [0, distance
   refuse_pickle(within, "keep the arrays, such as marks.within_limit.ids");
   add_closing(result);
 
-  module.def("mark", &mark, nb::arg("surface").none(), nb::arg("mesh").none(), nb::kw_only(), nb::arg("into").none() = nb::none(),
-             nb::arg("fields").none() = nb::none(), nb::arg("distance_limit").none() = nb::none(), nb::arg("mask").none() = nb::none(),
-             nb::arg("search").none() = "auto", nb::arg("n_threads").none() = 0, nb::arg("instructions").none() = "auto",
-             nb::arg("R").none() = nb::none(), nb::arg("half_thickness").none() = nb::none(), nb::arg("rim").none() = nb::none(),
-             nb::sig("def mark(surface: Surface, mesh: Mesh, *, into: Marks | None = None, fields: str | "
-                     "collections.abc.Sequence[str] | None = None, distance_limit: float | None = None, mask: "
-                     "numpy.typing.NDArray[numpy.bool_] | numpy.typing.NDArray[numpy.uint8] | None = None, search: "
-                     "typing.Literal['auto', 'exhaustive', 'neighbor', 'paper', 'clusters'] = 'auto', n_threads: int = 0, "
-                     "instructions: typing.Literal['auto', 'baseline', 'avx2', 'avx512'] = 'auto', R: float | None = None, "
-                     "half_thickness: float | None = None, rim: typing.Literal['round', 'cut'] | None = None) -> Marks"),
-             R"(Finds every node whose distance to the surface is at most the half thickness.
+  module.def(
+      "mark", &mark, nb::arg("surface").none(), nb::arg("mesh").none(), nb::kw_only(),
+      nb::arg("into").none() = nb::none(), nb::arg("fields").none() = nb::none(),
+      nb::arg("distance_limit").none() = nb::none(), nb::arg("mask").none() = nb::none(),
+      nb::arg("search").none() = "auto", nb::arg("n_threads").none() = 0, nb::arg("instructions").none() = "auto",
+      nb::arg("R").none() = nb::none(), nb::arg("half_thickness").none() = nb::none(),
+      nb::arg("rim").none() = nb::none(),
+      nb::sig("def mark(surface: Surface, mesh: Mesh, *, into: Marks | None = None, fields: str | "
+              "collections.abc.Sequence[str] | None = None, distance_limit: float | None = None, mask: "
+              "numpy.typing.NDArray[numpy.bool_] | numpy.typing.NDArray[numpy.uint8] | None = None, search: "
+              "typing.Literal['auto', 'exhaustive', 'neighbor', 'paper', 'clusters'] = 'auto', n_threads: int = 0, "
+              "instructions: typing.Literal['auto', 'baseline', 'avx2', 'avx512'] = 'auto', R: float | None = None, "
+              "half_thickness: float | None = None, rim: typing.Literal['round', 'cut'] | None = None) -> Marks"),
+      R"(Finds every node whose distance to the surface is at most the half thickness.
 
 into            a Marks to fill, whose memory is reused; None: a new one
 fields          'normal, velocity' or ['normal', 'velocity']: fields that the result keeps, of 'point', 'normal',

@@ -9,7 +9,8 @@ void create(Mesh *self, nb::handle xyz, nb::handle y, nb::handle z) {
   Points points = points_of(xyz, y, z);
   new (self) Mesh();
   try {
-    call_library([&] { return riis_mesh_create(points.n, points.x, points.y, points.z, points.stride, &self->handle); });
+    call_library(
+        [&] { return riis_mesh_create(points.n, points.x, points.y, points.z, points.stride, &self->handle); });
     self->points = std::move(points);
   } catch (...) {
     self->~Mesh();
@@ -65,7 +66,8 @@ void set_adjacency(Mesh &self, nb::handle adjacency, nb::handle offsets_, nb::ha
   } else {
     if (!adjacency.is_none()) {
       if (!nb::hasattr(adjacency, "indptr") || !nb::hasattr(adjacency, "indices"))
-        refuse_type("adjacency", "must be a riis.Adjacency, or sparse rows with indptr and indices, not ", name_of_type(adjacency));
+        refuse_type("adjacency", "must be a riis.Adjacency, or sparse rows with indptr and indices, not ",
+                    name_of_type(adjacency));
       offsets = adjacency.attr("indptr");
       columns = adjacency.attr("indices");
     }
@@ -83,7 +85,8 @@ void set_adjacency(Mesh &self, nb::handle adjacency, nb::handle offsets_, nb::ha
       csr.column_bits = rows[1].bits();
       csr.index_base = integer32(index_base, "index_base");
       const auto last = self.points.n;
-      const std::int64_t end = csr.offset_bits == 64 ? rows[0].data<std::int64_t>()[last] : rows[0].data<std::int32_t>()[last];
+      const std::int64_t end =
+          csr.offset_bits == 64 ? rows[0].data<std::int64_t>()[last] : rows[0].data<std::int32_t>()[last];
       if (end - csr.index_base > rows[1].size(0))
         refuse_value("offsets", "end at ", end, "; columns has ", rows[1].size(0), " entries");
     }
@@ -102,7 +105,8 @@ Adjacency *new_adjacency(const Make &make) {
   return made.release();
 }
 
-Adjacency *from_cells(nb::handle nodes, nb::handle n_nodes, nb::handle offsets_, nb::handle index_base, nb::handle n_threads) {
+Adjacency *from_cells(nb::handle nodes, nb::handle n_nodes, nb::handle offsets_, nb::handle index_base,
+                      nb::handle n_threads) {
   riis_mesh_cells cells;
   call_shortly(riis_mesh_cells_init(&cells, sizeof cells));
   const Array ids = Array::of_integers(nodes, "cells");
@@ -135,7 +139,8 @@ Adjacency *from_cells(nb::handle nodes, nb::handle n_nodes, nb::handle offsets_,
   return new_adjacency([&](riis_adjacency **made) { return riis_adjacency_create_from_cells(&cells, made); });
 }
 
-Adjacency *from_faces(nb::handle owner_, nb::handle neighbor_, nb::handle n_cells, nb::handle index_base, nb::handle n_threads) {
+Adjacency *from_faces(nb::handle owner_, nb::handle neighbor_, nb::handle n_cells, nb::handle index_base,
+                      nb::handle n_threads) {
   riis_mesh_faces faces;
   call_shortly(riis_mesh_faces_init(&faces, sizeof faces));
   const Array owner = Array::of_integers(owner_, "owner");
@@ -182,8 +187,7 @@ nb::object columns(nb::handle self) {
   Adjacency &adjacency = object<Adjacency>(self, "adjacency");
   const riis_csr csr = rows_of(adjacency);
   const std::size_t n = last_offset<std::int64_t>(csr.offsets, csr.n_rows);
-  if (csr.column_bits == 32)
-    return view_of(static_cast<const std::int32_t *>(csr.columns), {n}, adjacency.share());
+  if (csr.column_bits == 32) return view_of(static_cast<const std::int32_t *>(csr.columns), {n}, adjacency.share());
   return view_of(static_cast<const std::int64_t *>(csr.columns), {n}, adjacency.share());
 }
 
@@ -206,12 +210,14 @@ std::string description(const Mesh &mesh) {
 #define RIIS_IDS "numpy.typing.NDArray[numpy.integer]"
 
 void add_adjacency(nb::module_ &module) {
-  nb::class_<Adjacency> adjacency(module, "Adjacency", R"(Neighbours of nodes, as compressed sparse rows that the library owns.
+  nb::class_<Adjacency> adjacency(module, "Adjacency",
+                                  R"(Neighbours of nodes, as compressed sparse rows that the library owns.
 
 from_cells, from_faces and from_grid make one. Columns ascend without repetition, and the rows are symmetric.)");
   adjacency
-      .def_static("from_cells", &from_cells, nb::arg("cells").none(), nb::arg("n_nodes").none(), nb::kw_only(), nb::arg("offsets").none() = nb::none(),
-                  nb::arg("index_base").none() = 0, nb::arg("n_threads").none() = 0,
+      .def_static("from_cells", &from_cells, nb::arg("cells").none(), nb::arg("n_nodes").none(), nb::kw_only(),
+                  nb::arg("offsets").none() = nb::none(), nb::arg("index_base").none() = 0,
+                  nb::arg("n_threads").none() = 0,
                   nb::sig("def from_cells(cells: " RIIS_IDS ", n_nodes: int, *, offsets: " RIIS_IDS
                           " | None = None, index_base: int = 0, n_threads: int = 0) -> Adjacency"),
                   R"(Makes the adjacency of nodes that an edge of a cell joins.
@@ -220,15 +226,17 @@ cells    (n_cells, 4, 5, 6 or 8) int32 or int64: tetrahedra, pyramids, prisms or
          offsets, (n,): the nodes of cell after cell
 n_nodes  of the mesh
 offsets  (n_cells + 1,) of the type of cells: where each cell begins in cells, and the last ends)")
-      .def_static("from_faces", &from_faces, nb::arg("owner").none(), nb::arg("neighbor").none(), nb::arg("n_cells").none(), nb::kw_only(),
-                  nb::arg("index_base").none() = 0, nb::arg("n_threads").none() = 0,
+      .def_static("from_faces", &from_faces, nb::arg("owner").none(), nb::arg("neighbor").none(),
+                  nb::arg("n_cells").none(), nb::kw_only(), nb::arg("index_base").none() = 0,
+                  nb::arg("n_threads").none() = 0,
                   nb::sig("def from_faces(owner: " RIIS_IDS ", neighbor: " RIIS_IDS
                           ", n_cells: int, *, index_base: int = 0, n_threads: int = 0) -> Adjacency"),
                   R"(Makes the adjacency of cells with a common face, for codes that mark cell centres.
 
 owner, neighbor  (n_faces,) int32 or int64, both of one type: the cells that a face joins; neighbor is index_base - 1 at
                  the boundary)")
-      .def_static("from_grid", &from_grid, nb::arg("ni").none(), nb::arg("nj").none(), nb::arg("nk").none(), nb::kw_only(), nb::arg("n_threads").none() = 0,
+      .def_static("from_grid", &from_grid, nb::arg("ni").none(), nb::arg("nj").none(), nb::arg("nk").none(),
+                  nb::kw_only(), nb::arg("n_threads").none() = 0,
                   nb::sig("def from_grid(ni: int, nj: int, nk: int, *, n_threads: int = 0) -> Adjacency"),
                   "Makes the adjacency of a structured grid; node (i, j, k) has the number i + ni (j + nj k).")
       .def_prop_ro("offsets", &offsets, nb::sig("def offsets(self) -> numpy.typing.NDArray[numpy.int64]"),
@@ -263,22 +271,27 @@ void add_mesh(nb::module_ &module) {
 
 xyz is (n, 3) float64 of any forward strides, in C or Fortran order, mesh units; or x, y and z are (n,) float64 with
 equal strides. The mesh keeps the arrays alive. Call update() after every change of the coordinates.)");
-  mesh.def("__init__", &create, nb::arg("xyz").none(), nb::arg("y").none() = nb::none(), nb::arg("z").none() = nb::none(),
-           nb::sig("def __init__(self, xyz: " RIIS_COORDINATES ", y: " RIIS_COORDINATES " | None = None, z: " RIIS_COORDINATES
-                   " | None = None) -> None"))
-      .def("update", &update, nb::arg("xyz").none() = nb::none(), nb::arg("y").none() = nb::none(), nb::arg("z").none() = nb::none(),
-           nb::sig("def update(self, xyz: " RIIS_COORDINATES " | None = None, y: " RIIS_COORDINATES " | None = None, z: "
-                   RIIS_COORDINATES " | None = None) -> None"),
+  mesh.def("__init__", &create, nb::arg("xyz").none(), nb::arg("y").none() = nb::none(),
+           nb::arg("z").none() = nb::none(),
+           nb::sig("def __init__(self, xyz: " RIIS_COORDINATES ", y: " RIIS_COORDINATES
+                   " | None = None, z: " RIIS_COORDINATES " | None = None) -> None"))
+      .def("update", &update, nb::arg("xyz").none() = nb::none(), nb::arg("y").none() = nb::none(),
+           nb::arg("z").none() = nb::none(),
+           nb::sig("def update(self, xyz: " RIIS_COORDINATES " | None = None, y: " RIIS_COORDINATES
+                   " | None = None, z: " RIIS_COORDINATES " | None = None) -> None"),
            R"(Tells the mesh that its nodes moved, in place (no argument) or to other arrays, and checks them.
 
 The adjacency stays if the number of nodes does.)")
-      .def("prepare", &prepare, nb::arg("n_threads").none() = 0, nb::sig("def prepare(self, n_threads: int = 0) -> None"),
+      .def("prepare", &prepare, nb::arg("n_threads").none() = 0,
+           nb::sig("def prepare(self, n_threads: int = 0) -> None"),
            "Makes the clusters of search='clusters' now, rather than in the second marking: 41 bytes a node.")
-      .def("set_adjacency", &set_adjacency, nb::arg("adjacency").none() = nb::none(), nb::kw_only(), nb::arg("offsets").none() = nb::none(),
-           nb::arg("columns").none() = nb::none(), nb::arg("n_all").none() = 0, nb::arg("index_base").none() = 0,
-           nb::sig("def set_adjacency(self, adjacency: typing.Any = None, *, offsets: " RIIS_IDS " | None = None, columns: "
-                   RIIS_IDS " | None = None, n_all: int = 0, index_base: int = 0) -> None"),
-           R"(Gives the mesh the neighbours of its nodes, which are borrowed and kept alive. No argument takes them away.
+      .def(
+          "set_adjacency", &set_adjacency, nb::arg("adjacency").none() = nb::none(), nb::kw_only(),
+          nb::arg("offsets").none() = nb::none(), nb::arg("columns").none() = nb::none(), nb::arg("n_all").none() = 0,
+          nb::arg("index_base").none() = 0,
+          nb::sig("def set_adjacency(self, adjacency: typing.Any = None, *, offsets: " RIIS_IDS
+                  " | None = None, columns: " RIIS_IDS " | None = None, n_all: int = 0, index_base: int = 0) -> None"),
+          R"(Gives the mesh the neighbours of its nodes, which are borrowed and kept alive. No argument takes them away.
 
 adjacency         an Adjacency, or scipy's sparse rows (indptr, indices)
 offsets, columns  (n_nodes + 1,) and (n,), int32 or int64: the same as arrays. They must not change meanwhile

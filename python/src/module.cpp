@@ -19,8 +19,9 @@ NB_MODULE(_riis, module) {
       },
       nb::sig("def version() -> tuple[int, int, int]"), "Returns the version of the C library as three numbers.");
   module.def(
-      "status_name", [](nb::handle status) { return riis_status_name(integer32(status, "status")); }, nb::arg("status").none(),
-      nb::sig("def status_name(status: int) -> str"), "Returns the name of a status of the C library.");
+      "status_name", [](nb::handle status) { return riis_status_name(integer32(status, "status")); },
+      nb::arg("status").none(), nb::sig("def status_name(status: int) -> str"),
+      "Returns the name of a status of the C library.");
   add_log(module);
   add_valve(module);
   add_keyframes(module);

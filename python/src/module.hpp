@@ -37,9 +37,9 @@ struct Adjacency : Handle<riis_adjacency, riis_adjacency_destroy> {
 
 struct Mesh : Handle<riis_mesh, riis_mesh_destroy> {
   static constexpr const char *python_name = "Mesh";
-  Points points;                 // the caller's arrays, kept alive
-  std::vector<Array> rows;       // those of an adjacency
-  nb::object adjacency;          // keeps the rows of an Adjacency
+  Points points;            // the caller's arrays, kept alive
+  std::vector<Array> rows;  // those of an adjacency
+  nb::object adjacency;     // keeps the rows of an Adjacency
   std::int64_t places = new_places();
 
   // Returns a number for the nodes in their present places. No other mesh gets the same, nor does this one after an update.

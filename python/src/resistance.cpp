@@ -78,19 +78,20 @@ nb::object band_sums(Marks &result, nb::handle value_, nb::handle weight_, nb::h
   band.weight = weight.data<double>();
   riis_band_sums sums;
   call_library([&] { return riis_marks_get_band_sums(result.handle, &band, &sums, sizeof sums); });
-  return record("BandSums")(array_of(sums.sum, "float64"), array_of(sums.weight, "float64"), array_of(sums.n_nodes, "int64"));
+  return record("BandSums")(array_of(sums.sum, "float64"), array_of(sums.weight, "float64"),
+                            array_of(sums.n_nodes, "int64"));
 }
 
-#define RIIS_MODEL \
-  "R: float, half_thickness: float | None = None, rim: typing.Literal['round', 'cut'] = 'round'"
+#define RIIS_MODEL "R: float, half_thickness: float | None = None, rim: typing.Literal['round', 'cut'] = 'round'"
 #define RIIS_REALS "numpy.typing.NDArray[numpy.float64]"
 
 }  // namespace
 
 void add_resistance(nb::class_<Marks> &result) {
   result
-      .def("add_resistance", &add_to, nb::arg("K").none() = nb::none(), nb::arg("K_u_surface").none() = nb::none(), nb::kw_only(),
-           nb::arg("R").none(), nb::arg("half_thickness").none() = nb::none(), nb::arg("rim").none() = "round",
+      .def("add_resistance", &add_to, nb::arg("K").none() = nb::none(), nb::arg("K_u_surface").none() = nb::none(),
+           nb::kw_only(), nb::arg("R").none(), nb::arg("half_thickness").none() = nb::none(),
+           nb::arg("rim").none() = "round",
            nb::sig("def add_resistance(self, K: " RIIS_REALS " | None = None, K_u_surface: " RIIS_REALS
                    " | None = None, *, " RIIS_MODEL ") -> None"),
            R"(Adds K and K u_surface to the caller's arrays, so that several valves add up.
@@ -101,16 +102,19 @@ R               mass / (length time), such as kg/(m s)
 half_thickness  eps, mesh units, at most the distance limit of the marking; None: that of the marking
 rim             'round': every node within eps resists; 'cut': not those whose closest point is on the rim, which needs
                 fields='rim')")
-      .def("add_reaction", &add_reaction, nb::arg("velocity").none(), nb::arg("weight").none(), nb::arg("force").none() = nb::none(), nb::kw_only(),
-           nb::arg("R").none(), nb::arg("half_thickness").none() = nb::none(), nb::arg("rim").none() = "round",
-           nb::sig("def add_reaction(self, velocity: " RIIS_REALS ", weight: " RIIS_REALS ", force: " RIIS_REALS
-                   " | None = None, *, " RIIS_MODEL ") -> " RIIS_REALS),
-           R"(Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force, and returns it.
+      .def(
+          "add_reaction", &add_reaction, nb::arg("velocity").none(), nb::arg("weight").none(),
+          nb::arg("force").none() = nb::none(), nb::kw_only(), nb::arg("R").none(),
+          nb::arg("half_thickness").none() = nb::none(), nb::arg("rim").none() = "round",
+          nb::sig("def add_reaction(self, velocity: " RIIS_REALS ", weight: " RIIS_REALS ", force: " RIIS_REALS
+                  " | None = None, *, " RIIS_MODEL ") -> " RIIS_REALS),
+          R"(Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force, and returns it.
 
 velocity  (n_nodes, 3) float64: of the flow
 weight    (n_nodes,) float64: the volume that a node stands for, 0 for nodes of other ranks
 force     (3,) float64; None: a new array)")
-      .def("band_sums", &band_sums, nb::arg("value").none(), nb::arg("weight").none(), nb::arg("inner").none(), nb::arg("outer").none(),
+      .def("band_sums", &band_sums, nb::arg("value").none(), nb::arg("weight").none(), nb::arg("inner").none(),
+           nb::arg("outer").none(),
            nb::sig("def band_sums(self, value: " RIIS_REALS ", weight: " RIIS_REALS
                    ", inner: float, outer: float) -> riis._records.BandSums"),
            R"(Sums a value, such as the pressure, over the nodes at a distance from inner to outer, by side.

@@ -6,12 +6,12 @@ namespace {
 
 // The options in the annotations of signatures.
 #define RIIS_VECTOR "collections.abc.Sequence[float] | numpy.typing.NDArray[numpy.float64] | None = None"
-#define RIIS_SURFACE_OPTIONS                                                                                    \
-  "half_thickness: float | typing.Literal['auto'] | None = None, tolerance: float | None = None, scale: float " \
-  "| None = None, rotation_axis: " RIIS_VECTOR ", rotation_angle: float | None = None, translation: "           \
-  RIIS_VECTOR ", flip_normals: bool | None = None, measure: typing.Literal['triangles', 'sampling', "          \
-  "'minimization'] | None = None, measure_tolerance: float | typing.Literal['auto'] | None = None, "           \
-  "triangulation: typing.Literal['adapted', 'fixed'] | None = None, zero_area: typing.Literal['refuse', "      \
+#define RIIS_SURFACE_OPTIONS                                                                                      \
+  "half_thickness: float | typing.Literal['auto'] | None = None, tolerance: float | None = None, scale: float "   \
+  "| None = None, rotation_axis: " RIIS_VECTOR ", rotation_angle: float | None = None, translation: " RIIS_VECTOR \
+  ", flip_normals: bool | None = None, measure: typing.Literal['triangles', 'sampling', "                         \
+  "'minimization'] | None = None, measure_tolerance: float | typing.Literal['auto'] | None = None, "              \
+  "triangulation: typing.Literal['adapted', 'fixed'] | None = None, zero_area: typing.Literal['refuse', "         \
   "'skip'] | None = None, n_threads: int | None = None"
 #define RIIS_POINTS "numpy.typing.NDArray[numpy.float64]"
 #define RIIS_FACES "numpy.typing.NDArray[numpy.integer]"
@@ -62,8 +62,9 @@ void create(Surface *self, nb::handle valve_, const nb::kwargs &keywords) {
   set_surface_options(options, keywords, "options");
   new (self) Surface();
   try {
-    make_content(*self, options,
-                 [&](const riis_surface_options &now) { return riis_surface_create(valve.handle, &now, &self->handle); });
+    make_content(*self, options, [&](const riis_surface_options &now) {
+      return riis_surface_create(valve.handle, &now, &self->handle);
+    });
   } catch (...) {
     self->~Surface();
     throw;
@@ -77,8 +78,8 @@ void update(Surface &self, nb::handle valve_, const nb::kwargs &keywords) {
                  [&](const riis_surface_options &now) { return riis_surface_update(self.handle, valve.handle, &now); });
 }
 
-void update_moving(Surface &self, nb::handle valve_, nb::handle valve_before_, nb::handle dt_, nb::handle placement_before,
-                   const nb::kwargs &keywords) {
+void update_moving(Surface &self, nb::handle valve_, nb::handle valve_before_, nb::handle dt_,
+                   nb::handle placement_before, const nb::kwargs &keywords) {
   Valve &valve = object<Valve>(valve_, "valve"), &before = object<Valve>(valve_before_, "valve_before");
   const Reading reading(valve.usage, "valve"), reading_before(before.usage, "valve_before");
   const double dt = number(dt_, "dt");
@@ -90,8 +91,8 @@ void update_moving(Surface &self, nb::handle valve_, nb::handle valve_before_, n
   });
 }
 
-Surface *from_arrays(nb::handle vertices, nb::handle faces, nb::handle leaflet_id, nb::handle velocities, nb::handle index_base,
-                     const nb::kwargs &keywords) {
+Surface *from_arrays(nb::handle vertices, nb::handle faces, nb::handle leaflet_id, nb::handle velocities,
+                     nb::handle index_base, const nb::kwargs &keywords) {
   if (faces.is_none()) refuse_type("faces", "must be a numpy array of int32 or int64, not NoneType");
   FaceArrays of_faces(faces, leaflet_id, index_base);
   of_faces.set_vertices(vertices, velocities);
@@ -100,8 +101,8 @@ Surface *from_arrays(nb::handle vertices, nb::handle faces, nb::handle leaflet_i
   });
 }
 
-void update_from_arrays(Surface &self, nb::handle vertices, nb::handle faces, nb::handle leaflet_id, nb::handle velocities,
-                        nb::handle index_base, const nb::kwargs &keywords) {
+void update_from_arrays(Surface &self, nb::handle vertices, nb::handle faces, nb::handle leaflet_id,
+                        nb::handle velocities, nb::handle index_base, const nb::kwargs &keywords) {
   FaceArrays of_faces(faces, leaflet_id, index_base);
   of_faces.set_vertices(vertices, velocities);
   update_content(self, keywords, [&](const riis_surface_options &now) {
@@ -138,8 +139,9 @@ riis_surface_info info_of(Surface &surface) {
 nb::object info(Surface &surface) {
   const riis_surface_info found = info_of(surface);
   return record("SurfaceInfo")(found.n_vertices, found.n_triangles, found.n_zero_area, found.half_thickness, found.area,
-                               array_of(found.lower, "float64"), array_of(found.upper, "float64"), found.seconds_triangles,
-                               found.seconds_scene, found.error_bound, found.velocity_error_bound);
+                               array_of(found.lower, "float64"), array_of(found.upper, "float64"),
+                               found.seconds_triangles, found.seconds_scene, found.error_bound,
+                               found.velocity_error_bound);
 }
 
 riis_triangles triangles_of(const Surface &surface) {
@@ -155,8 +157,8 @@ nb::object vertex_array(Surface &surface, const double *riis_triangles::*member,
   if ((surface.*copy).is_valid()) return surface.*copy;
   const riis_triangles found = triangles_of(surface);
   const double *data = found.*member;
-  return surface.*copy = data ? copy_of(data, {static_cast<std::size_t>(found.n_vertices), n_components})
-                              : nb::object(nb::none());
+  return surface.*copy =
+             data ? copy_of(data, {static_cast<std::size_t>(found.n_vertices), n_components}) : nb::object(nb::none());
 }
 
 nb::object triangles(Surface &surface) {
@@ -240,8 +242,8 @@ Updates keep the options that they do not name. Arrays of a surface are copies, 
       .def("__init__", &create, nb::arg("valve").none(), nb::arg("options"),
            nb::sig("def __init__(self, valve: Valve, *, " RIIS_SURFACE_OPTIONS ") -> None"))
       .def_static("from_arrays", &from_arrays, nb::arg("vertices").none(), nb::arg("faces").none(), nb::kw_only(),
-                  nb::arg("leaflet_id").none() = nb::none(), nb::arg("velocities").none() = nb::none(), nb::arg("index_base").none() = 0,
-                  nb::arg("options"),
+                  nb::arg("leaflet_id").none() = nb::none(), nb::arg("velocities").none() = nb::none(),
+                  nb::arg("index_base").none() = 0, nb::arg("options"),
                   nb::sig("def from_arrays(vertices: " RIIS_POINTS ", faces: " RIIS_FACES
                           ", *, leaflet_id: numpy.typing.NDArray[numpy.int32] | None = None, velocities: " RIIS_POINTS
                           " | None = None, index_base: int = 0, " RIIS_SURFACE_OPTIONS ") -> Surface"),
@@ -251,20 +253,23 @@ vertices    (n_vertices, 3) float64 of any forward strides, before placement
 faces       (n_faces, 3 or 4) int32 or int64: vertex numbers from index_base; the right-hand rule makes the normal
 leaflet_id  (n_faces,) int32, >= 0; default 0
 velocities  (n_vertices, 3) float64, lengths over the caller's time)")
-      .def_static("from_keyframes", &from_keyframes, nb::arg("keyframes").none(), nb::arg("time").none(), nb::arg("dt").none() = nb::none(),
-                  nb::arg("options"),
-                  nb::sig("def from_keyframes(keyframes: Keyframes, time: float, dt: float | None = None, *, "
-                          RIIS_SURFACE_OPTIONS ") -> Surface"),
-                  R"(Makes a surface from the frames around a time, with velocities.
+      .def_static(
+          "from_keyframes", &from_keyframes, nb::arg("keyframes").none(), nb::arg("time").none(),
+          nb::arg("dt").none() = nb::none(), nb::arg("options"),
+          nb::sig(
+              "def from_keyframes(keyframes: Keyframes, time: float, dt: float | None = None, *, " RIIS_SURFACE_OPTIONS
+              ") -> Surface"),
+          R"(Makes a surface from the frames around a time, with velocities.
 
 The velocity is the mean from time - dt to time. None: the derivative of the interpolation.)")
       .def("update", &update, nb::arg("valve").none(), nb::arg("options"),
            nb::sig("def update(self, valve: Valve, *, " RIIS_SURFACE_OPTIONS ") -> None"),
            "Replaces the content by that of a valve, such as one that moved.")
-      .def("update_moving", &update_moving, nb::arg("valve").none(), nb::arg("valve_before").none(), nb::arg("dt").none(),
-           nb::kw_only(), nb::arg("placement_before").none() = nb::none(), nb::arg("options"),
-           nb::sig("def update_moving(self, valve: Valve, valve_before: Valve, dt: float, *, placement_before: dict[str, "
-                   "typing.Any] | None = None, " RIIS_SURFACE_OPTIONS ") -> None"),
+      .def("update_moving", &update_moving, nb::arg("valve").none(), nb::arg("valve_before").none(),
+           nb::arg("dt").none(), nb::kw_only(), nb::arg("placement_before").none() = nb::none(), nb::arg("options"),
+           nb::sig(
+               "def update_moving(self, valve: Valve, valve_before: Valve, dt: float, *, placement_before: dict[str, "
+               "typing.Any] | None = None, " RIIS_SURFACE_OPTIONS ") -> None"),
            R"(Replaces the content as update does, and gives every vertex a velocity.
 
 valve_before      the state before, of the same kind
@@ -273,21 +278,25 @@ placement_before  a dict of scale, rotation_axis, rotation_angle and translation
                   the present ones
 
 The velocity, in mesh units over the unit of dt, is the mean of the step.)")
-      .def("update_from_arrays", &update_from_arrays, nb::arg("vertices").none(), nb::arg("faces").none() = nb::none(), nb::kw_only(),
-           nb::arg("leaflet_id").none() = nb::none(), nb::arg("velocities").none() = nb::none(), nb::arg("index_base").none() = 0, nb::arg("options"),
-           nb::sig("def update_from_arrays(self, vertices: " RIIS_POINTS ", faces: " RIIS_FACES
-                   " | None = None, *, leaflet_id: numpy.typing.NDArray[numpy.int32] | None = None, velocities: " RIIS_POINTS
-                   " | None = None, index_base: int = 0, " RIIS_SURFACE_OPTIONS ") -> None"),
-           "Replaces the content from arrays, as from_arrays takes them. Without faces the vertices alone move.")
+      .def(
+          "update_from_arrays", &update_from_arrays, nb::arg("vertices").none(), nb::arg("faces").none() = nb::none(),
+          nb::kw_only(), nb::arg("leaflet_id").none() = nb::none(), nb::arg("velocities").none() = nb::none(),
+          nb::arg("index_base").none() = 0, nb::arg("options"),
+          nb::sig(
+              "def update_from_arrays(self, vertices: " RIIS_POINTS ", faces: " RIIS_FACES
+              " | None = None, *, leaflet_id: numpy.typing.NDArray[numpy.int32] | None = None, velocities: " RIIS_POINTS
+              " | None = None, index_base: int = 0, " RIIS_SURFACE_OPTIONS ") -> None"),
+          "Replaces the content from arrays, as from_arrays takes them. Without faces the vertices alone move.")
       .def("update_from_keyframes", &update_from_keyframes, nb::arg("keyframes").none(), nb::arg("time").none(),
            nb::arg("dt").none() = nb::none(), nb::arg("options"),
-           nb::sig("def update_from_keyframes(self, keyframes: Keyframes, time: float, dt: float | None = None, *, "
-                   RIIS_SURFACE_OPTIONS ") -> None"),
+           nb::sig("def update_from_keyframes(self, keyframes: Keyframes, time: float, dt: float | None = None, "
+                   "*, " RIIS_SURFACE_OPTIONS ") -> None"),
            "Replaces the content by the frames around a time, as from_keyframes does.")
       .def_prop_ro("info", &info, nb::sig("def info(self) -> riis._records.SurfaceInfo"),
                    "Counts, bounds, area, and the seconds of the last create or update.")
       .def_prop_ro(
-          "half_thickness", [](Surface &self) { return info_of(self).half_thickness; }, "The half thickness, mesh units.")
+          "half_thickness", [](Surface &self) { return info_of(self).half_thickness; },
+          "The half thickness, mesh units.")
       .def_prop_ro(
           "vertices", [](Surface &self) { return vertex_array(self, &riis_triangles::xyz, 3, &Surface::vertices); },
           nb::sig("def vertices(self) -> numpy.typing.NDArray[numpy.float64]"),
@@ -297,14 +306,17 @@ The velocity, in mesh units over the unit of dt, is the mean of the step.)")
           nb::sig("def uv(self) -> numpy.typing.NDArray[numpy.float64] | None"),
           "(n_vertices, 2): each vertex's place on its patch, 0 to 1. None for a surface from arrays.")
       .def_prop_ro(
-          "velocities", [](Surface &self) { return vertex_array(self, &riis_triangles::velocity, 3, &Surface::velocities); },
+          "velocities",
+          [](Surface &self) { return vertex_array(self, &riis_triangles::velocity, 3, &Surface::velocities); },
           nb::sig("def velocities(self) -> numpy.typing.NDArray[numpy.float64] | None"),
           "(n_vertices, 3): each vertex's velocity. None if the last update gave none.")
       .def_prop_ro("triangles", &triangles, nb::sig("def triangles(self) -> riis._records.Triangles"),
                    "The triangles: vertex_id (n, 3), triangle_id, leaflet_id and patch_id (n,).")
       .def(
           "to_pyvista",
-          [](nb::handle self) { return nb::object(nb::module_::import_("riis._plot").attr("surface_to_pyvista")(self)); },
+          [](nb::handle self) {
+            return nb::object(nb::module_::import_("riis._plot").attr("surface_to_pyvista")(self));
+          },
           nb::sig("def to_pyvista(self) -> typing.Any"),
           R"(Copies the surface to a pyvista.PolyData, which needs PyVista.
 

@@ -22,39 +22,49 @@ double number_or_auto(nb::handle value, const char *name) {
 
 const Keyword keywords[] = {
     {"half_thickness",
-     [](riis_surface_options &o, nb::handle value, const char *name) { o.half_thickness = number_or_auto(value, name); }, false},
-    {"tolerance", [](riis_surface_options &o, nb::handle value, const char *name) { o.tolerance = number(value, name); }, false},
+     [](riis_surface_options &o, nb::handle value, const char *name) {
+       o.half_thickness = number_or_auto(value, name);
+     },
+     false},
+    {"tolerance",
+     [](riis_surface_options &o, nb::handle value, const char *name) { o.tolerance = number(value, name); }, false},
     {"scale", [](riis_surface_options &o, nb::handle value, const char *name) { o.scale = number(value, name); }, true},
     {"rotation_axis",
-     [](riis_surface_options &o, nb::handle value, const char *name) { three_numbers(value, name, o.rotation_axis); }, true},
+     [](riis_surface_options &o, nb::handle value, const char *name) { three_numbers(value, name, o.rotation_axis); },
+     true},
     {"rotation_angle",
      [](riis_surface_options &o, nb::handle value, const char *name) { o.rotation_angle = number(value, name); }, true},
     {"translation",
-     [](riis_surface_options &o, nb::handle value, const char *name) { three_numbers(value, name, o.translation); }, true},
+     [](riis_surface_options &o, nb::handle value, const char *name) { three_numbers(value, name, o.translation); },
+     true},
     {"zero_area",
      [](riis_surface_options &o, nb::handle value, const char *name) {
        o.zero_area = choice(value, name, {{"refuse", RIIS_ZERO_AREA_REFUSE}, {"skip", RIIS_ZERO_AREA_SKIP}});
      },
      false},
-    {"flip_normals", [](riis_surface_options &o, nb::handle value, const char *name) { o.flip_normals = flag(value, name); },
-     false},
+    {"flip_normals",
+     [](riis_surface_options &o, nb::handle value, const char *name) { o.flip_normals = flag(value, name); }, false},
     {"measure",
      [](riis_surface_options &o, nb::handle value, const char *name) {
        o.measure = choice(value, name,
-                           {{"triangles", RIIS_MEASURE_TRIANGLES},
-                            {"sampling", RIIS_MEASURE_SAMPLING},
-                            {"minimization", RIIS_MEASURE_MINIMIZATION}});
+                          {{"triangles", RIIS_MEASURE_TRIANGLES},
+                           {"sampling", RIIS_MEASURE_SAMPLING},
+                           {"minimization", RIIS_MEASURE_MINIMIZATION}});
      },
      false},
     {"measure_tolerance",
-     [](riis_surface_options &o, nb::handle value, const char *name) { o.measure_tolerance = number_or_auto(value, name); },
+     [](riis_surface_options &o, nb::handle value, const char *name) {
+       o.measure_tolerance = number_or_auto(value, name);
+     },
      false},
     {"triangulation",
      [](riis_surface_options &o, nb::handle value, const char *name) {
-       o.triangulation = choice(value, name, {{"adapted", RIIS_TRIANGULATION_ADAPTED}, {"fixed", RIIS_TRIANGULATION_FIXED}});
+       o.triangulation =
+           choice(value, name, {{"adapted", RIIS_TRIANGULATION_ADAPTED}, {"fixed", RIIS_TRIANGULATION_FIXED}});
      },
      false},
-    {"n_threads", [](riis_surface_options &o, nb::handle value, const char *name) { o.n_threads = thread_count(value, name); },
+    {"n_threads",
+     [](riis_surface_options &o, nb::handle value, const char *name) { o.n_threads = thread_count(value, name); },
      false},
 };
 

@@ -96,8 +96,8 @@ Valve *copy(Valve &valve) {
   return made.release();
 }
 
-Valve *from_patches(nb::handle degree, nb::handle control, nb::handle curve_id, nb::handle reversed, nb::handle leaflet_id,
-                    nb::handle index_base) {
+Valve *from_patches(nb::handle degree, nb::handle control, nb::handle curve_id, nb::handle reversed,
+                    nb::handle leaflet_id, nb::handle index_base) {
   riis_patches patches;
   call_shortly(riis_patches_init(&patches, sizeof patches));
   const Array degrees = Array::of<std::int32_t>(degree, "degree");
@@ -132,7 +132,8 @@ Valve *from_patches(nb::handle degree, nb::handle control, nb::handle curve_id, 
   const auto own = [](nb::handle array) {
     return array.is_none() ? nb::object(nb::none()) : nb::module_::import_("numpy").attr("array")(array);
   };
-  made->patches = nb::make_tuple(own(degree), own(control), own(curve_id), own(reversed), own(leaflet_id), patches.index_base);
+  made->patches =
+      nb::make_tuple(own(degree), own(control), own(curve_id), own(reversed), own(leaflet_id), patches.index_base);
   call_library([&] { return riis_valve_create_from_patches(&patches, &made->handle); });
   return made.release();
 }
@@ -164,10 +165,10 @@ nb::dict parameters(Valve &valve) {
   nb::dict all;
   for (std::int64_t id = 0, n = n_parameters(valve); id < n; ++id) {
     const riis_parameter found = parameter(valve, id);
-    const nb::object value =
-        found.n_values == 1 ? nb::object(nb::float_(found.default_values[0])) : array_of(found.default_values, "float64");
-    all[found.name] = make(found.name, found.unit, in_python(found.description), found.n_values, value, found.minimum,
-                           found.maximum);
+    const nb::object value = found.n_values == 1 ? nb::object(nb::float_(found.default_values[0]))
+                                                 : array_of(found.default_values, "float64");
+    all[found.name] =
+        make(found.name, found.unit, in_python(found.description), found.n_values, value, found.minimum, found.maximum);
   }
   return all;
 }
@@ -201,9 +202,10 @@ void make_from_state(Valve *self, const nb::tuple &state) {
   const nb::object kind = state[0], open = state[2], patches = state[3];
   const nb::handle type = nb::type<Valve>();
   const nb::object made =
-      patches.is_none() ? type(kind)
-                        : type.attr("from_patches")(patches[0], patches[1], patches[2], nb::arg("reversed") = patches[3],
-                                                    nb::arg("leaflet_id") = patches[4], nb::arg("index_base") = patches[5]);
+      patches.is_none()
+          ? type(kind)
+          : type.attr("from_patches")(patches[0], patches[1], patches[2], nb::arg("reversed") = patches[3],
+                                      nb::arg("leaflet_id") = patches[4], nb::arg("index_base") = patches[5]);
   Valve &valve = object<Valve>(made, "valve");
   if (!open.is_none()) {
     // With the open state's values, the valve accepts that state. The valve's own values follow: only surfaces refuse a clash.
@@ -242,13 +244,16 @@ be set; 'right.leaflet_angle' is one cusp's. Rotation, translation, t0_* and t3_
       .def("__init__", &create, nb::arg("kind").none() = "aortic", nb::arg("parameters"),
            nb::sig("def __init__(self, kind: str = 'aortic', **parameters: float | collections.abc.Sequence[float] | "
                    "numpy.typing.NDArray[numpy.float64]) -> None"))
-      .def_static("from_patches", &from_patches, nb::arg("degree").none(), nb::arg("control").none(), nb::arg("curve_id").none(), nb::kw_only(),
-                  nb::arg("reversed").none() = nb::none(), nb::arg("leaflet_id").none() = nb::none(), nb::arg("index_base").none() = 0,
-                  nb::sig("def from_patches(degree: numpy.typing.NDArray[numpy.int32], control: "
-                          "numpy.typing.NDArray[numpy.float64], curve_id: numpy.typing.NDArray[numpy.int32], *, reversed: "
-                          "numpy.typing.NDArray[numpy.int32] | None = None, leaflet_id: numpy.typing.NDArray[numpy.int32] | None "
-                          "= None, index_base: int = 0) -> Valve"),
-                  R"(Makes a valve from Coons patches between Bézier curves.
+      .def_static(
+          "from_patches", &from_patches, nb::arg("degree").none(), nb::arg("control").none(),
+          nb::arg("curve_id").none(), nb::kw_only(), nb::arg("reversed").none() = nb::none(),
+          nb::arg("leaflet_id").none() = nb::none(), nb::arg("index_base").none() = 0,
+          nb::sig(
+              "def from_patches(degree: numpy.typing.NDArray[numpy.int32], control: "
+              "numpy.typing.NDArray[numpy.float64], curve_id: numpy.typing.NDArray[numpy.int32], *, reversed: "
+              "numpy.typing.NDArray[numpy.int32] | None = None, leaflet_id: numpy.typing.NDArray[numpy.int32] | None "
+              "= None, index_base: int = 0) -> Valve"),
+          R"(Makes a valve from Coons patches between Bézier curves.
 
 degree       (n_curves,) int32: 1, 2 or 3
 control      (sum of degree + 1, 3) float64: the control points, curve after curve
@@ -261,8 +266,7 @@ The valve's only parameter is 'opening'. Arrays are copied.)")
            nb::sig("def __setitem__(self, name: str, value: float | collections.abc.Sequence[float] | "
                    "numpy.typing.NDArray[numpy.float64]) -> None"),
            "Sets a parameter, to one value or three.")
-      .def("__getitem__", &get, nb::arg("name").none(),
-           nb::sig("def __getitem__(self, name: str) -> typing.Any"),
+      .def("__getitem__", &get, nb::arg("name").none(), nb::sig("def __getitem__(self, name: str) -> typing.Any"),
            "Returns a parameter: a float, or an array (3,) for a parameter with three values.")
       .def("__contains__", &contains, nb::arg("name").none(), nb::sig("def __contains__(self, name: object) -> bool"))
       .def(
@@ -274,7 +278,8 @@ The valve's only parameter is 'opening'. Arrays are copied.)")
           nb::sig("def keys(self) -> collections.abc.KeysView[str]"), "Returns a view of the parameters' names.")
       .def(
           "values", [](nb::handle self) { return mapping_view("ValuesView", self); },
-          nb::sig("def values(self) -> collections.abc.ValuesView[typing.Any]"), "Returns a view of the parameters' values.")
+          nb::sig("def values(self) -> collections.abc.ValuesView[typing.Any]"),
+          "Returns a view of the parameters' values.")
       .def(
           "items", [](nb::handle self) { return mapping_view("ItemsView", self); },
           nb::sig("def items(self) -> collections.abc.ItemsView[str, typing.Any]"),
@@ -286,23 +291,27 @@ The valve's only parameter is 'opening'. Arrays are copied.)")
            nb::sig("def update(self, other: collections.abc.Mapping[str, typing.Any] | "
                    "collections.abc.Iterable[tuple[str, typing.Any]] | None = None, /, **parameters: float | "
                    "collections.abc.Sequence[float] | numpy.typing.NDArray[numpy.float64]) -> None"),
-           "Sets several parameters, as dict.update: valve.update(opening=0.3), valve.update({'right.leaflet_angle': 20}).")
+           "Sets several parameters, as dict.update: valve.update(opening=0.3), valve.update({'right.leaflet_angle': "
+           "20}).")
       .def("__getstate__", &state_of, nb::sig("def __getstate__(self) -> tuple[typing.Any, ...]"))
       .def("__setstate__", &make_from_state, nb::arg("state"),
            nb::sig("def __setstate__(self, state: tuple[typing.Any, ...]) -> None"))
-      .def("copy", &copy, nb::sig("def copy(self) -> Valve"), "Returns a second valve with the same parameters and states.")
+      .def("copy", &copy, nb::sig("def copy(self) -> Valve"),
+           "Returns a second valve with the same parameters and states.")
       .def("__copy__", &copy, nb::sig("def __copy__(self) -> Valve"))
       .def(
           "__deepcopy__", [](Valve &self, nb::handle) { return copy(self); }, nb::arg("memo").none(),
           nb::sig("def __deepcopy__(self, memo: object) -> Valve"))
-      .def("set_open_state", &set_open_state, nb::arg("open").none(), nb::sig("def set_open_state(self, open: Valve) -> None"),
+      .def("set_open_state", &set_open_state, nb::arg("open").none(),
+           nb::sig("def set_open_state(self, open: Valve) -> None"),
            R"(Gives the valve a second state to open to: its own is at opening 0, that of open at opening 1.
 
 open is copied. It is of the same kind; from patches, it has the same curves, degrees and sides.)")
       .def_prop_ro("parameters", &parameters, nb::sig("def parameters(self) -> dict[str, riis._records.Parameter]"),
                    "Descriptions of the parameters by name: unit, text, default, minimum, maximum.")
       .def_prop_ro(
-          "kind", [](const Valve &self) { return self.kind; }, "The kind, such as 'mitral'; 'patches' for from_patches.")
+          "kind", [](const Valve &self) { return self.kind; },
+          "The kind, such as 'mitral'; 'patches' for from_patches.")
       .def("__repr__", &description);
   add_closing(valve);
   nb::module_::import_("collections.abc").attr("Mapping").attr("register")(valve);

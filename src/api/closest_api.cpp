@@ -18,8 +18,14 @@ using riis::require;
 
 namespace {
 
-const riis_closest_options default_options{
-    sizeof(riis_closest_options), std::numeric_limits<double>::infinity(), RIIS_FAR_DISTANCE, nullptr, 0, nullptr, 0, 0};
+const riis_closest_options default_options{sizeof(riis_closest_options),
+                                           std::numeric_limits<double>::infinity(),
+                                           RIIS_FAR_DISTANCE,
+                                           nullptr,
+                                           0,
+                                           nullptr,
+                                           0,
+                                           0};
 const riis_closest_arrays default_arrays{
     sizeof(riis_closest_arrays), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
 
@@ -128,8 +134,7 @@ void find_closest(const riis::Surface &content, const Points &points, const riis
                   const riis_closest_arrays &to) {
   const WantedPoints wanted(options, points);
   if (wanted.n() == 0) return;
-  const int n_threads =
-      riis::threads_for(options.n_threads, "options.n_threads", wanted.n(), riis::points_per_thread);
+  const int n_threads = riis::threads_for(options.n_threads, "options.n_threads", wanted.n(), riis::points_per_thread);
   // If memory runs out here, the arrays are still untouched.
   if (to.side) content.pseudonormals();
   // write_found(i) returns false where nothing is within the limit.

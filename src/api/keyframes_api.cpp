@@ -31,10 +31,8 @@ riis_status riis_keyframes_create(const riis_surface_arrays *arrays, const riis_
                                   riis_keyframes **keyframes) {
   return guarded([&] {
     require(keyframes, "keyframes");
-    const riis_surface_arrays whole_arrays =
-        riis::completed(require(arrays, "arrays"), "arrays", default_arrays());
-    const riis_keyframe_arrays whole =
-        riis::completed(require(frames, "frames"), "frames", default_frames);
+    const riis_surface_arrays whole_arrays = riis::completed(require(arrays, "arrays"), "arrays", default_arrays());
+    const riis_keyframe_arrays whole = riis::completed(require(frames, "frames"), "frames", default_frames);
     *keyframes = new riis_keyframes(riis::Keyframes(whole_arrays, whole));
   });
 }

@@ -50,8 +50,8 @@ riis_status riis_opening_table_init(riis_opening_table *table, int64_t struct_si
 
 riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening, double *rate) {
   return guarded([&] {
-    write(riis::opening_from_table(riis::completed(require(table, "table"), "table", default_table), time),
-          opening, rate);
+    write(riis::opening_from_table(riis::completed(require(table, "table"), "table", default_table), time), opening,
+          rate);
   });
 }
 
@@ -61,8 +61,8 @@ riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_si
 
 riis_status riis_opening_from_times(const riis_opening_times *times, double time, double *opening, double *rate) {
   return guarded([&] {
-    write(riis::opening_from_times(riis::completed(require(times, "times"), "times", default_times), time),
-          opening, rate);
+    write(riis::opening_from_times(riis::completed(require(times, "times"), "times", default_times), time), opening,
+          rate);
   });
 }
 
@@ -77,10 +77,8 @@ riis_status riis_opening_switch_state_init(riis_opening_switch_state *state, int
 riis_status riis_opening_switch_advance(const riis_opening_switch *law, const riis_opening_switch_state *before,
                                         double time, double pressure_difference, double flow,
                                         riis_opening_switch_state *now) {
-  return guarded([&] {
-    advance(law, default_switch, before, default_switch_state, time,
-                                            pressure_difference, flow, now);
-  });
+  return guarded(
+      [&] { advance(law, default_switch, before, default_switch_state, time, pressure_difference, flow, now); });
 }
 
 riis_status riis_opening_angle_init(riis_opening_angle *law, int64_t struct_size) {
@@ -94,9 +92,7 @@ riis_status riis_opening_angle_state_init(riis_opening_angle_state *state, int64
 riis_status riis_opening_angle_advance(const riis_opening_angle *law, const riis_opening_angle_state *before,
                                        double time, double pressure_difference, double flow,
                                        riis_opening_angle_state *now) {
-  return guarded([&] {
-    advance(law, default_angle, before, default_angle_state, time, pressure_difference,
-                                          flow, now);
-  });
+  return guarded(
+      [&] { advance(law, default_angle, before, default_angle_state, time, pressure_difference, flow, now); });
 }
 }

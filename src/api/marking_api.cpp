@@ -19,14 +19,14 @@ using riis::require_handle;
 
 namespace {
 
-const riis_mark_options default_options{
-    sizeof(riis_mark_options), RIIS_AUTO, nullptr, nullptr, 0, RIIS_SEARCH_AUTO, 0, RIIS_INSTRUCTIONS_AUTO};
+const riis_mark_options default_options{sizeof(riis_mark_options), RIIS_AUTO, nullptr, nullptr, 0, RIIS_SEARCH_AUTO, 0,
+                                        RIIS_INSTRUCTIONS_AUTO};
 const riis_resistance default_resistance{sizeof(riis_resistance), std::numeric_limits<double>::quiet_NaN(), RIIS_AUTO,
                                          RIIS_RIM_ROUND, 0};
 const riis_dense_arrays default_dense{
     sizeof(riis_dense_arrays), 0, RIIS_FAR_DISTANCE, nullptr, nullptr, nullptr, nullptr};
-const riis_resistance_arrays default_resistance_arrays{
-    sizeof(riis_resistance_arrays), 0, nullptr, 1, {nullptr, nullptr, nullptr}, 1};
+const riis_resistance_arrays default_resistance_arrays{sizeof(riis_resistance_arrays), 0, nullptr, 1,
+                                                       {nullptr, nullptr, nullptr},    1};
 const riis_flow_arrays default_flow{sizeof(riis_flow_arrays), 0, {nullptr, nullptr, nullptr}, 1, nullptr};
 const riis_band default_band{sizeof(riis_band), 0, 0, 0, nullptr, nullptr};
 const riis_passage_ends default_ends{sizeof(riis_passage_ends), 0, nullptr, 0, nullptr};
@@ -124,8 +124,12 @@ riis::Threads threads_of(const riis_mark_options &options, const riis::Mesh &mes
 
 riis::SearchRequest request_of(const riis::Surface &surface, const riis_mesh *mesh, const riis_mark_options &options) {
   check_search(options.search);
-  return {surface,           mesh->mesh,                      limit_of(options, surface.half_thickness()),
-          options.node_mask, threads_of(options, mesh->mesh), instructions_asked_for(options.instructions)};
+  return {surface,
+          mesh->mesh,
+          limit_of(options, surface.half_thickness()),
+          options.node_mask,
+          threads_of(options, mesh->mesh),
+          instructions_asked_for(options.instructions)};
 }
 
 // Checks the handles of a marking, the surface first, and returns its content.
@@ -179,9 +183,11 @@ riis::ArrayView<const std::int64_t> checked_end(const riis::SearchRequest &reque
   if (!ids) riis::fail(RIIS_INVALID_ARGUMENT, "ends.", name, " is NULL");
   for (std::int64_t i = 0; i < n; ++i) {
     if (ids[i] < 0 || ids[i] >= n_nodes)
-      riis::fail(RIIS_INVALID_ARGUMENT, "ends.", name, "[", i, "] is ", ids[i], "; the mesh has ", n_nodes, " nodes, from 0");
+      riis::fail(RIIS_INVALID_ARGUMENT, "ends.", name, "[", i, "] is ", ids[i], "; the mesh has ", n_nodes,
+                 " nodes, from 0");
     if (request.is_masked_out(ids[i]))
-      riis::fail(RIIS_INVALID_ARGUMENT, "ends.", name, "[", i, "] is node ", ids[i], ", which options.node_mask leaves out");
+      riis::fail(RIIS_INVALID_ARGUMENT, "ends.", name, "[", i, "] is node ", ids[i],
+                 ", which options.node_mask leaves out");
   }
   return {ids, n};
 }
@@ -226,9 +232,9 @@ riis_status riis_marks_get_list(const riis_marks *marks, int32_t which, riis_mar
     const riis::Marks &content = require_handle(marks, "marks")->marks;
     if (which != RIIS_LIST_MARKED && which != RIIS_LIST_WITHIN_LIMIT)
       riis::fail(RIIS_INVALID_ARGUMENT, "which is ", which, "; it must be one of RIIS_LIST_*");
-    riis::write_struct(list, struct_size, "list",
-                       arrays_of(which == RIIS_LIST_MARKED ? content.marked_list() : content.within,
-                                 content.data.given_fields));
+    riis::write_struct(
+        list, struct_size, "list",
+        arrays_of(which == RIIS_LIST_MARKED ? content.marked_list() : content.within, content.data.given_fields));
   });
 }
 
@@ -247,9 +253,7 @@ riis_status riis_marks_get_dense(const riis_marks *marks, const riis_dense_array
 }
 
 riis_status riis_marks_get_stats(const riis_marks *marks, riis_mark_stats *stats, int64_t struct_size) {
-  return guarded([&] {
-    riis::write_struct(stats, struct_size, "stats", require_handle(marks, "marks")->marks.stats);
-  });
+  return guarded([&] { riis::write_struct(stats, struct_size, "stats", require_handle(marks, "marks")->marks.stats); });
 }
 
 riis_status riis_resistance_arrays_init(riis_resistance_arrays *arrays, int64_t struct_size) {
@@ -261,8 +265,7 @@ riis_status riis_marks_add_resistance(const riis_marks *marks, const riis_resist
   return guarded([&] {
     const riis::Marks &content = require_handle(marks, "marks")->marks;
     const riis::Resistance checked = resistance_of(resistance, content);
-    const riis_resistance_arrays to =
-        riis::completed(require(arrays, "arrays"), "arrays", default_resistance_arrays);
+    const riis_resistance_arrays to = riis::completed(require(arrays, "arrays"), "arrays", default_resistance_arrays);
     check_n_nodes("arrays.n_nodes", to.n_nodes, content);
     check_stride("arrays.K_stride", to.K_stride, to.n_nodes);
     check_components("arrays.K_u_surface", to.K_u_surface, true);

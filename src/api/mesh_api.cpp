@@ -20,8 +20,7 @@ const riis_mesh_faces default_faces{sizeof(riis_mesh_faces), 0, 0, nullptr, null
 
 void check_n_nodes(std::int64_t n, const char *name) {
   if (n < 0) riis::fail(RIIS_INVALID_MESH, name, " is ", n, "; it must be at least 0");
-  if (n > riis::max_nodes)
-    riis::fail(RIIS_LIMIT_EXCEEDED, name, " is ", n, "; it must be at most ", riis::max_nodes);
+  if (n > riis::max_nodes) riis::fail(RIIS_LIMIT_EXCEEDED, name, " is ", n, "; it must be at most ", riis::max_nodes);
 }
 
 // Returns the nodes' box, which is empty if there are none.
@@ -36,13 +35,11 @@ void copy_nodes(const riis_points *given, riis::Mesh &mesh) {
   riis::check_bits("nodes.real_bits", whole.real_bits);
   riis::check_reserved("nodes.reserved", whole.reserved);
   check_n_nodes(whole.n_points, "nodes.n_points");
-  riis::with_points(whole.n_points, {whole.x, whole.y, whole.z}, whole.stride, whole.real_bits,
-                    [&](const auto &nodes) {
-                      const riis::Bounds bounds = nodes.n == 0 ? riis::Bounds{}
-                                                               : riis::check_points(nodes, "node", RIIS_INVALID_MESH,
-                                                                                    "nodes.");
-                      mesh.copy_nodes(nodes, bounds);
-                    });
+  riis::with_points(whole.n_points, {whole.x, whole.y, whole.z}, whole.stride, whole.real_bits, [&](const auto &nodes) {
+    const riis::Bounds bounds =
+        nodes.n == 0 ? riis::Bounds{} : riis::check_points(nodes, "node", RIIS_INVALID_MESH, "nodes.");
+    mesh.copy_nodes(nodes, bounds);
+  });
 }
 
 }  // namespace
@@ -102,8 +99,7 @@ riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr) {
   return guarded([&] {
     riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
     if (csr)
-      content.set_adjacency(
-          riis::checked_adjacency(riis::completed(csr, "csr", default_csr), content.nodes().n));
+      content.set_adjacency(riis::checked_adjacency(riis::completed(csr, "csr", default_csr), content.nodes().n));
     else
       content.set_adjacency(std::nullopt);
   });

@@ -96,7 +96,8 @@ void check_struct_size(std::int64_t size, const char *name) {
   static_assert(first_size<Struct> <= size_here);
   if (size < first_size<Struct> || size > size_here || size % 8 != 0)
     fail(RIIS_INVALID_STRUCT_SIZE, "the struct size of ", name, " is ", size, "; riis ", riis_version_string(),
-         " knows ", first_size<Struct>, " to ", size_here, ": use its init function, and a header no newer than the library");
+         " knows ", first_size<Struct>, " to ", size_here,
+         ": use its init function, and a header no newer than the library");
 }
 
 // Copies the first bytes of a struct: as many as check_struct_size accepted.

@@ -159,8 +159,8 @@ riis::ValveMotion motion_of(const MotionArguments &motion, const riis_surface_op
   if (!(std::abs(motion.dt) >= 1e-30 && std::abs(motion.dt) <= 1e30))
     riis::fail(RIIS_INVALID_ARGUMENT, "dt is ", motion.dt,
                "; it must be the time from valve_before to valve, from 1e-30 to 1e+30, or that much below 0");
-  const riis_surface_options before = riis::completed(
-      motion.options_before, "options_before", motion.options_before ? default_options : options_now);
+  const riis_surface_options before =
+      riis::completed(motion.options_before, "options_before", motion.options_before ? default_options : options_now);
   check_placement(before, "options_before");
   return {motion.valve_before->valve, placement_of(before), motion.dt};
 }
@@ -180,8 +180,7 @@ void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_
   const riis::FixedTriangulation *fixed = newly_fixed ? newly_fixed.get() : surface.fixed.get();
   const riis::ValveAccuracy accuracy{triangle_error, options.measure, distance_error_of(options),
                                      is_fixed ? fixed : nullptr};
-  if (options.measure != RIIS_MEASURE_TRIANGLES)
-    check_precision(options, "measure_tolerance", accuracy.distance_error);
+  if (options.measure != RIIS_MEASURE_TRIANGLES) check_precision(options, "measure_tolerance", accuracy.distance_error);
   fill(surface, options, [&](const riis::SurfaceRequest &request, riis::Surface &made) {
     return riis::make_surface(valve->valve, valve_motion ? &*valve_motion : nullptr, request, accuracy, made);
   });
@@ -197,8 +196,7 @@ void update_from_valve(riis_surface *surface, const riis_valve *valve, const rii
   require_handle(surface, "surface");
   require_handle(valve, "valve");
   if (motion) require_handle(motion->valve_before, "valve_before");
-  fill_from_valve(*surface, valve,
-                  riis::completed(options, "options", options ? default_options : surface->options),
+  fill_from_valve(*surface, valve, riis::completed(options, "options", options ? default_options : surface->options),
                   motion);
 }
 
@@ -326,9 +324,8 @@ riis_status riis_surface_update_from_keyframes(riis_surface *surface, const riis
                                                double dt, const riis_surface_options *options) {
   return guarded([&] {
     require_handle(surface, "surface");
-    fill_from_keyframes(
-        *surface, keyframes, time, dt,
-        riis::completed(options, "options", options ? default_options : surface->options));
+    fill_from_keyframes(*surface, keyframes, time, dt,
+                        riis::completed(options, "options", options ? default_options : surface->options));
   });
 }
 
@@ -340,28 +337,28 @@ riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info
     const riis::TriangleSet &set = content.triangles();
     const auto &[lower, upper] = content.scene().bounds();
     riis::write_struct(info, struct_size, "info",
-                                  riis_surface_info{set.n_vertices(),
-                                                    set.n_triangles(),
-                                                    set.n_zero_area,
-                                                    content.half_thickness(),
-                                                    content.area(),
-                                                    {lower.x, lower.y, lower.z},
-                                                    {upper.x, upper.y, upper.z},
-                                                    surface->seconds_triangles,
-                                                    surface->seconds_scene,
-                                                    set.error_bound,
-                                                    content.velocity_error_bound()});
+                       riis_surface_info{set.n_vertices(),
+                                         set.n_triangles(),
+                                         set.n_zero_area,
+                                         content.half_thickness(),
+                                         content.area(),
+                                         {lower.x, lower.y, lower.z},
+                                         {upper.x, upper.y, upper.z},
+                                         surface->seconds_triangles,
+                                         surface->seconds_scene,
+                                         set.error_bound,
+                                         content.velocity_error_bound()});
   });
 }
 
 riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangles *triangles, int64_t struct_size) {
   return guarded([&] {
     const riis::TriangleSet &set = riis::content_of(surface).triangles();
-    riis::write_struct(triangles, struct_size, "triangles",
-                       riis_triangles{set.n_vertices(), set.xyz.data(), set.uv.empty() ? nullptr : set.uv.data(),
-                                      set.velocity.empty() ? nullptr : set.velocity.data(), set.n_triangles(),
-                                      set.vertex_id.data(), set.triangle_id.data(), set.leaflet_id.data(),
-                                      set.patch_id.data()});
+    riis::write_struct(
+        triangles, struct_size, "triangles",
+        riis_triangles{set.n_vertices(), set.xyz.data(), set.uv.empty() ? nullptr : set.uv.data(),
+                       set.velocity.empty() ? nullptr : set.velocity.data(), set.n_triangles(), set.vertex_id.data(),
+                       set.triangle_id.data(), set.leaflet_id.data(), set.patch_id.data()});
   });
 }
 }

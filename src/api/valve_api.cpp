@@ -80,7 +80,7 @@ riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_t *n_para
 }
 
 riis_status riis_valve_get_parameter(const riis_valve *valve, int64_t parameter_id, riis_parameter *parameter,
-                                 int64_t struct_size) {
+                                     int64_t struct_size) {
   return guarded([&] {
     require_handle(valve, "valve");
     const auto &specs = valve->valve.kind().parameters;
@@ -90,13 +90,13 @@ riis_status riis_valve_get_parameter(const riis_valve *valve, int64_t parameter_
     const riis::ParameterSpec &spec = riis::view(specs)[parameter_id];
     const auto &defaults = spec.default_values;
     riis::write_struct(parameter, struct_size, "parameter",
-                           riis_parameter{spec.name.c_str(),
-                                          spec.unit,
-                                          spec.description,
-                                          spec.n_values,
-                                          {defaults[0], defaults[1], defaults[2]},
-                                          spec.minimum,
-                                          spec.maximum});
+                       riis_parameter{spec.name.c_str(),
+                                      spec.unit,
+                                      spec.description,
+                                      spec.n_values,
+                                      {defaults[0], defaults[1], defaults[2]},
+                                      spec.minimum,
+                                      spec.maximum});
   });
 }
 }

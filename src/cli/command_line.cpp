@@ -73,8 +73,9 @@ void declare_surface(CLI::App &app, Options &options, Texts &texts) {
       ->type_name("connected|ARRAY")
       ->group(group)
       ->needs(surface);
-  app.add_option("--valve", options.valve,
-                 "Kind of the parametric valve, aortic (default), mitral, trileaflet or bileaflet, or a file of patches")
+  app.add_option(
+         "--valve", options.valve,
+         "Kind of the parametric valve, aortic (default), mitral, trileaflet or bileaflet, or a file of patches")
       ->type_name("KIND|FILE.json")
       ->group(group)
       ->excludes(surface);
@@ -382,11 +383,12 @@ void check_purpose(const Options &options, const std::vector<const CLI::Option *
     refuse("--params-open has no effect with --valve " + options.valve + ": the open state is in that file");
   }
   // At the default opening of most valves the file would have no effect, and nobody would see it.
-  if (!options.params_open.empty() && !sets_opening(options) && options.series.cycle.empty() && options.states.empty() &&
-      !exports && !options.check_crossing) {
+  if (!options.params_open.empty() && !sets_opening(options) && options.series.cycle.empty() &&
+      options.states.empty() && !exports && !options.check_crossing) {
     refuse("--params-open needs --opening, --cycle, --states, --export-uris or --check-crossing");
   }
-  if (prints || exports || options.check_crossing || !options.series.case_file.empty() || !options.states.empty()) return;
+  if (prints || exports || options.check_crossing || !options.series.case_file.empty() || !options.states.empty())
+    return;
   if (options.mesh.empty()) {
     if (options.surface_output.empty() && options.pictures.empty()) refuse("nothing to do: a MESH is needed");
   } else if (options.quiet && options.output.empty() && options.surface_output.empty() && options.pictures.empty() &&
@@ -461,9 +463,8 @@ void apply_units(Options &options) {
 }
 
 bool sets_opening(const Options &options) {
-  return options.opening || std::any_of(options.settings.begin(), options.settings.end(), [](const std::string &setting) {
-           return setting.rfind("opening=", 0) == 0;
-         });
+  return options.opening || std::any_of(options.settings.begin(), options.settings.end(),
+                                        [](const std::string &setting) { return setting.rfind("opening=", 0) == 0; });
 }
 
 bool is_prefix(const std::string &name) {

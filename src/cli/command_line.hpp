@@ -47,8 +47,8 @@ struct UrisOptions {
   std::string folder;  // "": not wanted
   std::optional<double> time_step;
   std::optional<double> opening_duration, closing_duration;  // without a cycle
-  std::optional<TimeSpan> opening_span, closing_span;      // of the cycle
-  double largest_edge = 0;                                 // 0: as the library cuts
+  std::optional<TimeSpan> opening_span, closing_span;        // of the cycle
+  double largest_edge = 0;                                   // 0: as the library cuts
 };
 
 // At the position of their RIIS_TRIANGULATION_*.

@@ -87,9 +87,9 @@ void warn_of_crossings(const Options &options, const CrossingReport &report, con
   }
   const bool is_one_leaflet = found.deepest_leaflet_id[0] == found.deepest_leaflet_id[1];
   const std::string first = leaflet_text(options, found.deepest_leaflet_id[0]);
-  const std::string who = is_one_leaflet
-                              ? "leaflet " + first + " crosses itself"
-                              : "leaflets " + first + " and " + leaflet_text(options, found.deepest_leaflet_id[1]) + " cross";
+  const std::string who =
+      is_one_leaflet ? "leaflet " + first + " crosses itself"
+                     : "leaflets " + first + " and " + leaflet_text(options, found.deepest_leaflet_id[1]) + " cross";
   // A pair's intersection is about as long as an edge of the triangles there.
   warn(part + who + at + ": " + counted(found.n_pairs, "pair") +
        " of triangles go through each other, along a length of " + shown(found.total_length) + "; the deepest is " +

@@ -66,8 +66,7 @@ std::string picture_title(const Options &options, const riis_valve *valve, const
 }
 
 void draw_pictures(const Options &options, const std::string &title, const std::vector<const char *> &names,
-                   const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_marks *result,
-                   Report &report) {
+                   const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_marks *result, Report &report) {
   std::vector<int32_t> views;
   std::vector<const char *> paths;
   for (const Picture &picture : options.pictures) {

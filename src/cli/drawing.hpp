@@ -23,7 +23,6 @@ std::string picture_title(const Options &options, const riis_valve *valve, const
 
 // Draws options.pictures. mesh and result may be NULL; leaks are shown with a result.
 void draw_pictures(const Options &options, const std::string &title, const std::vector<const char *> &names,
-                   const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_marks *result,
-                   Report &report);
+                   const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_marks *result, Report &report);
 
 }  // namespace riis::cli

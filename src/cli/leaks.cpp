@@ -19,8 +19,8 @@ namespace {
 Leaks leaks_of(const MarkedMesh &marked, const riis_mark_options &options, double longer_than,
                int64_t *n_cells_left_out) {
   riis_adjacency *handle = nullptr;
-  check(
-      riis_vtk_mesh_create_long_edges(marked.file, marked.surface, longer_than, options.n_threads, n_cells_left_out, &handle));
+  check(riis_vtk_mesh_create_long_edges(marked.file, marked.surface, longer_than, options.n_threads, n_cells_left_out,
+                                        &handle));
   const Adjacency adjacency(handle);
   riis_csr rows;
   check(riis_adjacency_get_csr(adjacency.get(), &rows, sizeof rows));

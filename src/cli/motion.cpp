@@ -50,7 +50,8 @@ bool is_motion_file(const std::string &surface) {
 void parse_motion(const std::string &time, const std::string &period, Options &options) {
   const auto refuse = [](const std::string &text) { throw Refusal{exit_wrong_usage, text}; };
   const bool is_motion = is_motion_file(options.surface), is_series = !options.series.times.empty();
-  if (is_motion && time.empty() && !is_series) refuse("--surface " + options.surface + " is a motion: it needs --time T");
+  if (is_motion && time.empty() && !is_series)
+    refuse("--surface " + options.surface + " is a motion: it needs --time T");
   if (is_series && !time.empty()) refuse("--time has no effect with --times");
   if (!is_motion && !time.empty())
     refuse("--time has no effect with --surface " + options.surface + ": a motion is a .pvd file");

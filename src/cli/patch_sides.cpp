@@ -154,7 +154,8 @@ std::map<std::int32_t, double> areas_of_leaflets(const riis_triangles &surface) 
   std::map<std::int32_t, double> areas;
   for (std::int64_t i = 0; i < surface.n_triangles; ++i) {
     const std::int64_t *id = surface.vertex_id + 3 * i;
-    const Point a = vertex_of(surface, id[0]), ab = minus(vertex_of(surface, id[1]), a), ac = minus(vertex_of(surface, id[2]), a);
+    const Point a = vertex_of(surface, id[0]), ab = minus(vertex_of(surface, id[1]), a),
+                ac = minus(vertex_of(surface, id[2]), a);
     const Point twice{ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2], ab[0] * ac[1] - ab[1] * ac[0]};
     areas[surface.leaflet_id[i]] += 0.5 * std::sqrt(dot(twice, twice));
   }

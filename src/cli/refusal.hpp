@@ -18,22 +18,21 @@ struct Refusal {
 
 // Returns the library's message with the command line's option in place of the struct field that it begins with.
 inline std::string with_option_named(const std::string &text) {
-  static const std::pair<std::string, std::string> options[] = {
-      {"options.scale ", "--scale "},
-      {"options.rotation_axis ", "--rotate: the axis "},
-      {"options.rotation_angle ", "--rotate: the angle "},
-      {"options.translation ", "--translate "},
-      {"options.half_thickness ", "--half-thickness "},
-      {"options.tolerance ", "--tolerance "},
-      {"options.distance_limit ", "--distance-limit "},
-      {"options.measure_tolerance ", "--distance-tolerance "},
-      {"options.search ", "--search "},
-      {"options.n_threads ", "--threads "},
-      {"arrays.far_distance ", "--far-distance "},
-      {"resistance.R ", "--resistance "},
-      {"time ", "--time "},
-      {"frames.period ", "--period "},
-      {"frames.time ", "--period: the time "}};
+  static const std::pair<std::string, std::string> options[] = {{"options.scale ", "--scale "},
+                                                                {"options.rotation_axis ", "--rotate: the axis "},
+                                                                {"options.rotation_angle ", "--rotate: the angle "},
+                                                                {"options.translation ", "--translate "},
+                                                                {"options.half_thickness ", "--half-thickness "},
+                                                                {"options.tolerance ", "--tolerance "},
+                                                                {"options.distance_limit ", "--distance-limit "},
+                                                                {"options.measure_tolerance ", "--distance-tolerance "},
+                                                                {"options.search ", "--search "},
+                                                                {"options.n_threads ", "--threads "},
+                                                                {"arrays.far_distance ", "--far-distance "},
+                                                                {"resistance.R ", "--resistance "},
+                                                                {"time ", "--time "},
+                                                                {"frames.period ", "--period "},
+                                                                {"frames.time ", "--period: the time "}};
   for (const auto &[field, option] : options) {
     if (text.rfind(field, 0) == 0) return option + text.substr(field.size());
   }

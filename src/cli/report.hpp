@@ -46,7 +46,7 @@ struct LeakReport {
 struct CrossingReport {
   int n_openings = 0;             // that were looked at; 0: the surface as it is
   std::optional<double> opening;  // of what was found
-  riis_crossing_list found{};  // its arrays are not kept
+  riis_crossing_list found{};     // its arrays are not kept
 };
 
 struct Report {

@@ -58,7 +58,7 @@ std::vector<std::string> names_of_arrays(const Options &options) {
 
 // Returns the marks, because pictures may need them under other names than the output.
 Marks mark(const Options &options, const riis_surface *surface, const riis_valve *valve, riis_vtk_mesh *file,
-                Report &report) {
+           Report &report) {
   Adjacency adjacency;  // outlives the mesh, which borrows it
   const Mesh mesh = borrowed_nodes(options, file, report);
   if (needs_adjacency(options.mark_options.search)) adjacency = give_adjacency(options, file, mesh.get(), report);

@@ -102,8 +102,7 @@ void check_pointers(const StridedReals<Real> &points, const char *what, const ch
   require_array(points.x, prefix, "x");
   require_array(points.y, prefix, "y");
   require_array(points.z, prefix, "z");
-  if (points.stride < 1)
-    fail(RIIS_INVALID_ARGUMENT, prefix, "stride is ", points.stride, "; it must be at least 1");
+  if (points.stride < 1) fail(RIIS_INVALID_ARGUMENT, prefix, "stride is ", points.stride, "; it must be at least 1");
   constexpr auto size = static_cast<std::int64_t>(sizeof(Real));
   if (points.n > std::numeric_limits<std::int64_t>::max() / size / points.stride)
     fail(RIIS_INVALID_ARGUMENT, points.n, " ", what, "s with a stride of ", points.stride,

@@ -128,8 +128,8 @@ riis_opening_switch_state advance(const riis_opening_switch &law, const riis_ope
   const double per_second = is_opening ? 1 / law.opening_duration : -1 / law.closing_duration;
   now.progress = std::clamp(before.progress + step * per_second, 0.0, 1.0);
   now.opening = ramp(now.progress);
-  now.rate =
-      ramp_rate(now.progress) * (now.phase == RIIS_PHASE_OPENING ? 1 / law.opening_duration : -1 / law.closing_duration);
+  now.rate = ramp_rate(now.progress) *
+             (now.phase == RIIS_PHASE_OPENING ? 1 / law.opening_duration : -1 / law.closing_duration);
   return now;
 }
 

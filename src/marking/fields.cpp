@@ -304,9 +304,8 @@ void NodeFields::reserve(std::int32_t fields, std::int64_t n) {
 
 bool NodeFields::has_room(std::int32_t fields, std::int64_t n) const {
   bool all = true;
-  for_each_array(fields, [&](auto member, std::int64_t per_node) {
-    all = all && riis::has_room(this->*member, per_node * n);
-  });
+  for_each_array(fields,
+                 [&](auto member, std::int64_t per_node) { all = all && riis::has_room(this->*member, per_node * n); });
   return all;
 }
 
@@ -336,7 +335,8 @@ void FieldScratch::prepare(const SearchRequest &request, std::int32_t fields, co
     const bool is_first = end == ties.begin() || tie.point != closest->point || !is_one_leaflet(*closest, tie);
     const auto is_there = [&](const Tie &kept) { return rule.are_of_one_patch(kept.triangle, tie.triangle); };
     if (is_first) closest = end;
-    if (is_first || (rule.is_tie(closest->triangle, tie.triangle) && std::none_of(closest, end, is_there))) *end++ = tie;
+    if (is_first || (rule.is_tie(closest->triangle, tie.triangle) && std::none_of(closest, end, is_there)))
+      *end++ = tie;
   }
   ties.erase(end, ties.end());
 }

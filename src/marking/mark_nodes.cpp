@@ -64,8 +64,8 @@ SearchRun run(const SearchRequest &request, std::int32_t search, Marks &marks) {
       // A moving valve is near its last place, so the walk starts at the nodes found last. A list from another mesh with as many
       // nodes does no harm.
       const bool fits = marks.stats.n_nodes == request.mesh.nodes().n;
-      return {search,
-              search_neighbors(request, fits ? marks.within.nodes.node_id : nowhere, marks.neighbor_scratch, marks.found)};
+      return {search, search_neighbors(request, fits ? marks.within.nodes.node_id : nowhere, marks.neighbor_scratch,
+                                       marks.found)};
     }
     case RIIS_SEARCH_PAPER:
       return {search, search_as_the_paper(request, marks.neighbor_scratch, marks.found)};
@@ -124,8 +124,7 @@ void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks
   const bool limit_is_wider = request.distance_limit > request.surface.half_thickness();
   // Calls that may fail come before the lists are overwritten.
   marks.field_scratch.prepare(request, data.fields, marks.found);
-  if (need_normals(request.surface, data.fields, marks.found.size()))
-    request.surface.pseudonormals();
+  if (need_normals(request.surface, data.fields, marks.found.size())) request.surface.pseudonormals();
   make_room(data,
             prepare_order(request.surface, marks.found, limit_is_wider, request.mesh.nodes().n, request.n_threads,
                           marks.order_scratch),

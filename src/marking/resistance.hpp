@@ -20,8 +20,7 @@ struct Resistance {
 Resistance checked_resistance(const riis_resistance &resistance, const char *name, double half_thickness,
                               double distance_limit);
 // Makes K and K u_surface of the nodes of a list, which has their fields and room for both. Null stands for no resistance.
-void list_resistance(const Resistance *resistance, const WantedData &data, const Threads &n_threads,
-                     ListedNodes &list);
+void list_resistance(const Resistance *resistance, const WantedData &data, const Threads &n_threads, ListedNodes &list);
 
 // All fail with RIIS_INVALID_ARGUMENT if the marks lack data that they need.
 Resistance checked_resistance(const riis_resistance &resistance, const Marks &marks);

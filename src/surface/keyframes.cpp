@@ -40,14 +40,13 @@ Keyframes::Keyframes(const riis_surface_arrays &arrays, const riis_keyframe_arra
   for (std::int64_t key = 0; key < frames.n_keys; ++key)
     for (std::int64_t i = 0; i < n; ++i)
       if (!is_usable(xyz[key * n + i]))
-        fail(RIIS_INVALID_SURFACE, view(axes)[i % 3], " of vertex ", i / 3, " in frame ", key, " is ",
-             xyz[key * n + i], "; it must be finite and at most ", max_coordinate, " in magnitude");
+        fail(RIIS_INVALID_SURFACE, view(axes)[i % 3], " of vertex ", i / 3, " in frame ", key, " is ", xyz[key * n + i],
+             "; it must be finite and at most ", max_coordinate, " in magnitude");
   if (keys_.is_closed())
     for (std::int64_t i = 0; i < n; ++i)
       if (xyz[i] != xyz[(frames.n_keys - 1) * n + i])
         fail(RIIS_INVALID_SURFACE, "vertex ", i / 3, " in the last frame, a period after the first, has the ",
-             view(axes)[i % 3], " ", xyz[(frames.n_keys - 1) * n + i], "; it must be that of the first, ",
-             xyz[i]);
+             view(axes)[i % 3], " ", xyz[(frames.n_keys - 1) * n + i], "; it must be that of the first, ", xyz[i]);
   // The faces are checked once, as a surface from the first frame.
   faces_ = faces_from_arrays(arrays);
   riis_surface_arrays first = arrays;

@@ -117,7 +117,7 @@ RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh) {
 }
 
 RIIS_API riis_status riis_vtk_mesh_get_nodes(const riis_vtk_mesh *mesh, int64_t *n_nodes, int64_t *n_cells,
-                                         const double **xyz) {
+                                             const double **xyz) {
   return guarded([&](const CaughtOutput &) {
     vtkUnstructuredGrid *grid = require(mesh, "mesh")->grid;
     if (n_nodes) *n_nodes = grid->GetNumberOfPoints();
@@ -126,7 +126,8 @@ RIIS_API riis_status riis_vtk_mesh_get_nodes(const riis_vtk_mesh *mesh, int64_t 
   });
 }
 
-RIIS_API riis_status riis_vtk_mesh_create_adjacency(const riis_vtk_mesh *mesh, int32_t n_threads, riis_adjacency **adjacency) {
+RIIS_API riis_status riis_vtk_mesh_create_adjacency(const riis_vtk_mesh *mesh, int32_t n_threads,
+                                                    riis_adjacency **adjacency) {
   return guarded([&](const CaughtOutput &) {
     require(mesh, "mesh");
     require(adjacency, "adjacency");
@@ -135,8 +136,8 @@ RIIS_API riis_status riis_vtk_mesh_create_adjacency(const riis_vtk_mesh *mesh, i
 }
 
 RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, const riis_surface *surface,
-                                              double longer_than, int32_t n_threads, int64_t *n_cells_left_out,
-                                              riis_adjacency **adjacency) {
+                                                     double longer_than, int32_t n_threads, int64_t *n_cells_left_out,
+                                                     riis_adjacency **adjacency) {
   return guarded([&](const CaughtOutput &) {
     vtkUnstructuredGrid *grid = require(mesh, "mesh")->grid;
     require(surface, "surface");
@@ -151,7 +152,7 @@ RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, 
 }
 
 RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, int64_t *n_volume_cells,
-                                                int64_t *n_cells_left_out) {
+                                                    int64_t *n_cells_left_out) {
   return guarded([&](const CaughtOutput &) {
     const VolumeCounts counts = count_volumes(require(mesh, "mesh")->grid);
     if (n_volume_cells) *n_volume_cells = counts.n_volumes;

@@ -22,7 +22,6 @@ struct riis_vtk_motion {
 namespace riis::vtk {
 namespace {
 
-
 template <class... Parts>
 [[noreturn]] void refuse_argument(const Parts &...parts) {
   fail(RIIS_INVALID_ARGUMENT, Message(parts...).text());
@@ -100,7 +99,8 @@ RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const 
   });
 }
 
-RIIS_API riis_status riis_vtk_motion_get_files(const riis_vtk_motion *motion, int64_t *n_files, const char *const **paths) {
+RIIS_API riis_status riis_vtk_motion_get_files(const riis_vtk_motion *motion, int64_t *n_files,
+                                               const char *const **paths) {
   return guarded([&](const CaughtOutput &) {
     require(motion, "motion");
     if (n_files) *n_files = riis::view(motion->paths).size();
@@ -123,9 +123,8 @@ RIIS_API void riis_vtk_motion_destroy(riis_vtk_motion **motion) {
 
 RIIS_API riis_status riis_vtk_motion_get_arrays(const riis_vtk_motion *motion, riis_surface_arrays *arrays,
                                                 int64_t struct_size) {
-  return guarded([&](const CaughtOutput &) {
-    give_arrays(require(motion, "motion")->frames.faces, arrays, struct_size);
-  });
+  return guarded(
+      [&](const CaughtOutput &) { give_arrays(require(motion, "motion")->frames.faces, arrays, struct_size); });
 }
 
 RIIS_API riis_status riis_vtk_motion_get_frames(const riis_vtk_motion *motion, riis_keyframe_arrays *frames,

@@ -74,8 +74,7 @@ void check_fields(std::int32_t fields) {
 
 }  // namespace
 
-void set_marks(vtkUnstructuredGrid *grid, const riis_marks *marks, double far_distance,
-               const std::string &prefix) {
+void set_marks(vtkUnstructuredGrid *grid, const riis_marks *marks, double far_distance, const std::string &prefix) {
   check_name("prefix", prefix);
   const vtkIdType n = grid->GetNumberOfPoints();
   check_are_of_mesh(marks, n);
@@ -110,8 +109,7 @@ void set_point_array(vtkUnstructuredGrid *grid, const std::string &name, std::in
   grid->GetPointData()->AddArray(array);
 }
 
-void set_fields(vtkUnstructuredGrid *grid, const riis_marks *marks, std::int32_t fields,
-                const std::string &prefix) {
+void set_fields(vtkUnstructuredGrid *grid, const riis_marks *marks, std::int32_t fields, const std::string &prefix) {
   check_name("prefix", prefix);
   check_fields(fields);
   check_are_of_mesh(marks, grid->GetNumberOfPoints());

@@ -12,12 +12,10 @@ class vtkUnstructuredGrid;
 namespace riis::vtk {
 
 // prefix_marked, prefix_distance, prefix_leaflet.
-void set_marks(vtkUnstructuredGrid *grid, const riis_marks *result, double far_distance,
-               const std::string &prefix);
+void set_marks(vtkUnstructuredGrid *grid, const riis_marks *result, double far_distance, const std::string &prefix);
 
 // An array for each of the fields, such as prefix_normal.
-void set_fields(vtkUnstructuredGrid *grid, const riis_marks *result, std::int32_t fields,
-                const std::string &prefix);
+void set_fields(vtkUnstructuredGrid *grid, const riis_marks *result, std::int32_t fields, const std::string &prefix);
 
 // values is (n_components, n_nodes).
 void set_point_array(vtkUnstructuredGrid *grid, const std::string &name, std::int64_t n_nodes,

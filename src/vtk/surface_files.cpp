@@ -28,7 +28,8 @@ RIIS_API riis_status riis_vtk_surface_read(const char *path, const char *leaflet
     require(surface, "surface");
     naming(path, [&] {
       auto made = std::make_unique<riis_vtk_surface>();
-      made->faces = faces_of(path, read_surface_data(path, caught), leaflets ? leaflets : leaflet_array, leaflets != nullptr);
+      made->faces =
+          faces_of(path, read_surface_data(path, caught), leaflets ? leaflets : leaflet_array, leaflets != nullptr);
       *surface = made.release();
     });
   });
@@ -49,9 +50,7 @@ RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface) {
 
 RIIS_API riis_status riis_vtk_surface_get_arrays(const riis_vtk_surface *surface, riis_surface_arrays *arrays,
                                                  int64_t struct_size) {
-  return guarded([&](const CaughtOutput &) {
-    give_arrays(require(surface, "surface")->faces, arrays, struct_size);
-  });
+  return guarded([&](const CaughtOutput &) { give_arrays(require(surface, "surface")->faces, arrays, struct_size); });
 }
 
 RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const char *path) {

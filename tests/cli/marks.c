@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "calls.h"
 #include "marks.h"
+#include "calls.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "calls.h"
 #include "orifice_shim.h"
+#include "calls.h"
 
 #include "cli/orifice.hpp"
 

@@ -152,7 +152,8 @@ static void test_no_cells(void **state) {
   RUN_WITHOUT_CELLS(scratch_path("points.vtk"), "--surface", scratch_path("one.stl"), "--search", "neighbor");
   assert_non_null(strstr(program_out, "2 nodes within the half thickness"));
   assert_non_null(strstr(program_out, ", 1 node not reached from a neighbour\n"));
-  RUN_WITHOUT_CELLS(scratch_path("points.vtk"), "--surface", scratch_path("one.stl"), "--search", "neighbor", "--stats", "-");
+  RUN_WITHOUT_CELLS(scratch_path("points.vtk"), "--surface", scratch_path("one.stl"), "--search", "neighbor", "--stats",
+                    "-");
   assert_true(json_number(program_out, "n_marked") == 2);
   assert_true(json_number(program_out, "n_unreached") == 1);
   run_program(scratch_path("points.vtk"), "--surface", scratch_path("one.stl"), "--search", "paper", "--stats", "-",

@@ -60,8 +60,7 @@ static void run_single(int step) {
 /* All arrays of a single run, with the same bits at the nodes of the part. */
 static void expect_as_single(int step, const char *part) {
   static double whole[3 * n_box], values[3 * n_box], ids[n_box];
-  static const char *const names[] = {"riis_marked",     "riis_distance", "riis_leaflet",
-                                      "riis_K", "pressure",      "velocity"};
+  static const char *const names[] = {"riis_marked", "riis_distance", "riis_leaflet", "riis_K", "pressure", "velocity"};
   run_single(step);
   const int64_t n = read_array(part, "riis_node_id", ids);
   for (int k = 0; k < 6; ++k) {

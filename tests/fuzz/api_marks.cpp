@@ -87,8 +87,7 @@ void check_dense(const riis_marks *result, std::int64_t n_nodes, const std::vect
 }
 
 // The fields that were asked for are those of riis_closest_point, and no others are there.
-void check_fields(const riis_surface *surface, const Nodes &nodes, std::int32_t fields,
-                  const riis_marks *result) {
+void check_fields(const riis_surface *surface, const Nodes &nodes, std::int32_t fields, const riis_marks *result) {
   riis_mark_list made;
   EXPECT_OK(riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, &made, sizeof made));
   const auto is_as_asked = [&](const void *array, std::int32_t field) {
@@ -243,7 +242,8 @@ void read_marks(Input &in, State &state) {
   const double far_distance = in.number();
   const std::int64_t n_asked = in.mostly(n_nodes);
   status = call(in, [&] {
-    return dense_of(result.handle, n_asked, far_distance, mostly(in, marks.data()), mostly(in, distance.data()), mostly(in, triangle.data()), mostly(in, leaflet.data()));
+    return dense_of(result.handle, n_asked, far_distance, mostly(in, marks.data()), mostly(in, distance.data()),
+                    mostly(in, triangle.data()), mostly(in, leaflet.data()));
   });
   if (status != RIIS_OK) {
     for (std::size_t i = 0; i < n; ++i) EXPECT(marks[i] == 7 && triangle[i] == -77, "refused, but written");

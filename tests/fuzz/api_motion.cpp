@@ -40,7 +40,8 @@ void add_forces(Input &in, State &state) {
     for (const double sum : coefficient) EXPECT(sum >= 1.5, "K is %g", sum - 1.5);
 
   status = call(in, [&] {
-    return add_reaction_to(result.handle, mostly(in, &resistance), n_given, mostly(in, values.data()), mostly(in, weights.data()), mostly(in, force.data()));
+    return add_reaction_to(result.handle, mostly(in, &resistance), n_given, mostly(in, values.data()),
+                           mostly(in, weights.data()), mostly(in, force.data()));
   });
   if (status != RIIS_OK) EXPECT(are_equal(force, force_before), "refused, but added");
 
@@ -49,7 +50,8 @@ void add_forces(Input &in, State &state) {
   const double inner = in.one_in(2) ? in.number() : 0, outer = in.one_in(2) ? in.number() : slot.distance_limit;
   const std::int64_t size = in.mostly<std::int64_t>(sizeof sums);
   status = call(in, [&] {
-    return band_sums_of(result.handle, inner, outer, n_given, mostly(in, values.data()), mostly(in, weights.data()), mostly(in, &sums), size);
+    return band_sums_of(result.handle, inner, outer, n_given, mostly(in, values.data()), mostly(in, weights.data()),
+                        mostly(in, &sums), size);
   });
   if (status != RIIS_OK)
     EXPECT(sums.n_nodes[0] == 0x5a5a5a5a5a5a5a5a, "refused sums were written");

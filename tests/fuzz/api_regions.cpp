@@ -43,7 +43,8 @@ void label_regions(Input &in, State &state) {
   const std::int64_t n = in.mostly(static_cast<std::int64_t>(label.size()));
   std::int64_t n_regions = -9;
   const riis_status status = call(in, [&] {
-    return riis_label_open_regions(mesh.handle, result.handle, in.one_in(2) ? &options : nullptr, n, mostly(in, label.data()), &n_regions);
+    return riis_label_open_regions(mesh.handle, result.handle, in.one_in(2) ? &options : nullptr, n,
+                                   mostly(in, label.data()), &n_regions);
   });
   if (!(mesh.is_right && result.is_right)) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
   if (status != RIIS_OK) {
@@ -71,7 +72,8 @@ void find_passage(Input &in, State &state) {
   std::memset(static_cast<void *>(&passage), 0x5a, sizeof passage);
   const std::int64_t size = in.mostly<std::int64_t>(sizeof passage);
   const riis_status status = call(in, [&] {
-    return find_passage_between(surface.handle, mesh.handle, in.one_in(2) ? &options : nullptr, n_from, mostly(in, from.data()), n_to, mostly(in, to.data()), mostly(in, &passage), size);
+    return find_passage_between(surface.handle, mesh.handle, in.one_in(2) ? &options : nullptr, n_from,
+                                mostly(in, from.data()), n_to, mostly(in, to.data()), mostly(in, &passage), size);
   });
   if (!(surface.is_right && mesh.is_right)) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
   if (status != RIIS_OK) {

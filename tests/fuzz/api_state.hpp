@@ -9,8 +9,8 @@
 #include <memory>
 #include <vector>
 
-#include "api_call.hpp"
 #include "../support/calls.h"
+#include "api_call.hpp"
 #include "input.hpp"
 
 namespace fuzz {
@@ -127,6 +127,8 @@ struct Closest {
 bool is_by_triangles(const riis_surface *surface);
 Closest closest_by_loop(const riis_triangles &triangles, const std::array<double, 3> &point);
 // Tells whether n_points loops over all triangles are worth their time.
-inline bool is_small(const riis_triangles &triangles, std::int64_t n_points) { return triangles.n_triangles * n_points <= 60'000; }
+inline bool is_small(const riis_triangles &triangles, std::int64_t n_points) {
+  return triangles.n_triangles * n_points <= 60'000;
+}
 
 }  // namespace fuzz

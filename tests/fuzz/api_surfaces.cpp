@@ -263,8 +263,7 @@ void read_surface(Input &in, State &state) {
     return;
   }
   const double *uv = triangles->uv;
-  for (std::int64_t i = 0; uv && i < 2 * triangles->n_vertices; ++i)
-    EXPECT(uv[i] >= 0 && uv[i] <= 1, "uv %g", uv[i]);
+  for (std::int64_t i = 0; uv && i < 2 * triangles->n_vertices; ++i) EXPECT(uv[i] >= 0 && uv[i] <= 1, "uv %g", uv[i]);
 }
 
 namespace {

@@ -125,7 +125,8 @@ static riis_status set_and_get(world *w) {
   int64_t n;
   const riis_status status = riis_valve_set_scalar(w->valve, "leaflet_angle", 70);
   return status ? status
-                : riis_valve_get(w->valve, "right.leaflet_angle", 1, &value) || riis_valve_get_n_parameters(w->valve, &n) ||
+                : riis_valve_get(w->valve, "right.leaflet_angle", 1, &value) ||
+                      riis_valve_get_n_parameters(w->valve, &n) ||
                       riis_valve_get_parameter(w->valve, 0, &parameter, sizeof parameter);
 }
 
@@ -366,9 +367,7 @@ static void marked_little(world *w) {
   CHECK_OK(riis_mesh_update(w->mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
   CHECK_OK(set_adjacency(w));
 }
-static riis_status dense(world *w) {
-  return dense_of(w->result, nodes.n, RIIS_FAR_DISTANCE, marks, NULL, NULL, NULL);
-}
+static riis_status dense(world *w) { return dense_of(w->result, nodes.n, RIIS_FAR_DISTANCE, marks, NULL, NULL, NULL); }
 
 /* The surface is so thin that edges cross it between unmarked nodes. */
 static void thin_and_marked(world *w) {

@@ -29,7 +29,7 @@ static inline riis_mark_stats check_same_as_exhaustive(const riis_surface *surfa
 }
 
 static inline riis_marks *marked_by(const riis_surface *surface, const riis_mesh *mesh, int32_t search,
-                                          int32_t n_threads, const uint8_t *mask) {
+                                    int32_t n_threads, const uint8_t *mask) {
   riis_marks *result = new_result();
   riis_mark_options options = mark_options();
   options.search = search;

@@ -108,7 +108,7 @@ DEFINE_OWN(crossings)
 #define riis_crossings_destroy destroy_and_disown_crossings
 
 /* Returns its argument: a handle, or memory from malloc. */
-#define own(object)                        \
+#define own(object) \
   _Generic((object),                       \
       riis_valve *: own_valve,             \
       riis_surface *: own_surface,         \

@@ -22,7 +22,8 @@ static riis_status read_any(const char *name) {
   riis_vtk_mesh *mesh = NULL;
   riis_vtk_surface *surface = NULL;
   const char *path = scratch_path(name);
-  const riis_status status = is_surface(name) ? riis_vtk_surface_read(path, NULL, &surface) : riis_vtk_mesh_read(path, &mesh);
+  const riis_status status =
+      is_surface(name) ? riis_vtk_surface_read(path, NULL, &surface) : riis_vtk_mesh_read(path, &mesh);
   riis_vtk_mesh_destroy(&mesh);
   riis_vtk_surface_destroy(&surface);
   return status;

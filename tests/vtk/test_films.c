@@ -84,7 +84,8 @@ static int same_pixels(const char *a, const char *b, int first_row, int n_rows) 
                               shim_read_pixels(scratch_path(b), &size[1][0], &size[1][1])};
   assert_true(pixels[0] && pixels[1] && size[0][0] == 800 && size[0][1] == 400 && size[1][0] == 800);
   const size_t row = 3 * 800;
-  const int same = memcmp(pixels[0] + row * (size_t)first_row, pixels[1] + row * (size_t)first_row, row * (size_t)n_rows) == 0;
+  const int same =
+      memcmp(pixels[0] + row * (size_t)first_row, pixels[1] + row * (size_t)first_row, row * (size_t)n_rows) == 0;
   free(pixels[0]);
   free(pixels[1]);
   return same;

@@ -123,8 +123,7 @@ static void test_arrays(void **state) {
   riis_vtk_surface_destroy(&surface);
   expect_refused(riis_vtk_surface_read(path, "soul", &surface), RIIS_FILE_ERROR,
                  "quads.vtu: has no cell array soul; there are: riis_leaflet, body, below, two");
-  expect_refused(riis_vtk_surface_read(path, "below", &surface), RIIS_FILE_ERROR,
-                 "cell array below: cell 1 has -8");
+  expect_refused(riis_vtk_surface_read(path, "below", &surface), RIIS_FILE_ERROR, "cell array below: cell 1 has -8");
   expect_refused(riis_vtk_surface_read(path, "two", &surface), RIIS_FILE_ERROR,
                  "cell array two must hold one number a cell");
   expect_refused(riis_vtk_surface_read("missing.vtu", "body", &surface), RIIS_FILE_ERROR, "missing.vtu");

@@ -282,7 +282,8 @@ static void expect_long_edges(const char *name, int64_t n_nodes, const double lo
   }
   for (int32_t n_threads = 0; n_threads <= 2; ++n_threads) {
     riis_adjacency *adjacency = NULL;
-    expect_fine(riis_vtk_mesh_create_long_edges(mesh, surface, longer_than, n_threads, n_threads ? &n_out : NULL, &adjacency));
+    expect_fine(
+        riis_vtk_mesh_create_long_edges(mesh, surface, longer_than, n_threads, n_threads ? &n_out : NULL, &adjacency));
     assert_int_equal(expect_rows(adjacency, n_nodes, are_joined), n);
     riis_adjacency_destroy(&adjacency);
   }

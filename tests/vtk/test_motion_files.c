@@ -80,8 +80,9 @@ static void expect_motion(riis_vtk_motion *motion, int32_t one_leaflet) {
 
 /* Writes a collection of the sheet's frames. `place` stands before each file's name. */
 static void write_collection(const char *name, const char *place, const char *ending) {
-  char text[4096] = "<?xml version=\"1.0\"?>\n<!-- <DataSet file=\"no\"/> -->\n<VTKFile type=\"Collection\" version=\"0.1\">"
-                    "<Collection>\n";
+  char text[4096] =
+      "<?xml version=\"1.0\"?>\n<!-- <DataSet file=\"no\"/> -->\n<VTKFile type=\"Collection\" version=\"0.1\">"
+      "<Collection>\n";
   for (int i = 0; i < n_keys; ++i)
     snprintf(text + strlen(text), sizeof text - strlen(text),
              "<DataSet timestep=\" %g\" group=\"\" part=\"0\" file='%sframe_%d%s'/>\n", key_times[i], place, i, ending);
@@ -243,7 +244,8 @@ static void test_displacements(void **state) {
   for (int is_grid = 0; is_grid < 2; ++is_grid) {
     const char *name = is_grid ? "displaced.vtu" : "displaced.vtp";
     write_displaced(name, plain, NULL);
-    expect_fine(riis_vtk_motion_read_displacements(scratch_path(name), "displacement", n_keys, key_times, NULL, &motion));
+    expect_fine(
+        riis_vtk_motion_read_displacements(scratch_path(name), "displacement", n_keys, key_times, NULL, &motion));
     expect_files(motion, 1, name);
     expect_motion(motion, -1);
     write_displaced(name, steps, FIELD("TimeValue", "0 0.25 0.5 1"));
@@ -284,7 +286,8 @@ static void test_quads_are_cut_once(void **state) {
     const int64_t convex[9] = {1, 2, 3, 1, 3, 0, 0, 1, 3}, concave[9] = {2, 3, 0, 2, 0, 1, 0, 1, 3};
     assert_int_equal(faces.n_faces, 3);
     assert_memory_equal(faces.vertex_ids, first ? concave : convex, sizeof convex);
-    assert_true(((const double *)frames.xyz)[6] == (first ? 0.2 : 1) && ((const double *)frames.xyz)[12 + 6] == (first ? 1 : 0.2));
+    assert_true(((const double *)frames.xyz)[6] == (first ? 0.2 : 1) &&
+                ((const double *)frames.xyz)[12 + 6] == (first ? 1 : 0.2));
     riis_vtk_motion_destroy(&motion);
   }
 }
@@ -292,16 +295,18 @@ static void test_quads_are_cut_once(void **state) {
 /* Corners of .stl files may meet on the way, and they may not part. */
 static void test_corners_of_stl(void **state) {
   (void)state;
-  const char *facets = "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
-                       "facet normal 0 0 1\nouter loop\nvertex %s 0 0\nvertex 1 1 0\nvertex 0 1 -0\nendloop\nendfacet\n"
-                       "endsolid x\n";
+  const char *facets =
+      "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+      "facet normal 0 0 1\nouter loop\nvertex %s 0 0\nvertex 1 1 0\nvertex 0 1 -0\nendloop\nendfacet\n"
+      "endsolid x\n";
   char together[1024], apart[1024];
   riis_vtk_motion *motion = NULL;
   snprintf(together, sizeof together, facets, "1");
   snprintf(apart, sizeof apart, facets, "1.5");
   scratch_write_text("together.stl", together);
   scratch_write_text("apart.stl", apart);
-  const char *const part[2] = {scratch_path("together.stl"), scratch_path("apart.stl")}, *const meet[2] = {part[1], part[0]};
+  const char *const part[2] = {scratch_path("together.stl"), scratch_path("apart.stl")}, *const meet[2] = {part[1],
+                                                                                                           part[0]};
   expect_refused(riis_vtk_motion_read_files(2, part, key_times, NULL, &motion), RIIS_FILE_ERROR,
                  "apart.stl: corner 1 of triangle 0 is at 1 0 0, corner 0 of triangle 1 at 1.5 0 0; in the first file "
                  "they are at one place: are the triangles in another order?");
@@ -348,10 +353,10 @@ static void test_velocity_is_written(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_collections),       cmocka_unit_test(test_collection_in_working_directory),
-      cmocka_unit_test(test_lists),             cmocka_unit_test(test_same_as_arrays),
-      cmocka_unit_test(test_displacements),     cmocka_unit_test(test_quads_are_cut_once),
-      cmocka_unit_test(test_corners_of_stl),    cmocka_unit_test(test_velocity_is_written),
+      cmocka_unit_test(test_collections),    cmocka_unit_test(test_collection_in_working_directory),
+      cmocka_unit_test(test_lists),          cmocka_unit_test(test_same_as_arrays),
+      cmocka_unit_test(test_displacements),  cmocka_unit_test(test_quads_are_cut_once),
+      cmocka_unit_test(test_corners_of_stl), cmocka_unit_test(test_velocity_is_written),
   };
   return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }

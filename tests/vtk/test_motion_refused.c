@@ -15,7 +15,8 @@
 enum { n_files = 2 };
 static const double times[n_files] = {0, 1};
 
-#define COLLECTION(data_sets) "<VTKFile type=\"Collection\" version=\"0.1\"><Collection>" data_sets "</Collection></VTKFile>\n"
+#define COLLECTION(data_sets) \
+  "<VTKFile type=\"Collection\" version=\"0.1\"><Collection>" data_sets "</Collection></VTKFile>\n"
 #define DATA_SET(timestep, file) "<DataSet timestep=\"" timestep "\" part=\"0\" file=\"" file "\"/>"
 
 static void expect_collection(const char *name, const char *text, const char *file, const char *part_of_text) {
@@ -36,10 +37,10 @@ static void test_not_collections(void **state) {
   expect_collection("frames.xml", COLLECTION(""), "frames.xml: ", "a collection of files in time must be a .pvd file");
   expect_collection("empty.pvd", "", "empty.pvd: ", "is empty");
   expect_collection("garbage.pvd", "garbage", "garbage.pvd: ", "is not a VTK XML file");
-  expect_collection("surface.pvd", "<VTKFile type=\"PolyData\"><PolyData/></VTKFile>", "surface.pvd: ",
-                    "holds PolyData, not Collection");
-  expect_collection("cut.pvd", "<VTKFile type=\"Collection\"><Collection>" DATA_SET("0", "a.vtp"), "cut.pvd: ",
-                    "is truncated: </VTKFile> is missing");
+  expect_collection("surface.pvd", "<VTKFile type=\"PolyData\"><PolyData/></VTKFile>",
+                    "surface.pvd: ", "holds PolyData, not Collection");
+  expect_collection("cut.pvd", "<VTKFile type=\"Collection\"><Collection>" DATA_SET("0", "a.vtp"),
+                    "cut.pvd: ", "is truncated: </VTKFile> is missing");
   expect_collection("open.pvd", "<VTKFile type=\"Collection\"><Collection></VTKFile>", "open.pvd: ", "mismatched tag");
   expect_collection("twice.pvd", COLLECTION("<DataSet file=\"a\" file=\"b\"/>"), "twice.pvd: ", "duplicate attribute");
 }
@@ -49,7 +50,8 @@ static void test_no_data_sets(void **state) {
   const char *const none = "names no files: it has no DataSet in a Collection";
   expect_collection("none.pvd", COLLECTION(""), "none.pvd: ", none);
   expect_collection("comment.pvd", COLLECTION("<!--" DATA_SET("0", "a.vtp") "-->"), "comment.pvd: ", none);
-  expect_collection("outside.pvd", "<VTKFile type=\"Collection\">" DATA_SET("0", "a.vtp") "</VTKFile>", "outside.pvd: ", none);
+  expect_collection("outside.pvd", "<VTKFile type=\"Collection\">" DATA_SET("0", "a.vtp") "</VTKFile>",
+                    "outside.pvd: ", none);
   expect_collection("inside.pvd", COLLECTION("<Part>" DATA_SET("0", "a.vtp") "</Part>"), "inside.pvd: ", none);
   expect_collection("other.pvd",
                     "<a><VTKFile type=\"Collection\"><Collection>" DATA_SET("0", "a.vtp") "</Collection></VTKFile></a>"
@@ -62,31 +64,30 @@ static void test_bad_data_sets(void **state) {
   sheet_write("a.vtp", 0, NULL);
   const struct {
     const char *data_sets, *text;
-  } cases[] = {
-      {DATA_SET("0", "a.vtp") "<DataSet timestep=\"1\"/>", "DataSet 1 names no file"},
-      {DATA_SET("0", ""), "DataSet 0 names no file"},
-      {"<DataSet file=\"a.vtp\"/>", "DataSet 0 has no timestep"},
-      {DATA_SET("", "a.vtp"), "DataSet 0 has the timestep '', which is no number from -1e30 to 1e30"},
-      {DATA_SET(" ", "a.vtp"), "DataSet 0 has the timestep ' ', which is no number"},
-      {DATA_SET("one", "a.vtp"), "DataSet 0 has the timestep 'one', which is no number"},
-      {DATA_SET("0 1", "a.vtp"), "DataSet 0 has the timestep '0 1', which is no number"},
-      {DATA_SET("0,5", "a.vtp"), "DataSet 0 has the timestep '0,5', which is no number"},
-      {DATA_SET("nan", "a.vtp"), "DataSet 0 has the timestep 'nan', which is no number"},
-      {DATA_SET("1.1e30", "a.vtp"), "DataSet 0 has the timestep '1.1e30', which is no number"},
-      {DATA_SET("1e999", "a.vtp"), "DataSet 0 has the timestep '1e999', which is no number"},
-      {DATA_SET("0", "a.vtp") DATA_SET("0.5", "a.vtp") DATA_SET("0.25", "a.vtp"),
-       "DataSet 2 has the timestep 0.25, which is not above that of the DataSet before, 0.5"},
-      {DATA_SET("0", "a.vtp") "<DataSet timestep=\"0\" part=\"1\" file=\"a.vtp\"/>",
-       "DataSet 1 has the timestep 0, which is not above that of the DataSet before, 0"}};
+  } cases[] = {{DATA_SET("0", "a.vtp") "<DataSet timestep=\"1\"/>", "DataSet 1 names no file"},
+               {DATA_SET("0", ""), "DataSet 0 names no file"},
+               {"<DataSet file=\"a.vtp\"/>", "DataSet 0 has no timestep"},
+               {DATA_SET("", "a.vtp"), "DataSet 0 has the timestep '', which is no number from -1e30 to 1e30"},
+               {DATA_SET(" ", "a.vtp"), "DataSet 0 has the timestep ' ', which is no number"},
+               {DATA_SET("one", "a.vtp"), "DataSet 0 has the timestep 'one', which is no number"},
+               {DATA_SET("0 1", "a.vtp"), "DataSet 0 has the timestep '0 1', which is no number"},
+               {DATA_SET("0,5", "a.vtp"), "DataSet 0 has the timestep '0,5', which is no number"},
+               {DATA_SET("nan", "a.vtp"), "DataSet 0 has the timestep 'nan', which is no number"},
+               {DATA_SET("1.1e30", "a.vtp"), "DataSet 0 has the timestep '1.1e30', which is no number"},
+               {DATA_SET("1e999", "a.vtp"), "DataSet 0 has the timestep '1e999', which is no number"},
+               {DATA_SET("0", "a.vtp") DATA_SET("0.5", "a.vtp") DATA_SET("0.25", "a.vtp"),
+                "DataSet 2 has the timestep 0.25, which is not above that of the DataSet before, 0.5"},
+               {DATA_SET("0", "a.vtp") "<DataSet timestep=\"0\" part=\"1\" file=\"a.vtp\"/>",
+                "DataSet 1 has the timestep 0, which is not above that of the DataSet before, 0"}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
     char text[1024];
     snprintf(text, sizeof text, COLLECTION("%s"), cases[i].data_sets);
     expect_collection("bad.pvd", text, "bad.pvd: ", cases[i].text);
   }
-  expect_collection("lost.pvd", COLLECTION(DATA_SET("0", "a.vtp") DATA_SET("1", "sub/b.vtp")), "sub/b.vtp: ",
-                    "No such file or directory");
-  expect_collection("self.pvd", COLLECTION(DATA_SET("0", "self.pvd")), "self.pvd: ",
-                    "a surface must be a .vtp, .vtu or .stl file");
+  expect_collection("lost.pvd", COLLECTION(DATA_SET("0", "a.vtp") DATA_SET("1", "sub/b.vtp")),
+                    "sub/b.vtp: ", "No such file or directory");
+  expect_collection("self.pvd", COLLECTION(DATA_SET("0", "self.pvd")),
+                    "self.pvd: ", "a surface must be a .vtp, .vtu or .stl file");
 }
 
 static void test_too_many_data_sets(void **state) {
@@ -153,9 +154,10 @@ static void test_bad_coordinates(void **state) {
   (void)state;
   const struct {
     const char *points, *text;
-  } cases[] = {{"0 0 0  1 0 0  1 nan 0  0 1 0", "y of point 2 is nan; it must be finite and at most 1e+60 in magnitude"},
-               {"0 0 0  1 0 0  1 1 0  inf 1 0", "x of point 3 is inf; it must be finite"},
-               {"0 0 -2e60  1 0 0  1 1 0  0 1 0", "z of point 0 is -2e+60; it must be finite"}};
+  } cases[] = {
+      {"0 0 0  1 0 0  1 nan 0  0 1 0", "y of point 2 is nan; it must be finite and at most 1e+60 in magnitude"},
+      {"0 0 0  1 0 0  1 1 0  inf 1 0", "x of point 3 is inf; it must be finite"},
+      {"0 0 -2e60  1 0 0  1 1 0  0 1 0", "z of point 0 is -2e+60; it must be finite"}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
     write_square("first.vtp", "0 0 0  1 0 0  1 1 0  0 1 0", "0 1 2 0 2 3", "3 6", 4, 2);
     write_square("second.vtp", cases[i].points, "0 1 2 0 2 3", "3 6", 4, 2);
@@ -219,7 +221,8 @@ static void test_bad_displacements(void **state) {
   for (int i = 0; i < 40; ++i) strcat(numbers, "0 ");
   for (int i = 0; i < 20; ++i) strcat(words, "97 0 ");
   snprintf(text, sizeof text,
-           "<DataArray type=\"Float64\" Name=\"d_0\" NumberOfComponents=\"2\" format=\"ascii\">%s</DataArray>", numbers);
+           "<DataArray type=\"Float64\" Name=\"d_0\" NumberOfComponents=\"2\" format=\"ascii\">%s</DataArray>",
+           numbers);
   expect_displacements(text, NULL, 1, RIIS_FILE_ERROR, "point array d_0 has 2 components; displacements have 3");
   snprintf(text, sizeof text, "<Array type=\"String\" Name=\"d_0\" format=\"ascii\">%s</Array>", words);
   expect_displacements(text, NULL, 1, RIIS_FILE_ERROR, "point array d_0 holds no numbers");
@@ -232,7 +235,7 @@ static void test_bad_displacements(void **state) {
   expect_displacements(text, NULL, 2, RIIS_FILE_ERROR, "z of point 19, displaced by d_1, is inf; it must be finite");
 }
 
-#define TIME_VALUE(n, values)                                                                                            \
+#define TIME_VALUE(n, values) \
   "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"" n "\" format=\"ascii\">" values "</DataArray>"
 
 static void test_bad_times_of_displacements(void **state) {
@@ -241,7 +244,8 @@ static void test_bad_times_of_displacements(void **state) {
   const double descending[2] = {1, 0};
   riis_vtk_motion *motion = NULL;
   sheet_displacement(sheet_displacement(two, "d_0", 0), "d_1", 1);
-  expect_displacements(two, NULL, 0, RIIS_FILE_ERROR, "has no field array TimeValue, and no times are given; there is none");
+  expect_displacements(two, NULL, 0, RIIS_FILE_ERROR,
+                       "has no field array TimeValue, and no times are given; there is none");
   expect_displacements(two, TIME_VALUE("1", "0"), 0, RIIS_FILE_ERROR,
                        "field array TimeValue has 1 numbers, for 2 point arrays d_*");
   expect_displacements(two, TIME_VALUE("2", "1 1"), 0, RIIS_FILE_ERROR,
@@ -261,9 +265,10 @@ static void test_bad_times_of_displacements(void **state) {
   REFUSED("n_times is 0; it must be from 1 to 1000000", path, "d", 0, times);
   REFUSED("times[1] is 0; it must be above the one before, 1", path, "d", 2, descending);
 #undef REFUSED
-  expect_refused(riis_vtk_motion_read_displacements(path, "d", 2, times, NULL, NULL), RIIS_INVALID_ARGUMENT, "motion is NULL");
-  expect_refused(riis_vtk_motion_read_displacements(scratch_path("moved.stl"), "d", 2, times, NULL, &motion), RIIS_FILE_ERROR,
-                 "moved.stl: displacements are in a .vtp or .vtu file");
+  expect_refused(riis_vtk_motion_read_displacements(path, "d", 2, times, NULL, NULL), RIIS_INVALID_ARGUMENT,
+                 "motion is NULL");
+  expect_refused(riis_vtk_motion_read_displacements(scratch_path("moved.stl"), "d", 2, times, NULL, &motion),
+                 RIIS_FILE_ERROR, "moved.stl: displacements are in a .vtp or .vtu file");
   assert_null(motion);
 }
 
@@ -355,12 +360,17 @@ static void test_hostile_collections(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_not_collections),      cmocka_unit_test(test_no_data_sets),
-      cmocka_unit_test(test_bad_data_sets),        cmocka_unit_test(test_too_many_data_sets),
-      cmocka_unit_test(test_other_cells),          cmocka_unit_test(test_bad_coordinates),
-      cmocka_unit_test(test_bad_lists),            cmocka_unit_test(test_bad_displacements),
+      cmocka_unit_test(test_not_collections),
+      cmocka_unit_test(test_no_data_sets),
+      cmocka_unit_test(test_bad_data_sets),
+      cmocka_unit_test(test_too_many_data_sets),
+      cmocka_unit_test(test_other_cells),
+      cmocka_unit_test(test_bad_coordinates),
+      cmocka_unit_test(test_bad_lists),
+      cmocka_unit_test(test_bad_displacements),
       cmocka_unit_test(test_bad_times_of_displacements),
-      cmocka_unit_test(test_arguments_of_arrays),  cmocka_unit_test(test_damaged_collections),
+      cmocka_unit_test(test_arguments_of_arrays),
+      cmocka_unit_test(test_damaged_collections),
       cmocka_unit_test(test_hostile_collections),
   };
   return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);

@@ -51,7 +51,8 @@ static void test_null(void **state) {
                  "mesh is NULL");
   expect_refused(riis_vtk_mesh_create_long_edges(mesh, NULL, 0, 1, NULL, &adjacency), RIIS_INVALID_ARGUMENT,
                  "surface is NULL");
-  expect_refused(riis_vtk_mesh_create_long_edges(mesh, surface, 0, 1, NULL, NULL), RIIS_INVALID_ARGUMENT, "adjacency is NULL");
+  expect_refused(riis_vtk_mesh_create_long_edges(mesh, surface, 0, 1, NULL, NULL), RIIS_INVALID_ARGUMENT,
+                 "adjacency is NULL");
   expect_refused(riis_vtk_mesh_set_marks(NULL, result, -1, NULL), RIIS_INVALID_ARGUMENT, "mesh is NULL");
   expect_refused(riis_vtk_mesh_set_marks(mesh, NULL, -1, NULL), RIIS_INVALID_ARGUMENT, "marks is NULL");
   expect_refused(riis_vtk_mesh_write(NULL, path), RIIS_INVALID_ARGUMENT, "mesh is NULL");
