@@ -256,6 +256,133 @@ static void separate_coordinate_arrays_are_the_same_mesh(void **state) {
   assert_memory_equal(l.node_id, m.node_id, (size_t)l.n * sizeof *l.node_id);
 }
 
+/* Coordinates that single precision has, as doubles and as floats. */
+enum { n_exact = 5000 };
+static double exact[3 * n_exact];
+static float single[3 * n_exact];
+
+static void make_exact(double shift) {
+  for (int i = 0; i < 3 * n_exact; ++i) {
+    single[i] = (float)(i % 3 < 2 ? random_between(&rng, -1.6, 1.6) : random_between(&rng, -1.2, 0.3) + shift);
+    exact[i] = single[i];
+  }
+}
+
+static riis_points exact_points(int real_bits) {
+  riis_points points = points_of(n_exact, exact, exact + 1, exact + 2, 3);
+  if (real_bits == 32) points.x = single, points.y = single + 1, points.z = single + 2, points.real_bits = 32;
+  return points;
+}
+
+static riis_marks *marks_of(const riis_surface *surface, const riis_mesh *mesh) {
+  riis_marks *marks = new_result();
+  riis_mark_options options = mark_options();
+  options.distance_limit = 0.2;
+  CHECK_OK(riis_mark_nodes(surface, mesh, &options, marks));
+  return marks;
+}
+
+/* A mesh of copies has the marks of one that borrows, whatever becomes of the arrays, and may change between both. */
+static void copies_and_single_precision_are_the_same_mesh(void **state) {
+  (void)state;
+  riis_surface *surface = aortic_surface(NULL);
+  for (int real_bits = 32; real_bits <= 64; real_bits += 32) {
+    const int owned_before = n_owned();
+    make_exact(0);
+    riis_mesh *borrowed = mesh_of(n_exact, exact), *copied = NULL;
+    riis_points points = exact_points(real_bits);
+    CHECK_OK(riis_mesh_create_copy(&points, &copied));
+    own(copied);
+    riis_marks *expected = marks_of(surface, borrowed);
+    memset(exact, -1, sizeof exact);
+    memset(single, -1, sizeof single);
+    assert_true(marked_in(expected).n > 100 && same_results(expected, marks_of(surface, copied)));
+
+    make_exact(0.1);
+    CHECK_OK(riis_mesh_update_copy(copied, &points));
+    CHECK_OK(riis_mesh_update(borrowed, n_exact, exact, exact + 1, exact + 2, 3));
+    expected = marks_of(surface, borrowed);
+    assert_true(same_results(expected, marks_of(surface, copied)));
+    CHECK_OK(riis_mesh_update(copied, n_exact, exact, exact + 1, exact + 2, 3)); /* borrows */
+    make_exact(0.2);
+    CHECK_OK(riis_mesh_update(copied, n_exact, exact, exact + 1, exact + 2, 3));
+    CHECK_OK(riis_mesh_update_copy(borrowed, &points)); /* copies */
+    expected = marks_of(surface, copied);
+    memset(exact, -1, sizeof exact);
+    assert_true(same_results(expected, marks_of(surface, borrowed)));
+    free_owned_after(owned_before);
+  }
+
+  /* Refusals leave the mesh as it was. */
+  make_exact(0);
+  riis_points points = exact_points(32);
+  riis_mesh *mesh = NULL;
+  CHECK_OK(riis_mesh_create_copy(&points, &mesh));
+  own(mesh);
+  riis_marks *expected = marks_of(surface, mesh);
+  single[3 * 77 + 1] = NAN;
+  CHECK_REFUSED(RIIS_INVALID_MESH, "y of node 77 is nan", riis_mesh_update_copy(mesh, &points));
+  points.real_bits = 16;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "nodes.real_bits is 16;", riis_mesh_update_copy(mesh, &points));
+  points = exact_points(64);
+  points.stride = 0;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "nodes.stride is 0;", riis_mesh_update_copy(mesh, &points));
+  points.stride = 3, points.n_points = -1;
+  CHECK_REFUSED(RIIS_INVALID_MESH, "nodes.n_points is -1;", riis_mesh_update_copy(mesh, &points));
+  points.n_points = 1, points.z = NULL;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "z is NULL", riis_mesh_update_copy(mesh, &points));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "nodes is NULL", riis_mesh_update_copy(mesh, NULL));
+  assert_true(same_results(expected, marks_of(surface, mesh)));
+}
+
+/* Points, a surface's vertices and velocities, and frames in single precision give the bits of the same numbers in double. */
+static void single_precision_is_double_precision(void **state) {
+  (void)state;
+  make_exact(0);
+  riis_surface *surface = aortic_surface(NULL);
+  static double distance[2][n_exact];
+  riis_closest_arrays arrays;
+  CHECK_OK(riis_closest_arrays_init(&arrays, sizeof arrays));
+  for (int i = 0; i < 2; ++i) {
+    const riis_points points = exact_points(i ? 32 : 64);
+    arrays.distance = distance[i];
+    CHECK_OK(riis_closest_points(surface, &points, NULL, &arrays));
+  }
+  assert_memory_equal(distance[0], distance[1], sizeof distance[0]);
+
+  enum { n_faces = n_exact / 3, n_frames = 5, n_corners = n_exact / n_frames };
+  static int32_t ids[3 * n_faces];
+  for (int i = 0; i < 3 * n_faces; ++i) ids[i] = i;
+  riis_surface_arrays faces = triangle_arrays(3 * n_faces, exact, n_faces, ids);
+  faces.vx = exact + 1, faces.vy = exact + 2, faces.vz = exact, faces.velocity_stride = 3;
+  riis_surface *wide = surface_from(&faces, NULL);
+  faces.x = single, faces.y = single + 1, faces.z = single + 2;
+  faces.vx = single + 1, faces.vy = single + 2, faces.vz = single;
+  faces.real_bits = 32;
+  riis_surface *narrow = surface_from(&faces, NULL);
+  assert_true(is_same_content(wide, narrow));
+  assert_memory_equal(velocity_of(wide), velocity_of(narrow), 9 * n_faces * sizeof(double));
+
+  riis_keyframe_arrays frames;
+  CHECK_OK(riis_keyframe_arrays_init(&frames, sizeof frames));
+  static const double time[n_frames] = {0, 1, 2.5, 3, 4};
+  frames.n_keys = n_frames, frames.n_vertices = n_corners, frames.time = time;
+  frames.interpolation = RIIS_INTERPOLATION_CUBIC;
+  riis_surface_arrays frame_faces = triangle_arrays(n_corners, NULL, n_corners / 3, ids);
+  riis_surface *moved[2];
+  for (int i = 0; i < 2; ++i) {
+    frames.xyz = i ? (const void *)single : exact;
+    frames.real_bits = i ? 32 : 64;
+    riis_keyframes *keyframes = NULL;
+    CHECK_OK(riis_keyframes_create(&frame_faces, &frames, &keyframes));
+    CHECK_OK(riis_surface_create_from_keyframes(keyframes, 1.7, 0.2, NULL, &moved[i]));
+    own(moved[i]);
+    riis_keyframes_destroy(&keyframes);
+  }
+  assert_true(is_same_content(moved[0], moved[1]));
+  assert_memory_equal(velocity_of(moved[0]), velocity_of(moved[1]), 3 * n_corners * sizeof(double));
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(aortic_marks_equal_the_oracle),
@@ -265,6 +392,8 @@ int main(void) {
       cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
       cmocka_unit_test(coordinates_may_move_and_results_are_reused),
       cmocka_unit_test(separate_coordinate_arrays_are_the_same_mesh),
+      cmocka_unit_test(copies_and_single_precision_are_the_same_mesh),
+      cmocka_unit_test(single_precision_is_double_precision),
   };
   rng = random_start("test_marking");
   return cmocka_run_group_tests(tests, NULL, NULL);

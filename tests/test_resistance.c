@@ -245,6 +245,67 @@ static void sums_are_those_of_plain_loops(void **state) {
   }
 }
 
+/* K and K u of a list are those of the arrays, to the last bit. So are arrays by component and with gaps. Both lists have them,
+ * and a marking does not need the field of velocities for them. */
+static void lists_and_layouts_have_the_same_bits(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 12; ++trial) {
+    const int owned_before = n_owned();
+    const double limit = trial % 3 ? between(0.11, 0.25) : 0.1;
+    const int moves = trial % 4 != 3;
+    flow f = random_flow(all_fields, limit);
+    if (!moves) {
+      CHECK_OK(riis_surface_update(f.surface, new_valve(trial % 2 ? "mitral" : "trileaflet"), NULL));
+      f.nodes = lattice_around(f.surface, between(0.05, 0.09), 0.2);
+      f.mesh = mesh_from(&f.nodes);
+    }
+    riis_resistance resistance = resistance_of(pow(10, between(-5, 5)));
+    if (trial % 2) resistance.rim = RIIS_RIM_CUT;
+    if (trial % 3 == 2) resistance.half_thickness = between(0.02, limit);
+    riis_mark_options options = mark_options();
+    options.distance_limit = limit;
+    options.resistance = &resistance;
+    options.n_threads = 1 + trial % 2;
+    riis_marks *listed = new_result();
+    CHECK_OK(riis_mark_nodes(f.surface, f.mesh, &options, listed));
+    options.resistance = NULL;
+    options.fields = RIIS_FIELD_RIM | (moves ? RIIS_FIELD_VELOCITY : 0);
+    CHECK_OK(riis_mark_nodes(f.surface, f.mesh, &options, f.result));
+    const int64_t n = f.nodes.n;
+    double *k = own(calloc((size_t)n * 4, sizeof *k)), *momentum = k + n;
+    CHECK_OK(add_resistance_to(f.result, &resistance, n, k, moves ? momentum : NULL));
+    for (int which = RIIS_LIST_MARKED; which <= RIIS_LIST_WITHIN_LIMIT; ++which) {
+      const riis_mark_list list = list_of(listed, which), plain = list_of(f.result, which);
+      assert_true(list.n_nodes == plain.n_nodes && list.n_nodes > 100 && list.K && !plain.K && !plain.K_u_surface);
+      assert_true((list.K_u_surface != NULL) == moves && !list.velocity && !list.rim);
+      for (int64_t j = 0; j < list.n_nodes; ++j) {
+        CHECK_SAME(list.K[j], k[list.node_id[j]]);
+        for (int c = 0; c < 3 && moves; ++c)
+          CHECK_SAME(list.K_u_surface[3 * j + c] + 0.0, momentum[3 * list.node_id[j] + c] + 0.0);
+      }
+    }
+    /* K in every fifth number, components in blocks of their own, two numbers apart. */
+    double *gaps = own(calloc((size_t)n * 11, sizeof *gaps));
+    riis_resistance_arrays arrays;
+    CHECK_OK(riis_resistance_arrays_init(&arrays, sizeof arrays));
+    arrays.n_nodes = n;
+    arrays.K = gaps;
+    arrays.K_stride = 5;
+    for (int c = 0; c < 3 && moves; ++c) arrays.K_u_surface[c] = gaps + (5 + 2 * c) * n;
+    arrays.K_u_surface_stride = 2;
+    CHECK_OK(riis_marks_add_resistance(f.result, &resistance, &arrays));
+    for (int64_t i = 0; i < n; ++i) {
+      CHECK_SAME(gaps[5 * i], k[i]);
+      for (int gap = 1; gap < 5; ++gap) assert_true(gaps[5 * i + gap] == 0);
+      for (int c = 0; c < 3 && moves; ++c) {
+        CHECK_SAME(gaps[(5 + 2 * c) * n + 2 * i], momentum[3 * i + c]);
+        assert_true(gaps[(5 + 2 * c) * n + 2 * i + 1] == 0);
+      }
+    }
+    free_owned_after(owned_before);
+  }
+}
+
 /* The force on the surface is what the flow loses; ranks that share the nodes add theirs. */
 static void ranks_add_up(void **state) {
   (void)state;
@@ -448,6 +509,33 @@ static void refusals_leave_the_arrays(void **state) {
                 band_sums_of(f.result, 0, 0.1, 0, f.value, f.weight, &sums, sizeof sums));
   UNCHANGED();
 
+  /* The options of a marking, whose refusals leave the marks, and layouts. */
+  riis_mark_options with_resistance = mark_options();
+  const riis_mark_list list_before = marked_list(f.result);
+  with_resistance.resistance = &resistance;
+  resistance.R = -2;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.resistance.R is -2;",
+                riis_mark_nodes(f.surface, f.mesh, &with_resistance, f.result));
+  resistance = resistance_of(1);
+  resistance.half_thickness = 0.11;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.resistance.half_thickness is 0.11;",
+                riis_mark_nodes(f.surface, f.mesh, &with_resistance, f.result));
+  const riis_mark_list list_after = marked_list(f.result);
+  assert_memory_equal(&list_before, &list_after, sizeof list_before);
+  resistance = resistance_of(1);
+  riis_resistance_arrays arrays;
+  CHECK_OK(riis_resistance_arrays_init(&arrays, sizeof arrays));
+  arrays.n_nodes = n;
+  arrays.K = k;
+  arrays.K_stride = 0;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "arrays.K_stride is 0;",
+                riis_marks_add_resistance(f.result, &resistance, &arrays));
+  arrays.K_stride = 1;
+  arrays.K_u_surface[0] = momentum;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "arrays.K_u_surface[1] is NULL",
+                riis_marks_add_resistance(f.result, &resistance, &arrays));
+  UNCHANGED();
+
   /* Fields that the marks lack. */
   const char *lacks = "options.fields = 0";
   resistance.rim = RIIS_RIM_CUT;
@@ -519,6 +607,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_integral_is_the_area),
       cmocka_unit_test(sums_are_those_of_plain_loops),
+      cmocka_unit_test(lists_and_layouts_have_the_same_bits),
       cmocka_unit_test(ranks_add_up),
       cmocka_unit_test(two_surfaces_add_up),
       cmocka_unit_test(band_sums_are_those_of_a_plain_loop),
