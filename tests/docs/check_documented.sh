@@ -96,9 +96,9 @@ without() {
 without '\n' '\nRIIS_API riis_status riis_mesh_create\(' riis_mesh_create
 without '\n' '\ntypedef struct riis_csr \{' riis_csr
 without 'double \*control; *' '\n' riis_patches.control
-without 'double \*x, \*y, \*z; *' '\n' 'riis_surface_arrays.x
-riis_surface_arrays.y
-riis_surface_arrays.z'
+without 'void \*vx, \*vy, \*vz; *' '\n' 'riis_surface_arrays.vx
+riis_surface_arrays.vy
+riis_surface_arrays.vz'
 without 'RIIS_INVALID_MESH = 5, *' '\n' RIIS_INVALID_MESH
 without '\n' '\nenum \{\n  RIIS_SEARCH_AUTO' 'the enum of RIIS_SEARCH_AUTO'
 without '\n' '\n#define RIIS_FAR_DISTANCE' RIIS_FAR_DISTANCE

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// riis.hpp - riis.h for C++17: handles that destroy themselves, errors as exceptions, structs with their defaults, spans.
+//
+// Every call stays that of riis.h. A handle stands where riis.h wants a pointer, out() where it wants the address of one:
+//
+//   riis::Valve valve; riis::Surface surface; riis::Mesh mesh; riis::Marks marks;
+//   riis::check(riis_valve_create("mitral", valve.out()));
+//   auto options = riis::defaults<riis_surface_options>();
+//   options.half_thickness = 0.1;
+//   riis::check(riis_surface_create(valve, &options, surface.out()));
+//   riis::check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, mesh.out()));
+//   riis::check(riis_marks_create(marks.out()));
+//   riis::check(riis_mark_nodes(surface, mesh, nullptr, marks));                    // once a time step
+//   const auto marked = riis::get<riis_mark_list>(riis_marks_get_list, marks, RIIS_LIST_MARKED);
+//   for (const std::int64_t node : riis::Span(marked.node_id, marked.n_nodes)) ...
+//
+// There is no code behind it: the library has a C interface only, so it fits every compiler and standard library.
+#ifndef RIIS_RIIS_HPP
+#define RIIS_RIIS_HPP
+
+#include <riis/riis.h>
+
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+
+namespace riis {
+inline namespace interface_1 {
+
+// A refused or failed call of the library. what() is riis_last_error().
+class Error : public std::runtime_error {
+ public:
+  Error(riis_status status, const char *message) : std::runtime_error(message), status_(status) {}
+  riis_status status() const noexcept { return status_; }  // never RIIS_OK
+
+ private:
+  riis_status status_;
+};
+
+// Throws an Error unless the status is RIIS_OK. Call it on the thread of the call that returned the status.
+inline void check(riis_status status) {
+  if (status != RIIS_OK) throw Error(status, riis_last_error());
+}
+
+// Owns an object of the library, or none. It moves, and cannot be copied.
+template <class Object, void (*destroy)(Object **)>
+class Handle {
+ public:
+  Handle() = default;
+  explicit Handle(Object *object) noexcept : object_(object) {}  // takes the object over
+  Handle(Handle &&other) noexcept : object_(other.release()) {}
+  Handle &operator=(Handle &&other) noexcept {
+    if (this != &other) reset(other.release());
+    return *this;
+  }
+  ~Handle() { reset(); }
+
+  operator Object *() const noexcept { return object_; }
+  Object *get() const noexcept { return object_; }
+  // Destroys the object, and gives the address for the call that makes the next one.
+  Object **out() noexcept {
+    reset();
+    return &object_;
+  }
+  void reset(Object *object = nullptr) noexcept {
+    destroy(&object_);
+    object_ = object;
+  }
+  // Gives the object to the caller, who destroys it.
+  Object *release() noexcept { return std::exchange(object_, nullptr); }
+
+ private:
+  Object *object_ = nullptr;
+};
+
+using Valve = Handle<riis_valve, riis_valve_destroy>;
+using Surface = Handle<riis_surface, riis_surface_destroy>;
+using Keyframes = Handle<riis_keyframes, riis_keyframes_destroy>;
+using Mesh = Handle<riis_mesh, riis_mesh_destroy>;
+using Adjacency = Handle<riis_adjacency, riis_adjacency_destroy>;
+using Marks = Handle<riis_marks, riis_marks_destroy>;
+using Leaks = Handle<riis_leaks, riis_leaks_destroy>;
+using Crossings = Handle<riis_crossings, riis_crossings_destroy>;
+
+namespace detail {
+template <class Struct>
+struct Init;
+#define RIIS_INIT(name)                                                                \
+  template <>                                                                          \
+  struct Init<name> {                                                                  \
+    static riis_status call(name *to, std::int64_t size) { return name##_init(to, size); } \
+  };
+RIIS_INIT(riis_points)
+RIIS_INIT(riis_patches)
+RIIS_INIT(riis_surface_options)
+RIIS_INIT(riis_surface_arrays)
+RIIS_INIT(riis_keyframe_arrays)
+RIIS_INIT(riis_crossing_options)
+RIIS_INIT(riis_closest_options)
+RIIS_INIT(riis_closest_arrays)
+RIIS_INIT(riis_csr)
+RIIS_INIT(riis_mesh_cells)
+RIIS_INIT(riis_mesh_faces)
+RIIS_INIT(riis_resistance)
+RIIS_INIT(riis_mark_options)
+RIIS_INIT(riis_dense_arrays)
+RIIS_INIT(riis_resistance_arrays)
+RIIS_INIT(riis_flow_arrays)
+RIIS_INIT(riis_band)
+RIIS_INIT(riis_passage_ends)
+RIIS_INIT(riis_opening_table)
+RIIS_INIT(riis_opening_times)
+RIIS_INIT(riis_opening_switch)
+RIIS_INIT(riis_opening_switch_state)
+RIIS_INIT(riis_opening_angle)
+RIIS_INIT(riis_opening_angle_state)
+#undef RIIS_INIT
+}  // namespace detail
+
+// Returns a struct that the library reads, with its defaults.
+template <class Struct>
+Struct defaults() {
+  Struct made;
+  check(detail::Init<Struct>::call(&made, sizeof made));
+  return made;
+}
+
+// Returns a struct that a call fills in: get<riis_surface_info>(riis_surface_get_info, surface).
+template <class Struct, class Call, class... Arguments>
+Struct get(const Call &call, const Arguments &...arguments) {
+  Struct filled;
+  check(call(arguments..., &filled, static_cast<std::int64_t>(sizeof filled)));
+  return filled;
+}
+
+// An array of the library's or of the caller's, which keeps it. As C++20's std::span, with signed sizes.
+template <class T>
+class Span {
+ public:
+  Span() = default;
+  // An array that the library did not make is NULL, and has no entries.
+  Span(T *data, std::int64_t size) noexcept : data_(data), size_(data ? size : 0) {}
+
+  T *data() const noexcept { return data_; }
+  std::int64_t size() const noexcept { return size_; }
+  bool empty() const noexcept { return size_ == 0; }
+  T &operator[](std::int64_t i) const noexcept { return data_[i]; }
+  T *begin() const noexcept { return data_; }
+  T *end() const noexcept { return data_ + size_; }
+
+ private:
+  T *data_ = nullptr;
+  std::int64_t size_ = 0;
+};
+
+}  // namespace interface_1
+}  // namespace riis
+
+#endif
