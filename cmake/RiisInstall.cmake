@@ -30,7 +30,8 @@ endfunction()
 
 riis_install_library(riis)
 set_target_properties(riis PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
-install(FILES ${PROJECT_SOURCE_DIR}/include/riis/riis.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/riis)
+install(FILES ${PROJECT_SOURCE_DIR}/include/riis/riis.h ${PROJECT_SOURCE_DIR}/include/riis/riis.hpp
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/riis)
 
 if(RIIS_WITH_VTK)
   riis_install_library(riis_vtk)

@@ -86,9 +86,9 @@ using Crossings = Handle<riis_crossings, riis_crossings_destroy>;
 namespace detail {
 template <class Struct>
 struct Init;
-#define RIIS_INIT(name)                                                                \
-  template <>                                                                          \
-  struct Init<name> {                                                                  \
+#define RIIS_INIT(name)                                                                    \
+  template <>                                                                              \
+  struct Init<name> {                                                                      \
     static riis_status call(name *to, std::int64_t size) { return name##_init(to, size); } \
   };
 RIIS_INIT(riis_points)

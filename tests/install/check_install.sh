@@ -84,7 +84,7 @@ check_by_cmake() { # prefix, all|few
   local example examples=("${all_examples[@]}") targets=()
   if [ "$2" = few ]; then
     examples=("${few_examples[@]}")
-    targets=(--target "${examples[@]}")
+    targets=(--target first_marking_cpp "${examples[@]}")
     ! has Fortran || targets+=("${examples[@]/%/_fortran}")
   fi
   quietly "$CMAKE" --build "$work/cmake" "${targets[@]}"
@@ -92,6 +92,7 @@ check_by_cmake() { # prefix, all|few
     check_example "$example" "$work/cmake/$example"
     ! has Fortran || check_example "$example" "$work/cmake/${example}_fortran"
   done
+  check_example first_marking "$work/cmake/first_marking_cpp"
 
   if has VTK; then
     rm -rf "$work/cmake_vtk"

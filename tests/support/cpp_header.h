@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Programs by riis.hpp, for test_cpp_header.c. */
+#ifndef RIIS_TEST_CPP_HEADER_H
+#define RIIS_TEST_CPP_HEADER_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Marks nodes, xyz (3, n), around a mitral valve. Returns how many, and writes their ids (n); -1 after an exception. */
+int64_t cpp_mark(int64_t n, const double *xyz, double half_thickness, int64_t *node_id);
+/* Makes a valve. Returns the status of the exception and writes its text, or returns 0. */
+int32_t cpp_refusal(const char *kind, char *text, size_t length);
+/* These return "", or say what is wrong. */
+const char *cpp_wrong_with_handles(void);
+const char *cpp_wrong_with_defaults(void);
+const char *cpp_wrong_with_spans(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * riis.hpp: what its handles, exceptions, structs and spans do, through a shim. The sanitized build sees leaks. */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "cpp_header.h"
+#include "handles.h"
+#include "searches.h"
+
+/* The ten lines of the header give the marks of C. */
+static void marks_are_those_of_c(void **state) {
+  (void)state;
+  riis_valve *valve = new_valve("mitral");
+  riis_surface_options options = surface_options();
+  options.half_thickness = 0.15;
+  riis_surface *surface = new_surface(valve, &options);
+  double xyz[3 * 4096];
+  for (int i = 0; i < 4096; ++i)
+    for (int c = 0; c < 3; ++c) xyz[3 * i + c] = -2 + 0.25 * (i >> 4 * c & 15);
+  riis_marks *marks = new_result();
+  CHECK_OK(riis_mark_nodes(surface, mesh_of(4096, xyz), NULL, marks));
+  const riis_mark_list list = marked_list(marks);
+  int64_t node_id[4096];
+  assert_true(list.n_nodes > 100);
+  assert_int_equal(cpp_mark(4096, xyz, 0.15, node_id), list.n_nodes);
+  assert_memory_equal(node_id, list.node_id, (size_t)list.n_nodes * sizeof *node_id);
+}
+
+static void refusals_are_exceptions(void **state) {
+  (void)state;
+  char text[256];
+  assert_int_equal(cpp_refusal("tricuspid", text, sizeof text), RIIS_INVALID_PARAMETER);
+  assert_non_null(strstr(text, "'tricuspid' is not a kind of valve"));
+  assert_int_equal(cpp_refusal("aortic", text, sizeof text), RIIS_OK);
+}
+
+static void handles_own_and_move(void **state) {
+  (void)state;
+  assert_string_equal(cpp_wrong_with_handles(), "");
+}
+
+static void defaults_are_those_of_c(void **state) {
+  (void)state;
+  assert_string_equal(cpp_wrong_with_defaults(), "");
+}
+
+static void spans_are_arrays(void **state) {
+  (void)state;
+  assert_string_equal(cpp_wrong_with_spans(), "");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(marks_are_those_of_c), cmocka_unit_test(refusals_are_exceptions),
+      cmocka_unit_test(handles_own_and_move), cmocka_unit_test(defaults_are_those_of_c),
+      cmocka_unit_test(spans_are_arrays),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
