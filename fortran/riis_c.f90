@@ -384,8 +384,8 @@ module riis_c
     real(c_double) :: seconds            !< wall time of riis_mark_nodes
     integer(c_int32_t) :: search         !< the search that ran, never RIIS_SEARCH_AUTO
     integer(c_int32_t) :: n_threads      !< the most that ran in any part. A caller's TBB limit binds walks, not loops
-    integer(c_int32_t) :: complete       !< 1: every node within the limit was certainly found, by the coordinates last
-                                         !! given; 0: not certain (RIIS_SEARCH_PAPER)
+    integer(c_int32_t) :: complete       !< 1: every node within the limit was found, by the coordinates last given; 0:
+                                         !! not certain
     integer(c_int32_t) :: instructions   !< the instructions that were used, never RIIS_INSTRUCTIONS_AUTO
     integer(c_int64_t) :: n_unreached    !< nodes within the limit that the neighbour search found by proof, not walk
   end type riis_mark_stats
@@ -437,7 +437,7 @@ module riis_c
     real(c_double) :: seconds
   end type riis_leak_list
 
-  !> The widest passage from one set of nodes to another: the path whose smallest distance to the surface is largest.
+  !> The widest passage from one set of nodes to another: the path farthest from the surface where it is nearest.
   type, bind(c) :: riis_passage
     integer(c_int64_t) :: node_id  !< the node of that distance: the place. -1 without a path. Of nodes at equal
                                    !! distances the one with the higher id counts as the nearer

@@ -65,7 +65,7 @@ class Header:
         self.problems.append(f"{self.shown}:{self.line(place)}: {message}")
 
     def read_sections(self):
-        for match in re.finditer(r"^/\* -{20,} \*\n \* (.*)\n(?: \* .*\n)*? \* -{20,} \*/$", self.raw, re.MULTILINE):
+        for match in re.finditer(r"^/\* ---- (.*?) -* ?\*/$", self.raw, re.MULTILINE):
             self.sections.append(Section(re.split(r":| \(", match[1])[0].strip(), self.line(match.start())))
 
     def read_macros(self):

@@ -27,10 +27,9 @@
  *   tells the numbers' width: 64 (default) or 32. Without it they are doubles. Vectors are given alike.
  * - Order: the object that the function is named after comes first, then what the call reads, then options,
  *   then what it writes. `get` stands before everything that a function gives from an object.
- * - Status: a function that can fail returns a riis_status. 0 is success. A positive status refuses the call:
- *   no object, no array and no pointer that an object gave has changed. A negative status leaves an object
- *   passed for writing fit for destruction only. riis_last_error() has the message. No function aborts, prints,
- *   throws, or lets an exception out.
+ * - Status: a function that can fail returns a riis_status; 0 is success. A positive status refuses the call:
+ *   no object, array or pointer that an object gave has changed. A negative status leaves an object passed for
+ *   writing fit for destruction only. riis_last_error() has the message. No function aborts, prints or throws.
  * - Errors: RIIS_INVALID_ARGUMENT for a NULL that is not allowed and for an argument or field out of range,
  *   RIIS_INVALID_STRUCT_SIZE for a struct of a wrong size, RIIS_OUT_OF_MEMORY.
  * - Handles: a new object is the last argument, written only on success. Destroying takes a handle's address,
@@ -48,8 +47,7 @@
  *   calling thread's affinity mask. Work feeds one thread, and one more for each 4096 triangles (of a surface's
  *   last content), 16,384 nodes, cells or faces, or 2048 points. By default a part of a call with little work
  *   near the surface takes one thread. OMP_NUM_THREADS and omp_set_num_threads do not matter. 1 starts no thread.
- *   If the system refuses a thread, or its memory, the run-times of OpenMP and TBB end the process
- *   (docs/building.md).
+ *   If the system refuses a thread or its memory, OpenMP and TBB end the process (docs/building.md).
  * - fork(): if the library has used several threads, a child may use 1 only, and 0 stands for 1 there. More are
  *   refused as RIIS_UNAVAILABLE. A child makes no surfaces if another thread was inside the library at the fork.
  * - Environment: each call, including a log function, runs with the default floating-point environment and
@@ -78,9 +76,7 @@
 extern "C" {
 #endif
 
-/* -------------------------------------------------------------------------------------------------------- *
- * Status, errors, log, version
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Status, errors, log, version ---------------------------------------------------------------------- */
 
 /* What a call returns. Values are part of the ABI and never change; new ones are appended at either end. */
 typedef int32_t riis_status;
@@ -95,8 +91,7 @@ enum {
   RIIS_LIMIT_EXCEEDED = 6,      /* the request is sound but larger than the library takes on */
   RIIS_OUT_OF_MEMORY = 7,       /* memory ran out; nothing changed */
   RIIS_FILE_ERROR = 8,          /* a file is unreadable, unwritable or of other content (riis_vtk.h) */
-  RIIS_UNAVAILABLE = 9,         /* something outside the library is missing, such as threads after a fork() or
-                                   a display (riis_vtk.h) */
+  RIIS_UNAVAILABLE = 9,         /* something outside the library is missing: threads after a fork(), a display */
   RIIS_INTERNAL_ERROR = -1      /* an error in riis or in a library below it */
 };
 
@@ -120,8 +115,7 @@ typedef void (*riis_log_function)(void *user_data, int32_t level, const char *me
 /* The levels of a message. */
 enum {
   RIIS_LOG_INFO = 0,   /* what was built and how large */
-  RIIS_LOG_WARNING = 1 /* what the caller may not expect: skipped triangles, sizes in different units,
-                          leaflets that go through each other */
+  RIIS_LOG_WARNING = 1 /* skipped triangles, sizes in different units, leaflets that cross */
 };
 /* Sets the log function of the process; NULL, the default, is silence. Any thread may call it. A message
  * under way in another thread may still reach the former function. With a log function, a surface searches each
@@ -145,9 +139,7 @@ typedef struct riis_points {
 } riis_points;
 RIIS_API riis_status riis_points_init(riis_points *points, int64_t struct_size); /* the defaults */
 
-/* -------------------------------------------------------------------------------------------------------- *
- * Valve: named parameters (paper, tables "Aortic valve parameters" and "Mitral valve parameters"), or patches
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Valve: named parameters (paper, tables "Aortic valve parameters" and "Mitral valve parameters"), or patches */
 
 /* A parametric valve: its kind and its parameters' values. riis_surface_create makes the geometry. */
 typedef struct riis_valve riis_valve;
@@ -229,9 +221,7 @@ RIIS_API riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_
 RIIS_API riis_status riis_valve_get_parameter(const riis_valve *valve, int64_t parameter_id,
                                               riis_parameter *parameter, int64_t struct_size);
 
-/* -------------------------------------------------------------------------------------------------------- *
- * Surface: triangles in space that answer closest-point queries
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Surface: triangles in space that answer closest-point queries ------------------------------------- */
 
 /* Triangles with their Embree scene and a half thickness. It borrows nothing from the caller. */
 typedef struct riis_surface riis_surface;
@@ -290,8 +280,7 @@ typedef struct riis_surface_options {
   double rotation_angle;   /* degrees, counter-clockwise seen against the axis; -1e6 to 1e6, default 0 */
   double translation[3];   /* mesh units; -1e50 to 1e50, default 0. Refused for a valve where coordinates
                               would round by more than a thousandth of tolerance * half_thickness */
-  double measure_tolerance; /* for distances by sampling and minimisation, in half thicknesses: 1e-6 to 1.
-                               Default RIIS_AUTO: tolerance */
+  double measure_tolerance; /* for the others of RIIS_MEASURE_*, half thicknesses, 1e-6 to 1. Default: tolerance */
   int32_t measure;         /* RIIS_MEASURE_*, of closest points and marking only; default
                               RIIS_MEASURE_TRIANGLES, the only one for arrays */
   int32_t triangulation;   /* RIIS_TRIANGULATION_*; default RIIS_TRIANGULATION_ADAPTED */
@@ -337,8 +326,7 @@ RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64
 /* Makes a surface from arrays, with the caller's winding. A triangle's id is its face's number; the halves of
  * quad q have 2 q and 2 q + 1. Skipped triangles keep their ids. A triangle has zero area when its height
  * over its longest edge is at most 1e-12 of that edge, or that edge is shorter than 1e-60.
- * Errors: RIIS_LIMIT_EXCEEDED for too many vertices or faces; RIIS_INVALID_SURFACE naming the face or vertex
- * and its value. */
+ * Errors: RIIS_LIMIT_EXCEEDED for too many; RIIS_INVALID_SURFACE naming the face or vertex and its value. */
 RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options,
                                                      riis_surface **surface);
@@ -353,11 +341,9 @@ RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve
  * vertex, over the time between (docs/theory.md, section 10). A valve at rest is its own state before.
  *   valve_before    the state before: of the same kind; from patches, with the same curves and sides
  *   dt              the time from valve_before to valve, 1e-30 to 1e30, or negative as time goes back
- *   options_before  scale, rotation and translation before; its other fields do not count. NULL: the present
- *                   ones
+ *   options_before  scale, rotation and translation before; other fields do not count. NULL: the present ones
  * The velocity, in mesh units over the unit of dt, is the mean of the step: that of the step's middle to
- * second order, that of either end to first. Leaflets that are equally near to a node give it their mean
- * (riis_mark_list.velocity).
+ * second order, that of either end to first.
  * Errors: as riis_surface_update; RIIS_INVALID_PARAMETER for a valve_before of another kind or build, or
  * whose parameters do not go together. */
 RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve,
@@ -384,8 +370,7 @@ typedef struct riis_keyframe_arrays {
   int64_t n_keys;        /* 1 to 1,000,000 */
   int64_t n_vertices;    /* of each frame, that of the faces */
   const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
-  const void *xyz;       /* (3, n_vertices, n_keys): the vertices, frame after frame; finite, magnitude at
-                            most 1e60 */
+  const void *xyz;       /* (3, n_vertices, n_keys): the vertices, frame after frame; magnitude at most 1e60 */
   double period;         /* > 0: the motion repeats; its keys lie within a period of the first, and a last key
                             that is a period after the first has its frame. 0, the default: the first frame
                             counts before its time, the last one after it */
@@ -396,8 +381,7 @@ typedef struct riis_keyframe_arrays {
 RIIS_API riis_status riis_keyframe_arrays_init(riis_keyframe_arrays *frames, int64_t struct_size);
 /* Makes keyframes from copies of arrays and frames.
  *   arrays  as for riis_surface_create_from_arrays; its vertices and velocities do not count, and may be NULL
- * Errors: RIIS_INVALID_SURFACE naming the frame, vertex or face and its value; RIIS_LIMIT_EXCEEDED for more
- * than memory can hold. */
+ * Errors: RIIS_INVALID_SURFACE naming the frame, vertex or face; RIIS_LIMIT_EXCEEDED for too many. */
 RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *arrays,
                                            const riis_keyframe_arrays *frames, riis_keyframes **keyframes);
 /* Destroys the keyframes. Surfaces made from them stay. */
@@ -441,15 +425,13 @@ RIIS_API riis_status riis_surface_get_info(const riis_surface *surface, riis_sur
 typedef struct riis_triangles {
   int64_t n_vertices;         /* of the surface */
   const double *xyz;          /* (3, n_vertices): the vertices */
-  const double *uv;           /* (2, n_vertices): each vertex's place on its patch, in [0,1]; NULL for a surface
-                                 from arrays */
+  const double *uv;           /* (2, n_vertices): each vertex's place on its patch, in [0,1]; NULL from arrays */
   const double *velocity;     /* (3, n_vertices): each vertex's velocity; NULL if the last update gave none.
                                  Where closed cusps meet, a vertex has the velocity of its own cusp */
   int64_t n_triangles;        /* triangles that answer queries */
   const int64_t *vertex_id;   /* (3, n_triangles): their vertices */
   const int64_t *triangle_id; /* (n_triangles), ascending: the id that queries report; 0, 1, 2, ... for a valve */
-  const int32_t *leaflet_id;  /* (n_triangles): RIIS_LEAFLET_* for the parametric valves; from patches or arrays:
-                                 the caller's */
+  const int32_t *leaflet_id;  /* (n_triangles): RIIS_LEAFLET_*, or the caller's from patches and arrays */
   const int32_t *patch_id;    /* (n_triangles): aortic and trileaflet: 4 * leaflet + 0 bottom, 1 top, 2 mirrored
                                  bottom, 3 mirrored top; mitral, from the posteromedial commissure round: anterior
                                  0 commissure's triangle, 1 side, 2 middle, 3 mirrored middle, 4 mirrored side,
@@ -461,9 +443,7 @@ typedef struct riis_triangles {
 RIIS_API riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangles *triangles,
                                                 int64_t struct_size);
 
-/* -------------------------------------------------------------------------------------------------------- *
- * Crossings: self-intersections, where the surface goes through itself
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Crossings: self-intersections, where the surface goes through itself ------------------------------ */
 
 /* Options of riis_find_crossings. */
 typedef struct riis_crossing_options {
@@ -477,10 +457,8 @@ RIIS_API riis_status riis_crossing_options_init(riis_crossing_options *options, 
 
 /* The pairs of triangles that riis_find_crossings found. Make one and reuse it. */
 typedef struct riis_crossings riis_crossings;
-/* Makes crossings without a pair. */
-RIIS_API riis_status riis_crossings_create(riis_crossings **crossings);
-/* Destroys the crossings and their list. */
-RIIS_API void riis_crossings_destroy(riis_crossings **crossings);
+RIIS_API riis_status riis_crossings_create(riis_crossings **crossings); /* makes crossings without a pair */
+RIIS_API void riis_crossings_destroy(riis_crossings **crossings); /* destroys the crossings and their list */
 
 /* Finds every pair of the surface's triangles that go through each other. A pair's depth is its penetration
  * depth: the length of the shortest translation of one triangle after which both only touch
@@ -495,8 +473,7 @@ RIIS_API void riis_crossings_destroy(riis_crossings **crossings);
 RIIS_API riis_status riis_find_crossings(const riis_surface *surface, const riis_crossing_options *options,
                                          riis_crossings *crossings);
 
-/* Pairs of triangles that cross, ascending by their first triangle, then by their second. Lengths are in mesh
- * units. */
+/* Pairs of triangles that cross, ascending by first triangle, then by second. Lengths are in mesh units. */
 typedef struct riis_crossing_list {
   int64_t n_pairs;            /* pairs that cross. Without one, ids are -1, other fields but seconds 0 */
   const int64_t *triangle_id; /* (2, n_pairs): their triangles, the lower one first */
@@ -514,9 +491,7 @@ typedef struct riis_crossing_list {
 RIIS_API riis_status riis_crossings_get_list(const riis_crossings *crossings, riis_crossing_list *list,
                                              int64_t struct_size);
 
-/* -------------------------------------------------------------------------------------------------------- *
- * Closest points (paper, 4.1)
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Closest points (paper, 4.1) ----------------------------------------------------------------------- */
 
 /* The closest point of the surface to one point. RIIS_MEASURE_* says what other distances fill in. */
 typedef struct riis_closest {
@@ -540,15 +515,12 @@ RIIS_API riis_status riis_closest_point(const riis_surface *surface, const doubl
 /* Options of queries for many points. */
 typedef struct riis_closest_options {
   int64_t struct_size;       /* set by the init function */
-  double distance_limit;     /* >= 0; points farther than this get far_distance, ids -1, side 0, and zeros.
-                                Default infinity: no limit */
+  double distance_limit;     /* >= 0, default infinity. Farther points get far_distance, ids -1, side 0, zeros */
   double far_distance;       /* default RIIS_FAR_DISTANCE; must not lie in [0, distance_limit] */
-  const uint8_t *point_mask; /* (n_points): points with 0 are not written, but still finite. NULL: all
-                                points */
+  const uint8_t *point_mask; /* (n_points): points with 0 are finite, but not written. NULL: all */
   int64_t n_point_ids;       /* length of point_ids; 0 without it */
-  const int64_t *point_ids;  /* strictly ascending, 0 to n_points - 1: only these points are read, and only
-                                their entries written, at their ids. NULL: all points. Not together with
-                                point_mask */
+  const int64_t *point_ids;  /* strictly ascending, 0 to n_points - 1: only these points are read, and their
+                                entries written, at their ids. NULL: all. Not with point_mask */
   int32_t n_threads;         /* default 0 */
   int32_t reserved;          /* 0 */
 } riis_closest_options;
@@ -579,9 +551,7 @@ RIIS_API riis_status riis_closest_points(const riis_surface *surface, const riis
 /* The default distance of far points: finite, for arithmetic without floating-point exceptions. */
 #define RIIS_FAR_DISTANCE 1.0e30
 
-/* -------------------------------------------------------------------------------------------------------- *
- * Mesh: the nodes that are marked
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Mesh: the nodes that are marked ------------------------------------------------------------------- */
 
 /* The caller's nodes. The coordinates are borrowed or copied, as the last call that gave them says. */
 typedef struct riis_mesh riis_mesh;
@@ -607,8 +577,7 @@ RIIS_API riis_status riis_mesh_update_copy(riis_mesh *mesh, const riis_points *n
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
 /* Makes the clusters of RIIS_SEARCH_CLUSTERS now, rather than in the first marking that uses them. They copy
  * the coordinates: 41 bytes a node while the handle lives, 32 more while they are made.
- * Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes and more; RIIS_INVALID_MESH for a coordinate that became
- * non-finite after it was given. */
+ * Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes and more; RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 
 /* Neighbours of nodes, as compressed sparse rows. With base = index_base, node i of 0 to n_rows - 1 has the
@@ -619,8 +588,7 @@ typedef struct riis_csr {
   int64_t n_all;         /* at least n_rows: columns are below this; from n_rows on they are other ranks'
                             nodes, ghosts, which are ignored. Default 0 stands for n_rows */
   const void *offsets;   /* (n_rows + 1), ascending from the base; a row may be empty. NULL only for 0 rows */
-  const void *columns;   /* (offsets[n_rows] - base), in any order, NULL only if empty; repetitions and the
-                            node itself are ignored */
+  const void *columns;   /* (offsets[n_rows] - base), in any order; repetitions and the node itself are ignored */
   int32_t offset_bits;   /* of offsets */
   int32_t column_bits;   /* of columns */
   int32_t index_base;    /* of both offsets and columns */
@@ -634,9 +602,7 @@ RIIS_API riis_status riis_csr_init(riis_csr *csr, int64_t struct_size); /* the d
  * Errors: RIIS_INVALID_MESH naming the row and its value. */
 RIIS_API riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr);
 
-/* -------------------------------------------------------------------------------------------------------- *
- * Adjacency from cells, faces, or a structured grid
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Adjacency from cells, faces, or a structured grid ------------------------------------------------- */
 
 /* Compressed sparse rows that the library owns: ascending columns without repetition, symmetric, base 0. */
 typedef struct riis_adjacency riis_adjacency;
@@ -683,23 +649,20 @@ RIIS_API riis_status riis_adjacency_create_from_faces(const riis_mesh_faces *fac
  * Errors: RIIS_LIMIT_EXCEEDED for more nodes than memory can hold. */
 RIIS_API riis_status riis_adjacency_create_from_grid(int64_t ni, int64_t nj, int64_t nk, int32_t n_threads,
                                                      riis_adjacency **adjacency);
-/* Gives the rows as riis_mesh_set_adjacency takes them. The arrays are the adjacency's. Offsets are int64_t; columns are
- * int32_t for fewer than 2^31 nodes, as column_bits says. */
+/* Gives the rows as riis_mesh_set_adjacency takes them. The arrays are the adjacency's: int64_t offsets, and
+ * int32_t columns for fewer than 2^31 nodes, as column_bits says. */
 RIIS_API riis_status riis_adjacency_get_csr(const riis_adjacency *adjacency, riis_csr *csr,
                                             int64_t struct_size);
 /* Destroys the adjacency and its arrays. Destroy the mesh that borrows them first. */
 RIIS_API void riis_adjacency_destroy(riis_adjacency **adjacency);
 
-/* -------------------------------------------------------------------------------------------------------- *
- * Marking (paper, 4.2)
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Marking (paper, 4.2) ------------------------------------------------------------------------------ */
 
 /* The nodes that a marking found. Make one and reuse it every step: its memory is kept. */
 typedef struct riis_marks riis_marks;
 /* Makes empty marks. They belong to no mesh and no surface. */
 RIIS_API riis_status riis_marks_create(riis_marks **marks);
-/* Destroys the marks and their lists. */
-RIIS_API void riis_marks_destroy(riis_marks **marks);
+RIIS_API void riis_marks_destroy(riis_marks **marks); /* destroys the marks and their lists */
 
 /* How nodes are searched. All but RIIS_SEARCH_PAPER find the same nodes (docs/theory.md, section 7). */
 enum {
@@ -750,10 +713,8 @@ enum {
 typedef struct riis_resistance {
   int64_t struct_size;   /* set by the init function */
   double R;              /* 0 to 1e60, mass / (length time): kg/(m s). A flat closed valve in a flow of
-                            velocity u has a pressure drop of (R / eps) u. The init function sets NaN, which
-                            is refused */
-  double half_thickness; /* eps, mesh units, 1e-50 to the distance limit of the marking. Default RIIS_AUTO:
-                            the half thickness of the marking */
+                            velocity u has a pressure drop of (R / eps) u. Default NaN, which is refused */
+  double half_thickness; /* eps, 1e-50 to the distance limit. Default RIIS_AUTO: the marking's half thickness */
   int32_t rim;           /* RIIS_RIM_*, default RIIS_RIM_ROUND */
   int32_t reserved;      /* 0 */
 } riis_resistance;
@@ -767,8 +728,7 @@ typedef struct riis_mark_options {
   const uint8_t *node_mask;  /* (n_nodes): nodes with 0 are left out, but still finite. NULL: all nodes */
   const riis_resistance *resistance; /* makes riis_mark_list.K and, if the last update of the surface gave
                                         velocities, riis_mark_list.K_u_surface. Default NULL: neither */
-  int32_t fields;            /* a sum of RIIS_FIELD_*, for every node within the distance limit: see
-                                riis_mark_list. Default 0: none */
+  int32_t fields;            /* a sum of RIIS_FIELD_*, for the nodes of riis_mark_list. Default 0 */
   int32_t search;            /* RIIS_SEARCH_*, default RIIS_SEARCH_AUTO */
   int32_t n_threads;         /* default 0 */
   int32_t instructions;      /* RIIS_INSTRUCTIONS_*, for tests and measurements; default
@@ -780,9 +740,8 @@ RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t 
 /* Finds every node whose distance to the surface is at most the half thickness (marked) or the distance
  * limit. The reported distance decides, in double precision, inclusive.
  *   marks  its content is replaced
- * The log warns if the largest side of the mesh's or the surface's box is more than 50 times the other's, or
- * less than the half thickness. It warns once for the two, at most eight times for a mesh, and never for a
- * mesh of less than 1000 nodes.
+ * The log warns if the largest side of the mesh's or the surface's box is more than 50 times the other's, or less
+ * than the half thickness: once for the two, at most eight times for a mesh, never below 1000 nodes.
  * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,
                                      const riis_mark_options *options, riis_marks *marks);
@@ -849,17 +808,14 @@ typedef struct riis_mark_stats {
   double seconds;       /* wall time of riis_mark_nodes */
   int32_t search;       /* the search that ran, never RIIS_SEARCH_AUTO */
   int32_t n_threads;    /* the most that ran in any part. A caller's TBB limit binds walks, not loops */
-  int32_t complete;     /* 1: every node within the limit was certainly found, by the coordinates last given;
-                           0: not certain (RIIS_SEARCH_PAPER) */
+  int32_t complete;     /* 1: every node within the limit was found, by the coordinates last given; 0: not certain */
   int32_t instructions; /* the instructions that were used, never RIIS_INSTRUCTIONS_AUTO */
   int64_t n_unreached;  /* nodes within the limit that the neighbour search found by proof, not walk */
 } riis_mark_stats;
 /* Tells how the last marking with the marks went; all 0 for empty marks. */
 RIIS_API riis_status riis_marks_get_stats(const riis_marks *marks, riis_mark_stats *stats, int64_t struct_size);
 
-/* -------------------------------------------------------------------------------------------------------- *
- * Resistance: K and K u_surface in the caller's arrays, and sums of a flow around the surface
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Resistance: K and K u_surface in the caller's arrays, and sums of a flow around the surface ------- */
 
 /* The caller's arrays with an entry for each node of the mesh, to which K and K u_surface are added. */
 typedef struct riis_resistance_arrays {
@@ -867,15 +823,13 @@ typedef struct riis_resistance_arrays {
   int64_t n_nodes;             /* the number of nodes of the marking */
   double *K;                   /* (n_nodes) by K_stride; NULL if not wanted */
   int64_t K_stride;            /* default 1 */
-  double *K_u_surface[3];      /* (n_nodes) by K_u_surface_stride, the components x, y and z; all NULL if not
-                                  wanted */
+  double *K_u_surface[3];      /* (n_nodes) by K_u_surface_stride, for x, y and z; all NULL if not wanted */
   int64_t K_u_surface_stride;  /* default 1; 3 for xyz(3,n) with {xyz, xyz + 1, xyz + 2} */
 } riis_resistance_arrays;
 /* Fills *arrays with the defaults. */
 RIIS_API riis_status riis_resistance_arrays_init(riis_resistance_arrays *arrays, int64_t struct_size);
 /* Adds K and K u_surface to the caller's arrays, so that several valves add up: a scheme takes (sum of K) u -
- * (sum of K u_surface). The nodes may be nodes, cell centres or quadrature points. riis_mark_list has both for
- * the nodes of a list.
+ * (sum of K u_surface). The nodes may be nodes, cell centres or quadrature points. riis_mark_list has both, too.
  *   resistance  RIIS_RIM_CUT needs RIIS_FIELD_RIM, and K_u_surface needs RIIS_FIELD_VELOCITY
  * Errors: RIIS_INVALID_ARGUMENT also for marks never marked with, and for a field that the marks lack. */
 RIIS_API riis_status riis_marks_add_resistance(const riis_marks *marks, const riis_resistance *resistance,
@@ -885,10 +839,9 @@ RIIS_API riis_status riis_marks_add_resistance(const riis_marks *marks, const ri
 typedef struct riis_flow_arrays {
   int64_t struct_size;       /* set by the init function */
   int64_t n_nodes;           /* the number of nodes of the marking */
-  const double *velocity[3]; /* (n_nodes) by velocity_stride, the components x, y and z; NULL only for 0 nodes */
+  const double *velocity[3]; /* (n_nodes) by velocity_stride, for x, y and z; NULL, like weight, only for 0 nodes */
   int64_t velocity_stride;   /* default 1; 3 for u(3,n) with {u, u + 1, u + 2} */
-  const double *weight;      /* (n_nodes), the volume that a node stands for, 0 for the nodes of other ranks;
-                                NULL only for 0 nodes */
+  const double *weight;      /* (n_nodes), the volume that a node stands for, 0 for nodes of other ranks */
 } riis_flow_arrays;
 RIIS_API riis_status riis_flow_arrays_init(riis_flow_arrays *flow, int64_t struct_size); /* the defaults */
 /* Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force. Ranks sum
@@ -908,12 +861,10 @@ typedef struct riis_band_sums {
 /* A band around the surface, and a value at the nodes. */
 typedef struct riis_band {
   int64_t struct_size;  /* set by the init function */
-  double inner, outer;  /* the distances of its nodes, mesh units, 0 <= inner <= outer <= distance limit of the
-                           marking. Default 0 */
+  double inner, outer;  /* distances, 0 <= inner <= outer <= distance limit of the marking. Default 0 */
   int64_t n_nodes;      /* the number of nodes of the marking, which had RIIS_FIELD_SIDE and RIIS_FIELD_RIM */
-  const double *value;  /* (n_nodes), such as the pressure; NULL only for 0 nodes */
-  const double *weight; /* (n_nodes), the volume that a node stands for, 0 for the nodes of other ranks; NULL
-                           only for 0 nodes */
+  const double *value;  /* (n_nodes), such as the pressure; NULL, like weight, only for 0 nodes */
+  const double *weight; /* (n_nodes), the volume that a node stands for, 0 for the nodes of other ranks */
 } riis_band;
 RIIS_API riis_status riis_band_init(riis_band *band, int64_t struct_size); /* the defaults */
 /* Gives the sums of the value over the nodes in the band, by side. Nodes whose closest point is on the rim are
@@ -922,16 +873,12 @@ RIIS_API riis_status riis_band_init(riis_band *band, int64_t struct_size); /* th
 RIIS_API riis_status riis_marks_get_band_sums(const riis_marks *marks, const riis_band *band,
                                               riis_band_sums *sums, int64_t struct_size);
 
-/* -------------------------------------------------------------------------------------------------------- *
- * Leaks: where the mesh is too coarse for the marks to close the surface (docs/meshes.md)
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Leaks: where the mesh is too coarse for the marks to close the surface (docs/meshes.md) ----------- */
 
 /* The edges that riis_find_leaks found. Make one and reuse it. */
 typedef struct riis_leaks riis_leaks;
-/* Makes leaks without an edge. */
-RIIS_API riis_status riis_leaks_create(riis_leaks **leaks);
-/* Destroys the leaks and their list. */
-RIIS_API void riis_leaks_destroy(riis_leaks **leaks);
+RIIS_API riis_status riis_leaks_create(riis_leaks **leaks); /* makes leaks without an edge */
+RIIS_API void riis_leaks_destroy(riis_leaks **leaks); /* destroys the leaks and their list */
 
 /* Finds every edge of the mesh's adjacency that crosses the surface's triangles between two unmarked nodes.
  * Touching counts. The decision is exact for coordinates in double precision; those below 1e-90 count as 0.
@@ -965,9 +912,7 @@ typedef struct riis_leak_list {
 /* Gives the edges of the last riis_find_leaks with these leaks, until the next or the destruction. */
 RIIS_API riis_status riis_leaks_get_list(const riis_leaks *leaks, riis_leak_list *list, int64_t struct_size);
 
-/* -------------------------------------------------------------------------------------------------------- *
- * Open regions and passages: whether the unmarked nodes still join two places (docs/meshes.md)
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Open regions and passages: whether the unmarked nodes still join two places (docs/meshes.md) ------ */
 
 /* Labels the open regions: the connected components of the nodes that a marking left unmarked, along the
  * edges of the mesh's adjacency. An edge may stand in one row or in both. Edges to ghosts are not looked at:
@@ -976,8 +921,7 @@ RIIS_API riis_status riis_leaks_get_list(const riis_leaks *leaks, riis_leak_list
  *   marks      of riis_mark_nodes
  *   options    those of the marking; nodes that node_mask leaves out are in no region
  *   n_nodes    the number of nodes of the marking
- *   label      (n_nodes), the lowest node id of the node's region, -1 for nodes in no region; NULL only for 0
- *              nodes
+ *   label      (n_nodes), the lowest node id of the node's region, -1 for nodes in no region
  *   n_regions  how many there are; may be NULL
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks never marked with, or with
  * another number of nodes. */
@@ -991,8 +935,7 @@ enum {
   RIIS_PASSAGE_OPEN = 1,   /* they do not: some path has none */
   RIIS_PASSAGE_NONE = 2    /* the mesh itself has no path, with marked nodes or without */
 };
-/* The widest passage from one set of nodes to another: the path whose smallest distance to the surface is
- * largest. */
+/* The widest passage from one set of nodes to another: the path farthest from the surface where it is nearest. */
 typedef struct riis_passage {
   int64_t node_id;  /* the node of that distance: the place. -1 without a path. Of nodes at equal distances
                        the one with the higher id counts as the nearer */
@@ -1023,9 +966,7 @@ RIIS_API riis_status riis_find_passage(const riis_surface *surface, const riis_m
                                        const riis_passage_ends *ends, const riis_mark_options *options,
                                        riis_passage *passage, int64_t struct_size);
 
-/* -------------------------------------------------------------------------------------------------------- *
- * Laws of opening: a valve's opening from the time, the pressure difference and the flow
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Laws of opening: a valve's opening from the time, the pressure difference and the flow ------------ */
 
 /* Pure functions: the same arguments give the same bits, and nothing is kept. Times, pressures and flows have
  * the solver's units. The pressure difference is that upstream less that downstream, and flow is positive
@@ -1056,8 +997,7 @@ RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, do
  * The ramps are of fifth degree: neither the rate nor its derivative jumps. */
 typedef struct riis_opening_times {
   int64_t struct_size;    /* set by the init function */
-  double opening_start;   /* when the valve begins to open. No default, as for the next three: NaN, which is
-                             refused */
+  double opening_start;   /* when the valve begins to open. Default NaN, refused, as for the next three */
   double opening_duration; /* how long that takes, > 0 */
   double closing_start;   /* when it begins to close, at least opening_start + opening_duration */
   double closing_duration; /* how long that takes, > 0 */
@@ -1095,8 +1035,7 @@ typedef struct riis_opening_switch_state {
   int64_t struct_size;        /* set by the init function */
   double time;                /* of this state */
   double opening, rate;       /* what the law says at that time */
-  double progress;            /* share of the way from closed to open, 0 to 1; the opening is a smooth ramp
-                                 over it */
+  double progress;            /* share of the way to open, 0 to 1; the opening is a smooth ramp over it */
   double pressure_difference; /* filtered; NaN: none yet */
   double flow;                /* filtered; NaN: none yet */
   double turn_time;           /* of the last turn; NaN: none yet */
@@ -1141,8 +1080,7 @@ typedef struct riis_opening_angle_state {
   double pressure_difference; /* at that time; NaN: none yet */
   double flow;                /* at that time; NaN: none yet */
 } riis_opening_angle_state;
-/* Fills *state with a closed valve at rest, at time 0. Its angle is 0, which stands for angle_min as long as
- * pressure_difference or flow is NaN. */
+/* Fills *state with a closed valve at rest, at time 0. Until the first step its angle 0 stands for angle_min. */
 RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *state, int64_t struct_size);
 /* Advances the angle law to a time. Pressure difference and flow are taken as linear over the step, which
  * makes the angle second order in the length of steps. Without values before, the present ones count for the

@@ -26,9 +26,7 @@
 extern "C" {
 #endif
 
-/* -------------------------------------------------------------------------------------------------------- *
- * Volume meshes
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Volume meshes ------------------------------------------------------------------------------------- */
 
 /* An unstructured grid as it was in the file, its points as doubles. */
 typedef struct riis_vtk_mesh riis_vtk_mesh;
@@ -121,9 +119,7 @@ RIIS_API riis_status riis_vtk_mesh_get_file_size(const riis_vtk_mesh *mesh, int6
  *   path  ends in .vtu */
 RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *path);
 
-/* -------------------------------------------------------------------------------------------------------- *
- * Surfaces
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Surfaces ------------------------------------------------------------------------------------------ */
 
 /* Triangles or quads read from a file. */
 typedef struct riis_vtk_surface riis_vtk_surface;
@@ -154,9 +150,7 @@ RIIS_API riis_status riis_vtk_surface_get_arrays(const riis_vtk_surface *surface
  *   path  ends in .vtp */
 RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const char *path);
 
-/* -------------------------------------------------------------------------------------------------------- *
- * Motion
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Motion -------------------------------------------------------------------------------------------- */
 
 /* The frames of a surface that moves, such as a patient's valve, read from files: the same faces at several
  * times. It becomes keyframes, which take the frames' period and interpolation:
@@ -216,9 +210,7 @@ RIIS_API riis_status riis_vtk_motion_get_arrays(const riis_vtk_motion *motion, r
 RIIS_API riis_status riis_vtk_motion_get_frames(const riis_vtk_motion *motion, riis_keyframe_arrays *frames,
                                                 int64_t struct_size);
 
-/* -------------------------------------------------------------------------------------------------------- *
- * Pictures
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Pictures ------------------------------------------------------------------------------------------ */
 
 /* The direction in which a picture looks. */
 enum {
