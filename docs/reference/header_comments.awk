@@ -37,7 +37,18 @@ BEGIN { kind = ""; n_sections = 0 }
 { closes = /\*\// }
 
 kind == "" && /^\/\* SPDX/ { kind = "file"; print "/** @file"; next }
-kind == "" && /^\/\* -----/ { kind = "banner"; print(n_sections++ ? "/** @} */" : ""); next }
+kind == "" && /^\/\* ---- / {
+  print(n_sections++ ? "/** @} */" : "")
+  sub(/^\/\* ---- /, "")
+  sub(/ -* ?\*\/$/, "")
+  word = tolower($1)
+  gsub(/[^a-z]/, "", word)
+  file = FILENAME
+  gsub(/^.*\/|\.h$/, "", file)
+  print "/** @defgroup " file "_h_" word " " $0
+  print " * @{ */"
+  next
+}
 kind == "" && /^\/\* clang-format/ { print ""; next }
 kind == "" && /^\/\* / {
   kind = "before"
@@ -54,20 +65,6 @@ kind == "" && match($0, /[^ ] *\/\* /) {
   text_after = ""
 }
 
-kind == "banner" {
-  if (closes) {
-    print " * @{ */"
-    kind = ""
-  } else {
-    sub(/^ \* /, "")
-    word = tolower($1)
-    gsub(/[^a-z]/, "", word)
-    file = FILENAME
-    gsub(/^.*\/|\.h$/, "", file)
-    print "/** @defgroup " file "_h_" word " " $0
-  }
-  next
-}
 kind == "file" || kind == "before" {
   text = $0
   sub(/ *\*\/ *$/, "", text)
