@@ -56,8 +56,8 @@ static int get_parameters(double values[most_parameters]) {
 static void write_checkpoint(void) {
   double parameters[most_parameters];
   const int n = get_parameters(parameters);
-  const double values[n_state] = {state.time, state.opening, state.rate, state.progress, state.pressure_difference,
-                                  state.flow, state.since,   state.phase};
+  const double values[n_state] = {state.time, state.opening,   state.rate, state.progress, state.pressure_difference,
+                                  state.flow, state.turn_time, state.phase};
   cs_restart_t *file = cs_restart_create("riis", NULL, CS_RESTART_MODE_WRITE);
   cs_restart_write_section(file, "parameters", CS_MESH_LOCATION_NONE, n, CS_TYPE_cs_real_t, parameters);
   cs_restart_write_section(file, "law", CS_MESH_LOCATION_NONE, n_state, CS_TYPE_cs_real_t, values);
@@ -87,7 +87,7 @@ static void read_checkpoint(void) {
   state.progress = values[3];
   state.pressure_difference = values[4];
   state.flow = values[5];
-  state.since = values[6];
+  state.turn_time = values[6];
   state.phase = (int32_t)values[7];
 }
 

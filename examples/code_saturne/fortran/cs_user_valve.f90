@@ -98,7 +98,7 @@ contains
     call restart_create('riis', '', 1, file)
     call restart_write_section_real_t(file, 'parameters', 0, size(parameters), parameters)
     call restart_write_section_real_t(file, 'law', 0, 8, [state%time, state%opening, state%rate, state%progress, &
-      state%pressure_difference, state%flow, state%since, dble(state%phase)])
+      state%pressure_difference, state%flow, state%turn_time, dble(state%phase)])
     call restart_destroy(file)
   end subroutine write_checkpoint
 

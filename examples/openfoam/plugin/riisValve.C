@@ -327,7 +327,7 @@ void riisValve::restart() {
         // Without these keys there was none yet.
         state_.readIfPresent("pressureDifference", switchState_.pressure_difference);
         state_.readIfPresent("flow", switchState_.flow);
-        state_.readIfPresent("since", switchState_.since);
+        state_.readIfPresent("turnTime", switchState_.turn_time);
       }
       opening_ = switchState_.opening;
       break;
@@ -369,7 +369,7 @@ void riisValve::keepState() {
     if (!std::isnan(switchState_.pressure_difference))
       state_.add("pressureDifference", switchState_.pressure_difference);
     if (!std::isnan(switchState_.flow)) state_.add("flow", switchState_.flow);
-    if (!std::isnan(switchState_.since)) state_.add("since", switchState_.since);
+    if (!std::isnan(switchState_.turn_time)) state_.add("turnTime", switchState_.turn_time);
   }
   state_.add("parameters", parameters());
 }
