@@ -44,10 +44,11 @@ if(RIIS_WITH_FORTRAN)
   # The sources go beside the modules. Users of another Fortran compiler have to compile only these.
   get_target_property(riis_fortran_sources riis_fortran SOURCES)
   list(TRANSFORM riis_fortran_sources PREPEND ${PROJECT_SOURCE_DIR}/fortran/ OUTPUT_VARIABLE riis_fortran_files)
+  list(TRANSFORM riis_fortran_sources REPLACE "^generated/" "")
   list(FILTER riis_fortran_sources EXCLUDE REGEX "^riis_f77") # external subroutines
   list(TRANSFORM riis_fortran_sources REPLACE "(.*)\\.f90"
     "$<TARGET_PROPERTY:riis_fortran,Fortran_MODULE_DIRECTORY>/\\1.mod" OUTPUT_VARIABLE riis_fortran_modules)
-  install(FILES ${riis_fortran_files} ${riis_fortran_modules} ${PROJECT_SOURCE_DIR}/fortran/riisf.h
+  install(FILES ${riis_fortran_files} ${riis_fortran_modules} ${PROJECT_SOURCE_DIR}/fortran/generated/riisf.h
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/riis)
 endif()
 

@@ -1,10 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # expand_templates.sh [FOLDER]
-# Expands templates/riis_*.fypp into FOLDER/riis_*.f90, by default beside this script. Needs fypp (Debian's package fypp).
+# Expands templates/riis_*.fypp into FOLDER/riis_*.f90, by default generated/ beside this script. Needs fypp (Debian's package fypp).
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-folder=$(cd "${1:-$here}" && pwd)
+folder=$(cd "${1:-$here/generated}" && pwd)
 if ! command -v fypp >/dev/null; then
   echo "expand_templates.sh: fypp was not found; Debian has it as the package fypp" >&2
   exit 1

@@ -16,8 +16,8 @@
 #include "figures/shapes.hpp"
 #include "figures/state_figures.hpp"
 #include "figures/text.hpp"
-#include "vtk/display.hpp"
-#include "vtk/vtk_errors.hpp"
+#include "riis_vtk/display.hpp"
+#include "riis_vtk/vtk_errors.hpp"
 
 namespace {
 

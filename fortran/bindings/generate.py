@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes fortran/riis_c.f90, fortran/riisf.h and tests/fortran/layouts.inc from riis.h and from bindings.table.
+"""Writes fortran/generated/riis_c.f90, fortran/generated/riisf.h and tests/fortran/layouts.inc from riis.h and from bindings.table.
 
     python3 generate.py                writes the files
     python3 generate.py --check        writes nothing; fails and shows the difference if a file is not what it should be
@@ -20,7 +20,7 @@ HEADER = "include/riis/riis.h"
 TABLE = "fortran/bindings/bindings.table"
 TEMPLATES = "fortran/bindings/riis_c.f90.in", "fortran/bindings/riisf.h.in"
 # The longest line that the language allows, or the project.
-WIDTHS = {"fortran/riis_c.f90": 130, "fortran/riisf.h": 72, "tests/fortran/layouts.inc": 130}
+WIDTHS = {"fortran/generated/riis_c.f90": 130, "fortran/generated/riisf.h": 72, "tests/fortran/layouts.inc": 130}
 
 
 def fill(template, shown, parts):

@@ -2,9 +2,9 @@
 #include "orifice_shim.h"
 #include "calls.h"
 
-#include "cli/orifice.hpp"
+#include "program/orifice.hpp"
 
-using namespace riis::cli;
+using namespace riis::program;
 
 namespace {
 

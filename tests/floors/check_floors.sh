@@ -1,44 +1,57 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_floors.sh SOURCE_FOLDER
-# The library's folders are floors, each built on the earlier ones. No file may include a file of a later floor. The component vtk
-# and the program cli stand beside them, on the public headers: of the library's own folders they may include base.
+# The folders of the library, src/riis, are floors, each built on the earlier ones: no file may include a file of a later floor.
+# src/riis_vtk and src/program stand beside the library, on its public headers. src/common has headers that include no product's.
 set -euo pipefail
 cd "$1"
 floors=(base laws parallel geometry kernels valve surface distance marking pipeline api)
+failed=0 n=0
 
+complain() {
+  echo "$1" >&2
+  failed=1
+}
+
+# floor_of FOLDER: prints the position of a folder of src/riis among the floors, or fails.
 floor_of() {
   local i
   for i in "${!floors[@]}"; do
     [[ ${floors[i]} != "$1" ]] || { echo "$i"; return; }
   done
-  echo "src/$1 is no floor: check_floors.sh has the list" >&2
+  echo "src/riis/$1 is no floor: check_floors.sh has the list" >&2
   return 1
 }
 
-failed=0 n=0
-for folder in */; do
-  folder=${folder%/}
-  case $folder in
-    vtk | cli) own= ;;
-    *) own=$(floor_of "$folder") || { failed=1; continue; } ;;
+# includes_of FOLDER: prints FILE LINE INCLUDED, where INCLUDED is a header's first folder, or the header if it has none.
+includes_of() {
+  grep -rnoE '^ *# *include *"[^"]+"' "$1" | sed -E 's/^([^:]*):([0-9]+):[^"]*"([^"/]+).*$/\1 \2 \3/'
+}
+
+for product in */; do
+  product=${product%/}
+  case $product in
+    riis) continue ;;
+    common) allowed=(common) ;;
+    riis_vtk | program) allowed=(common "$product") ;;
+    *) complain "src/$product is no product: check_floors.sh has the list"; continue ;;
   esac
-  while IFS=: read -r file line included; do
-    if [[ ! $own ]]; then
-      n=$((n + 1))
-      if [[ $included != "$folder" && $included != base ]]; then
-        echo "src/$file:$line includes src/$included, but src/$folder has only base and the public headers" >&2
-        failed=1
-      fi
-      continue
-    fi
-    other=$(floor_of "$included") || { failed=1; continue; }
+  while read -r file line included; do
     n=$((n + 1))
-    if ((other > own)); then
-      echo "src/$file:$line includes src/$included, a floor above src/$folder" >&2
-      failed=1
-    fi
-  done < <(grep -rnoE '^ *# *include *"[a-z_]+/' "$folder" | sed -E 's/^([^:]*):([0-9]+):.*"([a-z_]+)\/$/\1:\2:\3/')
+    [[ " ${allowed[*]} " == *" $included "* ]] ||
+      complain "src/$file:$line includes \"$included\", but src/$product has only ${allowed[*]} and the public headers"
+  done < <(includes_of "$product")
+done
+
+for folder in riis/*/; do
+  folder=$(basename "$folder")
+  own=$(floor_of "$folder") || { failed=1; continue; }
+  while read -r file line included; do
+    n=$((n + 1))
+    [[ $included != common ]] || continue
+    other=$(floor_of "$included") || { failed=1; continue; }
+    ((other <= own)) || complain "src/$file:$line includes src/riis/$included, a floor above src/riis/$folder"
+  done < <(includes_of "riis/$folder")
 done
 ((n > 0)) || { echo "no include was read" >&2; exit 1; }
 ((failed)) || echo "$n includes, none upwards"

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_floors_judged.sh SOURCE_FOLDER SCRATCH_FOLDER
-# check_floors.sh must accept the library, and refuse an include upwards, a folder that is no floor, and a part of the library
-# that the component or the program includes past the public headers.
+# check_floors.sh must accept the library, and refuse an include upwards, a folder that is no floor or product, and a part of the
+# library that the component or the program includes past the public headers.
 set -euo pipefail
 check=$(dirname "$0")/check_floors.sh
 sources=$1 scratch=$2
@@ -24,18 +24,30 @@ copy() {
 
 copy
 "$check" "$scratch"
-echo '#include "api/handles.hpp"' >>"$scratch/geometry/vec3.hpp"
-refuses "includes src/api, a floor above src/geometry"
+echo '#include "api/handles.hpp"' >>"$scratch/riis/geometry/vec3.hpp"
+refuses "includes src/riis/api, a floor above src/riis/geometry"
+copy
+mkdir "$scratch/riis/cellar"
+refuses "src/riis/cellar is no floor"
+copy
+echo '#include "cellar/wine.hpp"' >>"$scratch/riis/base/log.hpp"
+refuses "src/riis/cellar is no floor"
 copy
 mkdir "$scratch/cellar"
-refuses "src/cellar is no floor"
+refuses "src/cellar is no product"
 copy
-echo '#include "cellar/wine.hpp"' >>"$scratch/base/log.hpp"
-refuses "src/cellar is no floor"
+echo '#include "marking/mesh.hpp"' >>"$scratch/program/report.hpp"
+refuses 'includes "marking", but src/program has only common program and the public headers'
 copy
-echo '#include "marking/mesh.hpp"' >>"$scratch/cli/report.hpp"
-refuses "includes src/marking, but src/cli has only base and the public headers"
+echo '#include "../riis/marking/mesh.hpp"' >>"$scratch/program/report.hpp"
+refuses 'includes "..", but src/program has only common program'
 copy
-echo '#include "cli/report.hpp"' >>"$scratch/vtk/files.hpp"
-refuses "includes src/cli, but src/vtk has only base and the public headers"
+echo '#include "program/report.hpp"' >>"$scratch/riis_vtk/files.hpp"
+refuses 'includes "program", but src/riis_vtk has only common riis_vtk and the public headers'
+copy
+echo '#include "riis_vtk/files.hpp"' >>"$scratch/riis/api/handles.hpp"
+refuses "src/riis/riis_vtk is no floor"
+copy
+echo '#include "base/errors.hpp"' >>"$scratch/common/message.hpp"
+refuses 'includes "base", but src/common has only common'
 rm -rf "$scratch"

@@ -12,7 +12,7 @@ rm -rf "$work"
 mkdir -p "$work"
 cd "$work"
 for name in "${modules[@]}"; do
-  "$flang" "${flags[@]}" -c "$source/fortran/$name.f90"
+  "$flang" "${flags[@]}" -c "$(find "$source/fortran" -name "$name.f90")"
 done
 link=("$library" "-Wl,-rpath,$(dirname "$library")")
 tests=$source/tests/fortran
@@ -26,7 +26,7 @@ for name in test_layout test_calls test_objects test_meshes test_marking test_re
   "$flang" -O1 "$tests/$name.f90" ./*.o "${link[@]}" -o "$name"
 done
 for name in test_f77 test_f77_motion; do
-  "$flang" -O1 -I"$source/fortran" "$tests/$name.f" "$tests/f77_checks.f" ./riis*.o "${link[@]}" -o "$name"
+  "$flang" -O1 -I"$source/fortran/generated" "$tests/$name.f" "$tests/f77_checks.f" ./riis*.o "${link[@]}" -o "$name"
 done
 for name in test_layout test_calls test_objects test_meshes test_marking test_resistance test_laws test_frames test_f2003 \
     test_f77 test_f77_motion; do

@@ -17,12 +17,12 @@ check() {
   mkdir -p "$scratch/expanded"
   "$1/expand_templates.sh" "$scratch/expanded" || return 1
   for name in $(cd "$scratch/expanded" && ls); do
-    if ! diff -u "$1/$name" "$scratch/expanded/$name"; then
+    if ! diff -u "$1/generated/$name" "$scratch/expanded/$name"; then
       echo "$name is not what its template expands to: edit the template, then run fortran/expand_templates.sh"
       status=1
     fi
   done
-  for name in $(cd "$1" && grep -l '^! Generated from fortran/templates/' ./*.f90); do
+  for name in $(cd "$1/generated" && grep -l '^! Generated from fortran/templates/' ./*.f90); do
     if [ ! -e "$scratch/expanded/$name" ]; then
       echo "$name says that it is generated, and has no template"
       status=1
@@ -52,11 +52,11 @@ refused() {
 copy() {
   local name
   rm -rf "$scratch/copy"
-  mkdir -p "$scratch/copy/templates"
+  mkdir -p "$scratch/copy/templates" "$scratch/copy/generated"
   cp "$folder/expand_templates.sh" "$scratch/copy"
   cp "$folder/templates/kinds.fypp" "$scratch/copy/templates"
   for name in riis_meshes riis_f77_marking; do
-    cp "$folder/$name.f90" "$scratch/copy"
+    cp "$folder/generated/$name.f90" "$scratch/copy/generated"
     cp "$folder/templates/$name.fypp" "$scratch/copy/templates"
   done
 }
@@ -65,7 +65,7 @@ check "$folder" >&2
 ls "$scratch/expanded"
 copy
 check "$scratch/copy" >&2
-sed -i 's/must be one more/must be more/' "$scratch/copy/riis_meshes.f90"
+sed -i 's/must be one more/must be more/' "$scratch/copy/generated/riis_meshes.f90"
 refused 'riis_meshes.f90 is not what its template expands to'
 copy
 sed -i 's/must be one more/must be more/' "$scratch/copy/templates/riis_meshes.fypp"

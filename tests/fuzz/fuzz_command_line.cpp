@@ -5,18 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "cli/command_line.hpp"
-#include "cli/handles.hpp"
-#include "cli/parameters.hpp"
-#include "cli/refusal.hpp"
+#include "program/command_line.hpp"
+#include "program/handles.hpp"
+#include "program/parameters.hpp"
+#include "program/refusal.hpp"
 #include "expect.hpp"
 
 namespace {
 
-void check(const riis::cli::Options &options) {
+void check(const riis::program::Options &options) {
   EXPECT(!options.valve.empty() || !options.surface.empty(), "neither valve nor surface");
   EXPECT(!options.opening || (*options.opening >= 0 && *options.opening <= 1), "opening %g", *options.opening);
-  for (const riis::cli::Picture &picture : options.pictures)
+  for (const riis::program::Picture &picture : options.pictures)
     EXPECT(picture.view >= 0 && picture.view <= 2 && !picture.path.empty(), "view %d", picture.view);
   EXPECT(!options.surface_unit || options.unit, "a surface's unit without the mesh's");
   EXPECT(!options.unit || (options.surface_options.scale >= 1e-3 && options.surface_options.scale <= 1e3), "scale %g",
@@ -28,7 +28,7 @@ void check(const riis::cli::Options &options) {
   EXPECT(options.series.times.size() <= 100000, "%zu times", options.series.times.size());
   for (std::size_t i = 1; i < options.series.times.size(); ++i)
     EXPECT(options.series.times[i] > options.series.times[i - 1], "time %zu is not above the one before", i);
-  const riis::cli::UrisOptions &uris = options.uris;
+  const riis::program::UrisOptions &uris = options.uris;
   EXPECT(uris.folder.empty() || (uris.time_step && *uris.time_step > 0 && options.resistance),
          "an export lacks options");
   EXPECT(uris.folder.empty() || !options.series.cycle.empty() || (uris.opening_duration && uris.closing_duration),
@@ -36,8 +36,8 @@ void check(const riis::cli::Options &options) {
   riis_valve *handle = nullptr;
   EXPECT(riis_valve_create(options.valve == "mitral" ? "mitral" : "aortic", &handle) == RIIS_OK, "%s",
          riis_last_error());
-  const riis::cli::Valve valve(handle);
-  for (const std::string &setting : options.settings) riis::cli::set_from_text(valve.get(), setting);
+  const riis::program::Valve valve(handle);
+  for (const std::string &setting : options.settings) riis::program::set_from_text(valve.get(), setting);
 }
 
 }  // namespace
@@ -55,10 +55,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t siz
   for (std::string &word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   try {
-    if (const auto options = riis::cli::parse_command_line(static_cast<int>(words.size()), arguments.data()))
+    if (const auto options = riis::program::parse_command_line(static_cast<int>(words.size()), arguments.data()))
       check(*options);
-  } catch (const riis::cli::Refusal &refusal) {
-    EXPECT(refusal.exit_code == riis::cli::exit_bad_data || refusal.exit_code == riis::cli::exit_wrong_usage,
+  } catch (const riis::program::Refusal &refusal) {
+    EXPECT(refusal.exit_code == riis::program::exit_bad_data || refusal.exit_code == riis::program::exit_wrong_usage,
            "exit code %d", refusal.exit_code);
     EXPECT(!refusal.text.empty(), "no text");
   }

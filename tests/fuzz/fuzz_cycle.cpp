@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "cli/cycle_file.hpp"
-#include "cli/opening_law.hpp"
-#include "cli/refusal.hpp"
+#include "program/cycle_file.hpp"
+#include "program/opening_law.hpp"
+#include "program/refusal.hpp"
 #include "expect.hpp"
 #include "scratch_file.hpp"
 
@@ -17,10 +17,10 @@ const fuzz::ScratchFile &file() {
   return scratch;
 }
 
-void check_law(riis::cli::OpeningTable table, double period, std::int32_t interpolation) {
+void check_law(riis::program::OpeningTable table, double period, std::int32_t interpolation) {
   table.period = period;
   table.interpolation = interpolation;
-  const riis::cli::OpeningLaw law(table, file().path());
+  const riis::program::OpeningLaw law(table, file().path());
   for (const double time : {table.times.front(), table.times.back(), -1.0, 0.0, 0.37, 1e9}) {
     const double opening = law.at(time);
     EXPECT(opening >= 0 && opening <= 1, "opening %g at %g", opening, time);
@@ -29,11 +29,11 @@ void check_law(riis::cli::OpeningTable table, double period, std::int32_t interp
 
 void read(double period, std::int32_t interpolation) {
   try {
-    const riis::cli::OpeningTable table = riis::cli::read_cycle(file().path());
+    const riis::program::OpeningTable table = riis::program::read_cycle(file().path());
     EXPECT(!table.times.empty() && table.times.size() == table.openings.size(), "%zu times", table.times.size());
     check_law(table, period, interpolation);
-  } catch (const riis::cli::Refusal &refusal) {
-    EXPECT(refusal.exit_code == riis::cli::exit_bad_data, "exit code %d", refusal.exit_code);
+  } catch (const riis::program::Refusal &refusal) {
+    EXPECT(refusal.exit_code == riis::program::exit_bad_data, "exit code %d", refusal.exit_code);
     EXPECT(refusal.text.size() > file().path().size() && refusal.text.size() < 2000, "the text '%s'",
            refusal.text.c_str());
   }

@@ -5,17 +5,17 @@
 #include <cstdint>
 #include <functional>
 
-#include "cli/case_opening.hpp"
-#include "cli/json_file.hpp"
-#include "cli/parameters.hpp"
-#include "cli/refusal.hpp"
-#include "cli/valve_file.hpp"
+#include "program/case_opening.hpp"
+#include "program/json_file.hpp"
+#include "program/parameters.hpp"
+#include "program/refusal.hpp"
+#include "program/valve_file.hpp"
 #include "expect.hpp"
 #include "scratch_file.hpp"
 
 namespace {
 
-using riis::cli::Valve;
+using riis::program::Valve;
 
 const fuzz::ScratchFile &file() {
   static const fuzz::ScratchFile scratch("input.json");
@@ -27,8 +27,8 @@ bool is_taken(const std::function<void()> &read) {
   try {
     read();
     return true;
-  } catch (const riis::cli::Refusal &refusal) {
-    EXPECT(refusal.exit_code == riis::cli::exit_bad_data || refusal.exit_code == riis::cli::exit_wrong_usage,
+  } catch (const riis::program::Refusal &refusal) {
+    EXPECT(refusal.exit_code == riis::program::exit_bad_data || refusal.exit_code == riis::program::exit_wrong_usage,
            "exit code %d", refusal.exit_code);
     EXPECT(refusal.text.size() > file().path().size() && refusal.text.size() < 2000, "the text '%s'",
            refusal.text.c_str());
@@ -44,16 +44,16 @@ Valve made(const char *kind) {
 
 void read_parameters(const char *kind) {
   const Valve valve = made(kind), twin = made(kind);
-  if (!is_taken([&] { riis::cli::set_from_json_file(valve.get(), file().path()); })) return;
-  const std::string printed = riis::cli::json_template(valve.get());
+  if (!is_taken([&] { riis::program::set_from_json_file(valve.get(), file().path()); })) return;
+  const std::string printed = riis::program::json_template(valve.get());
   file().hold(reinterpret_cast<const std::uint8_t *>(printed.data()), printed.size());
-  EXPECT(is_taken([&] { riis::cli::set_from_json_file(twin.get(), file().path()); }), "printed parameters are refused");
-  EXPECT(riis::cli::json_template(twin.get()) == printed, "printed parameters read back as others");
+  EXPECT(is_taken([&] { riis::program::set_from_json_file(twin.get(), file().path()); }), "printed parameters are refused");
+  EXPECT(riis::program::json_template(twin.get()) == printed, "printed parameters read back as others");
 }
 
 void read_valve() {
   is_taken([] {
-    riis::cli::ValveFile valve_file(file().path());
+    riis::program::ValveFile valve_file(file().path());
     EXPECT(riis_valve_set_scalar(valve_file.valve(), "opening", 0.5) == RIIS_OK, "%s", riis_last_error());
     valve_file.check_opening();
     const Valve valve = valve_file.take_valve();
@@ -64,11 +64,11 @@ void read_valve() {
 
 void read_opening() {
   is_taken([] {
-    const riis::cli::Json root = riis::cli::parse_json_file(file().path(), "a case");
-    const riis::cli::CaseValues values(file().path(), "valve 0", root, {"opening"});
+    const riis::program::Json root = riis::program::parse_json_file(file().path(), "a case");
+    const riis::program::CaseValues values(file().path(), "valve 0", root, {"opening"});
     // No input names a file of the machine.
-    const riis::cli::CaseOpening found =
-        riis::cli::case_opening(values, [](const std::string &) { return file().path() + ".none"; });
+    const riis::program::CaseOpening found =
+        riis::program::case_opening(values, [](const std::string &) { return file().path() + ".none"; });
     for (const double time : {-1.0, 0.0, 0.37, 1e9}) {
       const double opening = found.law.at(time);
       EXPECT(opening >= 0 && opening <= 1, "opening %g at %g", opening, time);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Walks of src/parallel by several callers, with a C interface: a failed assertion leaves by longjmp, which must not cross
+ * Walks of src/riis/parallel by several callers, with a C interface: a failed assertion leaves by longjmp, which must not cross
  * TBB's frames. A walk here takes 32 numbers and adds 32 more. It is right if it met each number once. */
 #ifndef RIIS_TEST_ARENAS_H
 #define RIIS_TEST_ARENAS_H

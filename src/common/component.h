@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The project's own components, which are separate libraries (riis_vtk), report through the core's last error.
+ * This function is exported, but it is not installed and not part of the public interface.
+ */
+#ifndef RIIS_COMMON_COMPONENT_H
+#define RIIS_COMMON_COMPONENT_H
+
+#include <riis/riis.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Makes `text`, cut to the library's limit, the calling thread's last error and returns `status`. */
+RIIS_API riis_status riis_component_error(riis_status status, const char *text);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Several valves in one mesh, at one time or at many. A series of one valve from the command line is a case also.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "program/command_line.hpp"
+#include "program/refusal.hpp"
+#include "program/valve_source.hpp"
+
+namespace riis::program {
+
+struct Case {
+  Options options;  // the mesh, the times, the outputs; a prefix for the arrays that all valves share
+  std::vector<ValveSource> valves;
+  std::vector<std::string> files;  // that were read, which no output may replace
+
+  bool has_resistance() const;
+  bool is_series() const { return !options.series.times.empty(); }
+  // What tells the valve's own files and columns apart: nothing, if it is the only one.
+  std::string part_of(std::size_t valve) const { return valves.size() == 1 ? "" : valves[valve].options.prefix; }
+};
+
+// Returns the command line's valve, with --times and --cycle, as a case.
+Case case_of_command_line(const Options &options);
+
+// Marks the mesh at one time. Returns exit_fine, or exit_none_marked if the user did not allow that. Throws a Refusal.
+ExitCode run_case(Case &all);
+
+}  // namespace riis::program

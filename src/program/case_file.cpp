@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/case_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <utility>
+
+#include "program/case_opening.hpp"
+#include "program/case_values.hpp"
+#include "program/json_file.hpp"
+#include "program/motion.hpp"
+#include "program/parameters.hpp"
+#include "program/times.hpp"
+#include "program/valve_file.hpp"
+
+namespace riis::program {
+namespace {
+
+const std::vector<std::string> case_keys = {"mesh",       "unit",  "half_thickness", "distance_limit",
+                                            "resistance", "times", "valves",         "check_leaks"};
+const std::vector<std::string> valve_keys = {
+    "name",      "valve",          "surface",      "leaflets",       "parameters",    "open_parameters",
+    "opening",   "half_thickness", "resistance",   "scale",          "surface_unit",  "rotate",
+    "translate", "tolerance",      "flip_normals", "skip_zero_area", "triangulation", "period"};
+
+class CaseReader {
+ public:
+  explicit CaseReader(const Options &options) : path_(options.series.case_file), all_{options, {}, {}} {}
+
+  Case read() {
+    const Json root = parse_json_file(path_, "a case");
+    const CaseValues values(path_, "", root, case_keys);
+    read_common(values);
+    const Json &valves = values.needed("valves");
+    if (!valves.is_array() || valves.empty()) values.refuse("valves", "it must be an array of one valve or more");
+    for (std::size_t i = 0; i < valves.size(); ++i) read_valve(valves[i], i, valves.size());
+    return std::move(all_);
+  }
+
+ private:
+  void read_common(const CaseValues &values) {
+    Options &options = all_.options;
+    if (options.mesh.empty()) options.mesh = file_of(values, "mesh");
+    if (options.mesh.empty()) values.refuse("mesh", "it is missing, and no MESH is on the command line");
+    options.unit = values.unit("unit");
+    if (const auto length = values.above_zero("half_thickness")) {
+      options.has_half_thickness = true;
+      options.surface_options.half_thickness = *length;
+    }
+    const auto limit = values.above_zero("distance_limit");
+    if (limit && options.mark_options.distance_limit == RIIS_AUTO) options.mark_options.distance_limit = *limit;
+    options.resistance = values.at_least_zero("resistance");
+    if (values.has("check_leaks") && !options.check_leaks) options.check_leaks = leak_check_of(values);
+    if (values.has("times") && options.series.times.empty()) options.series.times = times_of(values);
+  }
+
+  LeakCheck leak_check_of(const CaseValues &values) const {
+    const std::vector<double> points = values.numbers("check_leaks", 6);
+    LeakCheck made{{}, {}, path_ + ": check_leaks", exit_bad_data};
+    std::copy_n(points.begin(), 3, made.from);
+    std::copy_n(points.begin() + 3, 3, made.to);
+    return made;
+  }
+
+  std::vector<double> times_of(const CaseValues &values) const {
+    const std::string subject = path_ + ": times";
+    try {
+      const Json &times = values.needed("times");
+      if (times.is_string()) return parse_times(times.get<std::string>(), subject);
+      const std::vector<double> numbers = values.numbers("times");
+      check_times(numbers, subject);
+      return numbers;
+    } catch (Refusal &refusal) {
+      refusal.exit_code = exit_bad_data;
+      throw;
+    }
+  }
+
+  // Returns a path of the case, which is relative to the case's folder, or "" if the key is not there.
+  std::string file_of(const CaseValues &values, const char *key) {
+    const std::string text = values.text(key);
+    if (text.empty()) return "";
+    all_.files.push_back(in_folder(text));
+    return all_.files.back();
+  }
+
+  std::string in_folder(const std::string &path) const {
+    return (std::filesystem::path(path_).parent_path() / path).string();
+  }
+
+  void read_valve(const Json &value, std::size_t number, std::size_t n_valves) {
+    CaseValues values(path_, "valve " + std::to_string(number), value, valve_keys);
+    ValveSource source{all_.options, nullptr, nullptr};
+    Options &options = source.options;
+    options.prefix = name_of(values, n_valves);
+    if (n_valves > 1) values.set_subject("valve \"" + options.prefix + "\"");
+    source.subject = values.subject();
+    options.surface = file_of(values, "surface");
+    options.leaflets = values.text("leaflets");
+    options.valve = values.text("valve");
+    if (options.valve.empty() == options.surface.empty())
+      values.refuse("valve", "either it or \"surface\" must be given");
+    if (is_valve_file(options.valve)) options.valve = file_of(values, "valve");
+    read_placement(values, options);
+    if (const auto own = values.at_least_zero("resistance")) options.resistance = own;
+    if (options.surface.empty())
+      make_valve_of(values, source);
+    else
+      make_surface_of(values, source);
+    all_.valves.push_back(std::move(source));
+  }
+
+  std::string name_of(const CaseValues &values, std::size_t n_valves) {
+    const std::string name = values.text("name");
+    if (name.empty()) {
+      if (n_valves > 1) values.refuse("name", "each of several valves needs one");
+      return all_.options.prefix;
+    }
+    if (!is_prefix(name)) values.refuse("name", "\"" + name + "\" must be 1 to 64 letters, digits, _, - and .");
+    if (n_valves > 1 && name == all_.options.prefix) values.refuse("name", "\"" + name + "\" is the name of the sums");
+    if (!names_.insert(name).second) values.refuse("name", "\"" + name + "\" is the name of two valves");
+    return name;
+  }
+
+  void read_placement(const CaseValues &values, Options &options) const {
+    riis_surface_options &surface = options.surface_options;
+    if (const auto scale = values.above_zero("scale")) {
+      if (options.unit) values.refuse("scale", "it goes with no \"unit\", which gives the scale");
+      options.has_scale = true;
+      surface.scale = *scale;
+    }
+    if (const auto own = values.above_zero("half_thickness")) {
+      options.has_half_thickness = true;
+      surface.half_thickness = *own;
+    }
+    options.surface_unit = values.unit("surface_unit");
+    if (options.surface_unit && !options.unit) values.refuse("surface_unit", "it needs \"unit\", the unit of the mesh");
+    const bool is_file = !options.surface.empty() || is_valve_file(options.valve);
+    if (options.unit && is_file && !options.surface_unit)
+      values.refuse("surface_unit", "it is missing: \"unit\" needs the unit of the file");
+    if (options.surface_unit && !is_file && options.surface_unit != Unit::centimetre)
+      values.refuse("surface_unit", "the parameters of the " + options.valve + " valve are in centimetres");
+    if (options.unit) apply_units(options);
+    if (values.has("rotate")) {
+      const std::vector<double> turn = values.numbers("rotate", 4);
+      std::copy_n(turn.begin(), 3, surface.rotation_axis);
+      surface.rotation_angle = turn[3];
+    }
+    if (values.has("translate")) {
+      const std::vector<double> shift = values.numbers("translate", 3);
+      std::copy_n(shift.begin(), 3, surface.translation);
+    }
+    if (const auto tolerance = values.above_zero("tolerance")) surface.tolerance = *tolerance;
+    surface.flip_normals = values.flag("flip_normals");
+    surface.triangulation = static_cast<int32_t>(values.choice("triangulation", triangulation_names()));
+    surface.zero_area = values.flag("skip_zero_area") ? RIIS_ZERO_AREA_SKIP : RIIS_ZERO_AREA_REFUSE;
+  }
+
+  void make_valve_of(const CaseValues &values, ValveSource &source) {
+    for (const char *key : {"leaflets", "skip_zero_area", "period"})
+      if (values.has(key)) values.refuse(key, "it needs \"surface\"");
+    const std::string &kind = source.options.valve;
+    if (is_valve_file(kind)) {
+      if (values.has("open_parameters")) values.refuse("open_parameters", "the open state is in " + kind);
+      ValveFile file(kind);
+      set_parameters_of(values, "parameters", file.valve());
+      set_law(values, file.valve(), source);
+      file.check_opening();
+      source.valve = file.take_valve();
+      return;
+    }
+    source.valve = make_kind(kind, source.subject);
+    set_parameters_of(values, "parameters", source.valve.get());
+    if (values.has("open_parameters")) {
+      const Valve open = make_kind(kind, source.subject);
+      set_parameters_of(values, "open_parameters", open.get());
+      check(riis_valve_set_open_state(source.valve.get(), open.get()), source.subject);
+      source.has_open_state = true;
+    }
+    set_law(values, source.valve.get(), source);
+  }
+
+  // Sets parameters from an object, or from the file whose path stands there.
+  void set_parameters_of(const CaseValues &values, const char *key, riis_valve *valve) {
+    if (!values.has(key)) return;
+    if (values.needed(key).is_string())
+      set_from_json_file(valve, file_of(values, key));
+    else
+      set_from_json(valve, values.needed(key), values.subject() + ": " + key);
+  }
+
+  // Sets the law, and the valve's largest opening, for the check whether it can open.
+  void set_law(const CaseValues &values, riis_valve *valve, ValveSource &source) {
+    const std::vector<double> &times = all_.options.series.times;
+    source.law = OpeningLaw(opening_of(valve));
+    if (values.has("opening")) {
+      const CaseOpening found = case_opening(values, [this](const std::string &path) { return in_folder(path); });
+      source.law = found.law;
+      if (!found.file.empty()) all_.files.push_back(found.file);
+    }
+    if (times.empty() && !source.law.is_constant())
+      values.refuse("opening", "a valve that moves needs times, in the file or by --times");
+    check(riis_valve_set_scalar(valve, "opening", largest_opening(source.law, times)), source.subject);
+  }
+
+  void make_surface_of(const CaseValues &values, ValveSource &source) {
+    for (const char *key : {"parameters", "open_parameters", "opening", "tolerance", "triangulation"})
+      if (values.has(key)) values.refuse(key, "it goes with no \"surface\"");
+    Seconds seconds;
+    if (!is_motion_file(source.options.surface)) {
+      if (values.has("period")) values.refuse("period", "it needs a \"surface\" that moves, a .pvd file");
+      source.file = read_surface(source.options, seconds);
+      return;
+    }
+    if (!all_.is_series()) values.refuse("surface", "a surface that moves needs times, in the file or by --times");
+    source.options.period = values.above_zero("period").value_or(0);
+    KeyframeFiles read = read_keyframes(source.options, seconds);
+    source.keyframes = std::move(read.keyframes);
+    all_.files.insert(all_.files.end(), read.files.begin(), read.files.end());
+  }
+
+  const std::string &path_;
+  Case all_;
+  std::set<std::string> names_;
+};
+
+}  // namespace
+
+Case read_case(const Options &options) { return CaseReader(options).read(); }
+
+}  // namespace riis::program

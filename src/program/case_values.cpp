@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/case_values.hpp"
+
+#include <algorithm>
+
+#include "program/refusal.hpp"
+
+namespace riis::program {
+namespace {
+
+std::string joined(const std::vector<std::string> &names) {
+  std::string text;
+  for (const std::string &name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace
+
+CaseValues::CaseValues(const std::string &path, const std::string &object, const Json &value,
+                       const std::vector<std::string> &keys)
+    : path_(path), object_(object), value_(value) {
+  check_keys(path, object.empty() ? "the case" : object, value, keys);
+}
+
+void CaseValues::refuse(const std::string &key, const std::string &reason) const {
+  refuse_file(subject(), key + ": " + reason);
+}
+
+const Json &CaseValues::needed(const char *key) const {
+  const auto found = value_.find(key);
+  if (found == value_.end()) refuse(key, "it is missing");
+  return *found;
+}
+
+std::string CaseValues::text(const char *key) const {
+  if (!has(key)) return "";
+  const Json &value = needed(key);
+  if (!value.is_string() || value.get_ref<const std::string &>().empty())
+    refuse(key, value.dump() + " is no text that is not empty");
+  const std::string text = value.get<std::string>();
+  const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
+  if (std::any_of(text.begin(), text.end(), is_control)) refuse(key, value.dump() + " holds a control character");
+  return text;
+}
+
+std::optional<double> CaseValues::number(const char *key) const {
+  if (!has(key)) return std::nullopt;
+  const Json &value = needed(key);
+  if (!value.is_number()) refuse(key, value.dump() + " is not a number");
+  return value.get<double>();
+}
+
+std::optional<double> CaseValues::above_zero(const char *key) const {
+  const auto found = number(key);
+  if (found && !(*found > 0)) refuse(key, needed(key).dump() + " is not above 0");
+  return found;
+}
+
+std::optional<double> CaseValues::at_least_zero(const char *key) const {
+  const auto found = number(key);
+  if (found && !(*found >= 0)) refuse(key, needed(key).dump() + " is below 0");
+  return found;
+}
+
+std::vector<double> CaseValues::numbers(const char *key) const {
+  const Json &value = needed(key);
+  std::vector<double> numbers;
+  if (!value.is_array()) refuse(key, value.dump() + " is not an array of numbers");
+  for (const Json &item : value) {
+    if (!item.is_number()) refuse(key, item.dump() + " is not a number");
+    numbers.push_back(item.get<double>());
+  }
+  return numbers;
+}
+
+std::vector<double> CaseValues::numbers(const char *key, std::size_t n) const {
+  const std::vector<double> found = numbers(key);
+  if (found.size() != n)
+    refuse(key,
+           needed(key).dump() + " has " + std::to_string(found.size()) + " numbers; it takes " + std::to_string(n));
+  return found;
+}
+
+bool CaseValues::flag(const char *key) const {
+  if (!has(key)) return false;
+  const Json &value = needed(key);
+  if (!value.is_boolean()) refuse(key, value.dump() + " is neither true nor false");
+  return value.get<bool>();
+}
+
+std::optional<Unit> CaseValues::unit(const char *key) const {
+  if (!has(key)) return std::nullopt;
+  return unit_of(unit_names()[choice(key, unit_names())]);
+}
+
+std::size_t CaseValues::choice(const char *key, const std::vector<std::string> &names) const {
+  if (!has(key)) return 0;
+  const auto found = std::find(names.begin(), names.end(), text(key));
+  if (found == names.end()) refuse(key, "\"" + text(key) + "\" is none of " + joined(names));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+}  // namespace riis::program

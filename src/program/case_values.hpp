@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: an object of a case file. Out: its values by key, checked. Refusals name the file, the object and the key.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "program/json_file.hpp"
+#include "program/units.hpp"
+
+namespace riis::program {
+
+class CaseValues {
+ public:
+  // object, such as "valve 0", names the value in refusals; "" is the file's root. Borrows the value.
+  CaseValues(const std::string &path, const std::string &object, const Json &value,
+             const std::vector<std::string> &keys);
+
+  // The file and the object, for refusals.
+  std::string subject() const { return object_.empty() ? path_ : path_ + ": " + object_; }
+  const std::string &path() const { return path_; }
+  void set_subject(const std::string &object) { object_ = object; }
+
+  bool has(const char *key) const { return value_.find(key) != value_.end(); }
+  const Json &needed(const char *key) const;
+  std::string text(const char *key) const;  // "" if the key is not there
+  std::optional<double> number(const char *key) const;
+  std::optional<double> above_zero(const char *key) const;
+  std::optional<double> at_least_zero(const char *key) const;
+  std::vector<double> numbers(const char *key) const;
+  std::vector<double> numbers(const char *key, std::size_t n) const;
+  bool flag(const char *key) const;  // false if the key is not there
+  std::optional<Unit> unit(const char *key) const;
+  // Returns the position of a text in the list, or 0 if the key is not there.
+  std::size_t choice(const char *key, const std::vector<std::string> &names) const;
+
+  [[noreturn]] void refuse(const std::string &key, const std::string &reason) const;
+
+ private:
+  std::string path_, object_;
+  const Json &value_;
+};
+
+}  // namespace riis::program

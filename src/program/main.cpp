@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// riis-mark: from the command line to an exit status. Every error ends in one line on stderr. A command line without arguments
+// gets a few lines of help there, because nobody can have meant it.
+#include <fcntl.h>
+
+#include <algorithm>
+#include <csignal>
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "program/command_line.hpp"
+#include "program/help.hpp"
+#include "program/refusal.hpp"
+#include "program/run.hpp"
+
+namespace {
+
+// Names of files and parameters may hold line breaks, which are replaced: one line stays one line.
+int give_up(int exit_code, std::string text) {
+  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 127; }, '?');
+  std::cerr << "riis-mark: " << text << std::endl;
+  return exit_code;
+}
+
+// The number of a closed stream would go to the next file that is opened, and prints would go into that file. A stream opened
+// for reading still refuses prints.
+void occupy_closed_streams() {
+  for (const int stream : {0, 1, 2}) {
+    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  occupy_closed_streams();
+  // A file that grows over the limit of its size then fails its write and does not end the process.
+  std::signal(SIGXFSZ, SIG_IGN);
+  try {
+    if (argc < 2) {
+      std::cerr << riis::program::short_help();
+      return riis::program::exit_wrong_usage;
+    }
+    const auto options = riis::program::parse_command_line(argc, argv);
+    return options ? riis::program::run(*options) : riis::program::exit_fine;
+  } catch (const riis::program::Refusal &refusal) {
+    return give_up(refusal.exit_code, refusal.text);
+  } catch (const std::bad_alloc &) {
+    return give_up(riis::program::exit_bad_data, "out of memory");
+  } catch (const std::exception &error) {
+    return give_up(riis::program::exit_bad_data, error.what());
+  }
+}

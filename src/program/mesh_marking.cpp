@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/mesh_marking.hpp"
+
+#include "program/progress.hpp"
+#include "program/refusal.hpp"
+#include "program/valve_source.hpp"
+#include "program/warnings.hpp"
+
+namespace riis::program {
+
+MeshFile read_mesh(const Options &options, Seconds &seconds) {
+  const Stage stage("reading " + options.mesh, options.quiet);
+  riis_vtk_mesh *mesh = nullptr;
+  check_mesh_read(riis_vtk_mesh_read(options.mesh.c_str(), &mesh), options.mesh);
+  seconds.read += stage.seconds();
+  return MeshFile(mesh);
+}
+
+Mesh borrow_nodes(const riis_vtk_mesh *file, const std::string &path) {
+  int64_t n_nodes = 0;
+  const double *xyz = nullptr;
+  check(riis_vtk_mesh_get_nodes(file, &n_nodes, nullptr, &xyz));
+  riis_mesh *mesh = nullptr;
+  check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh), path);
+  return Mesh(mesh);
+}
+
+Marks new_result() {
+  riis_marks *result = nullptr;
+  check(riis_marks_create(&result));
+  return Marks(result);
+}
+
+bool needs_adjacency(int32_t search) { return search == RIIS_SEARCH_NEIGHBOR || search == RIIS_SEARCH_PAPER; }
+
+void rehearse_marking(const Options &options, const riis_surface *surface) {
+  const double origin[3] = {0, 0, 0};
+  riis_mesh *mesh_handle = nullptr;
+  check(riis_mesh_create(1, origin, origin + 1, origin + 2, 3, &mesh_handle));
+  const Mesh mesh(mesh_handle);
+  const Marks result = new_result();
+  riis_mark_options mark_options = options.mark_options;
+  if (needs_adjacency(mark_options.search)) mark_options.search = RIIS_SEARCH_EXHAUSTIVE;
+  check(riis_mark_nodes(surface, mesh.get(), &mark_options, result.get()));
+  riis_dense_arrays dense;
+  check(riis_dense_arrays_init(&dense, sizeof dense));
+  dense.n_nodes = 1;
+  dense.far_distance = options.far_distance;
+  check(riis_marks_get_dense(result.get(), &dense));
+  ResistanceSum(1, ResistanceSum::WithVelocity::no).add(options, result.get());
+}
+
+void warn_of_incomplete_marks() {
+  warn(
+      "the marks may be incomplete: --search paper misses nodes that are not connected to its one start; --search "
+      "neighbor finds them");
+}
+
+void check_new_arrays(const Options &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh) {
+  if (options.output.empty() || options.replace) return;
+  for (const std::string &name : names) {
+    int32_t has = 0;
+    check(riis_vtk_mesh_has_point_array(mesh, name.c_str(), &has));
+    if (!has) continue;
+    throw Refusal{exit_wrong_usage, options.mesh + " already has an array " + name +
+                                        ": write --replace to replace it, or --prefix NAME for other arrays beside it"};
+  }
+}
+
+std::vector<std::string> names_of_marks(const std::string &prefix, int32_t fields) {
+  std::vector<std::string> names = {prefix + "_marked", prefix + "_distance", prefix + "_leaflet"};
+  if (fields & RIIS_FIELD_NORMAL) names.push_back(prefix + "_normal");
+  if (fields & RIIS_FIELD_SIDE) names.push_back(prefix + "_side");
+  if (fields & RIIS_FIELD_VELOCITY) names.push_back(prefix + "_velocity");
+  return names;
+}
+
+void set_marks(const Options &options, const riis_marks *result, int32_t fields, riis_vtk_mesh *file) {
+  check(riis_vtk_mesh_set_marks(file, result, options.far_distance, options.prefix.c_str()));
+  check(riis_vtk_mesh_set_fields(file, result, fields, options.prefix.c_str()));
+}
+
+ResistanceSum::ResistanceSum(int64_t n_nodes, WithVelocity with_velocity)
+    : n_nodes_(n_nodes),
+      K_(static_cast<std::size_t>(n_nodes), 0.0),
+      K_u_surface_(with_velocity == WithVelocity::yes ? 3 * static_cast<std::size_t>(n_nodes) : 0, 0.0) {}
+
+void ResistanceSum::add(const Options &options, const riis_marks *result) {
+  if (!options.resistance) return;
+  has_any_ = true;
+  riis_resistance how;
+  check(riis_resistance_init(&how, sizeof how));
+  how.R = *options.resistance;
+  riis_resistance_arrays to;
+  check(riis_resistance_arrays_init(&to, sizeof to));
+  to.n_nodes = n_nodes_;
+  to.K = K_.data();
+  for (int c = 0; c < 3 && !K_u_surface_.empty(); ++c) to.K_u_surface[c] = K_u_surface_.data() + c;
+  to.K_u_surface_stride = 3;
+  check(riis_marks_add_resistance(result, &how, &to), "--resistance");
+}
+
+void ResistanceSum::set_arrays(const std::string &prefix, riis_vtk_mesh *file) const {
+  if (!has_any_) return;
+  const std::string K = prefix + "_K", K_u_surface = prefix + "_K_u_surface";
+  check(riis_vtk_mesh_set_point_array(file, K.c_str(), n_nodes_, 1, K_.data()));
+  if (!K_u_surface_.empty())
+    check(riis_vtk_mesh_set_point_array(file, K_u_surface.c_str(), n_nodes_, 3, K_u_surface_.data()));
+}
+
+}  // namespace riis::program

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// One valve in one mesh: reading the mesh, marking it, and its arrays. Single runs and series share this.
+#pragma once
+
+#include <riis/riis_vtk.h>
+
+#include <string>
+#include <vector>
+
+#include "program/command_line.hpp"
+#include "program/handles.hpp"
+#include "program/report.hpp"
+
+namespace riis::program {
+
+MeshFile read_mesh(const Options &options, Seconds &seconds);
+// Makes a mesh of the nodes of the file, which outlives the mesh. path names the file in refusals.
+Mesh borrow_nodes(const riis_vtk_mesh *file, const std::string &path);
+Marks new_result();
+
+// Marks a single node, so that the library refuses bad options before a large mesh is read and marked.
+void rehearse_marking(const Options &options, const riis_surface *surface);
+bool needs_adjacency(int32_t search);
+// Not even --quiet silences this: some marks may be missing.
+void warn_of_incomplete_marks();
+
+// Refuses to replace an array of the mesh without --replace.
+void check_new_arrays(const Options &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh);
+
+// PREFIX_marked, PREFIX_distance, PREFIX_leaflet, and those of the fields.
+std::vector<std::string> names_of_marks(const std::string &prefix, int32_t fields);
+void set_marks(const Options &options, const riis_marks *result, int32_t fields, riis_vtk_mesh *file);
+
+// K and K u_surface of every node, summed over the valves that have a resistance.
+class ResistanceSum {
+ public:
+  enum class WithVelocity { no, yes };
+  ResistanceSum(int64_t n_nodes, WithVelocity with_velocity);
+  void add(const Options &options, const riis_marks *result);
+  // PREFIX_K and PREFIX_K_u_surface; none if no valve had a resistance.
+  void set_arrays(const std::string &prefix, riis_vtk_mesh *file) const;
+
+ private:
+  int64_t n_nodes_;
+  std::vector<double> K_, K_u_surface_;
+  bool has_any_ = false;
+};
+
+}  // namespace riis::program

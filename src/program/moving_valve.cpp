@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/moving_valve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "program/crossings.hpp"
+#include "program/leaks.hpp"
+#include "program/mesh_marking.hpp"
+#include "program/refusal.hpp"
+
+namespace riis::program {
+namespace {
+
+void set_opening_of(riis_valve *valve, double opening, const std::string &name) {
+  check(riis_valve_set_scalar(valve, "opening", opening), name);
+}
+
+}  // namespace
+
+MovingValve::MovingValve(ValveSource &source, double time) : source_(source), result_(new_result()) {
+  is_at_rest_ = !source.keyframes && (!source.valve || source.law.is_constant());
+  if (source.keyframes) source.options.time = time;
+  if (source.valve) {
+    before_ = copy_of(source.valve.get());
+    opening_ = source.law.at(time);
+    set_opening_of(source.valve.get(), opening_, subject());
+  }
+  has_velocities_ = source.file != nullptr;
+  surface_ = make_surface(source, FileVelocity::zero);
+}
+
+void MovingValve::move_to(double time) {
+  if (is_at_rest_) return;
+  if (source_.keyframes) return move_to(time, time);
+  opening_ = source_.law.at(time);
+  set_opening_of(source_.valve.get(), opening_, subject());
+  check(riis_surface_update(surface_.get(), source_.valve.get(), nullptr), subject());
+  has_velocities_ = false;
+}
+
+void MovingValve::move_to(double time, double since) {
+  if (is_at_rest_ && has_velocities_) return;
+  if (source_.keyframes) {
+    const riis_keyframes *frames = source_.keyframes.get();
+    check(riis_surface_update_from_keyframes(surface_.get(), frames, time, time - since, nullptr), options().surface);
+    return;
+  }
+  opening_ = source_.law.at(time);
+  set_opening_of(source_.valve.get(), opening_, subject());
+  set_opening_of(before_.get(), source_.law.at(since), subject());
+  check(riis_surface_update_moving(surface_.get(), source_.valve.get(), before_.get(), time - since, nullptr, nullptr),
+        subject());
+  has_velocities_ = true;
+}
+
+void MovingValve::mark(const riis_mesh *mesh, int32_t fields) {
+  riis_mark_options how = options().mark_options;
+  how.fields = fields;
+  check(riis_mark_nodes(surface_.get(), mesh, &how, result_.get()), options().mesh);
+}
+
+double MovingValve::largest_speed() const {
+  const riis_triangles triangles = triangles_of(surface_.get());
+  const double *velocity = triangles.velocity;
+  double largest = 0;
+  for (int64_t i = 0; velocity && i < triangles.n_vertices; ++i)
+    largest = std::max(largest, std::hypot(velocity[3 * i], velocity[3 * i + 1], velocity[3 * i + 2]));
+  return largest;
+}
+
+riis_mark_stats MovingValve::stats() const {
+  riis_mark_stats stats{};
+  check(riis_marks_get_stats(result_.get(), &stats, sizeof stats));
+  return stats;
+}
+
+void look_for_leaks_of(const Case &all, const std::vector<MovingValve> &valves, riis_mesh *mesh,
+                       const riis_vtk_mesh *file) {
+  for (std::size_t i = 0; i < valves.size(); ++i) {
+    const MovingValve &valve = valves[i];
+    const std::string part = all.part_of(i);
+    Report report;
+    report.marks = valve.stats();
+    check(riis_surface_get_info(valve.surface(), &report.surface, sizeof report.surface));
+    look_for_leaks(valve.options(),
+                   {valve.surface(), valve.source().valve.get(), file, mesh, valve.result(),
+                    "the surface" + (part.empty() ? "" : " of " + part)},
+                   report);
+  }
+}
+
+std::vector<MovingValve> moving_valves(Case &all) {
+  const std::vector<double> &times = all.options.series.times;
+  std::vector<MovingValve> valves;
+  valves.reserve(all.valves.size());
+  for (ValveSource &source : all.valves) {
+    try {
+      valves.emplace_back(source, times.empty() ? 0 : times[0]);
+      const std::string part = all.part_of(valves.size() - 1);
+      if (source.valve) check_shape(source.options, source.valve.get(), source.has_open_state, part);
+      rehearse_marking(source.options, valves.back().surface());
+    } catch (Refusal &refusal) {
+      if (!source.subject.empty() && refusal.text.rfind(source.subject, 0) != 0)
+        refusal = {exit_bad_data, source.subject + ": " + refusal.text};
+      throw;
+    }
+  }
+  return valves;
+}
+
+}  // namespace riis::program

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// One valve of a series: its surface at a time, with velocities or without, and its marks.
+#pragma once
+
+#include <riis/riis_vtk.h>
+
+#include <string>
+#include <vector>
+
+#include "program/case.hpp"
+#include "program/handles.hpp"
+#include "program/valve_source.hpp"
+
+namespace riis::program {
+
+class MovingValve {
+ public:
+  // Borrows the source. The surface is that of the time.
+  MovingValve(ValveSource &source, double time);
+
+  // Moves the surface to a time. The second form gives it velocities: the mean since the time before.
+  void move_to(double time);
+  void move_to(double time, double since);
+  // Marks with these RIIS_FIELD_*. The last form of move_to must have been the second for velocities.
+  void mark(const riis_mesh *mesh, int32_t fields);
+
+  const Options &options() const { return source_.options; }
+  const ValveSource &source() const { return source_; }
+  const riis_surface *surface() const { return surface_.get(); }
+  riis_marks *result() const { return result_.get(); }
+  double opening() const { return opening_; }  // 0 for a surface from a file
+  double largest_speed() const;                // of a vertex
+  riis_mark_stats stats() const;
+
+ private:
+  // For refusals.
+  const std::string &subject() const { return source_.subject.empty() ? options().valve : source_.subject; }
+
+  ValveSource &source_;
+  Valve before_;
+  Surface surface_;
+  Marks result_;
+  double opening_ = 0;
+  bool is_at_rest_ = false, has_velocities_ = false;
+};
+
+// Looks for leaks of each valve where it is and was last marked, in all nodes of the file. Warns on stderr.
+void look_for_leaks_of(const Case &all, const std::vector<MovingValve> &valves, riis_mesh *mesh,
+                       const riis_vtk_mesh *file);
+
+// Makes the valves of a case at its first time, if it has one, and tries each with its options.
+std::vector<MovingValve> moving_valves(Case &all);
+
+}  // namespace riis::program

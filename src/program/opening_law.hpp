@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: the way a user describes how a valve opens. Out: the opening at any time, by the library's laws.
+#pragma once
+
+#include <riis/riis.h>
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace riis::program {
+
+// Keys in time. A period of 0 is none.
+struct OpeningTable {
+  std::vector<double> times, openings;
+  double period = 0;
+  std::int32_t interpolation = RIIS_INTERPOLATION_LINEAR;
+};
+
+class OpeningLaw {
+ public:
+  // Stays as it is.
+  explicit OpeningLaw(double opening) : law_(opening) {}
+  // subject, such as a file's name, goes before the library's refusals of a law.
+  OpeningLaw(OpeningTable table, const std::string &subject);
+  OpeningLaw(const riis_opening_times &times, const std::string &subject);
+
+  double at(double time) const;
+  bool is_constant() const { return std::holds_alternative<double>(law_); }
+
+ private:
+  // Asks the law once, so that the library refuses it before any work.
+  void rehearse() const;
+
+  std::variant<double, OpeningTable, riis_opening_times> law_;
+  std::string subject_;
+};
+
+// Returns the largest opening at these times. Without times the law must be constant, and its opening is returned.
+double largest_opening(const OpeningLaw &law, const std::vector<double> &times);
+
+// Returns the names of RIIS_INTERPOLATION_*, each at its position.
+const std::vector<std::string> &interpolation_names();
+
+}  // namespace riis::program

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The orifice: the area inside an outline that triangles leave uncovered when both are projected along z.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "program/patch_sides.hpp"
+
+namespace riis::program {
+
+using PlanePoint = std::array<double, 2>;
+using PlaneTriangle = std::array<PlanePoint, 3>;
+
+// A circle, or closed lines.
+struct Outline {
+  double radius = 0;  // > 0: the circle
+  PlanePoint centre{};
+  // Otherwise: a point is inside if the number of edges to its left is odd.
+  std::vector<std::array<PlanePoint, 2>> edges{};
+};
+
+Outline circle(double radius, const PlanePoint &centre);
+// The projected lines. Nothing if they enclose no area or are not closed: each end must be that of an even number of lines.
+std::optional<Outline> closed_outline(const std::vector<Line> &lines);
+
+std::vector<PlaneTriangle> projected(const riis_triangles &surface);
+
+// The lines along x that areas are measured on, evenly spaced over the outline. On each line the uncovered parts have their
+// exact length. An edge along x is off by at most half a spacing, 1/4096 of the outline's height.
+inline constexpr std::int64_t n_scan_lines = 2048;
+
+double area_of(const Outline &outline, std::int64_t n_lines = n_scan_lines);
+double uncovered_area(const Outline &outline, const std::vector<PlaneTriangle> &triangles,
+                      std::int64_t n_lines = n_scan_lines);
+
+}  // namespace riis::program

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The stages of a run: the time of each, and a line on the terminal for a stage that takes longer than a second.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace riis::program {
+
+class Stage {
+ public:
+  // what, such as "reading mesh.vtu", is announced on stderr after a second if stderr is a terminal and not quiet.
+  Stage(const std::string &what, bool quiet);
+  ~Stage();
+  Stage(const Stage &) = delete;
+  Stage &operator=(const Stage &) = delete;
+
+  double seconds() const;
+
+ private:
+  std::chrono::steady_clock::time_point begin_;
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  bool has_ended_ = false;
+  std::thread watcher_;
+};
+
+// Counts the steps of a long stage on one line of the terminal, from its second second on.
+class StepProgress {
+ public:
+  // what, such as "writing", stands before "step 12 of 81". Shows nothing if stderr is no terminal, or quiet.
+  StepProgress(const std::string &what, std::size_t n_steps, bool quiet);
+  ~StepProgress();
+  StepProgress(const StepProgress &) = delete;
+  StepProgress &operator=(const StepProgress &) = delete;
+
+  void begin(std::size_t step);
+  double seconds() const;
+
+ private:
+  std::string what_;
+  std::size_t n_steps_;
+  bool is_shown_, has_line_ = false;
+  std::chrono::steady_clock::time_point begin_, last_;
+};
+
+}  // namespace riis::program

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program gives up with an exit code and one line for stderr.
+#pragma once
+
+#include <riis/riis.h>
+
+#include <string>
+#include <utility>
+
+namespace riis::program {
+
+enum ExitCode { exit_fine = 0, exit_bad_data = 1, exit_wrong_usage = 2, exit_none_marked = 3, exit_warned = 4 };
+
+struct Refusal {
+  ExitCode exit_code;
+  std::string text;
+};
+
+// Returns the library's message with the command line's option in place of the struct field that it begins with.
+inline std::string with_option_named(const std::string &text) {
+  static const std::pair<std::string, std::string> options[] = {{"options.scale ", "--scale "},
+                                                                {"options.rotation_axis ", "--rotate: the axis "},
+                                                                {"options.rotation_angle ", "--rotate: the angle "},
+                                                                {"options.translation ", "--translate "},
+                                                                {"options.half_thickness ", "--half-thickness "},
+                                                                {"options.tolerance ", "--tolerance "},
+                                                                {"options.distance_limit ", "--distance-limit "},
+                                                                {"options.measure_tolerance ", "--distance-tolerance "},
+                                                                {"options.search ", "--search "},
+                                                                {"options.n_threads ", "--threads "},
+                                                                {"arrays.far_distance ", "--far-distance "},
+                                                                {"resistance.R ", "--resistance "},
+                                                                {"time ", "--time "},
+                                                                {"frames.period ", "--period "},
+                                                                {"frames.time ", "--period: the time "}};
+  for (const auto &[field, option] : options) {
+    if (text.rfind(field, 0) == 0) return option + text.substr(field.size());
+  }
+  return text;
+}
+
+// Throws the library's own message. Files, arrays and parameters are data. An argument that the library refuses is an option of
+// the command line that is out of range. subject, such as a file's name, goes before messages that do not name it themselves.
+inline void check(riis_status status, const std::string &subject = "") {
+  if (status == RIIS_OK) return;
+  const bool data = status == RIIS_INVALID_SURFACE || status == RIIS_INVALID_MESH || status == RIIS_INVALID_PARAMETER ||
+                    status == RIIS_LIMIT_EXCEEDED;
+  if (status == RIIS_INVALID_ARGUMENT) throw Refusal{exit_wrong_usage, with_option_named(riis_last_error())};
+  throw Refusal{exit_bad_data, (data && !subject.empty() ? subject + ": " : "") + riis_last_error()};
+}
+
+}  // namespace riis::program

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: what a run found and how long it took. Out: JSON for programs, a short table for people.
+#pragma once
+
+#include <riis/riis.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "program/steps.hpp"
+
+namespace riis::program {
+
+struct Seconds {
+  double read = 0;     // files
+  double surface = 0;  // triangles
+  double scene = 0;    // Embree
+  double mesh = 0;     // checking the nodes
+  double adjacency = 0;
+  double search = 0;
+  double leaks = 0;  // edges and the half thickness that would close them
+  double write = 0;  // files
+  double picture = 0;
+};
+
+struct PassageReport {
+  riis_passage found{};
+  bool is_end = false;                // the place is the node of a point: the passage may be wider
+  double closing_half_thickness = 0;  // for the user to type; 0: none, or not open
+  std::string place{};                // the point, in text
+  bool is_unknown = false;            // closed along the known edges; others may open it
+};
+
+struct LeakReport {
+  riis_leak_list found{};             // its arrays are not kept
+  std::vector<int64_t> edges;         // (2, found.n_edges)
+  double closing_half_thickness = 0;  // for the user to type; 0: none
+  int64_t n_volume_cells = 0;
+  int64_t n_cells_left_out = 0;          // cells of volume whose edges are not known
+  std::optional<PassageReport> passage;  // if two points are checked
+
+  bool has_all_edges() const { return n_volume_cells > 0 && n_cells_left_out == 0; }
+};
+
+struct CrossingReport {
+  int n_openings = 0;             // that were looked at; 0: the surface as it is
+  std::optional<double> opening;  // of what was found
+  riis_crossing_list found{};     // its arrays are not kept
+};
+
+struct Report {
+  std::string surface_name;       // the valve's kind, or a file
+  std::optional<double> opening;  // a surface from a file has none
+  std::optional<double> time;     // of a surface that moves
+  std::string mesh_name;          // "": no mesh was marked
+  int64_t n_cells = 0;
+  double distance_limit = 0;
+  int32_t distance = RIIS_MEASURE_TRIANGLES;
+  int64_t n_leaflets = 0;  // of a surface from a file, if --leaflets makes them; 0: not printed
+  riis_surface_info surface{};
+  riis_mark_stats marks{};
+  LeakReport leaks;
+  std::optional<CrossingReport> crossings;  // if they were looked for
+  Seconds seconds;
+  std::vector<std::string> written;  // files
+  std::optional<StepTimes> step;
+};
+
+// These return texts such as "15,745" and "1 node".
+std::string grouped(int64_t n);
+std::string counted(int64_t n, const char *singular);
+// Returns a text such as "mitral valve, opening 0.5".
+std::string surface_title(const Report &report);
+// Says why leaks are unknown, such as "MESH has no volume cells"; "" if all edges of the mesh are known.
+std::string why_unknown(const LeakReport &leaks, const std::string &mesh);
+// A line of the table; "" if no points were checked.
+std::string line_of_passage(const LeakReport &leaks);
+std::string json_of(const Report &report);
+std::string table_of(const Report &report);
+
+}  // namespace riis::program

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/run.hpp"
+
+#include <string>
+#include <vector>
+
+#include "program/case.hpp"
+#include "program/case_file.hpp"
+#include "program/crossings.hpp"
+#include "program/drawing.hpp"
+#include "program/handles.hpp"
+#include "program/interruption.hpp"
+#include "program/leaks.hpp"
+#include "program/mesh_marking.hpp"
+#include "program/motion.hpp"
+#include "program/movie.hpp"
+#include "program/outputs.hpp"
+#include "program/parameters.hpp"
+#include "program/passage_check.hpp"
+#include "program/progress.hpp"
+#include "program/refusal.hpp"
+#include "program/report.hpp"
+#include "program/states.hpp"
+#include "program/steps.hpp"
+#include "program/uris_export.hpp"
+#include "program/valve_source.hpp"
+#include "program/warnings.hpp"
+
+namespace riis::program {
+namespace {
+
+Mesh borrowed_nodes(const Options &options, const riis_vtk_mesh *file, Report &report) {
+  const Stage stage("checking the nodes", options.quiet);
+  check(riis_vtk_mesh_get_nodes(file, nullptr, &report.n_cells, nullptr));
+  Mesh mesh = borrow_nodes(file, options.mesh);
+  report.seconds.mesh = stage.seconds();
+  return mesh;
+}
+
+// The mesh borrows the adjacency.
+Adjacency give_adjacency(const Options &options, const riis_vtk_mesh *file, riis_mesh *mesh, Report &report) {
+  const Stage stage("finding the nodes' neighbours", options.quiet);
+  riis_adjacency *handle = nullptr;
+  check(riis_vtk_mesh_create_adjacency(file, options.mark_options.n_threads, &handle), options.mesh);
+  Adjacency adjacency(handle);
+  riis_csr rows;
+  check(riis_adjacency_get_csr(adjacency.get(), &rows, sizeof rows));
+  check(riis_mesh_set_adjacency(mesh, &rows), options.mesh);
+  report.seconds.adjacency = stage.seconds();
+  return adjacency;
+}
+
+std::vector<std::string> names_of_arrays(const Options &options) {
+  std::vector<std::string> names = names_of_marks(options.prefix, 0);
+  if (options.resistance) names.push_back(options.prefix + "_K");
+  return names;
+}
+
+// Returns the marks, because pictures may need them under other names than the output.
+Marks mark(const Options &options, const riis_surface *surface, const riis_valve *valve, riis_vtk_mesh *file,
+           Report &report) {
+  Adjacency adjacency;  // outlives the mesh, which borrows it
+  const Mesh mesh = borrowed_nodes(options, file, report);
+  if (needs_adjacency(options.mark_options.search)) adjacency = give_adjacency(options, file, mesh.get(), report);
+  Marks result = new_result();
+  {
+    const Stage stage("marking", options.quiet);
+    check(riis_mark_nodes(surface, mesh.get(), &options.mark_options, result.get()), options.mesh);
+    report.seconds.search = stage.seconds();
+  }
+  check(riis_marks_get_stats(result.get(), &report.marks, sizeof report.marks));
+  set_marks(options, result.get(), 0, file);
+  ResistanceSum resistance(report.marks.n_nodes, ResistanceSum::WithVelocity::no);
+  resistance.add(options, result.get());
+  resistance.set_arrays(options.prefix, file);
+  if (!report.marks.complete) warn_of_incomplete_marks();
+  if (const auto warning = warning_of(situation_of(options, report.surface, report.marks, file))) warn({*warning});
+  const double limit = options.mark_options.distance_limit;
+  report.distance_limit = limit > 0 ? limit : report.surface.half_thickness;
+  report.distance = options.surface_options.measure;
+  report.mesh_name = options.mesh;
+  look_for_leaks(options, {surface, valve, file, mesh.get(), result.get(), "the surface"}, report);
+  check_passage(options, {surface, valve, file, mesh.get(), result.get(), "the surface"}, report);
+  return result;
+}
+
+void write_files(const Options &options, const riis_surface *surface, const riis_vtk_mesh *mesh, Report &report) {
+  const Stage stage("writing", options.quiet);
+  if (!options.surface_output.empty()) {
+    const UnbrokenWrite unbroken;
+    check(riis_vtk_surface_write(surface, options.surface_output.c_str()));
+    report.written.push_back(options.surface_output);
+  }
+  if (!options.output.empty()) {
+    const UnbrokenWrite unbroken;
+    check(riis_vtk_mesh_write(mesh, options.output.c_str()));
+    report.written.push_back(options.output);
+  }
+  report.seconds.write = stage.seconds();
+}
+
+void write_stats(const Options &options, const Report &report) {
+  if (!options.stats.empty()) write_text(options.stats, json_of(report));
+}
+
+void print_table(const Options &options, const Report &report) {
+  if (!options.quiet && options.stats != "-") write_text("-", table_of(report));
+}
+
+ExitCode run_single(const Options &options) {
+  ValveSource source{options, options.surface.empty() ? make_valve(options) : nullptr, nullptr};
+  const riis_valve *valve = source.valve.get();
+  if (options.print_params || options.describe_params) {
+    write_text("-", options.print_params ? json_template(valve) + "\n" : parameter_table(valve));
+    return exit_fine;
+  }
+  const OutputLocks locks = check_outputs(options);
+  Report report;
+  if (options.time)
+    source.keyframes = read_keyframes(options, report.seconds).keyframes;
+  else if (!valve)
+    source.file = read_surface(options, report.seconds);
+  const Surface surface = make_surface(source, FileVelocity::none);
+  source.file.reset();
+  source.keyframes.reset();
+  check(riis_surface_get_info(surface.get(), &report.surface, sizeof report.surface));
+  report.surface_name = valve ? options.valve : options.surface;
+  if (valve) report.opening = opening_of(valve);
+  report.time = options.time;
+  if (!options.leaflets.empty()) report.n_leaflets = count_leaflets(surface.get());
+  report.seconds.surface = report.surface.seconds_triangles;
+  report.seconds.scene = report.surface.seconds_scene;
+  if (options.check_crossing) look_for_crossings(options, valve, surface.get(), report);
+  if (valve && !options.check_crossing) report.crossings = check_shape(options, valve, !options.params_open.empty());
+  if (!options.mesh.empty()) rehearse_marking(options, surface.get());
+  const MeshFile mesh = options.mesh.empty() ? nullptr : read_mesh(options, report.seconds);
+  if (mesh) check_new_arrays(options, names_of_arrays(options), mesh.get());
+  const Marks result = mesh ? mark(options, surface.get(), valve, mesh.get(), report) : nullptr;
+  if (options.n_steps > 0) report.step = time_steps(options, source.valve.get(), mesh.get());
+  write_files(options, surface.get(), mesh.get(), report);
+  try {
+    // The component draws the marks under these names. The file with the other names is written by now.
+    if (result && !options.pictures.empty())
+      check(riis_vtk_mesh_set_marks(mesh.get(), result.get(), options.far_distance, nullptr));
+    draw_pictures(options, picture_title(options, valve, report), leaflet_names(options), surface.get(), mesh.get(),
+                  result.get(), report);
+  } catch (const Refusal &) {
+    // The marks are still good.
+    write_stats(options, report);
+    throw;
+  }
+  write_stats(options, report);
+  print_table(options, report);
+  return result && report.marks.n_marked == 0 && !options.allow_none ? exit_none_marked : exit_fine;
+}
+
+ExitCode run_leniently(const Options &options) {
+  if (!options.states.empty()) {
+    run_states(options);
+    return exit_fine;
+  }
+  if (!options.uris.folder.empty()) {
+    export_uris(options);
+    return exit_fine;
+  }
+  const bool has_case = !options.series.case_file.empty();
+  if (!has_case && options.series.times.empty()) return run_single(options);
+  // This comes before the case's own files are read, which may be many.
+  check_movie(options.series.movie);
+  Case all = has_case ? read_case(options) : case_of_command_line(options);
+  return run_case(all);
+}
+
+}  // namespace
+
+ExitCode run(const Options &options) {
+  const ExitCode code = run_leniently(options);
+  return code == exit_fine && options.strict && n_warnings() > 0 ? exit_warned : code;
+}
+
+}  // namespace riis::program

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: the user's request. Out: the files, and the report on stdout. The stages of a single marking are, in order: surface, mesh,
+// marks, files, pictures, report. Series and cases have theirs in series.hpp and case.hpp.
+#pragma once
+
+#include "program/command_line.hpp"
+#include "program/refusal.hpp"
+
+namespace riis::program {
+
+// Returns exit_fine, or exit_none_marked if the user did not allow that. Throws a Refusal.
+ExitCode run(const Options &options);
+
+}  // namespace riis::program

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/series.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/array_view.hpp"
+#include "program/advice.hpp"
+#include "program/interruption.hpp"
+#include "program/mesh_marking.hpp"
+#include "program/moving_valve.hpp"
+#include "program/numbers.hpp"
+#include "program/outputs.hpp"
+#include "program/passage_check.hpp"
+#include "program/progress.hpp"
+#include "program/series_files.hpp"
+#include "program/series_lists.hpp"
+#include "program/series_pictures.hpp"
+#include "program/series_table.hpp"
+#include "program/sweep.hpp"
+#include "program/warnings.hpp"
+
+namespace riis::program {
+namespace {
+
+constexpr int32_t series_fields = RIIS_FIELD_NORMAL | RIIS_FIELD_SIDE | RIIS_FIELD_VELOCITY;
+
+int64_t n_nodes_of(const riis_vtk_mesh *file) {
+  int64_t n = 0;
+  check(riis_vtk_mesh_get_nodes(file, &n, nullptr, nullptr));
+  return n;
+}
+
+// Returns the names of a series' arrays. The part of a mesh also tells the ids of its nodes in the whole mesh.
+std::vector<std::string> names_of_series(const Case &all) {
+  std::vector<std::string> names;
+  for (const ValveSource &valve : all.valves) {
+    const std::vector<std::string> own = names_of_marks(valve.options.prefix, series_fields);
+    names.insert(names.end(), own.begin(), own.end());
+  }
+  if (all.has_resistance()) {
+    names.push_back(all.options.prefix + "_K");
+    names.push_back(all.options.prefix + "_K_u_surface");
+  }
+  if (!all.options.series.all_cells) names.emplace_back("riis_node_id");
+  return names;
+}
+
+// Returns a text such as "12.3 MB".
+std::string bytes_text(double n) {
+  const char *const units[] = {"bytes", "kB", "MB", "GB", "TB", "PB"};
+  std::size_t unit = 0;
+  for (; n >= 1000 && unit < 5; ++unit) n /= 1000;
+  char text[32];
+  std::snprintf(text, sizeof text, unit == 0 ? "%.0f %s" : "%.3g %s", n, units[unit]);
+  return text;
+}
+
+// The second pass, and the files that it leaves.
+class Writing {
+ public:
+  // pictures may be NULL.
+  Writing(Case &all, std::vector<MovingValve> &valves, riis_vtk_mesh *part, SeriesPictures *pictures)
+      : all_(all),
+        valves_(valves),
+        part_(part),
+        pictures_(pictures),
+        nodes_(borrow_nodes(part, all.options.mesh)),
+        meshes_(all.options.output, ".vtu", times().size()),
+        surfaces_(all.options.surface_output, ".vtp", times().size()),
+        table_(all) {}
+
+  // Prints the size of all files, by the files of the first step.
+  void announce(int64_t n_nodes_of_mesh) {
+    if (all_.options.quiet || !meshes_.is_wanted()) return;
+    set_arrays(0);
+    int64_t n_bytes = 0;
+    check(riis_vtk_mesh_get_file_size(part_, &n_bytes));
+    const auto n = static_cast<double>(times().size());
+    std::fprintf(stderr, "riis-mark: writing %s with %s of %s nodes, %s in all, to %s\n",
+                 counted(view(times()).size(), "file").c_str(), grouped(n_nodes_of(part_)).c_str(),
+                 grouped(n_nodes_of_mesh).c_str(), bytes_text(n * static_cast<double>(n_bytes)).c_str(),
+                 meshes_.folder().c_str());
+  }
+
+  // Writes all steps. Ends early, after a whole step, if a signal waits.
+  void run(Report &report) {
+    if (meshes_.is_wanted()) meshes_.make_folder();
+    if (surfaces_.is_wanted()) surfaces_.make_folder();
+    SeriesLists lists([this](bool is_last) { write_lists(is_last); });
+    StepProgress progress("writing", times().size(), all_.options.quiet);
+    try {
+      for (; n_done_ < times().size() && !UnbrokenWrite::has_signal(); ++n_done_) {
+        progress.begin(n_done_);
+        do_step(n_done_, lists);
+        if (pictures_) pictures_->draw(n_done_, valves_, report);
+      }
+    } catch (...) {
+      lists.end();
+      throw;
+    }
+    lists.end();
+    if (pictures_ && !UnbrokenWrite::has_signal()) pictures_->encode(report);
+  }
+
+  std::size_t n_done() const { return n_done_; }  // steps
+  const SeriesTable &table() const { return table_; }
+  const SeriesFiles &meshes() const { return meshes_; }
+  const SeriesFiles &surfaces() const { return surfaces_; }
+
+ private:
+  const std::vector<double> &times() const { return all_.options.series.times; }
+
+  // Returns the time before a step. The first time takes the length of the first step.
+  double time_before(std::size_t step) const {
+    return step == 0 ? times()[0] - (times()[1] - times()[0]) : times()[step - 1];
+  }
+
+  void set_arrays(std::size_t step) {
+    ResistanceSum resistance(n_nodes_of(part_), ResistanceSum::WithVelocity::yes);
+    for (MovingValve &valve : valves_) {
+      valve.move_to(times()[step], time_before(step));
+      valve.mark(nodes_.get(), series_fields);
+      set_marks(valve.options(), valve.result(), series_fields, part_);
+      resistance.add(valve.options(), valve.result());
+    }
+    resistance.set_arrays(all_.options.prefix, part_);
+  }
+
+  void do_step(std::size_t step, SeriesLists &lists) {
+    const Stage marking("", true);
+    set_arrays(step);
+    const double seconds = marking.seconds();
+    if (meshes_.is_wanted()) {
+      const std::string path = meshes_.path_of(step, "");
+      check(riis_vtk_mesh_write(part_, path.c_str()));
+      lists.add([&] { meshes_.add(times()[step], 0, path); });
+    }
+    for (std::size_t valve = 0; surfaces_.is_wanted() && valve < valves_.size(); ++valve) {
+      const std::string path = surfaces_.path_of(step, all_.part_of(valve));
+      check(riis_vtk_surface_write(valves_[valve].surface(), path.c_str()));
+      lists.add([&] { surfaces_.add(times()[step], valve, path); });
+    }
+    lists.add([&] { table_.add(times()[step], valves_, seconds); });
+  }
+
+  void write_lists(bool is_last) const {
+    for (const SeriesFiles *files : {&meshes_, &surfaces_})
+      if (files->n_written() > 0) files->write_list();
+    const std::string &table = all_.options.series.table;
+    if (!table.empty() && (is_last || can_be_replaced(table))) write_text(table, table_.text());
+  }
+
+  Case &all_;
+  std::vector<MovingValve> &valves_;
+  riis_vtk_mesh *part_;
+  SeriesPictures *pictures_;
+  Mesh nodes_;
+  SeriesFiles meshes_, surfaces_;
+  SeriesTable table_;
+  std::size_t n_done_ = 0;
+};
+
+MeshFile part_of(const riis_vtk_mesh *file, const std::vector<int64_t> &node_ids) {
+  riis_vtk_mesh *part = nullptr;
+  check(riis_vtk_mesh_extract(file, view(node_ids).size(), node_ids.data(), &part));
+  return MeshFile(part);
+}
+
+MeshFile copy_of(const riis_vtk_mesh *file) {
+  std::vector<int64_t> all(static_cast<std::size_t>(n_nodes_of(file)));
+  std::iota(all.begin(), all.end(), 0);
+  return part_of(file, all);
+}
+
+// Returns the first time at which the valve is least open.
+double time_of_least_opening(const OpeningLaw &law, const std::vector<double> &times) {
+  return *std::min_element(times.begin(), times.end(), [&](double a, double b) { return law.at(a) < law.at(b); });
+}
+
+// Warns of leaks at the time when each valve is least open: only then can it be meant to stop the flow.
+void look_for_closed_leaks(const Case &all, std::vector<MovingValve> &valves, riis_mesh *mesh,
+                           const riis_vtk_mesh *file, Report &report) {
+  for (MovingValve &valve : valves) {
+    valve.move_to(time_of_least_opening(valve.source().law, all.options.series.times));
+    valve.mark(mesh, 0);
+  }
+  look_for_leaks_of(all, valves, mesh, file);
+  check_passage_of(all, valves, mesh, file, report);
+}
+
+// Warns of marks that look wrong, by the times at which each valve marks most nodes.
+void warn_of_sweep(const Case &all, const Sweep &sweep, const riis_vtk_mesh *file) {
+  riis_mark_stats marks{};
+  std::vector<Warning> warnings;
+  for (std::size_t valve = 0; valve < all.valves.size(); ++valve) {
+    marks.n_marked = sweep.most_marked[valve];
+    auto warning = warning_of(situation_of(all.valves[valve].options, sweep.surface[valve], marks, file));
+    if (!warning) continue;
+    const std::string part = all.part_of(valve);
+    warning->text.insert(0, part.empty() ? "" : part + ": ");
+    warnings.push_back(*warning);
+  }
+  warn(warnings);
+}
+
+// Prints the summary that a user reads at the end.
+void print_summary(const Case &all, const Writing &writing, int64_t n_nodes, int64_t n_written, Report &report) {
+  if (all.options.quiet) return;
+  const std::vector<double> &times = all.options.series.times;
+  std::string text = "times     " + counted(view(times).size(), "time") + " from " + shown(times.front()) + " to " +
+                     shown(times.back()) + "\n";
+  text += "mesh      " + all.options.mesh + ": " + counted(n_nodes, "node") +
+          (writing.meshes().is_wanted() ? ", " + grouped(n_written) + " written\n" : "\n");
+  text += writing.table().summary();
+  text += line_of_passage(report.leaks);
+  for (const SeriesFiles *files : {&writing.meshes(), &writing.surfaces()}) {
+    if (!files->is_wanted()) continue;
+    report.written.push_back(files->pvd() + ", " + counted(static_cast<int64_t>(files->n_written()), "file") + " in " +
+                             files->folder());
+  }
+  if (!all.options.series.table.empty()) report.written.push_back(all.options.series.table);
+  for (const std::string &path : report.written) text += "written   " + path + "\n";
+  write_text("-", text);
+}
+
+}  // namespace
+
+ExitCode run_series(Case &all) {
+  const Options &options = all.options;
+  std::vector<MovingValve> valves = moving_valves(all);
+  Report report;
+  MeshFile file = read_mesh(options, report.seconds);
+  check_new_arrays(options, names_of_series(all), file.get());
+  const int64_t n_nodes = n_nodes_of(file.get());
+  Sweep sweep;
+  {
+    const Mesh mesh = borrow_nodes(file.get(), options.mesh);
+    sweep = sweep_of(valves, options.series.times, mesh.get(), n_nodes, options.quiet);
+    warn_of_sweep(all, sweep, file.get());
+    look_for_closed_leaks(all, valves, mesh.get(), file.get(), report);
+  }
+  // From here on a signal waits for the end of a step; the lists are then written, and the movie's frames removed.
+  const UnbrokenWrite unbroken;
+  const MeshFile part = options.series.all_cells ? nullptr : part_of(file.get(), sweep.node_ids);
+  std::optional<SeriesPictures> pictures;
+  if (SeriesPictures::are_wanted(options)) {
+    // Pictures show the whole mesh and have arrays of their own in it.
+    MeshFile drawn = part ? std::move(file) : copy_of(file.get());
+    pictures.emplace(all, std::move(drawn), sweep.box);
+  } else if (part) {
+    file.reset();
+  }
+  riis_vtk_mesh *const written = part ? part.get() : file.get();
+  Writing writing(all, valves, written, pictures ? &*pictures : nullptr);
+  writing.announce(n_nodes);
+  const int64_t n_written = n_nodes_of(written);
+  writing.run(report);
+  if (UnbrokenWrite::has_signal())
+    std::fprintf(stderr, "riis-mark: interrupted: %zu of %zu written\n", writing.n_done(), options.series.times.size());
+  else
+    print_summary(all, writing, n_nodes, n_written, report);
+  return writing.table().most_marked() == 0 && !options.allow_none ? exit_none_marked : exit_fine;
+}
+
+}  // namespace riis::program

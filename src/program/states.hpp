@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// --states: free edges, leaflet areas and the orifice of a valve at openings from 0 to 1, in its own frame.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "program/command_line.hpp"
+
+namespace riis::program {
+
+struct LeafletSize {
+  double edge;  // length of the free edge
+  double area;
+};
+
+struct State {
+  double opening;
+  std::vector<LeafletSize> leaflets;
+  std::optional<double> orifice;
+};
+
+struct States {
+  std::vector<std::int32_t> ids;  // of the leaflets, ascending
+  std::vector<std::string> names;
+  std::string why_no_edges;   // "": the leaflets have free edges
+  std::string disc;           // such as "the disc of root_radius 1.29"; "": the valve has no orifice
+  double disc_area;           // when closed
+  std::vector<State> states;  // ascending by opening; the first is closed
+  std::string why_closed;     // the library's refusal of other openings, "" if the valve opens
+
+  bool has_edges() const { return why_no_edges.empty(); }
+};
+
+// Measures the valve of the options at n_states openings, or at 0 alone if it has no state to open to.
+States measure_states(const Options &options);
+
+// Measures, writes the table, and prints the summary.
+void run_states(const Options &options);
+
+}  // namespace riis::program

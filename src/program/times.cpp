@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/times.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "program/numbers.hpp"
+#include "program/refusal.hpp"
+
+namespace riis::program {
+namespace {
+
+// The library's limit of a time.
+constexpr double largest_time = 1e30;
+
+[[noreturn]] void refuse_times(const std::string &subject, const std::string &reason) {
+  throw Refusal{exit_wrong_usage, subject + ": " + reason};
+}
+
+[[noreturn]] void refuse_count(const std::string &subject, double n) {
+  refuse_times(subject, shortest(n) + " times are too many; a series has at most " + std::to_string(most_times));
+}
+
+double parse_time(const std::string &text, const std::string &subject) {
+  const double time = parse_number(text, subject);
+  if (!(std::abs(time) <= largest_time)) refuse_times(subject, text + " is not finite and at most 1e30 in magnitude");
+  return time;
+}
+
+std::vector<std::string> pieces_between(const std::string &text, char mark) {
+  std::vector<std::string> pieces;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(mark, begin), text.size());
+    pieces.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return pieces;
+}
+
+// 0.07000000000000001, a sum of steps, becomes 0.07, which was meant.
+double tidied(double time, double step) {
+  char text[32];
+  double tidy = time;
+  const char *end = std::to_chars(text, text + sizeof text, time, std::chars_format::general, 12).ptr;
+  std::from_chars(text, end, tidy);
+  return std::abs(tidy - time) <= 1e-9 * step ? tidy : time;
+}
+
+std::vector<double> stepped(double start, double stop, double step, const std::string &subject) {
+  if (!(step > 0)) refuse_times(subject, "the step " + shortest(step) + " is not above 0");
+  if (stop < start) refuse_times(subject, "the stop " + shortest(stop) + " is before the start " + shortest(start));
+  // A step that divides the span is not lost to rounding.
+  const double n = std::floor((stop - start) / step * (1 + 1e-12) + 1e-9) + 1;
+  if (n > static_cast<double>(most_times)) refuse_count(subject, n);
+  std::vector<double> times;
+  for (double i = 0; i < n; ++i) times.push_back(std::min(tidied(start + i * step, step), stop));
+  return times;
+}
+
+}  // namespace
+
+std::vector<double> parse_times(const std::string &text, const std::string &subject) {
+  std::vector<double> times;
+  const std::vector<std::string> range = pieces_between(text, ':');
+  if (range.size() == 3) {
+    times =
+        stepped(parse_time(range[0], subject), parse_time(range[1], subject), parse_time(range[2], subject), subject);
+  } else if (range.size() == 1) {
+    for (const std::string &piece : pieces_between(text, ',')) times.push_back(parse_time(piece, subject));
+  } else {
+    refuse_times(subject, "'" + text + "' is neither START:STOP:STEP nor a list of times");
+  }
+  check_times(times, subject);
+  return times;
+}
+
+void check_times(const std::vector<double> &times, const std::string &subject) {
+  if (times.size() > most_times) refuse_count(subject, static_cast<double>(times.size()));
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    if (!(times[i] > times[i - 1]))
+      refuse_times(subject,
+                   "the time " + shortest(times[i]) + " is not above the time before it, " + shortest(times[i - 1]));
+  }
+  if (times.size() < 2)
+    refuse_times(subject, "a series has at least two times; without times --opening gives one state");
+}
+
+}  // namespace riis::program

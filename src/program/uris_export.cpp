@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/uris_export.hpp"
+
+#include <cerrno>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <vector>
+
+#include "common/array_view.hpp"
+#include "program/advice.hpp"
+#include "program/crossings.hpp"
+#include "program/interruption.hpp"
+#include "program/numbers.hpp"
+#include "program/outputs.hpp"
+#include "program/progress.hpp"
+#include "program/refusal.hpp"
+#include "program/report.hpp"
+#include "program/uris_files.hpp"
+#include "program/uris_leaflets.hpp"
+#include "program/uris_motion.hpp"
+#include "program/valve_file.hpp"
+#include "program/warnings.hpp"
+#include "program/xml_text.hpp"
+
+namespace riis::program {
+namespace {
+
+// The longest edge, in half thicknesses, at which the solver's sum of delta is within 1 % of the exact one (docs/export.md).
+constexpr double fine_edges = 0.15;
+
+// A file that is written as it grows, because a long motion does not fit memory.
+class TextFile {
+ public:
+  explicit TextFile(std::string path) : path_(std::move(path)), file_(path_) { check_written(); }
+
+  void add(const std::string &text) {
+    file_ << text;
+    check_written();
+  }
+  void close() {
+    file_.close();
+    check_written();
+  }
+
+ private:
+  void check_written() {
+    if (file_) return;
+    throw Refusal{exit_bad_data, path_ + ": cannot be written: " + std::generic_category().message(errno)};
+  }
+
+  std::string path_;
+  std::ofstream file_;
+};
+
+void append_point(const std::vector<double> &xyz, std::int64_t vertex, std::string &text) {
+  char digits[32];
+  for (std::int64_t k = 0; k < 3; ++k) {
+    // The shortest text that reads back as the same double.
+    text.append(digits, std::to_chars(digits, digits + sizeof digits, view(xyz)[3 * vertex + k]).ptr);
+    text += k < 2 ? ' ' : '\n';
+  }
+}
+
+std::string text_of_points(const std::vector<double> &xyz, const UrisLeaflet &leaflet) {
+  std::string text;
+  for (const std::int64_t vertex : leaflet.nodes) append_point(xyz, vertex, text);
+  return text;
+}
+
+std::string vtu_text(const std::vector<double> &xyz, const UrisLeaflet &leaflet) {
+  const std::string n_nodes = std::to_string(leaflet.nodes.size()), n = std::to_string(leaflet.triangles.size());
+  std::string connectivity, offsets, types;
+  for (std::size_t i = 0; i < leaflet.triangles.size(); ++i) {
+    const Corners &c = leaflet.triangles[i];
+    connectivity += std::to_string(c[0]) + ' ' + std::to_string(c[1]) + ' ' + std::to_string(c[2]) + '\n';
+    offsets += std::to_string(3 * (i + 1)) + '\n';
+    types += "5\n";  // VTK_TRIANGLE
+  }
+  const auto array = [](const std::string &head, const std::string &numbers) {
+    return "<DataArray " + head + " format=\"ascii\">\n" + numbers + "</DataArray>\n";
+  };
+  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+         "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
+         n_nodes + "\" NumberOfCells=\"" + n + "\">\n<Points>\n" +
+         array("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", text_of_points(xyz, leaflet)) +
+         "</Points>\n<Cells>\n" + array("type=\"Int64\" Name=\"connectivity\"", connectivity) +
+         array("type=\"Int64\" Name=\"offsets\"", offsets) + array("type=\"UInt8\" Name=\"types\"", types) +
+         "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+}
+
+// Ends the export between two frames. The signal ends the process once the files are removed, so nobody reads the text.
+void stop_if_interrupted() {
+  if (UnbrokenWrite::has_signal()) throw Refusal{exit_bad_data, "--export-uris: interrupted, and nothing is left"};
+}
+
+void write_frames(UrisLeaflets &leaflets, const std::vector<double> &openings, const std::string &ending,
+                  WholeFolder &folder, StepProgress &progress, std::size_t &step) {
+  std::vector<const UrisLeaflet *> moving;
+  std::vector<TextFile> files;
+  for (const UrisLeaflet &leaflet : leaflets.leaflets()) {
+    if (leaflet.is_scaffold) continue;
+    moving.push_back(&leaflet);
+    files.emplace_back(folder.new_file(leaflet.name + ending));
+    files.back().add(std::to_string(openings.size()) + ' ' + std::to_string(leaflet.nodes.size()) + '\n');
+  }
+  for (const double opening : openings) {
+    progress.begin(step++);
+    stop_if_interrupted();
+    const std::vector<double> xyz = leaflets.vertices_at(opening);
+    for (std::size_t i = 0; i < files.size(); ++i) files[i].add(text_of_points(xyz, *moving[i]));
+  }
+  for (TextFile &file : files) file.close();
+}
+
+void write_export(const Options &options, const UrisMotion &motion, UrisLeaflets &leaflets) {
+  const UnbrokenWrite unbroken;
+  WholeFolder folder(options.uris.folder, "--export-uris");
+  StepProgress progress("writing", motion.opening.size() + motion.closing.size(), options.quiet);
+  const auto write_small = [&](const std::string &name, const std::string &text) {
+    TextFile file(folder.new_file(name));
+    file.add(text);
+    file.close();
+  };
+  const std::vector<double> first = leaflets.vertices_at(motion.opening[0]);
+  for (const UrisLeaflet &leaflet : leaflets.leaflets()) write_small(leaflet.name + ".vtu", vtu_text(first, leaflet));
+  std::string normal;
+  append_point({leaflets.forward().begin(), leaflets.forward().end()}, 0, normal);
+  write_small("normal.dat", normal);
+  std::size_t step = 0;
+  write_frames(leaflets, motion.opening, "_open.dat", folder, progress, step);
+  write_frames(leaflets, motion.closing, "_close.dat", folder, progress, step);
+  stop_if_interrupted();
+  folder.take_place();
+}
+
+// The solver puts it into names of files.
+std::string block_name(const Options &options) {
+  if (!is_valve_file(options.valve)) return options.valve;
+  std::string name = std::filesystem::path(options.valve).stem().string();
+  // A comment of XML holds no two dashes in a row.
+  for (char &c : name) c = c != '-' && is_prefix(std::string(1, c)) ? c : '_';
+  return name;
+}
+
+std::string mesh_block(const Options &options, const UrisMotion &motion, const UrisLeaflets &leaflets) {
+  const std::string folder = in_xml(options.uris.folder) + (options.uris.folder.back() == '/' ? "" : "/");
+  const auto element = [](const std::string &name, const std::string &value) {
+    return "<" + name + "> " + value + " </" + name + ">\n";
+  };
+  const auto frames = [](const std::vector<double> &openings) {
+    return std::to_string(openings.size()) + " frames, from opening " + shortest(openings.front()) + " to " +
+           shortest(openings.back());
+  };
+  const std::string half_thickness = shortest(leaflets.half_thickness());
+  const double edges = leaflets.longest_edge() / leaflets.half_thickness();
+  std::string text =
+      "<!-- riis-mark, " + block_name(options) + " valve\n     opening: " + frames(motion.opening) +
+      "\n     closing: " + frames(motion.closing) + "\n     a frame is a time step: Time_step_size must be " +
+      shortest(*options.uris.time_step) + "\n     " + counted(leaflets.n_triangles(), "triangle") +
+      ", the longest edge " + shown(leaflets.longest_edge()) + ", " + shown(edges) + " half thicknesses" +
+      "\n     face box widens the box of nodes in which svMultiPhysics looks; Mesh_scale_factor must stay 1";
+  if (edges > fine_edges) {
+    text += "\n     svMultiPhysics measures to middles of triangles; to be within 1 %, export with largest-edge " +
+            shown(fine_edges * leaflets.half_thickness());
+  }
+  text += " -->\n";
+  text += "<Add_URIS_mesh name=\"" + block_name(options) + "\">\n";
+  std::string scaffold;
+  for (const UrisLeaflet &leaflet : leaflets.leaflets()) {
+    if (leaflet.is_scaffold) {
+      scaffold = "  " + element("Scaffold_file_path", folder + leaflet.name + ".vtu");
+      continue;
+    }
+    text += "  <Add_URIS_face name=\"" + leaflet.name + "\">\n";
+    text += "    " + element("Face_file_path", folder + leaflet.name + ".vtu");
+    text += "    " + element("Open_motion_file_path", folder + leaflet.name + "_open.dat");
+    text += "    " + element("Close_motion_file_path", folder + leaflet.name + "_close.dat");
+    text += "  </Add_URIS_face>\n";
+  }
+  text += "  " + element("Mesh_scale_factor", "1.0");
+  text += "  " + element("Thickness", half_thickness);
+  text += "  " + element("Closed_thickness", half_thickness);
+  text += "  " + element("Resistance", shortest(*options.resistance));
+  text += "  " + element("Valve_starts_as_closed", "true");
+  text += "  " + element("Invert_normal", "false");
+  text += "  " + element("Include_URIS_velocity", "true");
+  text += "  " + element("Positive_flow_normal_file_path", folder + "normal.dat");
+  return text + scaffold + "</Add_URIS_mesh>\n";
+}
+
+}  // namespace
+
+void export_uris(const Options &options) {
+  check_whole_folder(options.uris.folder, "--export-uris");
+  const UrisMotion motion = uris_motion_of(options);
+  UrisLeaflets leaflets(options, motion);
+  if (leaflets.n_left_out() > 0) {
+    warn(counted(leaflets.n_left_out(), "triangle") +
+         " left out, because the area is 0 in some frames and svMultiPhysics would divide by it");
+  }
+  check_shape(options, leaflets.valve(), !options.params_open.empty());
+  write_export(options, motion, leaflets);
+  if (!options.quiet) write_text("-", mesh_block(options, motion, leaflets));
+}
+
+}  // namespace riis::program

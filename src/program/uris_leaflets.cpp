@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/uris_leaflets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "common/array_view.hpp"
+#include "program/numbers.hpp"
+#include "program/refusal.hpp"
+#include "program/valve_file.hpp"
+#include "program/valve_source.hpp"
+
+namespace riis::program {
+namespace {
+
+// A text file of so many triangles, in any number of frames, is beyond use.
+constexpr std::int64_t most_triangles = 2000000;
+
+std::string name_of_leaflet(const std::string &valve, std::int32_t id) {
+  static const std::map<std::string, std::vector<const char *>> known = {
+      {"aortic", {"right", "left", "non_coronary"}},
+      {"trileaflet", {"right", "left", "non_coronary"}},
+      {"mitral", {"anterior", "posterior"}},
+      {"bileaflet", {"positive", "negative", "housing"}}};
+  const auto of_kind = known.find(valve);
+  const auto i = static_cast<std::size_t>(id);
+  if (of_kind != known.end() && i < of_kind->second.size()) return of_kind->second[i];
+  return "leaflet_" + std::to_string(id);
+}
+
+std::array<double, 3> twice_area(const double *xyz, const Corners &corners) {
+  const double *a = xyz + 3 * corners[0], *b = xyz + 3 * corners[1], *c = xyz + 3 * corners[2];
+  const double u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+Surface fixed_surface(const Options &options, const riis_valve *valve, const std::string &subject) {
+  riis_surface_options how = options.surface_options;
+  how.triangulation = RIIS_TRIANGULATION_FIXED;
+  riis_surface *surface = nullptr;
+  check(riis_surface_create(valve, &how, &surface), subject);
+  return Surface(surface);
+}
+
+template <class Use>
+void for_all_frames(const UrisMotion &motion, const Use &use) {
+  for (const std::vector<double> *openings : {&motion.opening, &motion.closing})
+    for (const double opening : *openings) use(opening);
+}
+
+}  // namespace
+
+UrisLeaflets::UrisLeaflets(const Options &options, const UrisMotion &motion)
+    : subject_(is_valve_file(options.valve) ? options.valve : ""), valve_(make_valve(options)), net_(0, {}) {
+  check(riis_valve_set_scalar(valve_.get(), "opening", motion.opening[0]), subject_);
+  surface_ = fixed_surface(options, valve_.get(), subject_);
+  riis_surface_info info;
+  check(riis_surface_get_info(surface_.get(), &info, sizeof info));
+  half_thickness_ = info.half_thickness;
+  double largest = half_thickness_;
+  for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(info.lower[k]), std::abs(info.upper[k])});
+  grid_ = uris_grid(largest);
+  if (options.valve == "bileaflet") housing_ = RIIS_LEAFLET_HOUSING;
+  std::vector<FinerTriangles::Triangle> lasting = lasting_triangles(motion);
+  net_ = FinerTriangles(info.n_vertices, std::move(lasting));
+  refine(motion, options.uris.largest_edge);
+  find_forward(motion.opening[0]);
+  part(options);
+  add_boxes(motion);
+}
+
+std::vector<double> UrisLeaflets::vertices_at(double opening) {
+  open_to(opening);
+  const riis_triangles triangles = triangles_of(surface_.get());
+  std::vector<double> all(triangles.xyz, triangles.xyz + 3 * triangles.n_vertices);
+  net_.append_middles(all);
+  for (double &x : all) x = std::nearbyint(x / grid_) * grid_;
+  for (const UrisBox &box : boxes_) box.append_nodes(all);
+  return all;
+}
+
+std::int64_t UrisLeaflets::n_triangles() const { return view(net_.triangles()).size(); }
+
+void UrisLeaflets::open_to(double opening) {
+  check(riis_valve_set_scalar(valve_.get(), "opening", opening), subject_);
+  check(riis_surface_update(surface_.get(), valve_.get(), nullptr), subject_);
+}
+
+// A triangle without area has no normal, and the solver would divide by zero there.
+std::vector<FinerTriangles::Triangle> UrisLeaflets::lasting_triangles(const UrisMotion &motion) {
+  struct Seen {
+    FinerTriangles::Triangle triangle;
+    std::size_t n_frames = 0;
+  };
+  std::vector<Seen> seen;  // by triangle_id
+  std::size_t n_frames = 0;
+  for_all_frames(motion, [&](double opening) {
+    open_to(opening);
+    const riis_triangles triangles = triangles_of(surface_.get());
+    const std::int64_t n = triangles.n_triangles;
+    const std::int64_t *const vertex = triangles.vertex_id, *const id = triangles.triangle_id;
+    if (n > 0 && id[n - 1] >= view(seen).size()) resize(seen, id[n - 1] + 1);
+    for (std::int64_t i = 0; i < n; ++i) {
+      Seen &of = view(seen)[id[i]];
+      of.triangle = {{vertex[3 * i], vertex[3 * i + 1], vertex[3 * i + 2]}, triangles.leaflet_id[i]};
+      ++of.n_frames;
+    }
+    ++n_frames;
+  });
+  std::vector<FinerTriangles::Triangle> lasting;
+  for (const Seen &of : seen) {
+    if (of.n_frames == n_frames) lasting.push_back(of.triangle);
+    n_left_out_ += of.n_frames > 0 && of.n_frames < n_frames;
+  }
+  return lasting;
+}
+
+void UrisLeaflets::refine(const UrisMotion &motion, double largest_edge) {
+  do {
+    if (n_triangles() > most_triangles) {
+      throw Refusal{exit_wrong_usage, "--largest-edge: " + shortest(largest_edge) + " makes more than " +
+                                          std::to_string(most_triangles) + " triangles"};
+    }
+    for_all_frames(motion, [&](double opening) { net_.measure(vertices_at(opening)); });
+    longest_edge_ = net_.longest_edge();
+  } while (largest_edge > 0 && net_.halve_longer(largest_edge));
+}
+
+void UrisLeaflets::find_forward(double opening) {
+  const std::vector<double> xyz = vertices_at(opening);
+  for (const auto &[corners, leaflet] : net_.triangles()) {
+    if (leaflet == housing_) continue;
+    const std::array<double, 3> area = twice_area(xyz.data(), corners);
+    for (std::size_t k = 0; k < 3; ++k) forward_[k] += area[k];
+  }
+  const double length = std::hypot(forward_[0], forward_[1], forward_[2]);
+  if (!(length > 0))
+    throw Refusal{exit_bad_data, (subject_.empty() ? "" : subject_ + ": ") +
+                                     "the leaflets' normals cancel, so they tell no direction of forward flow"};
+  for (double &x : forward_) x /= length;
+}
+
+void UrisLeaflets::part(const Options &options) {
+  std::map<std::int32_t, std::vector<Corners>> by_leaflet;
+  for (const auto &[corners, leaflet] : net_.triangles()) by_leaflet[leaflet].push_back(corners);
+  for (auto &[id, triangles] : by_leaflet) {
+    UrisLeaflet leaflet{name_of_leaflet(options.valve, id), {}, std::move(triangles), id == housing_};
+    for (const Corners &corners : leaflet.triangles)
+      leaflet.nodes.insert(leaflet.nodes.end(), corners.begin(), corners.end());
+    std::sort(leaflet.nodes.begin(), leaflet.nodes.end());
+    leaflet.nodes.erase(std::unique(leaflet.nodes.begin(), leaflet.nodes.end()), leaflet.nodes.end());
+    for (Corners &corners : leaflet.triangles)
+      for (std::int64_t &vertex : corners)
+        vertex = std::lower_bound(leaflet.nodes.begin(), leaflet.nodes.end(), vertex) - leaflet.nodes.begin();
+    leaflets_.push_back(std::move(leaflet));
+  }
+}
+
+// For a housing the solver looks only in the housing's own box.
+void UrisLeaflets::add_boxes(const UrisMotion &motion) {
+  std::vector<Corners> moving, resting;
+  for (const auto &[corners, leaflet] : net_.triangles()) (leaflet == housing_ ? resting : moving).push_back(corners);
+  const std::vector<double> first = vertices_at(motion.opening.front()), last = vertices_at(motion.opening.back());
+  const auto add = [&](const std::vector<Corners> &triangles, UrisLeaflet &face) {
+    boxes_.emplace_back(triangles, first, last, half_thickness_, grid_);
+    const std::int64_t vertex =
+                           static_cast<std::int64_t>(first.size()) / 3 + UrisBox::n_nodes * (view(boxes_).size() - 1),
+                       node = view(face.nodes).size();
+    for (std::int64_t i = 0; i < UrisBox::n_nodes; ++i) face.nodes.push_back(vertex + i);
+    for (std::int64_t i = 0; i < UrisBox::n_nodes; i += 3)
+      face.triangles.push_back({node + i, node + i + 1, node + i + 2});
+  };
+  for (UrisLeaflet &leaflet : leaflets_)
+    if (leaflet.is_scaffold) add(resting, leaflet);
+  // The box comes last, because the solver keeps the first of equally near triangles.
+  leaflets_.push_back({"box", {}, {}, false});
+  add(moving, leaflets_.back());
+}
+
+}  // namespace riis::program

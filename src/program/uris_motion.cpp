@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/uris_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "program/cycle_file.hpp"
+#include "program/numbers.hpp"
+#include "program/opening_law.hpp"
+#include "program/refusal.hpp"
+#include "program/times.hpp"
+#include "program/warnings.hpp"
+
+namespace riis::program {
+namespace {
+
+struct Spans {
+  TimeSpan opening, closing;
+};
+
+// The keys of a cycle, one period after the other if it has a period.
+class Keys {
+ public:
+  explicit Keys(const OpeningTable &table) : table_(table) {}
+  // Two periods have every way from one key to another of the cycle.
+  std::size_t size() const { return table_.times.size() * (table_.period > 0 ? 2 : 1); }
+  double time(std::size_t i) const { return table_.times[i % n()] + (i < n() ? 0 : table_.period); }
+  double opening(std::size_t i) const { return table_.openings[i % n()]; }
+
+ private:
+  std::size_t n() const { return table_.times.size(); }
+  const OpeningTable &table_;
+};
+
+// Finds the first way between keys of two openings: from the last key of the one to the first key of the other after it.
+std::optional<TimeSpan> way_between(const Keys &keys, double from, double to) {
+  std::optional<double> start;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (keys.opening(i) == from) start = keys.time(i);
+    if (keys.opening(i) == to && start) return TimeSpan{*start, keys.time(i)};
+  }
+  return std::nullopt;
+}
+
+TimeSpan found(const std::optional<TimeSpan> &way, const std::string &path, const char *verb, const char *option) {
+  if (way) return *way;
+  throw Refusal{exit_bad_data,
+                path + ": the valve does not " + verb + " there: no key of its " +
+                    (option == std::string("--opening-span") ? "largest opening follows one of the least"
+                                                             : "least opening follows one of the largest") +
+                    "; --period or " + option + " may say more"};
+}
+
+Spans spans_of_cycle(const Options &options, const OpeningTable &table) {
+  const UrisOptions &uris = options.uris;
+  if (uris.opening_span && uris.closing_span) return {*uris.opening_span, *uris.closing_span};
+  const auto [least, largest] = std::minmax_element(table.openings.begin(), table.openings.end());
+  if (*least == *largest)
+    throw Refusal{exit_bad_data, options.series.cycle + ": the opening is " + shortest(*least) + " throughout"};
+  const Keys keys(table);
+  const auto span = [&](const std::optional<TimeSpan> &given, double from, double to, const char *verb,
+                        const char *option) {
+    return given ? *given : found(way_between(keys, from, to), options.series.cycle, verb, option);
+  };
+  return {span(uris.opening_span, *least, *largest, "open", "--opening-span"),
+          span(uris.closing_span, *largest, *least, "close", "--closing-span")};
+}
+
+std::vector<double> frame_times(const TimeSpan &span, double step, const char *what) {
+  const double length = span.stop - span.start;
+  if (step > length * (1 + 1e-9)) {
+    throw Refusal{exit_wrong_usage,
+                  "--time-step: " + shortest(step) + " is longer than the " + what + ", " + shortest(length)};
+  }
+  // A step that divides the span makes no short step by rounding.
+  const double n_steps = std::max(1.0, std::ceil(length / step * (1 - 1e-12) - 1e-9));
+  if (n_steps >= static_cast<double>(most_times)) {
+    throw Refusal{exit_wrong_usage, "--time-step: " + shortest(step) + " makes " + shortest(n_steps + 1) +
+                                        " frames of the " + what + "; at most " + std::to_string(most_times) +
+                                        " are written"};
+  }
+  std::vector<double> times;
+  for (double i = 0; i < n_steps; ++i) times.push_back(span.start + i * step);
+  times.push_back(span.stop);
+  return times;
+}
+
+std::vector<double> openings_at(const OpeningLaw &law, const std::vector<double> &times) {
+  std::vector<double> openings;
+  for (const double time : times) openings.push_back(law.at(time));
+  return openings;
+}
+
+struct LawWithSpans {
+  OpeningLaw law;
+  Spans spans;
+};
+
+LawWithSpans law_of_cycle(const Options &options) {
+  OpeningTable table = read_cycle(options.series.cycle);
+  table.period = options.period;
+  table.interpolation = options.series.interpolation;
+  const Spans spans = spans_of_cycle(options, table);
+  return {OpeningLaw(table, options.series.cycle), spans};
+}
+
+LawWithSpans law_of_seconds(const UrisOptions &uris) {
+  riis_opening_times times;
+  check(riis_opening_times_init(&times, sizeof times));
+  // The valve is open at 0, so that both ends of both ramps are met exactly.
+  times.opening_start = -*uris.opening_duration;
+  times.opening_duration = *uris.opening_duration;
+  times.closing_start = 0;
+  times.closing_duration = *uris.closing_duration;
+  return {OpeningLaw(times, "--opening-seconds"), {{times.opening_start, 0}, {0, times.closing_duration}}};
+}
+
+void check_way(const std::vector<double> &openings, bool opens, const TimeSpan &span) {
+  const double first = openings.front(), last = openings.back();
+  if (opens ? last > first : last < first) return;
+  throw Refusal{exit_wrong_usage, std::string(opens ? "--opening-span: " : "--closing-span: ") + shortest(span.start) +
+                                      ":" + shortest(span.stop) + " takes the valve from opening " + shortest(first) +
+                                      " to " + shortest(last)};
+}
+
+void warn_of_jump(const char *from, double before, const char *to, double after) {
+  if (std::abs(after - before) <= 1e-9) return;
+  warn(std::string("the leaflets will jump: the ") + from + " ends at opening " + shortest(before) + ", the " + to +
+       " begins at " + shortest(after));
+}
+
+}  // namespace
+
+UrisMotion uris_motion_of(const Options &options) {
+  const LawWithSpans motion = options.series.cycle.empty() ? law_of_seconds(options.uris) : law_of_cycle(options);
+  const double step = *options.uris.time_step;
+  UrisMotion frames{openings_at(motion.law, frame_times(motion.spans.opening, step, "opening")),
+                    openings_at(motion.law, frame_times(motion.spans.closing, step, "closing"))};
+  check_way(frames.opening, true, motion.spans.opening);
+  check_way(frames.closing, false, motion.spans.closing);
+  warn_of_jump("opening", frames.opening.back(), "closing", frames.closing.front());
+  warn_of_jump("closing", frames.closing.back(), "opening", frames.opening.front());
+  return frames;
+}
+
+}  // namespace riis::program

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: a JSON file of boundary curves and patches. Out: a valve made of them, and its open state if the file has one.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "program/handles.hpp"
+
+namespace riis::program {
+
+// Tells whether --valve is a file, which ends in .json, and not a kind.
+bool is_valve_file(const std::string &valve);
+
+// {"curves": {"edge": [[0, 0, 0], [1, 0, 0]], ...},
+//  "patches": [{"v0": "edge", "v1": "-rim", "u0": ..., "u1": ..., "leaflet": 0}, ...],
+//  "open": {"curves": {"edge": ...}}}
+// 1 point is a side collapsed to it; 2, 3, 4 are the control points of a curve of degree 1, 2, 3. A minus runs the curve the
+// other way. "leaflet" (0) and "open" may be left out. Refusals name the curve, or the patch by its number from 0.
+class ValveFile {
+ public:
+  explicit ValveFile(const std::string &path);
+  riis_valve *valve() const { return valve_.get(); }
+  Valve take_valve() { return std::move(valve_); }
+  // Refuses an opening that needs an open state if the file has none. The library would name another valve as the cure.
+  void check_opening() const;
+
+ private:
+  std::string path_;
+  Valve valve_;
+  bool can_open_ = false;
+};
+
+}  // namespace riis::program

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: the description of a valve, from the command line or from a case. Out: the valve or the file with its surface, and the
+// surface.
+#pragma once
+
+#include <string>
+
+#include "program/command_line.hpp"
+#include "program/handles.hpp"
+#include "program/opening_law.hpp"
+#include "program/report.hpp"
+
+namespace riis::program {
+
+// One valve of a run.
+struct ValveSource {
+  Options options;   // as the command line of this valve alone would give them
+  Valve valve;       // null if a file holds the surface
+  SurfaceFile file;  // null for a valve, and for a surface that moves
+  OpeningLaw law{0.0};
+  Keyframes keyframes{};  // of a surface that moves
+  bool has_open_state = false;  // that the user chose
+  std::string subject{};  // goes before refusals, such as the place in a case; "" for the command line
+};
+
+// subject goes before the refusal of a kind.
+Valve make_kind(const std::string &kind, const std::string &subject);
+// Makes the valve of --valve, --params and the options that go with them.
+Valve make_valve(const Options &options);
+double opening_of(const riis_valve *valve);
+Valve copy_of(const riis_valve *valve);
+// Returns "" if the valve opens, or else why it has one state, as the library says it. The options are those of surfaces that
+// the valve is fit for at 0. Leaves the opening at 1.
+std::string why_closed(riis_valve *valve, const riis_surface_options &how);
+
+// Adds to the component's refusal of a mesh the command that makes a readable file of it.
+void check_mesh_read(riis_status status, const std::string &path);
+// Reads the surface of --surface and --leaflets.
+SurfaceFile read_surface(const Options &options, Seconds &seconds);
+
+// Which velocities a surface from a file has.
+enum class FileVelocity { none, zero };
+Surface make_surface(const ValveSource &source, FileVelocity velocity);
+
+int64_t count_leaflets(const riis_surface *surface);
+
+}  // namespace riis::program

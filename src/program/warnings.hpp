@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// All warnings of the program. In: the number of marks and all sizes. Out: the lines that tell what looks wrong and what to write
+// instead.
+#pragma once
+
+#include <riis/riis_vtk.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "program/command_line.hpp"
+
+namespace riis::program {
+
+struct Box {
+  double lower[3], upper[3];
+  double largest_side() const;
+};
+
+// A marking with the sizes of its mesh and surface, in the mesh's unit.
+struct Situation {
+  const Options &options;
+  int64_t n_nodes, n_marked;
+  Box mesh, surface;
+  double median_edge;  // of the mesh; 0 if unknown
+  double area;         // of the surface
+  double half_thickness;
+};
+
+Situation situation_of(const Options &options, const riis_surface_info &surface, const riis_mark_stats &marks,
+                       const riis_vtk_mesh *mesh);
+
+// What may be wrong, in the order in which to mend it: a wrong unit also makes the half thickness wrong, and either makes leaks.
+enum class Cause { units, half_thickness, place, leaks };
+
+// Texts without line breaks. The advice begins with the punctuation after the text, such as ": write --unit m".
+struct Warning {
+  Cause cause;
+  std::string text, advice;
+};
+
+// Returns nothing if nothing looks wrong.
+std::optional<Warning> warning_of(const Situation &situation);
+
+// Prints the line on stderr and counts it for --strict. --quiet does not silence it, because wrong marks look like right ones.
+void warn(const std::string &text);
+// Prints the texts of all warnings, but the advice of the first cause only. Later calls leave out the advice on later causes:
+// two pieces of advice could contradict each other, and the first may mend all.
+void warn(std::vector<Warning> warnings);
+std::int64_t n_warnings();
+
+// Returns the coordinates of a place for a warning, with the unit if the user named it. They are rounded to
+// a tenth of the edge's length or finer, so that they tell its ends apart. If the length is 0, they have six digits.
+std::string place_text(const Options &options, const double *point, double edge);
+
+}  // namespace riis::program

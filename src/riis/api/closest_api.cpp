@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// riis_closest_*: argument checks around closest points.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "api/handles.hpp"
+#include "api/structs.hpp"
+#include "common/array_view.hpp"
+#include "base/errors.hpp"
+#include "base/integer_array.hpp"
+#include "geometry/point_triangle.hpp"
+#include "parallel/parallel_for.hpp"
+
+using riis::guarded;
+using riis::require;
+
+namespace {
+
+const riis_closest_options default_options{sizeof(riis_closest_options),
+                                           std::numeric_limits<double>::infinity(),
+                                           RIIS_FAR_DISTANCE,
+                                           nullptr,
+                                           0,
+                                           nullptr,
+                                           0,
+                                           0};
+const riis_closest_arrays default_arrays{
+    sizeof(riis_closest_arrays), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
+
+// Writes entry i of the wanted arrays for a point whose closest triangle was found.
+void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Surface &content, riis::Vec3 p,
+                   const riis::ClosestTriangle &found) {
+  const riis::TriangleSet &set = content.triangles();
+  if (to.distance) to.distance[i] = std::sqrt(found.distance_sq);
+  if (to.triangle_id) to.triangle_id[i] = riis::view(set.triangle_id)[found.triangle];
+  if (to.leaflet_id) to.leaflet_id[i] = riis::view(set.leaflet_id)[found.triangle];
+  const std::array<riis::Vec3, 3> corners = set.corners(found.triangle);
+  if (to.normal) riis::put_vector(to.normal, i, riis::triangle_normal(corners));
+  if (to.point || to.barycentric || to.side) {
+    const riis::PointOnTriangle on = riis::closest_point_on_triangle(p, corners[0], corners[1], corners[2]);
+    if (to.point) riis::put_vector(to.point, i, on.point);
+    if (to.barycentric) riis::put_vector(to.barycentric, i, {on.barycentric[0], on.barycentric[1], on.barycentric[2]});
+    if (to.side)
+      to.side[i] = riis::side_of(p - on.point, content.pseudonormals().at(found.triangle, on.barycentric).normal);
+  }
+}
+
+// Writes entry i for a closest point on the patches. There is no triangle id and no side.
+void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::PatchDistance &method,
+                   const riis::ClosestOnPatches &found) {
+  const riis::PlacedPatch &patch = riis::view(method.patches().patches)[found.patch];
+  if (to.distance) to.distance[i] = std::sqrt(found.distance_sq);
+  if (to.triangle_id) to.triangle_id[i] = -1;
+  if (to.leaflet_id) to.leaflet_id[i] = patch.leaflet_id;
+  if (to.side) to.side[i] = 0;
+  if (to.point) riis::put_vector(to.point, i, found.point);
+  if (to.barycentric) riis::put_vector(to.barycentric, i, {0, 0, 0});
+  if (to.normal) riis::put_vector(to.normal, i, patch.normal_at(found.u, found.v));
+}
+
+// Refuses arrays that need triangles: a caller who gives them means to use them.
+void refuse_what_is_of_triangles(const riis_closest_arrays &to, const riis::PatchDistance &method) {
+  for (const char *name : {to.barycentric ? "barycentric" : nullptr, to.side ? "side" : nullptr})
+    if (name)
+      riis::fail(RIIS_INVALID_ARGUMENT, "arrays.", name, " is given, but the surface's distances are by ",
+                 method.name(), ": that is of triangles");
+}
+
+void write_far(const riis_closest_arrays &to, std::int64_t i, double far_distance) {
+  if (to.distance) to.distance[i] = far_distance;
+  if (to.triangle_id) to.triangle_id[i] = -1;
+  if (to.leaflet_id) to.leaflet_id[i] = -1;
+  if (to.side) to.side[i] = 0;
+  for (double *vectors : {to.normal, to.point, to.barycentric})
+    if (vectors) riis::put_vector(vectors, i, {0, 0, 0});
+}
+
+double checked_limit(const riis_closest_options &options) {
+  if (!(options.distance_limit >= 0))
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is ", options.distance_limit, "; it must be at least 0");
+  // Without a limit no point is far, so far_distance does not matter.
+  if (std::isfinite(options.distance_limit))
+    riis::check_far_distance("options.far_distance", options.far_distance, options.distance_limit);
+  return options.distance_limit;
+}
+
+// The wanted points: all points, a mask's points, or a list's points.
+class WantedPoints {
+ public:
+  template <class Points>
+  WantedPoints(const riis_closest_options &options, const Points &points)
+      : mask_(options.point_mask), ids_(options.point_ids), n_(points.n) {
+    if (!ids_) {
+      if (options.n_point_ids != 0)
+        riis::fail(RIIS_INVALID_ARGUMENT, "options.n_point_ids is ", options.n_point_ids,
+                   ", but options.point_ids is NULL");
+      if (n_ > 0) riis::check_points(points, "point", RIIS_INVALID_ARGUMENT, "points.");
+      return;
+    }
+    if (mask_) riis::fail(RIIS_INVALID_ARGUMENT, "options.point_ids and options.point_mask are both given");
+    if (options.n_point_ids < 0 || options.n_point_ids > points.n)
+      riis::fail(RIIS_INVALID_ARGUMENT, "options.n_point_ids is ", options.n_point_ids,
+                 "; it must be from 0 to points.n_points, ", points.n);
+    n_ = options.n_point_ids;
+    if (n_ == 0) return;
+    riis::check_pointers(points, "point", "points.");
+    std::int64_t last = -1;
+    for (std::int64_t k = 0; k < n_; ++k) {
+      const std::int64_t id = ids_[k];
+      if (id <= last || id >= points.n)
+        riis::fail(RIIS_INVALID_ARGUMENT, "options.point_ids: entry ", k, " is ", id,
+                   "; it must be above the entry before, ", last, ", and below points.n_points, ", points.n);
+      riis::check_point(points, id, "point", RIIS_INVALID_ARGUMENT);
+      last = id;
+    }
+  }
+
+  std::int64_t n() const { return n_; }
+  // Returns the number of the k-th point.
+  std::int64_t id(std::int64_t k) const { return ids_ ? ids_[k] : k; }
+  bool is_wanted(std::int64_t id) const { return !mask_ || mask_[id] != 0; }
+
+ private:
+  const std::uint8_t *mask_;
+  const std::int64_t *ids_;
+  std::int64_t n_;
+};
+
+// Writes the wanted entries of the arrays for the points, whose options were checked.
+template <class Points>
+void find_closest(const riis::Surface &content, const Points &points, const riis_closest_options &options, double limit,
+                  const riis_closest_arrays &to) {
+  const WantedPoints wanted(options, points);
+  if (wanted.n() == 0) return;
+  const int n_threads = riis::threads_for(options.n_threads, "options.n_threads", wanted.n(), riis::points_per_thread);
+  // If memory runs out here, the arrays are still untouched.
+  if (to.side) content.pseudonormals();
+  // write_found(i) returns false where nothing is within the limit.
+  const auto for_each_point = [&](const auto &write_found) {
+    constexpr std::int64_t points_per_block = 512;
+    riis::parallel_for_ranges(wanted.n(), points_per_block, n_threads, [&](const riis::Range &range, int) {
+      for (std::int64_t k = range.begin; k < range.end; ++k) {
+        const std::int64_t i = wanted.id(k);
+        if (wanted.is_wanted(i) && !write_found(i)) write_far(to, i, options.far_distance);
+      }
+    });
+  };
+  if (const riis::PatchDistance *method = content.other_distance()) {
+    for_each_point([&](std::int64_t i) {
+      const riis::ClosestOnPatches found = method->closest(points[i], limit);
+      if (found.patch >= 0) write_closest(to, i, *method, found);
+      return found.patch >= 0;
+    });
+  } else {
+    for_each_point([&](std::int64_t i) {
+      const riis::ClosestTriangle found = content.scene().closest(points[i], limit);
+      if (found.triangle >= 0) write_closest(to, i, content, points[i], found);
+      return found.triangle >= 0;
+    });
+  }
+}
+
+}  // namespace
+
+extern "C" {
+
+riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
+                               int64_t struct_size) {
+  return guarded([&] {
+    const riis::Surface &content = riis::content_of(surface);
+    require(point, "point");
+    riis::check_points(riis::StridedPoints{1, point, point + 1, point + 2, 1}, "point", RIIS_INVALID_ARGUMENT);
+    const riis::Vec3 p{point[0], point[1], point[2]};
+    const double no_limit = std::numeric_limits<double>::infinity();
+    riis_closest answer{};
+    const riis_closest_arrays to{sizeof to,     &answer.distance,    answer.point,       answer.barycentric,
+                                 answer.normal, &answer.triangle_id, &answer.leaflet_id, &answer.side};
+    if (const riis::PatchDistance *method = content.other_distance())
+      write_closest(to, 0, *method, method->closest(p, no_limit));
+    else
+      write_closest(to, 0, content, p, content.scene().closest(p, no_limit));
+    riis::write_struct(closest, struct_size, "closest", answer);
+  });
+}
+
+riis_status riis_closest_options_init(riis_closest_options *options, int64_t struct_size) {
+  return guarded([&] { riis::init_struct(options, struct_size, "options", default_options); });
+}
+
+riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64_t struct_size) {
+  return guarded([&] { riis::init_struct(arrays, struct_size, "arrays", default_arrays); });
+}
+
+riis_status riis_closest_points(const riis_surface *surface, const riis_points *points,
+                                const riis_closest_options *options, const riis_closest_arrays *arrays) {
+  return guarded([&] {
+    const riis::Surface &content = riis::content_of(surface);
+    const riis_points from = riis::completed(require(points, "points"), "points", riis::default_points);
+    const riis_closest_options whole = riis::completed(options, "options", default_options);
+    const riis_closest_arrays to = riis::completed(require(arrays, "arrays"), "arrays", default_arrays);
+    if (from.n_points < 0)
+      riis::fail(RIIS_INVALID_ARGUMENT, "points.n_points is ", from.n_points, "; it must be at least 0");
+    riis::check_bits("points.real_bits", from.real_bits);
+    riis::check_reserved("points.reserved", from.reserved);
+    riis::check_threads(whole.n_threads, "options.n_threads");
+    riis::check_reserved("options.reserved", whole.reserved);
+    const double limit = checked_limit(whole);
+    if (const riis::PatchDistance *method = content.other_distance()) refuse_what_is_of_triangles(to, *method);
+    riis::with_points(from.n_points, {from.x, from.y, from.z}, from.stride, from.real_bits,
+                      [&](const auto &given) { find_closest(content, given, whole, limit, to); });
+  });
+}
+}

@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: Apache-2.0
+// riis_surface_*: argument checks around the pipeline (pipeline/make_surface.hpp).
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "api/handles.hpp"
+#include "api/structs.hpp"
+#include "common/array_view.hpp"
+#include "base/errors.hpp"
+#include "base/integer_array.hpp"
+#include "base/ranges.hpp"
+#include "parallel/parallel_for.hpp"
+#include "pipeline/make_surface.hpp"
+
+using riis::check_range;
+using riis::guarded;
+using riis::require;
+using riis::require_handle;
+
+namespace {
+
+const riis_surface_options default_options{sizeof(riis_surface_options),
+                                           RIIS_AUTO,
+                                           0.05,
+                                           1.0,
+                                           {0, 0, 1},
+                                           0,
+                                           {0, 0, 0},
+                                           RIIS_AUTO,
+                                           RIIS_MEASURE_TRIANGLES,
+                                           RIIS_TRIANGULATION_ADAPTED,
+                                           RIIS_ZERO_AREA_REFUSE,
+                                           0,
+                                           0,
+                                           0};
+const riis_surface_arrays default_arrays{sizeof(riis_surface_arrays),
+                                         0,
+                                         nullptr,
+                                         nullptr,
+                                         nullptr,
+                                         1,
+                                         nullptr,
+                                         nullptr,
+                                         nullptr,
+                                         1,
+                                         0,
+                                         nullptr,
+                                         nullptr,
+                                         3,
+                                         32,
+                                         0,
+                                         64};
+
+void check_flag(const char *name, std::int32_t value) {
+  if (value != 0 && value != 1)
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.", name, " is ", value, "; it must be 0 or 1");
+}
+
+// `name` is the name of the argument.
+void check_placement(const riis_surface_options &options, const char *name) {
+  check_range(name, "scale", options.scale, 1e-12, 1e12);
+  check_range(name, "rotation_angle", options.rotation_angle, -1e6, 1e6);
+  for (const double value : options.rotation_axis) check_range(name, "rotation_axis", value, -1e50, 1e50);
+  for (const double value : options.translation) check_range(name, "translation", value, -1e50, 1e50);
+  const double *axis = options.rotation_axis;
+  if (!(std::hypot(axis[0], axis[1], axis[2]) >= 1e-50))
+    riis::fail(RIIS_INVALID_ARGUMENT, name, ".rotation_axis is (", axis[0], ", ", axis[1], ", ", axis[2],
+               "); it must be at least 1e-50 long");
+}
+
+void check_options(const riis_surface_options &options) {
+  check_placement(options, "options");
+  if (options.half_thickness != RIIS_AUTO)
+    check_range("options", "half_thickness", options.half_thickness, 1e-50, 1e50);
+  check_range("options", "tolerance", options.tolerance, 1e-6, 1.0);
+  check_flag("zero_area", options.zero_area);
+  check_flag("flip_normals", options.flip_normals);
+  if (options.measure < RIIS_MEASURE_TRIANGLES || options.measure > RIIS_MEASURE_MINIMIZATION)
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.measure is ", options.measure, "; it must be one of RIIS_MEASURE_*");
+  if (options.triangulation < RIIS_TRIANGULATION_ADAPTED || options.triangulation > RIIS_TRIANGULATION_FIXED)
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.triangulation is ", options.triangulation,
+               "; it must be one of RIIS_TRIANGULATION_*");
+  riis::check_threads(options.n_threads, "options.n_threads");
+  if (options.measure_tolerance != RIIS_AUTO)
+    check_range("options", "measure_tolerance", options.measure_tolerance, 1e-6, 1.0);
+  riis::check_reserved("options.reserved", options.reserved);
+}
+
+riis::Placement placement_of(const riis_surface_options &options) {
+  const double *axis = options.rotation_axis, *t = options.translation;
+  // hypot scales before it squares, so very long and very short axes are safe.
+  const double size = std::hypot(axis[0], axis[1], axis[2]);
+  return {options.scale,
+          riis::rotation_about({axis[0] / size, axis[1] / size, axis[2] / size}, options.rotation_angle),
+          {t[0], t[1], t[2]}};
+}
+
+double half_thickness_of(const riis_surface_options &options) {
+  return options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
+}
+
+// Returns measure_tolerance * half_thickness. The tolerance stands in where measure_tolerance is RIIS_AUTO.
+double distance_error_of(const riis_surface_options &options) {
+  return half_thickness_of(options) *
+         (options.measure_tolerance == RIIS_AUTO ? options.tolerance : options.measure_tolerance);
+}
+
+// Refuses a translation so far that the rounding of coordinates would flatten the valve.
+void check_precision(const riis_surface_options &options, const char *name, double wanted) {
+  const double *t = options.translation;
+  const double largest = std::max({std::abs(t[0]), std::abs(t[1]), std::abs(t[2])});
+  if (largest * std::numeric_limits<double>::epsilon() > 1e-3 * wanted)
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.translation moves the valve by ", largest,
+               ", where coordinates round by more than a thousandth of ", name, " * half_thickness, ", wanted);
+}
+
+// The last content's size is the guide for options that leave the number open.
+int threads_for(const riis_surface &surface, const riis_surface_options &options) {
+  return riis::threads_for(options.n_threads, "options.n_threads",
+                           surface.surface ? surface.surface->triangles().n_triangles() : 0,
+                           riis::triangles_per_thread);
+}
+
+// A triangle takes some 300 bytes. Above this number the memory is worth more than the time to allocate it again.
+constexpr std::int64_t max_triangles_kept = 1'000'000;
+
+riis::SurfaceRequest request_of(const riis_surface &surface, const riis_surface_options &options) {
+  return {half_thickness_of(options), placement_of(options), options.flip_normals != 0, threads_for(surface, options)};
+}
+
+// Makes the new content aside and puts it in place at the end: a failure leaves the surface as it was.
+template <class Make>
+void fill(riis_surface &surface, const riis_surface_options &options, const Make &make) {
+  const riis::SurfaceRequest request = request_of(surface, options);
+  std::unique_ptr<riis::Surface> made = std::move(surface.before);
+  if (!made) made = std::make_unique<riis::Surface>();
+  const riis::SurfaceSeconds seconds = make(request, *made);
+  surface.before = std::exchange(surface.surface, std::move(made));
+  surface.options = options;
+  surface.seconds_triangles = seconds.triangles;
+  surface.seconds_scene = seconds.scene;
+  if (!surface.before) return;
+  surface.before->measure_by(nullptr, 0);
+  if (surface.before->triangles().n_triangles() > max_triangles_kept) surface.before.reset();
+}
+
+// The state before a moving update, and the arguments that it comes from.
+struct MotionArguments {
+  const riis_valve *valve_before;
+  double dt;
+  const riis_surface_options *options_before;
+};
+
+riis::ValveMotion motion_of(const MotionArguments &motion, const riis_surface_options &options_now) {
+  // A shorter or longer time is a mistake. Within these limits the velocity stays far from overflow.
+  if (!(std::abs(motion.dt) >= 1e-30 && std::abs(motion.dt) <= 1e30))
+    riis::fail(RIIS_INVALID_ARGUMENT, "dt is ", motion.dt,
+               "; it must be the time from valve_before to valve, from 1e-30 to 1e+30, or that much below 0");
+  const riis_surface_options before =
+      riis::completed(motion.options_before, "options_before", motion.options_before ? default_options : options_now);
+  check_placement(before, "options_before");
+  return {motion.valve_before->valve, placement_of(before), motion.dt};
+}
+
+void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_surface_options &options,
+                     const MotionArguments *motion = nullptr) {
+  check_options(options);
+  std::optional<riis::ValveMotion> valve_motion;
+  if (motion) valve_motion.emplace(motion_of(*motion, options));
+  const double triangle_error = options.tolerance * half_thickness_of(options);
+  check_precision(options, "tolerance", triangle_error);
+  const bool is_fixed = options.triangulation == RIIS_TRIANGULATION_FIXED;
+  std::unique_ptr<const riis::FixedTriangulation> newly_fixed;
+  if (is_fixed && !surface.fixed)
+    newly_fixed = std::make_unique<riis::FixedTriangulation>(valve->valve, triangle_error / options.scale,
+                                                             threads_for(surface, options));
+  const riis::FixedTriangulation *fixed = newly_fixed ? newly_fixed.get() : surface.fixed.get();
+  const riis::ValveAccuracy accuracy{triangle_error, options.measure, distance_error_of(options),
+                                     is_fixed ? fixed : nullptr};
+  if (options.measure != RIIS_MEASURE_TRIANGLES) check_precision(options, "measure_tolerance", accuracy.distance_error);
+  fill(surface, options, [&](const riis::SurfaceRequest &request, riis::Surface &made) {
+    return riis::make_surface(valve->valve, valve_motion ? &*valve_motion : nullptr, request, accuracy, made);
+  });
+  surface.faces.leaflet_id.clear();
+  if (!is_fixed) surface.fixed.reset();
+  if (newly_fixed) surface.fixed = std::move(newly_fixed);
+  surface.crossing_watch.look(valve->valve, *surface.surface, threads_for(surface, options));
+}
+
+// Checks all handles before the options. motion may be NULL.
+void update_from_valve(riis_surface *surface, const riis_valve *valve, const riis_surface_options *options,
+                       const MotionArguments *motion) {
+  require_handle(surface, "surface");
+  require_handle(valve, "valve");
+  if (motion) require_handle(motion->valve_before, "valve_before");
+  fill_from_valve(*surface, valve, riis::completed(options, "options", options ? default_options : surface->options),
+                  motion);
+}
+
+riis_surface_arrays completed(const riis_surface_arrays *arrays) {
+  return riis::completed(require(arrays, "arrays"), "arrays", default_arrays);
+}
+
+void fill_from_faces(riis_surface &surface, const riis::UserFaces &faces, const riis_surface_arrays &arrays,
+                     const riis_surface_options &options) {
+  check_options(options);
+  if (options.measure != RIIS_MEASURE_TRIANGLES)
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.measure is ", options.measure,
+               ", which works on patches, but a surface from arrays has triangles only: it must be "
+               "RIIS_MEASURE_TRIANGLES, 0");
+  if (options.triangulation != RIIS_TRIANGULATION_ADAPTED)
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.triangulation is ", options.triangulation,
+               ", which is for valves, but a surface from arrays has the caller's triangles: it must be "
+               "RIIS_TRIANGULATION_ADAPTED, 0");
+  fill(surface, options, [&](const riis::SurfaceRequest &request, riis::Surface &made) {
+    return riis::make_surface(faces, arrays, options.zero_area == RIIS_ZERO_AREA_SKIP, request, made);
+  });
+  surface.fixed.reset();
+}
+
+void fill_from_arrays(riis_surface &surface, const riis_surface_arrays &arrays, const riis_surface_options &options) {
+  riis::UserFaces faces = riis::faces_from_arrays(arrays, std::move(surface.faces_memory));
+  fill_from_faces(surface, faces, arrays, options);
+  surface.faces_memory = std::exchange(surface.faces, std::move(faces));
+}
+
+void update_from_arrays(riis_surface &surface, const riis_surface_arrays &arrays, const riis_surface_options &options) {
+  if (arrays.vertex_ids || arrays.n_faces != 0) return fill_from_arrays(surface, arrays, options);
+  if (surface.faces.leaflet_id.empty())
+    riis::fail(RIIS_INVALID_ARGUMENT,
+               "arrays.vertex_ids is NULL, but the surface was not made from arrays last: it has no faces to keep");
+  if (arrays.leaflet_id) riis::fail(RIIS_INVALID_ARGUMENT, "arrays.leaflet_id is given without faces: it must be NULL");
+  fill_from_faces(surface, surface.faces, arrays, options);
+}
+
+// The arrays of one time, in the surface's memory.
+void fill_from_keyframes(riis_surface &surface, const riis_keyframes *keyframes, double time, double dt,
+                         const riis_surface_options &options) {
+  const riis::Keyframes &frames = require_handle(keyframes, "keyframes")->keyframes;
+  frames.at(time, dt, surface.frame_xyz, surface.frame_velocity);
+  riis_surface_arrays arrays = default_arrays;
+  const double *xyz = surface.frame_xyz.data(), *velocity = surface.frame_velocity.data();
+  arrays.n_vertices = frames.faces().n_vertices;
+  arrays.x = xyz, arrays.y = xyz + 1, arrays.z = xyz + 2;
+  arrays.vx = velocity, arrays.vy = velocity + 1, arrays.vz = velocity + 2;
+  arrays.stride = arrays.velocity_stride = 3;
+  fill_from_faces(surface, frames.faces(), arrays, options);
+  surface.faces.leaflet_id.clear();
+}
+
+template <class Fill>
+void create(const riis_surface_options *options, riis_surface **surface, const Fill &fill_surface) {
+  require(surface, "surface");
+  auto made = std::make_unique<riis_surface>();
+  fill_surface(*made, riis::completed(options, "options", default_options));
+  *surface = made.release();
+}
+
+}  // namespace
+
+extern "C" {
+
+riis_status riis_surface_options_init(riis_surface_options *options, int64_t struct_size) {
+  return guarded([&] { riis::init_struct(options, struct_size, "options", default_options); });
+}
+
+riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size) {
+  return guarded([&] { riis::init_struct(arrays, struct_size, "arrays", default_arrays); });
+}
+
+riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options, riis_surface **surface) {
+  return guarded([&] {
+    create(options, surface, [&](riis_surface &made, const riis_surface_options &whole) {
+      require_handle(valve, "valve");
+      fill_from_valve(made, valve, whole);
+    });
+  });
+}
+
+riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays, const riis_surface_options *options,
+                                            riis_surface **surface) {
+  return guarded([&] {
+    create(options, surface, [&](riis_surface &made, const riis_surface_options &whole) {
+      fill_from_arrays(made, completed(arrays), whole);
+    });
+  });
+}
+
+riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve, const riis_surface_options *options) {
+  return guarded([&] { update_from_valve(surface, valve, options, nullptr); });
+}
+
+riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve, const riis_valve *valve_before,
+                                       double dt, const riis_surface_options *options,
+                                       const riis_surface_options *options_before) {
+  return guarded([&] {
+    const MotionArguments motion{valve_before, dt, options_before};
+    update_from_valve(surface, valve, options, &motion);
+  });
+}
+
+riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
+                                            const riis_surface_options *options) {
+  return guarded([&] {
+    require_handle(surface, "surface");
+    update_from_arrays(*surface, completed(arrays),
+                       riis::completed(options, "options", options ? default_options : surface->options));
+  });
+}
+
+riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time, double dt,
+                                               const riis_surface_options *options, riis_surface **surface) {
+  return guarded([&] {
+    create(options, surface, [&](riis_surface &made, const riis_surface_options &whole) {
+      fill_from_keyframes(made, keyframes, time, dt, whole);
+    });
+  });
+}
+
+riis_status riis_surface_update_from_keyframes(riis_surface *surface, const riis_keyframes *keyframes, double time,
+                                               double dt, const riis_surface_options *options) {
+  return guarded([&] {
+    require_handle(surface, "surface");
+    fill_from_keyframes(*surface, keyframes, time, dt,
+                        riis::completed(options, "options", options ? default_options : surface->options));
+  });
+}
+
+void riis_surface_destroy(riis_surface **surface) { riis::destroy_handle(surface, "surface"); }
+
+riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info, int64_t struct_size) {
+  return guarded([&] {
+    const riis::Surface &content = riis::content_of(surface);
+    const riis::TriangleSet &set = content.triangles();
+    const auto &[lower, upper] = content.scene().bounds();
+    riis::write_struct(info, struct_size, "info",
+                       riis_surface_info{set.n_vertices(),
+                                         set.n_triangles(),
+                                         set.n_zero_area,
+                                         content.half_thickness(),
+                                         content.area(),
+                                         {lower.x, lower.y, lower.z},
+                                         {upper.x, upper.y, upper.z},
+                                         surface->seconds_triangles,
+                                         surface->seconds_scene,
+                                         set.error_bound,
+                                         content.velocity_error_bound()});
+  });
+}
+
+riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangles *triangles, int64_t struct_size) {
+  return guarded([&] {
+    const riis::TriangleSet &set = riis::content_of(surface).triangles();
+    riis::write_struct(
+        triangles, struct_size, "triangles",
+        riis_triangles{set.n_vertices(), set.xyz.data(), set.uv.empty() ? nullptr : set.uv.data(),
+                       set.velocity.empty() ? nullptr : set.velocity.data(), set.n_triangles(), set.vertex_id.data(),
+                       set.triangle_id.data(), set.leaflet_id.data(), set.patch_id.data()});
+  });
+}
+}

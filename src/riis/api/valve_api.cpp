@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// riis_valve_*: argument checks around valve/.
+#include "api/handles.hpp"
+#include "api/structs.hpp"
+#include "common/array_view.hpp"
+#include "base/errors.hpp"
+#include "valve/user_patches.hpp"
+
+using riis::guarded;
+using riis::require;
+using riis::require_handle;
+
+namespace {
+
+const riis_patches default_patches{sizeof(riis_patches), 0, nullptr, nullptr, 0, nullptr, nullptr, nullptr, 0, 0};
+
+}  // namespace
+
+extern "C" {
+
+riis_status riis_valve_create(const char *kind, riis_valve **valve) {
+  return guarded([&] {
+    require(valve, "valve");
+    *valve = new riis_valve{{}, riis::Valve(riis::find_valve_kind(require(kind, "kind")))};
+  });
+}
+
+riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy) {
+  return guarded([&] {
+    require(copy, "copy");
+    *copy = new riis_valve{{}, require_handle(valve, "valve")->valve};
+  });
+}
+
+void riis_valve_destroy(riis_valve **valve) { riis::destroy_handle(valve, "valve"); }
+
+riis_status riis_valve_set(riis_valve *valve, const char *name, int64_t n_values, const double *values) {
+  return guarded([&] {
+    require_handle(valve, "valve");
+    require(name, "name");
+    require(values, "values");
+    valve->valve.set(name, n_values, values);
+  });
+}
+
+riis_status riis_valve_set_scalar(riis_valve *valve, const char *name, double value) {
+  return riis_valve_set(valve, name, 1, &value);
+}
+
+riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_values, double *values) {
+  return guarded([&] {
+    require_handle(valve, "valve");
+    require(name, "name");
+    require(values, "values");
+    valve->valve.get(name, n_values, values);
+  });
+}
+
+riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open) {
+  return guarded([&] { require_handle(valve, "valve")->valve.set_open_state(require_handle(open, "open")->valve); });
+}
+
+riis_status riis_patches_init(riis_patches *patches, int64_t struct_size) {
+  return guarded([&] { riis::init_struct(patches, struct_size, "patches", default_patches); });
+}
+
+riis_status riis_valve_create_from_patches(const riis_patches *patches, riis_valve **valve) {
+  return guarded([&] {
+    require(valve, "valve");
+    const riis_patches whole = riis::completed(require(patches, "patches"), "patches", default_patches);
+    *valve = new riis_valve{{}, riis::Valve(riis::patches_valve_kind(), riis::patches_from_arrays(whole))};
+  });
+}
+
+riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_t *n_parameters) {
+  return guarded([&] {
+    require_handle(valve, "valve");
+    *require(n_parameters, "n_parameters") = riis::view(valve->valve.kind().parameters).size();
+  });
+}
+
+riis_status riis_valve_get_parameter(const riis_valve *valve, int64_t parameter_id, riis_parameter *parameter,
+                                     int64_t struct_size) {
+  return guarded([&] {
+    require_handle(valve, "valve");
+    const auto &specs = valve->valve.kind().parameters;
+    if (parameter_id < 0 || parameter_id >= riis::view(specs).size())
+      riis::fail(RIIS_INVALID_ARGUMENT, "parameter_id is ", parameter_id, "; the ", valve->valve.kind().name,
+                 " valve has parameters 0 to ", specs.size() - 1);
+    const riis::ParameterSpec &spec = riis::view(specs)[parameter_id];
+    const auto &defaults = spec.default_values;
+    riis::write_struct(parameter, struct_size, "parameter",
+                       riis_parameter{spec.name.c_str(),
+                                      spec.unit,
+                                      spec.description,
+                                      spec.n_values,
+                                      {defaults[0], defaults[1], defaults[2]},
+                                      spec.minimum,
+                                      spec.maximum});
+  });
+}
+}

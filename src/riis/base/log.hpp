@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Messages go to the caller's log function, or nowhere.
+#pragma once
+
+#include <riis/riis.h>
+
+#include <cstdint>
+
+#include "common/message.hpp"
+
+namespace riis {
+
+// Returns whether there is a log function.
+bool is_logging() noexcept;
+
+void log_message(std::int32_t level, const Message &message) noexcept;
+
+template <class... Parts>
+void log_message(std::int32_t level, const Parts &...parts) noexcept {
+  log_message(level, Message(parts...));
+}
+
+// Sets the log function; NULL means silence. Any thread may call the functions of this file.
+void set_log_function(riis_log_function function, void *user_data) noexcept;
+
+}  // namespace riis

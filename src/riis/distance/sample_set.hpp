@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Distances by sampling (paper, 4.1 "Sampling"): the method finds the nearest of evenly spaced points S(u,v). Each
+// patch has as many as its width and height need (docs/theory.md, section 9).
+// In: placed patches, how far a distance may be off. Out: nearest samples.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/array_view.hpp"
+#include "distance/patch_distance.hpp"
+
+namespace riis {
+
+// The most samples that the library accepts. Each takes 24 bytes, and a little for the boxes around it.
+inline constexpr std::int64_t max_samples = 16'777'216;
+
+// s_u and s_v: samples stand at u = 0, 1/s_u, ..., 1 and v = 0, 1/s_v, ..., 1.
+struct SampleCounts {
+  std::int64_t u, v;
+  double n() const { return static_cast<double>(u + 1) * static_cast<double>(v + 1); }
+};
+
+// Bounds the distance of any S(u,v) from the sample nearest to it in u and in v. The bound is half the length of the
+// longest diagonal of parameter steps h_u, h_v in any tangent plane of S.
+double covering_radius(const QuadGrid &grid, double h_u, double h_v);
+
+// Returns the fewest samples that keep the covering radius within `radius`, in the proportion of the patch's width to
+// its height. They may be too many to have.
+SampleCounts samples_within(const QuadGrid &grid, double radius);
+
+class SampleSet final : public PatchDistance {
+ public:
+  // Distances are within max_error of the distances to the smooth surface, in placed units. The covering radius is
+  // max_error less the patches' own error. Fails with RIIS_LIMIT_EXCEEDED for more than max_samples.
+  SampleSet(PlacedPatches patches, double max_error);
+
+  ClosestOnPatches closest(Vec3 p, double limit) const override;
+  bool may_be_within(Vec3 p, double limit) const override;
+  bool is_of_fixed_points() const override { return true; }
+  const char *name() const override { return "sampling"; }
+
+  const std::vector<double> &xyz() const { return xyz_; }
+  std::int64_t n_samples() const { return view(xyz_).size() / 3; }
+
+ private:
+  static constexpr std::int64_t samples_per_leaf = 64;
+
+  // A box of samples or of two other boxes, of which the first follows it.
+  struct Node {
+    Bounds box;
+    std::int32_t second = -1;  // -1 for a leaf
+    std::int32_t leaf = -1;
+  };
+  // A block of a patch's samples, row by row.
+  struct Leaf {
+    std::int64_t first;  // position of its first sample
+    std::int32_t patch;
+    std::int32_t column, row, n_columns, n_rows;
+  };
+  struct Samples {
+    std::int32_t column, row, n_columns, n_rows;
+  };
+  struct Query;
+
+  std::int32_t add_patches(std::int32_t begin, std::int32_t end);
+  std::int32_t add_samples(std::int32_t patch, const Samples &samples);
+  void add_leaf(std::int32_t patch, const Samples &samples, Node &node);
+  void join(std::int32_t node, std::int32_t second);
+  void visit(std::int32_t node, Query &query) const;
+
+  std::vector<SampleCounts> counts_;  // of each patch
+  std::vector<double> xyz_;           // (3, n_samples), leaf after leaf
+  std::vector<Node> nodes_;
+  std::vector<Leaf> leaves_;
+};
+
+}  // namespace riis

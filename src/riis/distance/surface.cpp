@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "distance/surface.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/array_view.hpp"
+#include "geometry/point_triangle.hpp"
+
+namespace riis {
+namespace {
+
+// Sums block by block, so that less is lost by rounding.
+double area_of(const TriangleSet &set) {
+  const std::int64_t n = set.n_triangles();
+  constexpr std::int64_t triangles_per_block = 4096;
+  double area = 0;
+  for (std::int64_t first = 0; first < n; first += triangles_per_block) {
+    double of_block = 0;
+    for (std::int64_t i = first; i < std::min(n, first + triangles_per_block); ++i) {
+      const auto [a, b, c] = set.corners(i);
+      of_block += 0.5 * length(cross(b - a, c - a));
+    }
+    area += of_block;
+  }
+  return area;
+}
+
+}  // namespace
+
+void Surface::make(TriangleSet triangles, double half_thickness, int n_threads) {
+  triangles_ = std::move(triangles);
+  half_thickness_ = half_thickness;
+  area_.store(not_known, std::memory_order_relaxed);
+  pseudonormals_.store(nullptr, std::memory_order_relaxed);
+  pseudonormals_owner_.reset();
+  other_distance_.reset();
+  states_.reset();
+  velocity_error_bound_.store(not_known, std::memory_order_relaxed);
+  scene_.make(triangles_, n_threads);
+}
+
+void Surface::measure_by(std::unique_ptr<const PatchDistance> other_distance, double triangle_error) {
+  other_distance_ = std::move(other_distance);
+  triangle_error_ = triangle_error;
+}
+
+double Surface::area() const {
+  double area = area_.load(std::memory_order_relaxed);
+  if (area == not_known) area_.store(area = area_of(triangles_), std::memory_order_relaxed);
+  return area;
+}
+
+double Surface::velocity_error_bound() const {
+  double bound = velocity_error_bound_.load(std::memory_order_relaxed);
+  if (bound == not_known) {
+    bound = states_ ? riis::velocity_error_bound(*states_, triangles_.moved_grids) : 0;
+    velocity_error_bound_.store(bound, std::memory_order_relaxed);
+  }
+  return bound;
+}
+
+const Pseudonormals &Surface::make_pseudonormals() const {
+  const std::lock_guard<std::mutex> lock(pseudonormals_mutex_);
+  if (!pseudonormals_owner_) {
+    pseudonormals_owner_.emplace(triangles_);
+    pseudonormals_.store(&*pseudonormals_owner_, std::memory_order_release);
+  }
+  return *pseudonormals_owner_;
+}
+
+}  // namespace riis

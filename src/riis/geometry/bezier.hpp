@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Quadratic and cubic Bézier curves in space (paper, 3.2 "Curves").
+// In: control points. Out: points, derivatives, lengths, halves, bounds.
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "common/array_view.hpp"
+#include "base/recycled.hpp"
+#include "geometry/vec3.hpp"
+
+namespace riis {
+
+struct Bezier {
+  int degree;                   // 2 or 3
+  std::array<Vec3, 4> control;  // the first degree + 1 are used
+
+  static Bezier quadratic(Vec3 q0, Vec3 q1, Vec3 q2) { return {2, {q0, q1, q2, Vec3{0, 0, 0}}}; }
+  static Bezier cubic(Vec3 q0, Vec3 q1, Vec3 q2, Vec3 q3) { return {3, {q0, q1, q2, q3}}; }
+  static Bezier line(Vec3 q0, Vec3 q1) { return quadratic(q0, 0.5 * (q0 + q1), q1); }
+  // Returns a curve that never leaves its point: the collapsed side of a patch.
+  static Bezier point(Vec3 q) { return quadratic(q, q, q); }
+
+  Bezier reversed() const {
+    return degree == 2 ? quadratic(control[2], control[1], control[0])
+                       : cubic(control[3], control[2], control[1], control[0]);
+  }
+
+  Vec3 first() const { return control[0]; }
+  Vec3 last() const { return view(control)[degree]; }
+};
+
+// Returns B(t) for t in [0,1]; exactly the end points at 0 and 1.
+Vec3 evaluate(const Bezier &curve, double t);
+
+// Returns the first three derivatives by t.
+std::array<Vec3, 3> derivatives(const Bezier &curve, double t);
+
+// Returns dB/dt.
+Vec3 derivative(const Bezier &curve, double t);
+
+// Returns the length of the curve from parameter t0 to t1, t0 <= t1, by adaptive Gauss-Legendre quadrature of |B'|. The
+// relative error is about 1e-12.
+double arc_length(const Bezier &curve, double t0 = 0.0, double t1 = 1.0);
+
+// Returns the two parts left and right of t, by de Casteljau's algorithm.
+std::pair<Bezier, Bezier> split(const Bezier &curve, double t);
+
+// Returns the t in [0,1] that leaves the length `behind` of the curve behind it, 0 <= behind <= curve_length.
+// curve_length is the length of the whole curve; if it is 0, so is t.
+double parameter_at_length(const Bezier &curve, double curve_length, double behind);
+
+// Writes to t what parameter_at_length returns for ascending lengths behind. One pass over the curve takes a fraction of the time.
+void parameters_at_lengths(const Bezier &curve, double curve_length, const Vector<double> &behind, double *t);
+
+// Returns kappa, the largest distance of an inner control point to the segment from the first to the last. (The paper
+// measures to the line, which is 0/0 for a closed curve and blind to control points beyond the ends.)
+double flatness(const Bezier &curve);
+
+// Bounds the curvature everywhere on the curve; infinite if the curve may turn on the spot.
+double largest_curvature(const Bezier &curve);
+// Bounds it from parameter t0 to t1, t0 < t1, more loosely, in a tenth of the time.
+double rough_curvature(const Bezier &curve, double t0, double t1);
+
+}  // namespace riis

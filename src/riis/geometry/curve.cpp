@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/array_view.hpp"
+#include "base/errors.hpp"
+
+namespace riis {
+namespace {
+
+// A curve has at most 2^20 parts. Only requests that no surface of this library could meet reach this limit.
+constexpr int max_depth = 20;
+// Parts that are narrower are not halved for the velocity. Where a curve nearly turns on the spot, halving would not end.
+constexpr double narrowest_for_velocity = 1.0 / 32;
+
+// Collects the chords of parts that are within max_error of them.
+class Flattening {
+ public:
+  // `bend` is null if the velocity does not matter.
+  Flattening(Vec3 first, double max_error, const VelocityBend *bend, double max_bend)
+      : max_error_(max_error), bend_(bend), max_bend_(max_bend), flattened_{{first}, {0.0}, {}} {}
+
+  // Adds a part of one piece, from share t0 to t1 of the whole curve.
+  void add(const Bezier &part, double part_length, double t0, double t1, int depth) {
+    const double distance_to_chord = flatness(part) * (part.degree == 2 ? 0.5 : 0.75);
+    const bool is_bent = bend_ && t1 - t0 > narrowest_for_velocity && bend_->off_linear(t0, t1) > max_bend_;
+    if (!is_bent && accept(
+                        part.last(), distance_to_chord, part_length, [&] { return largest_curvature(part); }, t1))
+      return;
+    check(depth);
+    const auto [left, right] = split(part, parameter_at_length(part, part_length, 0.5 * part_length));
+    const double middle = 0.5 * (t0 + t1);
+    add(left, 0.5 * part_length, t0, middle, depth + 1);
+    add(right, 0.5 * part_length, middle, t1, depth + 1);
+  }
+
+  // Adds a part of one or several pieces, from share t0 to t1 of the whole curve.
+  void add(const Curve &part, double t0, double t1, int depth) {
+    const Vector<Bezier> &pieces = part.pieces();
+    if (pieces.size() == 1) {
+      add(pieces.front(), part.length(), t0, t1, depth);
+      return;
+    }
+    const auto curvature = [&] {
+      double largest = 0;
+      for (const Bezier &piece : pieces) largest = std::max(largest, largest_curvature(piece));
+      return largest;
+    };
+    if (accept(part.last(), distance_to_chord(part), part.length(), curvature, t1)) return;
+    check(depth);
+    const double middle = 0.5 * (t0 + t1);
+    add(part.between(0, 0.5), t0, middle, depth + 1);
+    add(part.between(0.5, 1), middle, t1, depth + 1);
+  }
+
+  Flattened take() { return std::move(flattened_); }
+
+ private:
+  // If the part and its chord are parametrised by the share of their own length, they are at most length^2 / 8 times the largest
+  // curvature apart. (That is linear interpolation of a function with that second derivative. Joints do not matter, because the
+  // direction is continuous there.) If the curve may turn on the spot, they are at most the length apart.
+  template <class LargestCurvature>
+  bool accept(Vec3 last, double distance_to_chord, double part_length, const LargestCurvature &largest_curvature,
+              double t1) {
+    if (!(distance_to_chord <= max_error_)) return false;
+    const double error = std::min(part_length, 0.125 * part_length * part_length * largest_curvature());
+    if (!(error <= max_error_)) return false;
+    flattened_.points.push_back(last);
+    flattened_.t.push_back(t1);
+    flattened_.errors.push_back(error);
+    return true;
+  }
+
+  void check(int depth) const {
+    if (depth == max_depth)
+      fail(RIIS_LIMIT_EXCEEDED, "a curve needs more than ", 1 << max_depth, " points to be right to ", max_error_,
+           ": tolerance * half_thickness is too small for it");
+  }
+
+  // A curve is no farther from a segment than its control points are.
+  static double distance_to_chord(const Curve &part) {
+    double largest = 0;
+    for (const Bezier &piece : part.pieces())
+      for (int i = 0; i <= piece.degree; ++i)
+        largest = std::max(largest, flatness(Bezier::quadratic(part.first(), view(piece.control)[i], part.last())));
+    return largest;
+  }
+
+  double max_error_;
+  const VelocityBend *bend_;
+  double max_bend_;
+  Flattened flattened_;
+};
+
+}  // namespace
+
+Curve::Curve(const Bezier &piece) : pieces_{piece}, ends_{arc_length(piece)} {}
+
+Curve::Curve(Vector<Bezier> pieces) : pieces_(std::move(pieces)) {
+  double end = 0;
+  for (const Bezier &piece : pieces_) ends_.push_back(end += arc_length(piece));
+}
+
+Vector<double> Curve::joints() const {
+  Vector<double> shares;
+  for (std::size_t i = 0; i + 1 < ends_.size(); ++i) shares.push_back(ends_[i] / length());
+  return shares;
+}
+
+Curve::Place Curve::place(double share) const {
+  if (share >= 1 || !(length() > 0)) return {pieces_.size() - 1, 1};
+  const double behind = std::max(share, 0.0) * length();
+  // A place at a joint, or off it by rounding, is the start of the later piece.
+  std::size_t piece = 0;
+  while (piece + 1 < pieces_.size() && behind >= ends_[piece] - negligible_share * length()) ++piece;
+  const double start = piece == 0 ? 0 : ends_[piece - 1];
+  if (behind <= start + negligible_share * length()) return {piece, 0};
+  return {piece, parameter_at_length(pieces_[piece], length(piece), behind - start)};
+}
+
+Vec3 Curve::at(double share) const {
+  const Place where = place(share);
+  return evaluate(pieces_[where.piece], where.t);
+}
+
+Curve::Frame Curve::frame(double share) const {
+  const Place where = place(share);
+  const Bezier &piece = pieces_[where.piece];
+  const Vec3 along = derivative(piece, where.t);
+  const double speed = riis::length(along);
+  return {evaluate(piece, where.t), speed > 0 ? (1.0 / speed) * along : Vec3{0, 0, 0}};
+}
+
+Bezier Curve::piece_beside(double share, bool after) const {
+  const Place where = place(share);
+  const Bezier &piece = pieces_[where.piece];
+  if (after) return where.t > 0 ? split(piece, where.t).second : piece;
+  if (where.t == 0 && where.piece > 0) return pieces_[where.piece - 1];
+  return where.t < 1 ? split(piece, where.t).first : piece;
+}
+
+Curve Curve::between(double share0, double share1) const {
+  const Place from = place(share0), to = place(share1);
+  Vector<Bezier> part;
+  for (std::size_t i = from.piece; i <= to.piece; ++i) {
+    if (i == to.piece && to.t == 0 && i > from.piece) break;
+    Bezier piece = pieces_[i];
+    if (i == to.piece && to.t < 1) piece = split(piece, to.t).first;
+    if (i == from.piece && from.t > 0) piece = split(piece, i == to.piece ? from.t / to.t : from.t).second;
+    part.push_back(piece);
+  }
+  return Curve(std::move(part));
+}
+
+Curve Curve::reversed() const {
+  Vector<Bezier> pieces;
+  for (auto piece = pieces_.rbegin(); piece != pieces_.rend(); ++piece) pieces.push_back(piece->reversed());
+  return Curve(std::move(pieces));
+}
+
+Curve Curve::through(Vec3 first, Vec3 last) const {
+  Curve moved = *this;
+  moved.pieces_.front().control[0] = first;
+  Bezier &last_piece = moved.pieces_.back();
+  view(last_piece.control)[last_piece.degree] = last;
+  return moved;
+}
+
+bool are_equal(const Curve &a, const Curve &b) {
+  return std::equal(
+      a.pieces().begin(), a.pieces().end(), b.pieces().begin(), b.pieces().end(), [](const Bezier &p, const Bezier &q) {
+        const auto n = static_cast<std::ptrdiff_t>(p.degree) + 1;
+        return p.degree == q.degree && std::equal(p.control.begin(), p.control.begin() + n, q.control.begin());
+      });
+}
+
+VelocityBend::VelocityBend(const Bezier &curve, double curve_length, const Bezier &velocity) {
+  struct Place {
+    Vec3 first, second, third, tangent, rate_first, rate_second;
+    double speed;
+    double behind, rate_behind;  // the length up to here, and its rate
+  };
+  std::array<Place, n_cells + 1> places;
+  for (std::size_t k = 0; k <= n_cells; ++k) {
+    const double t = static_cast<double>(k) / n_cells;
+    const auto [d1, d2, d3] = derivatives(curve, t);
+    const auto [r1, r2, r3] = derivatives(velocity, t);
+    const double speed = riis::length(d1);
+    view(places)[k] = {d1, d2, d3, speed > 0 ? (1 / speed) * d1 : Vec3{0, 0, 0}, r1, r2, speed, 0, 0};
+  }
+  constexpr double half_step = 0.5 / n_cells;
+  for (std::size_t k = 1; k <= n_cells; ++k) {
+    const Place &from = view(places)[k - 1];
+    Place &to = view(places)[k];
+    to.behind = from.behind + half_step * (from.speed + to.speed);
+    to.rate_behind =
+        from.rate_behind + half_step * (dot(from.tangent, from.rate_first) + dot(to.tangent, to.rate_first));
+  }
+  const double total = places.back().behind, rate_total = places.back().rate_behind;
+  for (std::size_t k = 0; k <= n_cells; ++k) {
+    const Place &at = view(places)[k];
+    view(u_)[k] = k == n_cells ? 1 : at.behind / total;
+    view(bend_)[k] = 0;
+    if (!(at.speed > 0)) continue;
+    // The rate of the parameter of share u.
+    const double t_rate = -(at.rate_behind - view(u_)[k] * rate_total) / at.speed;
+    const Vec3 first_rate = at.rate_first + t_rate * at.second, second_rate = at.rate_second + t_rate * at.third;
+    const double speed_rate = dot(at.tangent, first_rate), inverse = 1 / at.speed;
+    const Vec3 tangent_rate = inverse * (first_rate - speed_rate * at.tangent);
+    const double along = dot(at.tangent, at.second);
+    // The curvature vector and its rate. The vector times the length squared is the second derivative by the share.
+    const Vec3 curvature = inverse * inverse * (at.second - along * at.tangent);
+    const Vec3 curvature_rate = inverse * inverse *
+                                    (second_rate - along * tangent_rate -
+                                     (dot(tangent_rate, at.second) + dot(at.tangent, second_rate)) * at.tangent) -
+                                2 * inverse * speed_rate * curvature;
+    view(bend_)[k] =
+        riis::length(2 * curve_length * rate_total * curvature + curve_length * curve_length * curvature_rate);
+  }
+}
+
+double VelocityBend::off_linear(double u0, double u1) const {
+  double largest = 0;
+  for (std::size_t k = 0; k < n_cells; ++k)
+    if (view(u_)[k] < u1 && view(u_)[k + 1] > u0)
+      largest = std::max({largest, at(std::max(u0, view(u_)[k]), k), at(std::min(u1, view(u_)[k + 1]), k)});
+  return 0.125 * (u1 - u0) * (u1 - u0) * largest;
+}
+
+double VelocityBend::at(double u, std::size_t cell) const {
+  const double from = view(u_)[cell], to = view(u_)[cell + 1];
+  const double share = (u - from) / (to - from);
+  return (1 - share) * view(bend_)[cell] + share * view(bend_)[cell + 1];
+}
+
+Flattened flatten(const Curve &curve, double max_error, const VelocityBend *bend, double max_bend) {
+  Flattening flattening(curve.first(), max_error, bend, max_bend);
+  if (curve.length() > 0) flattening.add(curve, 0, 1, 0);
+  return flattening.take();
+}
+
+}  // namespace riis

@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: Apache-2.0
+// An order of nodes in which near ones follow each other, with its frame and boxes. Clusters and balls share it.
+// In: the caller's nodes. Out: their numbers in that order.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "common/array_view.hpp"
+#include "base/unfilled.hpp"
+#include "geometry/bounds.hpp"
+#include "geometry/strided.hpp"
+#include "kernels/kernels.hpp"
+#include "parallel/parallel_for.hpp"
+
+namespace riis {
+
+inline constexpr std::int64_t nodes_per_sorting_block = 32768;
+
+// Fails with RIIS_INVALID_MESH for a coordinate that became unusable after the nodes were checked.
+inline Vec3 node_at(const StridedPoints &nodes, std::int64_t i) {
+  return checked_point(nodes, i, "node", RIIS_INVALID_MESH);
+}
+
+// The frame of a mesh's coordinates: (x - centre) * scale. The scale is a power of two that brings them between -1 and 1. A
+// coordinate far outside becomes 2, which is a number in single precision.
+struct NodeFrame {
+  Vec3 centre{0, 0, 0};
+  double scale = 1;
+
+  void operator()(Vec3 p, float *x) const {
+    const Vec3 q = scale * (p - centre);
+    const auto inside = [](double a) { return static_cast<float>(std::min(std::max(-2.0, a), 2.0)); };
+    x[0] = inside(q.x), x[1] = inside(q.y), x[2] = inside(q.z);
+  }
+};
+
+inline NodeFrame frame_around(const Bounds &nodes) {
+  const Vec3 extent = nodes.half_extent();
+  int exponent = 0;
+  std::frexp(std::max({extent.x, extent.y, extent.z}), &exponent);
+  return {nodes.middle(), std::ldexp(1.0, -std::max(exponent, -1000))};  // a denormal extent would make it infinite
+}
+
+// A box in the frame of the mesh, in single precision.
+struct NodeBox {
+  static constexpr float inf = std::numeric_limits<float>::infinity();
+  float lower[3] = {inf, inf, inf}, upper[3] = {-inf, -inf, -inf};
+
+  void add(const float *x) {
+    for (int i = 0; i < 3; ++i) {
+      lower[i] = x[i] < lower[i] ? x[i] : lower[i];
+      upper[i] = x[i] > upper[i] ? x[i] : upper[i];
+    }
+  }
+  void add(const NodeBox &box) {
+    add(box.lower);
+    add(box.upper);
+  }
+  int longest_axis() const {
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+      if (upper[i] - lower[i] > upper[axis] - lower[axis]) axis = i;
+    return axis;
+  }
+};
+
+// A node's coordinates and its number. The integer type Node is wide enough for all nodes of the mesh.
+template <class Node>
+struct NodeItem {
+  float x[3];
+  Node node;
+};
+
+template <class Node>
+using NodeItems = UnfilledVector<NodeItem<Node>>;
+
+// Sorts nodes so that near ones follow each other. Each pass counts a part's nodes in bins along the longest axis of its box. Then
+// it cuts the part at multiples of a unit: first clusters, then leaves. Items go from one array to the other and back.
+template <class Node>
+class NodeSorter {
+ public:
+  typedef NodeItem<Node> Item;
+
+  NodeSorter(NodeItems<Node> items, int n_threads)
+      : items_(std::move(items)), buffer_(items_.size()), n_threads_(n_threads) {}
+
+  const NodeItems<Node> &sort() {
+    // While there are too few parts for the threads, all threads share each part. Then each thread takes whole parts.
+    Item *at = items_.data(), *other = buffer_.data();
+    std::vector<Part> parts{{0, view(items_).size()}}, next;
+    const std::int64_t enough = n_threads_ == 1 ? 1 : 4 * n_threads_;
+    while (view(parts).size() < enough && parts.front().size() > 8 * nodes_per_sorting_block) {
+      next.clear();
+      for (const Part &part : parts) {
+        ManyBlocks blocks(part, n_threads_);
+        sort_once(part, at, other, blocks);
+        for_each_cut(part, [&](const Part &cut) { next.push_back(cut); });
+      }
+      std::swap(parts, next);
+      std::swap(at, other);
+    }
+    parallel_for(view(parts).size(), n_threads_, [&](std::int64_t i, int) { sort_alone(view(parts)[i], at, other); });
+    return items_;
+  }
+
+ private:
+  static constexpr int n_bins = 256, most_parts = 4;
+  // Parts up to this size have fewer bins: clearing and summing more bins would take longer than the nodes.
+  static constexpr std::int64_t small_size = 1024;
+  static constexpr int n_small_bins = 64;
+  typedef std::array<Node, n_bins> Counts;
+  // Items are counted and put four at a time, one from each quarter of a block. Each quarter has numbers of its own, because a
+  // number waits for its last change, and neighbours are often in the same bin and stream.
+  static constexpr int n_quarters = 4;
+  typedef std::array<Node, n_quarters> OfQuarters;
+  typedef std::array<OfQuarters, n_bins> QuarterCounts;
+  struct Part {
+    std::int64_t begin, end;
+    std::int64_t size() const { return end - begin; }
+  };
+  // Divides n by an extent. Returns 0 if the quotient would be infinite.
+  static float per_unit_of(float n, float extent) {
+    const float per_unit = extent > 0 ? n / extent : 0;
+    return per_unit <= std::numeric_limits<float>::max() ? per_unit : 0;
+  }
+  struct Bins {
+    int n, axis;
+    float from, per_unit;
+
+    Bins(const NodeBox &box, std::int64_t size)
+        : n(size <= small_size ? n_small_bins : n_bins), axis(box.longest_axis()), from(box.lower[axis]) {
+      per_unit = per_unit_of(static_cast<float>(n), box.upper[axis] - from);
+    }
+    int operator()(const Item &item) const {
+      const auto bin = static_cast<int>((item.x[axis] - from) * per_unit);
+      return bin < n ? bin : n - 1;
+    }
+  };
+
+  // Bins whose items go to the same place, one item after the other. A bin that a cut goes through is a stream of its own, and so
+  // are all bins between two such places. Fewer streams than bins are written faster.
+  struct Streams {
+    static constexpr int most = 2 * most_parts - 1;
+    std::array<std::uint8_t, n_bins> of_bin;
+    int n = 1;
+
+    // ends: where the cuts are, in ascending order, within a part with so many items in each bin.
+    Streams(const Counts &counts, int n_in_use, const std::array<std::int64_t, most_parts> &ends, int n_parts) {
+      int first_of_stream = 0, bin = 0;
+      const auto begin_stream = [&](int at) {
+        if (at == first_of_stream || at == n_in_use) return;
+        std::fill(of_bin.begin() + first_of_stream, of_bin.begin() + at, static_cast<std::uint8_t>(n - 1));
+        first_of_stream = at;
+        ++n;
+      };
+      std::int64_t end = 0;  // of the items in the bins before
+      for (int cut = 0; cut + 1 < n_parts; ++cut) {
+        const std::int64_t at = view(ends)[cut];
+        for (; end + static_cast<std::int64_t>(view(counts)[bin]) <= at; ++bin)
+          end += static_cast<std::int64_t>(view(counts)[bin]);
+        if (bin >= first_of_stream) begin_stream(bin);
+        if (end < at) begin_stream(bin + 1);
+      }
+      std::fill(of_bin.begin() + first_of_stream, of_bin.begin() + n_in_use, static_cast<std::uint8_t>(n - 1));
+    }
+  };
+
+  // A part in blocks that threads share, each with its box, its counts and the places of its streams. OneBlock is a part in one
+  // block, for one thread.
+  struct ManyBlocks {
+    const Part &part;
+    int n_threads;
+    std::vector<NodeBox> boxes;
+    std::vector<QuarterCounts> counts;
+    std::vector<std::array<OfQuarters, Streams::most>> at;
+
+    ManyBlocks(const Part &of, int threads) : part(of), n_threads(threads) {
+      const std::int64_t n_blocks = (of.size() + nodes_per_sorting_block - 1) / nodes_per_sorting_block;
+      resize(boxes, n_blocks);
+      resize(counts, n_blocks);
+      resize(at, n_blocks);
+    }
+    template <class Visit>
+    void for_each(const Visit &visit) const {
+      parallel_for_ranges(part.size(), nodes_per_sorting_block, n_threads, [&](const Range &range, int) {
+        visit(range.begin / nodes_per_sorting_block, Part{part.begin + range.begin, part.begin + range.end});
+      });
+    }
+  };
+  struct OneBlock {
+    const Part &part;
+    std::array<NodeBox, 1> boxes;
+    std::array<QuarterCounts, 1> counts;
+    std::array<std::array<OfQuarters, Streams::most>, 1> at;
+
+    explicit OneBlock(const Part &of) : part(of) {}
+    template <class Visit>
+    void for_each(const Visit &visit) const {
+      visit(0, part);
+    }
+  };
+
+  // Cuts a part into two or four. Every cut is at a multiple of a unit: a cluster, or a leaf within a cluster.
+  template <class Visit>
+  static void for_each_cut(const Part &part, const Visit &visit) {
+    const std::int64_t unit = part.size() > nodes_per_cluster ? nodes_per_cluster : nodes_per_leaf;
+    const std::int64_t n_units = (part.size() + unit - 1) / unit;
+    const std::int64_t n_parts = n_units >= 8 ? 4 : 2;
+    std::int64_t begin = part.begin;
+    for (std::int64_t i = 1; i <= n_parts; ++i) {
+      const std::int64_t end = std::min(part.begin + n_units * i / n_parts * unit, part.end);
+      visit(Part{begin, end});
+      begin = end;
+    }
+  }
+
+  // The box of some items. Four numbers are compared at once: one at a time would take longer than the memory. The fourth is
+  // anything, and is not used.
+  static NodeBox box_of(const Item *items, const Part &part) {
+    typedef float Four __attribute__((vector_size(16)));
+    static_assert(sizeof(Item) >= sizeof(Four));
+    // There are two, because a comparison waits for the last comparison of the same bounds.
+    Four lower[2], upper[2];
+    for (int k = 0; k < 2; ++k) lower[k] = Four{} + NodeBox::inf, upper[k] = Four{} - NodeBox::inf;
+    for (std::int64_t i = part.begin; i < part.end; i += 2)
+      for (std::int64_t k = 0; k < 2; ++k) {
+        Four x;
+        std::memcpy(&x, items + std::min(i + k, part.end - 1), sizeof x);
+        lower[k] = x < lower[k] ? x : lower[k];
+        upper[k] = x > upper[k] ? x : upper[k];
+      }
+    NodeBox box;
+    for (int axis = 0; axis < 3; ++axis) {
+      box.lower[axis] = std::min(lower[0][axis], lower[1][axis]);
+      box.upper[axis] = std::max(upper[0][axis], upper[1][axis]);
+    }
+    return box;
+  }
+
+  // Calls visit(item, quarter) for all items of a part, each quarter's in their order.
+  template <class Visit>
+  static void for_each_by_quarters(const Item *items, const Part &part, const Visit &visit) {
+    const std::int64_t size = part.size() / n_quarters;
+    const Item *item = items + part.begin;
+    for (const Item *const end = item + size; item != end; ++item)
+      for (int quarter = 0; quarter < n_quarters; ++quarter) visit(item[quarter * size], quarter);
+    for (const Item *rest = items + part.begin + n_quarters * size; rest != items + part.end; ++rest)
+      visit(*rest, n_quarters - 1);
+  }
+
+  static void count(const Item *items, const Part &part, const Bins &bins, QuarterCounts &counts) {
+    std::fill(counts.begin(), counts.begin() + bins.n, OfQuarters{});
+    for_each_by_quarters(items, part,
+                         [&](const Item &item, int quarter) { ++view(view(counts)[bins(item)])[quarter]; });
+  }
+
+  static void add(const OfQuarters &numbers, OfQuarters &to) {
+    for (int quarter = 0; quarter < n_quarters; ++quarter) view(to)[quarter] += view(numbers)[quarter];
+  }
+
+  // Puts items so that those of each cut follow each other. In a stream they keep their order, whatever the number of blocks.
+  template <class Blocks>
+  static void sort_once(const Part &part, const Item *from, Item *to, Blocks &blocks) {
+    blocks.for_each(
+        [&](std::int64_t block, const Part &of_block) { view(blocks.boxes)[block] = box_of(from, of_block); });
+    NodeBox box;
+    for (const NodeBox &of_block : blocks.boxes) box.add(of_block);
+    const Bins bins(box, part.size());
+    blocks.for_each(
+        [&](std::int64_t block, const Part &of_block) { count(from, of_block, bins, view(blocks.counts)[block]); });
+    Counts sums;
+    for (int bin = 0; bin < bins.n; ++bin) {
+      OfQuarters sum{};
+      for (const QuarterCounts &counts : blocks.counts) add(view(counts)[bin], sum);
+      view(sums)[bin] = sum[0] + sum[1] + sum[2] + sum[3];
+    }
+    std::array<std::int64_t, most_parts> ends;
+    int n_parts = 0;
+    for_each_cut(part, [&](const Part &cut) { view(ends)[n_parts++] = cut.end - part.begin; });
+    const Streams streams(sums, bins.n, ends, n_parts);
+    for (std::int64_t block = 0; block < view(blocks.counts).size(); ++block) {
+      auto &at = view(blocks.at)[block];
+      at.fill({});
+      for (int bin = 0; bin < bins.n; ++bin)
+        add(view(view(blocks.counts)[block])[bin], view(at)[view(streams.of_bin)[bin]]);
+    }
+    Node n = 0;
+    for (int stream = 0; stream < streams.n; ++stream)
+      for (auto &at : blocks.at)
+        for (Node &of_quarter : view(at)[stream]) {
+          const Node count = of_quarter;
+          of_quarter = n;
+          n += count;
+        }
+    blocks.for_each([&](std::int64_t block, const Part &of_block) {
+      std::array<std::array<Item *, n_quarters>, Streams::most> next;
+      for (int stream = 0; stream < streams.n; ++stream)
+        for (int quarter = 0; quarter < n_quarters; ++quarter)
+          view(view(next)[stream])[quarter] = to + part.begin + view(view(view(blocks.at)[block])[stream])[quarter];
+      for_each_by_quarters(from, of_block, [&](const Item &item, int quarter) {
+        *view(view(next)[view(streams.of_bin)[bins(item)]])[quarter]++ = item;
+      });
+    });
+  }
+
+  // Sorts a short part by its longest axis, where counting in bins would take longer.
+  static void sort_whole(const Part &part, const Item *from, Item *to) {
+    const NodeBox box = box_of(from, part);
+    const int axis = box.longest_axis();
+    // A key has the place along the axis in its upper bits. The number below makes all keys different.
+    constexpr std::int32_t most = (1 << 24) - 1;
+    const float per_unit = per_unit_of(static_cast<float>(most), box.upper[axis] - box.lower[axis]);
+    static_assert(most < std::numeric_limits<std::int32_t>::max() / keys_at_once);
+    alignas(64) std::array<std::int32_t, keys_at_once> key{}, rank;
+    const auto n = static_cast<std::int32_t>(part.size());
+    for (std::int32_t i = 0; i < n; ++i) {
+      const auto place = static_cast<std::int32_t>((from[part.begin + i].x[axis] - box.lower[axis]) * per_unit);
+      view(key)[i] = std::min(place, most) * keys_at_once + i;
+    }
+    kernels(best_instruction_set()).rank(key.data(), n, rank.data());
+    for (std::int32_t i = 0; i < n; ++i) to[part.begin + view(rank)[i]] = from[part.begin + i];
+  }
+
+  // Sorts down to leaves, on one thread.
+  void sort_alone(const Part &part, Item *at, Item *other) {
+    if (part.size() <= nodes_per_leaf) {
+      if (at != items_.data()) std::copy(at + part.begin, at + part.end, items_.data() + part.begin);
+      return;
+    }
+    if (part.size() <= keys_at_once)
+      sort_whole(part, at, other);
+    else {
+      OneBlock block(part);
+      sort_once(part, at, other, block);
+    }
+    for_each_cut(part, [&](const Part &cut) { sort_alone(cut, other, at); });
+  }
+
+  NodeItems<Node> items_, buffer_;
+  int n_threads_;
+};
+
+template <class Node>
+NodeItems<Node> items_of(const StridedPoints &nodes, const NodeFrame &frame, int n_threads) {
+  NodeItems<Node> items;
+  resize(items, nodes.n);
+  parallel_for_ranges(nodes.n, nodes_per_sorting_block, n_threads, [&](const Range &range, int) {
+    for (std::int64_t i = range.begin; i < range.end; ++i) {
+      NodeItem<Node> &item = view(items)[i];
+      frame(node_at(nodes, i), item.x);
+      item.node = static_cast<Node>(i);
+    }
+  });
+  return items;
+}
+
+}  // namespace riis

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Open regions: the connected components of the nodes that are neither closed nor masked out.
+// In: an adjacency, the closed nodes. Out: for each node the lowest node of its region.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/array_view.hpp"
+#include "marking/adjacency.hpp"
+
+namespace riis {
+
+struct OpenNodes {
+  const Adjacency &adjacency;
+  const std::uint8_t *node_mask;               // or null
+  const std::vector<std::int64_t> &closed_id;  // any order
+};
+
+// Writes an entry for each row of the adjacency, OpenSets::closed for nodes in no region, and returns the number of regions. An
+// edge may stand in one row or in both.
+std::int64_t label_open_regions(const OpenNodes &nodes, int n_threads, ArrayView<std::int64_t> label);
+
+}  // namespace riis

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "surface/rims.hpp"
+
+#include <algorithm>
+
+#include "common/array_view.hpp"
+
+namespace riis {
+namespace {
+
+// A side of an image of a patch.
+struct Use {
+  std::size_t curve;
+  const PatchImage *image;
+  PatchRim side;
+};
+
+// Returns whether both images put the curve in the same place: control points are equal there, to the last bit.
+bool coincide(const Curve &curve, const PatchImage &a, const PatchImage &b) {
+  for (const Bezier &piece : curve.pieces())
+    for (int i = 0; i <= piece.degree; ++i) {
+      const Vec3 q = view(piece.control)[i];
+      if (!(place(a, q) == place(b, q))) return false;
+    }
+  return true;
+}
+
+}  // namespace
+
+Vector<std::uint8_t> rim_sides(const PatchSet &set) {
+  Vector<Use> uses;
+  std::int64_t n_ids = 0;
+  for (const Patch &patch : set.patches)
+    for (const PatchImage &image : patch.images) {
+      n_ids = std::max(n_ids, std::int64_t{image.patch_id} + 1);
+      uses.push_back({patch.v0.curve, &image, rim_v0});
+      uses.push_back({patch.v1.curve, &image, rim_v1});
+      uses.push_back({patch.u0.curve, &image, rim_u0});
+      uses.push_back({patch.u1.curve, &image, rim_u1});
+    }
+  std::sort(uses.begin(), uses.end(), [](const Use &a, const Use &b) { return a.curve < b.curve; });
+  Vector<std::uint8_t> sides;
+  resize(sides, n_ids);
+  for (auto first = uses.begin(); first != uses.end();) {
+    const auto last = std::find_if(first, uses.end(), [&](const Use &use) { return use.curve != first->curve; });
+    for (auto use = first; use != last; ++use) {
+      const bool is_shared = std::any_of(first, last, [&](const Use &other) {
+        return &other != &*use && coincide(set.curves[use->curve], *use->image, *other.image);
+      });
+      std::uint8_t &of_patch = view(sides)[use->image->patch_id];
+      if (!is_shared) of_patch = static_cast<std::uint8_t>(of_patch | use->side);
+    }
+    first = last;
+  }
+  for (const Seam &seam : set.seams) {
+    const auto &images = set.patches[seam.patch].images;
+    for (const std::size_t i : {seam.image, seam.twin})
+      if (seam.is_whole_side) {
+        std::uint8_t &of_patch = view(sides)[images[i].patch_id];
+        of_patch = static_cast<std::uint8_t>(of_patch & ~rim_v1);
+      }
+  }
+  return sides;
+}
+
+}  // namespace riis

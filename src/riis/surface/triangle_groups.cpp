@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "surface/triangle_groups.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/array_view.hpp"
+#include "parallel/parallel_for.hpp"
+
+namespace riis {
+namespace {
+
+struct Centroid {
+  float at[3];
+  std::int32_t triangle;
+};
+
+// Halves the triangles along the longest side of their centroids' box, until each part is a group. It cuts at
+// multiples of the group size.
+template <class Visit>
+void for_each_group(Centroid *centroids, std::int64_t n, const Visit &visit) {
+  if (n <= triangles_per_group) {
+    visit(centroids, static_cast<int>(n));
+    return;
+  }
+  float lower[3], upper[3];
+  for (int i = 0; i < 3; ++i) lower[i] = upper[i] = centroids[0].at[i];
+  for (std::int64_t k = 1; k < n; ++k)
+    for (int i = 0; i < 3; ++i) {
+      lower[i] = std::min(lower[i], centroids[k].at[i]);
+      upper[i] = std::max(upper[i], centroids[k].at[i]);
+    }
+  int axis = 0;
+  for (int i = 1; i < 3; ++i)
+    if (upper[i] - lower[i] > upper[axis] - lower[axis]) axis = i;
+  const std::int64_t n_groups = (n + triangles_per_group - 1) / triangles_per_group;
+  const std::int64_t n_left = (n_groups + 1) / 2 * triangles_per_group;
+  std::nth_element(centroids, centroids + n_left, centroids + n, [axis](const Centroid &a, const Centroid &b) {
+    return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.triangle < b.triangle;
+  });
+  for_each_group(centroids, n_left, visit);
+  for_each_group(centroids + n_left, n - n_left, visit);
+}
+
+}  // namespace
+
+Frame::Frame(const Bounds &bounds) {
+  centre = bounds.middle();
+  const Vec3 extent = bounds.upper - bounds.lower;
+  int exponent = 0;
+  std::frexp(0.5 * std::max({extent.x, extent.y, extent.z}), &exponent);
+  scale = std::ldexp(1.0, -exponent);
+}
+
+float round_down(double x) {
+  const auto f = static_cast<float>(x);
+  return static_cast<double>(f) > x ? std::nextafterf(f, -std::numeric_limits<float>::infinity()) : f;
+}
+float round_up(double x) { return -round_down(-x); }
+
+void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end, Grouping &grouping) {
+  Vector<Centroid> centroids;
+  centroids.reserve(static_cast<std::size_t>(end - begin));
+  const Vec3 origin = set.corners(begin)[0];
+  double largest = 0;
+  for (std::int32_t i = begin; i < end; ++i)
+    for (const Vec3 p : set.corners(i)) {
+      const Vec3 q = p - origin;
+      largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+    }
+  // The scale keeps coordinates between -3 and 3 in any unit.
+  const double scale = largest > 0 ? 1 / largest : 0;
+  for (std::int32_t i = begin; i < end; ++i) {
+    Vec3 sum{0, 0, 0};
+    for (const Vec3 p : set.corners(i)) sum = sum + scale * (p - origin);
+    centroids.push_back({{static_cast<float>(sum.x), static_cast<float>(sum.y), static_cast<float>(sum.z)}, i});
+  }
+  for_each_group(centroids.data(), view(centroids).size(), [&](Centroid *members, int n) {
+    std::sort(members, members + n, [](const Centroid &a, const Centroid &b) { return a.triangle < b.triangle; });
+    for (int i = 0; i < n; ++i) grouping.order.push_back(members[i].triangle);
+    grouping.end.push_back(static_cast<std::int32_t>(grouping.order.size()));
+  });
+}
+
+void TriangleGroups::take_corners(const TriangleSet &set, int n_threads) {
+  const std::int64_t n = set.n_triangles();
+  resize(corners, 9 * n);
+  constexpr std::int64_t triangles_per_block = 4096;
+  Vector<Bounds> blocks;
+  resize(blocks, (n + triangles_per_block - 1) / triangles_per_block);
+  const Kernels &simd = kernels(best_instruction_set());
+  parallel_for_ranges(n, triangles_per_block, n_threads, [&](const Range &block, int) {
+    double lower[3], upper[3];
+    simd.take_corners(set.xyz.data(), set.vertex_id.data() + 3 * block.begin, block.end - block.begin,
+                      corners.data() + 9 * block.begin, lower, upper);
+    view(blocks)[block.begin / triangles_per_block] = {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}};
+  });
+  of_all = {};
+  for (const Bounds &block : blocks) of_all.add(block);
+}
+
+void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, int n_threads) {
+  constexpr double much = 2;
+  frame = surface_frame;
+  const bool is_by_place = set.grouping.end.empty();
+  // Groups by place are kept until they fall apart: if the number of triangles is the same, most triangles have only moved.
+  const bool are_known = is_by_place ? is_by_place_ && view(grouping_.order).size() == set.n_triangles()
+                                     : !is_by_place_ && grouping_ == set.grouping;
+  const auto group_anew = [&] {
+    grouping_ = set.grouping;
+    if (is_by_place) group_by_place(set, 0, static_cast<std::int32_t>(set.n_triangles()), grouping_);
+    is_by_place_ = is_by_place;
+  };
+  if (!are_known) group_anew();
+  enclose(n_threads);
+  // The longest edge of all does not depend on the groups.
+  longest_edge = 0;
+  for (const GroupBounds &group : bounds) longest_edge = std::max(longest_edge, group.longest_edge);
+  are_as_before = are_known && size() <= much * size_at_first_;
+  if (are_as_before) return;
+  if (are_known && is_by_place) {
+    group_anew();
+    enclose(n_threads);
+  }
+  size_at_first_ = size();
+}
+
+// Returns the sum of the extents of all boxes, in the units of the frame. It grows as the groups fall apart.
+double TriangleGroups::size() const {
+  double sum = 0;
+  for (const GroupBounds &group : bounds)
+    for (int i = 0; i < 3; ++i) sum += static_cast<double>(group.upper[i]) - static_cast<double>(group.lower[i]);
+  return sum;
+}
+
+void TriangleGroups::enclose(int n_threads) {
+  const Vector<std::int32_t> &order = grouping_.order, &end = grouping_.end;
+  groups.resize(end.size());
+  bounds.resize(end.size());
+  const Kernels &simd = kernels(best_instruction_set());
+  const SurfaceFrame surface_frame{{frame.centre.x, frame.centre.y, frame.centre.z}, frame.scale};
+  constexpr std::int64_t groups_per_block = 16;
+  parallel_for_ranges(view(end).size(), groups_per_block, n_threads, [&](const Range &range, int) {
+    GroupCorners framed[groups_at_once];
+    for (std::int64_t first = range.begin; first < range.end; first += groups_at_once) {
+      const auto n = static_cast<std::int32_t>(std::min<std::int64_t>(groups_at_once, range.end - first));
+      for (std::int32_t k = 0; k < n; ++k) {
+        const std::int64_t g = first + k;
+        const std::int32_t begin = g == 0 ? 0 : view(end)[g - 1];
+        GroupBounds &of_group = view(bounds)[g];
+        of_group.n = view(end)[g] - begin;
+        std::copy_n(order.begin() + begin, of_group.n, of_group.triangle);
+        // The corners of the next group's triangles lie apart, so they are requested ahead.
+        const std::int32_t next = g + 1 < range.end ? view(end)[g + 1] : view(end)[g];
+        for (std::int32_t i = view(end)[g]; i < next; ++i) {
+          const double *ahead = corners.data() + 9 * std::int64_t{view(order)[i]};
+          __builtin_prefetch(ahead);
+          __builtin_prefetch(ahead + 8);
+        }
+        simd.frame_group(surface_frame, corners.data(), of_group.triangle, of_group.n, framed[k]);
+      }
+      simd.make_groups(framed, n, &view(groups)[first], &view(bounds)[first]);
+    }
+  });
+}
+
+}  // namespace riis

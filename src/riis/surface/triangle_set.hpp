@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Triangles in space, as every later stage uses them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "common/array_view.hpp"
+#include "base/recycled.hpp"
+#include "geometry/strided.hpp"
+#include "surface/quads.hpp"
+
+namespace riis {
+
+// Groups of neighbouring triangles, for searches: positions in the set, group after group, and the end of each group.
+struct Grouping {
+  Vector<std::int32_t> order, end;
+
+  bool operator==(const Grouping &other) const { return order == other.order && end == other.end; }
+};
+
+struct TriangleSet {
+  std::vector<double> xyz;                // (3, n_vertices), placed
+  std::vector<double> uv;                 // (2, n_vertices), empty for surfaces from arrays
+  std::vector<double> velocity;           // (3, n_vertices), placed, empty if the maker of the triangles knows none
+  std::vector<std::int64_t> vertex_id;    // (3, n_triangles)
+  std::vector<std::int64_t> triangle_id;  // (n_triangles), ascending
+  std::vector<std::int32_t> leaflet_id;   // (n_triangles)
+  std::vector<std::int32_t> patch_id;     // (n_triangles)
+  std::int64_t n_zero_area = 0;           // triangles that were left out
+  double error_bound = 0;                 // of the distance to the smooth valve, placed; 0 for surfaces from arrays
+  Vector<std::uint8_t> rim_sides;         // one entry a patch_id, bits of PatchRim; empty for surfaces from arrays
+  std::uint64_t connectivity = 0;         // whose triangles these are; 0: nobody's (surface/triangulate.cpp)
+  Grouping grouping;                      // empty if the maker of the triangles knows no groups
+  Vector<LevelledGrid> moved_grids;       // of triangles with velocities from patches
+
+  // Empties the set and keeps its memory.
+  void clear() {
+    for (auto *numbers : {&xyz, &uv, &velocity}) numbers->clear();
+    for (auto *ids : {&vertex_id, &triangle_id}) ids->clear();
+    for (auto *ids : {&leaflet_id, &patch_id}) ids->clear();
+    for (auto *ids : {&grouping.order, &grouping.end}) ids->clear();
+    rim_sides.clear();
+    moved_grids.clear();
+    n_zero_area = 0;
+    error_bound = 0;
+    connectivity = 0;
+  }
+  std::int64_t n_vertices() const { return view(xyz).size() / 3; }
+  std::int64_t n_triangles() const { return view(triangle_id).size(); }
+  Vec3 vertex(std::int64_t id) const {
+    const double *v = xyz.data() + 3 * id;
+    return {v[0], v[1], v[2]};
+  }
+  std::array<Vec3, 3> corners(std::int64_t triangle) const {
+    const std::int64_t *id = vertex_id.data() + 3 * triangle;
+    return {vertex(id[0]), vertex(id[1]), vertex(id[2])};
+  }
+};
+
+// The most triangles that the library accepts. Four-byte ids could count more; each triangle takes a few hundred bytes.
+inline constexpr std::int64_t max_triangles = 16'777'216;
+
+// Returns true if the height over the longest edge is at most 1e-12 of that edge, or if all edges are shorter than min_edge.
+inline bool has_zero_area(Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 ab = b - a, ac = c - a, bc = c - b;
+  const double longest_sq = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
+  if (!(longest_sq >= min_edge * min_edge)) return true;
+  // Edges from 1e-60 to 1e60 neither underflow nor overflow here.
+  const Vec3 twice_area = cross(ab, ac);
+  return !(dot(twice_area, twice_area) > 1e-24 * longest_sq * longest_sq);
+}
+
+}  // namespace riis

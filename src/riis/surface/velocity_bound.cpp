@@ -1,0 +1,459 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "surface/velocity_bound.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <initializer_list>
+#include <limits>
+#include <utility>
+
+#include "common/array_view.hpp"
+#include "geometry/curve_points.hpp"
+#include "surface/displacement.hpp"
+
+namespace riis {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Bounds of a quantity on a range of u: of its length in either state, and of its change between the states at the same u.
+// The rule for products holds for products of numbers, dot products and cross products.
+struct Both {
+  double size, change;
+};
+Both operator+(Both a, Both b) { return {a.size + b.size, a.change + b.change}; }
+Both operator*(Both a, Both b) { return {a.size * b.size, a.change * b.size + a.size * b.change}; }
+Both operator*(double a, Both b) { return {a * b.size, a * b.change}; }
+// Bounds are tight if the least length on a range is at least this share of the largest.
+constexpr double tight_share = 0.9;
+
+// The inverse of a length that is at least `least`.
+Both inverse(double least, double change) { return {1 / least, change / (least * least)}; }
+
+// Returns NaN if either is NaN, such as 0 times infinity: then no bound is known.
+double larger(double a, double b) { return a >= b || a != a ? a : b; }
+double larger_of(Vec3 a, Vec3 b) { return larger(length(a), length(b)); }
+
+// The least distance of the segment between two points from the origin.
+double least_on_segment(Vec3 a, Vec3 b) {
+  const Vec3 along = b - a;
+  const double size_sq = dot(along, along);
+  const double share = size_sq > 0 ? std::clamp(-dot(a, along) / size_sq, 0.0, 1.0) : 0;
+  return length(mix(a, b, share));
+}
+
+// Bounds how far a function is from the line between its ends if its second derivative is at most `second`.
+double off_line(double width, double second) { return 0.125 * width * width * second; }
+
+// A range of u on which each state's curve is a part of one Bézier piece.
+struct CurveRange {
+  const Bezier *now, *before;
+  double t_now[2], t_before[2];
+  double length_now, length_before;  // of the whole curves
+  double width;                      // of the range of u
+};
+
+// The unit tangent of a curve on such a range, its first and second derivative by u, and the length of the whole curve.
+struct AlongCurve {
+  Both length, value, first, second;
+  double size_now, size_before;  // bounds of the curve's second derivative by u in each state
+  bool is_tight;                 // false: a narrower range would have much better bounds
+  Both second_of_point() const { return length * first; }
+};
+
+// One state's curve on a range of its parameter: bounds of its derivatives' lengths.
+struct Derivatives {
+  double first, least_first, second, third;
+};
+
+Derivatives sizes_on(const Bezier &piece, double from, double to) {
+  const auto start = derivatives(piece, from), end = derivatives(piece, to);
+  const double bend = off_line(to - from, length(start[2]));
+  return {larger_of(start[0], end[0]) + bend, least_on_segment(start[0], end[0]) - bend, larger_of(start[1], end[1]),
+          length(start[2])};
+}
+
+// How far the derivatives of two pieces differ at the same parameter.
+Derivatives changes_on(const Bezier &now, const Bezier &before, double from, double to) {
+  const auto start = derivatives(now, from), end = derivatives(now, to);
+  const auto start_before = derivatives(before, from), end_before = derivatives(before, to);
+  const double third = distance(start[2], start_before[2]);
+  return {larger(distance(start[0], start_before[0]), distance(end[0], end_before[0])) + off_line(to - from, third), 0,
+          larger(distance(start[1], start_before[1]), distance(end[1], end_before[1])), third};
+}
+
+// Sizes are infinite where a state's curve may stand still.
+AlongCurve along(const CurveRange &on) {
+  const double from = std::min(on.t_now[0], on.t_before[0]), to = std::max(on.t_now[1], on.t_before[1]);
+  const Derivatives now = sizes_on(*on.now, from, to), before = sizes_on(*on.before, from, to);
+  const double least = std::min(now.least_first, before.least_first), first = larger(now.first, before.first),
+               second = larger(now.second, before.second), third = larger(now.third, before.third);
+  const double whole = larger(on.length_now, on.length_before);
+  const Both length{whole, std::abs(on.length_now - on.length_before)};
+  if (!(least > 0)) {
+    const Both unknown{infinity, infinity};
+    return {length, unknown, unknown, unknown, infinity, infinity, false};
+  }
+  // The states' parameters of the same u differ by at most `shift`. It is the difference at the ends, and the growth in between
+  // that the rates dt/du = length / |B'| allow.
+  const Derivatives change = changes_on(*on.now, *on.before, from, to);
+  const double at_ends = larger(std::abs(on.t_now[0] - on.t_before[0]), std::abs(on.t_now[1] - on.t_before[1]));
+  const double half = 0.5 * on.width, rate_change = length.change / least + whole * change.first / (least * least);
+  const double by_itself = half * whole * second / (least * least);
+  const double shift =
+      by_itself < 1 ? std::min((at_ends + half * rate_change) / (1 - by_itself), to - from) : to - from;
+  const Both d1{first, change.first + second * shift}, d2{second, change.second + third * shift},
+      d3{third, change.third};
+  const Both inverse_speed = inverse(least, d1.change), t_first = length * inverse_speed;
+  const Both tangent{1, d1.change / least}, across{1, tangent.change};  // across: the projection along the tangent
+  const Both inverse_sq = inverse_speed * inverse_speed;
+  const Both bent = length * inverse_sq * across * d2;
+  const Both inverse_speed_first = inverse_sq * tangent * d2 * t_first;
+  const Both across_first{bent.size, 2 * (bent.change + bent.size * tangent.change)};
+  const Both on_second = 2 * inverse_speed * inverse_speed_first * across * d2 + inverse_sq * across_first * d2 +
+                         inverse_sq * across * d3 * t_first;
+  return {length,
+          tangent,
+          bent,
+          length * on_second,
+          on.length_now * on.length_now * now.second / (now.least_first * now.least_first),
+          on.length_before * on.length_before * before.second / (before.least_first * before.least_first),
+          least >= tight_share * first && by_itself <= 1 - tight_share};
+}
+
+// Returns the bounds that follow from each state alone, for states that are in different pieces.
+AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
+  const auto of = [](Both a, Both b) { return Both{larger(a.size, b.size), a.size + b.size}; };
+  return {of(now.length, before.length),
+          of(now.value, before.value),
+          of(now.first, before.first),
+          of(now.second, before.second),
+          now.size_now,
+          before.size_now,
+          now.is_tight && before.is_tight};
+}
+
+// Returns 1 if `curve` has one piece more than `other`, and has it at the start. The shorter end piece is taken for that piece.
+std::size_t more_at_start(const Curve &curve, const Curve &other) {
+  const std::size_t n = curve.pieces().size();
+  return n == other.pieces().size() + 1 && curve.length(0) < curve.length(n - 1) ? 1 : 0;
+}
+
+// A side of a patch in both states, at ascending shares, its joints among them.
+class SideInBoth {
+ public:
+  SideInBoth(const Curve &now, const Curve &before, const Vector<double> &shares)
+      : now_(now),
+        before_(before),
+        shares_(shares),
+        at_now_(now, false, shares),
+        at_before_(before, false, shares),
+        more_now_(more_at_start(now, before)),
+        more_before_(more_at_start(before, now)) {}
+
+  Vec3 now(std::size_t i) const { return at_now_.point(i); }
+  Vec3 before(std::size_t i) const { return at_before_.point(i); }
+  Vec3 tangent_now(std::size_t i) const { return at_now_.tangent(i); }
+  Vec3 tangent_before(std::size_t i) const { return at_before_.tangent(i); }
+  const Curve &curve_now() const { return now_; }
+  const Curve &curve_before() const { return before_; }
+  double longer() const { return larger(now_.length(), before_.length()); }
+  double width(std::size_t i) const { return shares_[i + 1] - shares_[i]; }
+
+  // Returns whether both states are in the same piece between two shares. Otherwise a joint has passed.
+  bool is_same_piece(std::size_t i) const { return at_now_.piece(i) + more_before_ == at_before_.piece(i) + more_now_; }
+
+  // Returns whether a piece of either state begins at a share.
+  bool is_joint(std::size_t i) const {
+    return at_now_.piece(i) != at_now_.piece(i - 1) || at_before_.piece(i) != at_before_.piece(i - 1);
+  }
+
+  AlongCurve between(std::size_t i) const {
+    if (!(now_.length() > 0) && !(before_.length() > 0)) {
+      const Both none{0, 0};
+      return {none, none, none, none, 0, 0, true};
+    }
+    const std::size_t piece = at_now_.piece(i), piece_before = at_before_.piece(i);
+    const auto end = [&](const CurvePoints &points, std::size_t from) {
+      return points.piece(i + 1) == from ? points.parameter(i + 1) : 1.0;
+    };
+    const Bezier &now = now_.pieces()[piece], &before = before_.pieces()[piece_before];
+    const double now0 = at_now_.parameter(i), now1 = end(at_now_, piece), before0 = at_before_.parameter(i),
+                 before1 = end(at_before_, piece_before);
+    const double length_now = now_.length(), length_before = before_.length();
+    if (is_same_piece(i))
+      return along({&now, &before, {now0, now1}, {before0, before1}, length_now, length_before, width(i)});
+    return either(
+        along({&now, &now, {now0, now1}, {now0, now1}, length_now, length_now, width(i)}),
+        along({&before, &before, {before0, before1}, {before0, before1}, length_before, length_before, width(i)}));
+  }
+
+ private:
+  const Curve &now_, &before_;
+  const Vector<double> &shares_;
+  CurvePoints at_now_, at_before_;
+  // 1 for the state that has one more piece at the start, because a joint passed that end of the curve; otherwise 0.
+  std::size_t more_now_, more_before_;
+};
+
+void add_joints(const Curve &curve, Vector<double> &shares) {
+  for (const double joint : curve.joints()) shares.push_back(joint);
+}
+
+// Limits for halving ranges: of the rounds, and of the number of ranges.
+constexpr int most_rounds = 12;
+constexpr std::size_t most_ranges = 1024;
+
+// The lines of a grid, with the joints of curves between them, and with halves of ranges that are too wide for tight bounds.
+class Shares {
+ public:
+  Shares(const Vector<double> &lines, std::initializer_list<const Curve *> curves) : lines_(lines), all_(lines) {
+    for (const Curve *curve : curves) add_joints(*curve, all_);
+    std::sort(all_.begin(), all_.end());
+    all_.erase(std::unique(all_.begin(), all_.end(), [](double a, double b) { return b - a <= 4 * negligible_share; }),
+               all_.end());
+    all_.back() = 1;
+  }
+
+  const Vector<double> &all() const { return all_; }
+  // Where line k stands.
+  std::size_t line(std::size_t k) const {
+    const auto found = std::lower_bound(all_.begin(), all_.end(), lines_[k] - 4 * negligible_share);
+    return static_cast<std::size_t>(found - all_.begin());
+  }
+
+  // Halves the ranges for which is_tight(i) is false. Returns whether there were any. Returns
+  // false once there are too many ranges, as for a curve that never gets tight.
+  template <class IsTight>
+  bool halve(const IsTight &is_tight) {
+    if (all_.size() > 2 * most_ranges) return false;
+    Vector<double> made;
+    for (std::size_t i = 0; i + 1 < all_.size(); ++i) {
+      made.push_back(all_[i]);
+      if (!is_tight(i)) made.push_back(0.5 * (all_[i] + all_[i + 1]));
+    }
+    made.push_back(1);
+    std::swap(made, all_);
+    return all_.size() > made.size();
+  }
+
+ private:
+  const Vector<double> &lines_;
+  Vector<double> all_;
+};
+
+Vector<double> shares_of(const Vector<GridLine> &lines, double GridLine::*t) {
+  Vector<double> made;
+  for (const GridLine &line : lines) made.push_back(line.*t);
+  return made;
+}
+
+struct TwoCurves {
+  Curve now, before;
+};
+
+// The curves of a side, in the direction of the side.
+TwoCurves curves_of(const TwoStates &states, std::size_t patch, Side Patch::*side) {
+  return {along(states.now, states.now.patches[patch].*side), along(states.before, states.before.patches[patch].*side)};
+}
+
+// Bounds how far a side's displacement is from linear between each two lines. The bound includes the difference between a line's
+// own share on the side and the line's middle.
+Vector<double> off_linear(const TwoCurves &curves, const Vector<GridLine> &lines, double GridLine::*t) {
+  const Vector<double> at_lines = shares_of(lines, t);
+  Shares shares(at_lines, {&curves.now, &curves.before});
+  for (int round = 0; round < most_rounds; ++round) {
+    const SideInBoth side(curves.now, curves.before, shares.all());
+    if (!shares.halve([&](std::size_t i) { return side.between(i).is_tight; })) break;
+  }
+  const SideInBoth side(curves.now, curves.before, shares.all());
+  const double both_lengths = curves.now.length() + curves.before.length();
+  Vector<double> made;
+  for (std::size_t k = 0; k + 1 < lines.size(); ++k) {
+    const std::size_t from = shares.line(k), to = shares.line(k + 1);
+    const double start = shares.all()[from], width = shares.all()[to] - start;
+    double error = 0, largest = 0;
+    for (std::size_t i = from; i < to; ++i) {
+      const AlongCurve on = side.between(i);
+      const double second = side.is_same_piece(i) ? on.second_of_point().change : on.size_now + on.size_before;
+      // Green's function of linear interpolation is at most x (width - x) / width. Its integral is at most width squared / 8.
+      const double x0 = shares.all()[i] - start, x1 = shares.all()[i + 1] - start, x = std::clamp(0.5 * width, x0, x1);
+      error += (x1 - x0) * x * (width - x) / width * second;
+      largest = larger(largest, second);
+    }
+    error = std::min(error, off_line(width, largest));
+    // No point of a curve is farther from its chord than the curve is long.
+    if (!(error <= both_lengths * width)) error = both_lengths * width;
+    const auto shift = [&](const GridLine &line) { return both_lengths * std::abs(line.*t - line.middle); };
+    made.push_back(error + larger(shift(lines[k]), shift(lines[k + 1])));
+  }
+  return made;
+}
+
+// Bounds of O of a patch of arcs, and of its derivatives by u, on a range. They leave out the factor, the bulge.
+struct ArcRangeInBoth {
+  Both first, second;
+  double largest;  // of |O| in either state
+  bool is_tight;
+};
+
+ArcRangeInBoth offset_on(const SideInBoth &base, const SideInBoth &edge, std::size_t i) {
+  const AlongCurve b = base.between(i), e = edge.between(i);
+  const double width = base.width(i);
+  const Both w2 = e.second_of_point() + b.second_of_point();
+  const auto value = [&](std::size_t k, bool now) {
+    return now ? edge.now(k) - base.now(k) : edge.before(k) - base.before(k);
+  };
+  const auto slope = [&](std::size_t k, bool now) {
+    return now ? edge.curve_now().length() * edge.tangent_now(k) - base.curve_now().length() * base.tangent_now(k)
+               : edge.curve_before().length() * edge.tangent_before(k) -
+                     base.curve_before().length() * base.tangent_before(k);
+  };
+  const Vec3 now[2] = {value(i, true), value(i + 1, true)}, before[2] = {value(i, false), value(i + 1, false)};
+  const double bend = off_line(width, w2.size);
+  const Both w0{larger(larger_of(now[0], now[1]), larger_of(before[0], before[1])) + bend,
+                larger(distance(now[0], before[0]), distance(now[1], before[1])) + off_line(width, w2.change)};
+  // No point moves along a curve by more than the curve's length.
+  const double w_far =
+      larger(larger_of(now[0], now[1]), larger_of(before[0], before[1])) + width * (edge.longer() + base.longer());
+  const double w_largest = w0.size <= w_far ? w0.size : w_far;
+  const double w_least = std::min(least_on_segment(now[0], now[1]), least_on_segment(before[0], before[1])) - bend;
+  // W' is its value at the start of the range, where both states have a direction, and its change along the range.
+  const Both w1{larger_of(slope(i, true), slope(i, false)) + width * w2.size,
+                distance(slope(i, true), slope(i, false)) + width * w2.change};
+  const Both m1 = w1 * b.value + w0 * b.first, m2 = w2 * b.value + 2 * w1 * b.first + w0 * b.second;
+  const auto normal = [&](std::size_t k, bool at_now) {
+    return cross(value(k, at_now), at_now ? base.tangent_now(k) : base.tangent_before(k));
+  };
+  const Vec3 start_now = normal(i, true), start_before = normal(i, false);
+  const Vec3 end_now = normal(i + 1, true), end_before = normal(i + 1, false);
+  const double m_bend = off_line(width, m2.size);
+  const double m_least =
+      std::min(least_on_segment(start_now, end_now), least_on_segment(start_before, end_before)) - m_bend;
+  const double m_size = larger(larger_of(start_now, end_now), larger_of(start_before, end_before)) + m_bend;
+  const double m_change =
+      larger(distance(start_now, start_before), distance(end_now, end_before)) + off_line(width, m2.change);
+  if (!(m_least > 0 && w_least > 0)) {
+    const Both unknown{infinity, infinity};
+    return {unknown, unknown, w_largest, false};
+  }
+  // |W| and its derivatives, then the unit vector of M and its derivatives.
+  const Both to_w{1, w0.change / w_least}, across_w{1, to_w.change};
+  const Both size0{w0.size, w0.change}, size1 = to_w * w1;
+  const Both size2 = to_w * w2 + across_w * w1 * across_w * w1 * inverse(w_least, w0.change);
+  const Both unit{1, m_change / m_least}, across{1, unit.change}, inverse_m = inverse(m_least, m_change);
+  const Both unit1 = inverse_m * across * m1;
+  const Both inverse_m1 = inverse_m * inverse_m * unit * m1;
+  const Both across1{unit1.size, 2 * (unit1.change + unit1.size * unit.change)};
+  const Both unit2 = inverse_m1 * across * m1 + inverse_m * across1 * m1 + inverse_m * across * m2;
+  return {size1 * unit + size0 * unit1, size2 * unit + 2 * size1 * unit1 + size0 * unit2, w_largest,
+          b.is_tight && e.is_tight && w_least >= tight_share * w0.size && m_least >= tight_share * m_size};
+}
+
+// Bounds how far the displacement of O is from linear between each two lines.
+Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, const TwoCurves &base,
+                                 const TwoCurves &edge, const Vector<GridLine> &lines) {
+  const double factor = states.now.patches[patch].bulge, factor_before = states.before.patches[patch].bulge;
+  const Both of_factor{larger(std::abs(factor), std::abs(factor_before)), std::abs(factor - factor_before)};
+  const Vector<double> at_lines = shares_of(lines, &GridLine::middle);
+  Shares shares(at_lines, {&base.now, &base.before, &edge.now, &edge.before});
+  for (int round = 0; round < most_rounds; ++round) {
+    const SideInBoth on_base(base.now, base.before, shares.all()), on_edge(edge.now, edge.before, shares.all());
+    if (!shares.halve([&](std::size_t i) { return offset_on(on_base, on_edge, i).is_tight; })) break;
+  }
+  const SideInBoth on_base(base.now, base.before, shares.all()), on_edge(edge.now, edge.before, shares.all());
+  const auto is_joint = [&](std::size_t i) { return on_base.is_joint(i) || on_edge.is_joint(i); };
+  Vector<double> made;
+  for (std::size_t k = 0; k + 1 < lines.size(); ++k) {
+    const std::size_t from = shares.line(k), to = shares.line(k + 1);
+    const double width = shares.all()[to] - shares.all()[from];
+    double largest = 0, second = 0, first = 0, passed = 0;
+    bool has_joint = false;
+    for (std::size_t i = from; i < to; ++i) {
+      const ArcRangeInBoth on = offset_on(on_base, on_edge, i);
+      largest = larger(largest, on.largest);
+      has_joint = has_joint || (i > from && is_joint(i));
+      if (on_base.is_same_piece(i) && on_edge.is_same_piece(i)) {
+        second = larger(second, (of_factor * on.second).change);
+        first = larger(first, (of_factor * on.first).change);
+      } else {
+        passed += on_base.width(i) * 2 * of_factor.size * on.first.size;
+      }
+    }
+    // O' jumps at a joint, so the first derivative counts there.
+    double error = has_joint || passed > 0 ? 0.5 * width * first + passed : off_line(width, second);
+    const double at_most = 4 * of_factor.size * largest;  // |O| and its linear interpolation, in two states
+    if (!(error <= at_most)) error = at_most;
+    made.push_back(error);
+  }
+  return made;
+}
+
+// Bounds of the errors of a patch's displacements and of its points, at equal (u, v), before any image is placed.
+struct PatchErrors {
+  double displacement = 0, point = 0;
+};
+
+PatchErrors errors_of(const TwoStates &states, std::size_t patch, const LevelledGrid &levelled) {
+  const QuadGrid &grid = levelled.grid;
+  const MovedPatch moved{states.now, states.before, patch};
+  const PatchMotion motion(moved, levelled);
+  const bool has_arcs = states.now.patches[patch].bulge != 0 || states.before.patches[patch].bulge != 0;
+  const TwoCurves v0 = curves_of(states, patch, &Patch::v0), v1 = curves_of(states, patch, &Patch::v1);
+  const Vector<double> at_v0 = off_linear(v0, grid.lines.u, &GridLine::t0),
+                       at_v1 = off_linear(v1, grid.lines.u, &GridLine::t1);
+  Vector<double> at_u0(grid.v.size() - 1, 0), at_u1 = at_u0, offset(grid.u.size() - 1, 0), rows = offset;
+  if (has_arcs) {
+    offset = offset_off_linear(states, patch, v0, v1, grid.lines.u);
+    const Vector<Vec3> moves = motion.offset_moves();
+    for (std::size_t i = 0; i + 1 < grid.u.size(); ++i) rows[i] = larger_of(moves[i], moves[i + 1]);
+  } else {
+    at_u0 = off_linear(curves_of(states, patch, &Patch::u0), grid.lines.v, &GridLine::t0);
+    at_u1 = off_linear(curves_of(states, patch, &Patch::u1), grid.lines.v, &GridLine::t1);
+  }
+  PatchErrors made;
+  auto next_level = levelled.levels.begin();
+  for_each_quad(grid, [&](std::size_t i, std::size_t j) {
+    const int level = *next_level++, n = 1 << level;
+    const double row = grid.v[j + 1] - grid.v[j];
+    // Between two vertices the arcs' part is as far from linear as 2 v (1-v) is.
+    double error = larger_mix(at_v0[i], at_v1[i], grid.v[j], grid.v[j + 1]) +
+                   larger_mix(at_u0[j], at_u1[j], grid.u[i], grid.u[i + 1]) +
+                   largest_arc_weight(grid.v[j], grid.v[j + 1]) * offset[i] + 0.5 * row * row * rows[i];
+    double twist = 0;
+    for (int k = 0; k < n * n; ++k) {
+      const int column = k % n, at_row = k / n;
+      const auto at = [&](int du, int dv) { return motion.in_quad(i, j, level, column + du, at_row + dv); };
+      twist = larger(twist, quad_flatness({at(0, 0), at(1, 0), at(1, 1), at(0, 1)}));
+    }
+    // Vertices on a side may be linear between those of a neighbour that is split less.
+    const auto is_less = [&](bool is_inside, std::size_t beside) {
+      return is_inside && levelled.levels[beside] < level;
+    };
+    const std::size_t n_u = grid.u.size() - 1, n_v = grid.v.size() - 1, here = j * n_u + i;
+    const bool has_coarser = is_less(i > 0, here - 1) || is_less(i + 1 < n_u, here + 1) || is_less(j > 0, here - n_u) ||
+                             is_less(j + 1 < n_v, here + n_u);
+    made.displacement = larger(made.displacement, (has_coarser ? 2 : 1) * error + twist);
+    made.point = larger(made.point, grid.error(i, j) + std::ldexp(quad_flatness(quad_of(grid, i, j)), -2 * level));
+  });
+  return made;
+}
+
+}  // namespace
+
+double velocity_error_bound(const TwoStates &states, const Vector<LevelledGrid> &grids) {
+  const Motion motion{states.before, states.placement_before, states.seconds};
+  double bound = 0;
+  for (std::size_t i = 0; i < grids.size(); ++i) {
+    const PatchErrors errors = errors_of(states, i, grids[i]);
+    const Patch &patch = states.now.patches[i];
+    for (std::size_t k = 0; k < patch.images.size(); ++k) {
+      const ImageMotion image(patch.images[k], states.before.patches[i].images[k], states.placement, motion);
+      bound = larger(bound, image.velocity_error(errors.displacement, errors.point + states.now.deviation));
+    }
+  }
+  return bound * (1 + 1e-9);
+}
+
+}  // namespace riis

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: files of a surface at several times, or one file with displacements. Out: its faces, as in the first file, and the places
+// of its vertices at all times.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "riis_vtk/faces.hpp"
+#include "riis_vtk/vtk_errors.hpp"
+
+namespace riis::vtk {
+
+inline constexpr std::int64_t most_frames = 1'000'000;  // as riis_keyframe_arrays
+
+inline bool is_time(double time) { return std::abs(time) <= 1e30; }  // as riis_keyframe_arrays
+
+struct Frames {
+  Faces faces;                // with the vertices of the first frame
+  std::vector<double> times;  // (n_keys)
+  std::vector<double> xyz;    // (3, n_vertices, n_keys)
+};
+
+// The cell array that gives the faces' leaflet ids. It must be there if it is required.
+struct LeafletArray {
+  std::string name;
+  bool is_required;
+};
+
+// Reads a file for each time. Fails for a file with other cells than the first one's, and for coordinates that are not finite.
+// Corners in .stl files that are at one place in the first file become one vertex, and are at one place in all files.
+Frames frames_of_files(const std::vector<std::string> &paths, std::vector<double> times, const LeafletArray &leaflets,
+                       const CaughtOutput &caught);
+
+// Reads the frames from the point arrays of displacements in one file, whose names are the prefix, "_" or nothing, and a number.
+// They are in ascending order of their numbers. Without times these come from the field array TimeValue.
+Frames frames_of_displacements(const std::string &path, const std::string &prefix, const std::vector<double> *times,
+                               const LeafletArray &leaflets, const CaughtOutput &caught);
+
+}  // namespace riis::vtk

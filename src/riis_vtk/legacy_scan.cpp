@@ -1,0 +1,539 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "riis_vtk/legacy_scan.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string_view>
+
+#include <vtkCellType.h>
+#include <vtkInformationDoubleKey.h>
+#include <vtkInformationDoubleVectorKey.h>
+#include <vtkInformationIntegerVectorKey.h>
+#include <vtkInformationKeyLookup.h>
+#include <vtkInformationStringKey.h>
+#include <vtkInformationStringVectorKey.h>
+
+#include "common/array_view.hpp"
+#include "riis_vtk/files.hpp"
+#include "riis_vtk/text.hpp"
+#include "riis_vtk/vtk_errors.hpp"
+
+namespace riis::vtk {
+namespace {
+
+// Returns the bytes of one value in a binary file, 0 for types of varying size, or -1 for an unknown type.
+int size_of_type(const std::string &type) {
+  static const std::map<std::string, int> sizes = {{"char", 1},
+                                                   {"signed_char", 1},
+                                                   {"unsigned_char", 1},
+                                                   {"short", 2},
+                                                   {"unsigned_short", 2},
+                                                   {"int", 4},
+                                                   {"unsigned_int", 4},
+                                                   {"long", 8},
+                                                   {"unsigned_long", 8},
+                                                   {"long_long", 8},
+                                                   {"unsigned_long_long", 8},
+                                                   {"vtktypeint64", 8},
+                                                   {"vtktypeuint64", 8},
+                                                   {"vtkidtype", 4},
+                                                   {"float", 4},
+                                                   {"double", 8},
+                                                   {"string", 0},
+                                                   {"utf8_string", 0}};
+  const auto found = sizes.find(type);
+  return found == sizes.end() ? -1 : found->second;
+}
+
+// Tells whether VTK takes the whole word for a number of the type. VTK reads by streams, which refuse infinite and too large
+// numbers, and take too small ones.
+bool is_number(std::string_view word, const std::string &type) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  const char *const first = word.data(), *const last = first + word.size();
+  if (type == "float" || type == "double") {
+    double value = 0;
+    const auto [end, error] = std::from_chars(first, last, value);
+    if (end != last) return false;
+    if (error == std::errc::result_out_of_range)
+      return word.find_first_of("eE") < word.find('-', 1) && word.find('-', 1) < word.size();
+    return error == std::errc() && std::isfinite(value) &&
+           (type == "double" || std::isfinite(static_cast<float>(value)));
+  }
+  // Single bytes are written, and read, as larger numbers.
+  const bool is_unsigned = type.rfind("unsigned", 0) == 0 || type == "vtktypeuint64";
+  const int n_bits = type == "short" || type == "unsigned_short" ? 16 : size_of_type(type) == 8 ? 64 : 32;
+  if (is_unsigned && size_of_type(type) > 1) {
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(first, last, value);
+    return error == std::errc() && end == last && (n_bits == 64 || value >> n_bits == 0);
+  }
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(first, last, value);
+  const std::int64_t most = std::numeric_limits<std::int64_t>::max() >> (64 - n_bits);
+  return error == std::errc() && end == last && value <= most && value >= -most - 1;
+}
+
+bool begins_with(std::string_view text, std::string_view what) { return text.substr(0, what.size()) == what; }
+
+// A row of whole numbers that the scan has passed already, so they are known to be there and to be numbers.
+class Numbers {
+ public:
+  // size is the bytes of each number in a binary file, 4 or 8, or 0 in an ASCII file.
+  Numbers(std::string_view from, int size) : rest_(from), size_(size) {}
+
+  std::int64_t next() {
+    if (size_ == 0) {
+      const std::string_view word = take_word(rest_);
+      std::int64_t n = 0;
+      std::from_chars(word.data() + (word[0] == '+'), word.data() + word.size(), n);
+      return n;
+    }
+    std::uint64_t bits = 0;
+    for (int i = 0; i < size_; ++i) bits = bits << 8 | static_cast<unsigned char>(view(rest_)[i]);
+    rest_.remove_prefix(static_cast<std::size_t>(size_));
+    return size_ == 4 ? static_cast<std::int32_t>(bits) : static_cast<std::int64_t>(bits);
+  }
+
+  void skip(std::int64_t n) {
+    if (size_ == 0) {
+      for (std::int64_t i = 0; i < n; ++i) take_word(rest_);
+    } else {
+      rest_.remove_prefix(static_cast<std::size_t>(n * size_));
+    }
+  }
+
+ private:
+  std::string_view rest_;
+  int size_;
+};
+
+class Scan {
+ public:
+  Scan(const std::string &path, std::string_view bytes) : path_(path), rest_(bytes) {}
+
+  // Returns the number of cells.
+  std::int64_t file() {
+    header();
+    for (std::string keyword = word(); !keyword.empty(); keyword = word()) section(keyword);
+    // The format has no end mark: a file cut after its points would pass for a grid without cells.
+    if (n_cells_ < 0) refuse("holds no cells (is it truncated?)");
+    if (n_types_ != n_cells_) {
+      refuse("has " + std::to_string(std::max<std::int64_t>(n_types_, 0)) + " types for " + std::to_string(n_cells_) +
+             " cells" + (n_types_ < 0 ? " (is it truncated?)" : ""));
+    }
+    if (has_polyhedra()) check_polyhedra();
+    return n_cells_;
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string &reason) const { fail_file(path_, reason); }
+  [[noreturn]] void refuse_end() const { refuse("is truncated"); }
+
+  std::string_view line() { return take_line(rest_); }
+
+  // Returns "" at the end. VTK takes a longer word for two.
+  std::string_view word_as_it_is() {
+    constexpr std::size_t longest = 255;
+    const std::string_view text = take_word(rest_);
+    if (text.size() > longest) {
+      refuse("has a word of " + std::to_string(text.size()) + " characters, more than " + std::to_string(longest));
+    }
+    return text;
+  }
+
+  // Returns the word in lower case, since the format mostly ignores case, or "" at the end.
+  std::string word() { return lower_case(word_as_it_is()); }
+
+  // These two return words that must be there.
+  std::string_view next_as_it_is() {
+    const std::string_view text = word_as_it_is();
+    if (text.empty()) refuse_end();
+    return text;
+  }
+  std::string next() { return lower_case(next_as_it_is()); }
+
+  std::int64_t number_of(std::string_view text) const {
+    std::int64_t n = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
+    if (error != std::errc() || end != text.data() + text.size())
+      refuse("has '" + std::string(text) + "' for a number");
+    return n;
+  }
+
+  // Returns a count. Each counted thing takes at least a bit of the file, so a count beyond the file's number of bits is wrong.
+  std::int64_t count() {
+    const std::int64_t n = number_of(next());
+    if (n < 0) refuse("has the count " + std::to_string(n));
+    if (n > n_bits_left()) refuse_end();
+    return n;
+  }
+
+  std::int64_t n_bits_left() const { return 8 * view(rest_).size(); }
+
+  void header() {
+    const std::string magic = "# vtk datafile version ";
+    const std::string first = lower_case(line());
+    if (first.rfind(magic, 0) != 0) refuse("is not a legacy VTK file");
+    std::string version = first.substr(magic.size());
+    while (!version.empty() && is_blank(version.back())) version.pop_back();
+    // VTK takes a version that it cannot read for an old one.
+    const std::size_t dot = version.find('.');
+    if (dot == std::string::npos) refuse("has the version '" + version.substr(0, 40) + "'");
+    version_ = number_of(version.substr(0, dot));
+    number_of(version.substr(dot + 1));
+    line();
+    const std::string encoding = next();
+    if (encoding != "ascii" && encoding != "binary") refuse("is neither ASCII nor BINARY");
+    binary_ = encoding == "binary";
+    if (next() != "dataset") refuse("holds no data set");
+    const std::string kind = next();
+    if (kind != "unstructured_grid") refuse("holds " + kind + ", not unstructured_grid");
+  }
+
+  void skip_bytes(std::int64_t n) {
+    if (n > view(rest_).size()) refuse_end();
+    rest_.remove_prefix(static_cast<std::size_t>(n));
+  }
+
+  // Skips n words of an ASCII file and refuses any that is no number of the type. VTK would close the file there and read on.
+  void skip_words(std::int64_t n, const std::string &type) {
+    for (std::int64_t i = 0; i < n; ++i) {
+      const std::string_view word = take_word(rest_);
+      if (word.empty()) refuse_end();
+      check_number(word, type);
+    }
+  }
+
+  void check_number(std::string_view word, const std::string &type) const {
+    if (!is_number(word, type)) refuse("has '" + std::string(word.substr(0, 40)) + "' for a number of type " + type);
+  }
+
+  // Skips a string in a binary file. The upper two bits of its first byte tell how many bytes hold its length.
+  void skip_binary_string() {
+    if (rest_.empty()) refuse_end();
+    const auto first = static_cast<unsigned char>(rest_[0]);
+    const int n_length_bytes = 8 >> (first >> 6);
+    std::int64_t length = first & 63;
+    for (int i = 1; i < n_length_bytes; ++i) {
+      if (i >= static_cast<int>(rest_.size())) refuse_end();
+      length = length << 8 | static_cast<unsigned char>(view(rest_)[i]);
+    }
+    skip_bytes(n_length_bytes);
+    skip_bytes(length);
+  }
+
+  void skip_strings(std::int64_t n) {
+    for (std::int64_t i = 0; i < n; ++i) {
+      if (binary_) {
+        skip_binary_string();
+      } else {
+        if (rest_.empty()) refuse_end();
+        line();
+      }
+    }
+  }
+
+  // Skips n values that begin on the next line. n must not be larger than the number of bits left.
+  void skip_values(std::int64_t n, const std::string &type) {
+    line();
+    const int size = size_of_type(type);
+    if (type == "bit") {
+      binary_ ? skip_bytes((n + 7) / 8) : skip_words(n, "int");
+    } else if (size < 0) {
+      refuse("has values of the unknown type " + type);
+    } else if (size == 0) {
+      skip_strings(n);
+    } else {
+      binary_ ? skip_bytes(n * size) : skip_words(n, type);
+    }
+  }
+
+  // Skips an array: n tuples of a width that the file gives, and the METADATA that VTK's writer may put behind them.
+  void skip_tuples(std::int64_t n, std::int64_t width, const std::string &type) {
+    if (width > 0 && n > n_bits_left() / width) refuse_end();
+    skip_values(n * width, type);
+    std::string_view behind = rest_;
+    if (!begins_with(lower_case(take_word(behind)), "metadata")) return;
+    rest_ = behind;
+    skip_metadata(width);
+  }
+
+  // Skips a block of METADATA behind its keyword. The block ends with a blank line. But each name of a component has a line,
+  // which is blank for a component without a name. VTK reads only the beginning of a keyword: INFORMATION8 1 promises 8 keys.
+  void skip_metadata(std::int64_t n_components) {
+    line();
+    while (!rest_.empty()) {
+      std::string_view text = line();
+      const std::string_view word = take_word(text);
+      const std::string keyword = lower_case(word);
+      if (keyword.empty()) return;
+      constexpr std::string_view information = "information";
+      if (begins_with(keyword, information)) {
+        text = {word.data() + information.size(), word.size() - information.size() + text.size()};
+        return skip_information(number_of(take_word(text)));
+      }
+      const bool are_names = begins_with(keyword, "component_names");
+      for (std::int64_t i = 0; are_names && i < n_components && !rest_.empty(); ++i) line();
+    }
+  }
+
+  // Skips the rest of a block of METADATA: the keys, each with a NAME line and a DATA line. VTK looks for as many keys as are
+  // promised, even past the blank line. It never stops once it has met a number that it cannot read.
+  void skip_information(std::int64_t n_keys) {
+    std::int64_t n_found = 0;
+    vtkInformationKey *key = nullptr;
+    while (!rest_.empty()) {
+      std::string_view text = line();
+      const std::string_view keyword = take_word(text);
+      if (keyword.empty()) break;
+      if (keyword == "NAME") {
+        const std::string name(take_word(text));
+        take_word(text);
+        key = vtkInformationKeyLookup::Find(name, std::string(take_word(text)));
+        ++n_found;
+      } else if (key) {
+        if (keyword != "DATA")
+          refuse("has metadata with '" + std::string(keyword.substr(0, 40)) + "' in the place of DATA");
+        skip_data(key, text);
+        key = nullptr;
+      } else if (const std::string lower = lower_case(keyword);
+                 begins_with(lower, "information") || begins_with(lower, "component_names")) {
+        // VTK would start the block again there.
+        refuse("has metadata with '" + std::string(keyword.substr(0, 40)) + "' behind INFORMATION");
+      }
+    }
+    if (n_found != n_keys || key)
+      refuse("has INFORMATION of " + std::to_string(n_keys) + " keys and gives " + std::to_string(n_found));
+  }
+
+  // Skips the values of a key that VTK knows: a string, a number, or a count and so many strings or numbers.
+  void skip_data(vtkInformationKey *key, std::string_view text) {
+    if (vtkInformationStringKey::SafeDownCast(key)) return;
+    const bool are_texts = vtkInformationStringVectorKey::SafeDownCast(key) != nullptr;
+    const bool are_reals = vtkInformationDoubleVectorKey::SafeDownCast(key) != nullptr;
+    const bool are_many = are_texts || are_reals || vtkInformationIntegerVectorKey::SafeDownCast(key);
+    const std::int64_t n = are_many ? number_of(take_word(text)) : 1;
+    if (n < 0 || n > n_bits_left()) refuse("has metadata with the count " + std::to_string(n));
+    for (std::int64_t i = 0; i < n; ++i) {
+      if (are_texts)
+        line();
+      else
+        check_number(take_word(text), are_reals || vtkInformationDoubleKey::SafeDownCast(key) ? "double" : "int");
+    }
+  }
+
+  void section(const std::string &keyword) {
+    if (keyword == "field") {
+      field();
+    } else if (keyword == "points") {
+      n_points_ = count();
+      skip_tuples(n_points_, 3, next());
+    } else if (keyword == "cells") {
+      if (n_cells_ >= 0) refuse("has CELLS twice");
+      cells();
+    } else if (keyword == "cell_types") {
+      if (n_types_ >= 0) refuse("has CELL_TYPES twice");
+      n_types_ = count();
+      types_ = values_behind_line();
+      skip_values(n_types_, "int");
+    } else if (keyword == "point_data" || keyword == "cell_data") {
+      n_tuples_ = count();
+    } else if (keyword == "metadata") {
+      skip_metadata(0);
+    } else if (!attribute(keyword)) {
+      refuse("has the unknown keyword '" + keyword.substr(0, 40) + "'");
+    }
+  }
+
+  void field() {
+    next();
+    const std::int64_t n_arrays = count();
+    for (std::int64_t i = 0; i < n_arrays; ++i) {
+      if (next_as_it_is() == "NULL_ARRAY") continue;  // in capitals only
+      const std::int64_t width = count();
+      const std::int64_t n = count();
+      skip_tuples(n, width, next());
+    }
+  }
+
+  void cells() {
+    const std::int64_t first = count();
+    const std::int64_t second = count();
+    if (version_ >= 5) {
+      // Here the two numbers count offsets and corners.
+      n_cells_ = std::max<std::int64_t>(first - 1, 0);
+      if (first == 0) return;
+      if (next() != "offsets") refuse("has CELLS without OFFSETS");
+      type_of_offsets_ = next();
+      offsets_ = values_behind_line();
+      skip_tuples(first, 1, type_of_offsets_);
+      if (next() != "connectivity") refuse("has cell offsets without CONNECTIVITY");
+      n_corners_ = second;
+      type_of_corners_ = next();
+      corners_ = values_behind_line();
+      skip_tuples(second, 1, type_of_corners_);
+    } else {
+      n_cells_ = first;
+      counted_cells(first, second);
+    }
+  }
+
+  // Skips the cells of files up to version 4: each cell's number of corners, then its corners. n_values counts both.
+  void counted_cells(std::int64_t n_cells, std::int64_t n_values) {
+    line();
+    corners_ = rest_;
+    std::int64_t n_left = n_values;
+    for (std::int64_t i = 0; i < n_cells; ++i) {
+      const std::int64_t n_corners = binary_ ? binary_int() : number_of(next());
+      if (n_corners < 0 || n_corners >= n_left)
+        refuse("cell " + std::to_string(i) + " has " + std::to_string(n_corners) + " points, more than CELLS has");
+      n_left -= 1 + n_corners;
+      binary_ ? skip_bytes(4 * n_corners) : skip_words(n_corners, "int");
+    }
+    if (n_left != 0) refuse("has CELLS with " + std::to_string(n_left) + " numbers too many");
+  }
+
+  // Returns the values of an array whose type was the last word read. They begin on the next line.
+  std::string_view values_behind_line() const {
+    std::string_view values = rest_;
+    take_line(values);
+    return values;
+  }
+
+  Numbers numbers(std::string_view values, const std::string &type) const {
+    const int size = size_of_type(type);
+    if (size < 4 || type == "float" || type == "double") refuse("has polyhedra, and cells of type " + type);
+    return {values, binary_ ? size : 0};
+  }
+
+  // VTK also keeps each type in a byte.
+  bool has_polyhedra() const {
+    Numbers types = numbers(types_, "int");
+    for (std::int64_t i = 0; i < n_types_; ++i)
+      if ((types.next() & 255) == VTK_POLYHEDRON) return true;
+    return false;
+  }
+
+  // VTK follows the faces of polyhedra unchecked while it reads them.
+  void check_polyhedra() const {
+    Numbers types = numbers(types_, "int"), corners = numbers(corners_, type_of_corners_);
+    Numbers offsets = numbers(offsets_, type_of_offsets_);
+    std::int64_t offset = version_ >= 5 ? offsets.next() : 0;
+    if (offset != 0) refuse("has broken cell offsets");
+    for (std::int64_t i = 0; i < n_cells_; ++i) {
+      std::int64_t n = 0;
+      if (version_ >= 5) {
+        const std::int64_t next = offsets.next();
+        if (next < offset || next > n_corners_) refuse("has broken cell offsets");
+        n = next - offset;
+        offset = next;
+      } else {
+        n = corners.next();
+      }
+      if ((types.next() & 255) == VTK_POLYHEDRON)
+        check_polyhedron(i, n, corners);
+      else
+        corners.skip(n);
+    }
+  }
+
+  // Checks the n numbers of a polyhedron: the number of its faces, then for each face the number of its points and the points.
+  void check_polyhedron(std::int64_t cell, std::int64_t n, Numbers &corners) const {
+    const auto broken = [&] { refuse("cell " + std::to_string(cell) + " has broken polyhedron faces"); };
+    if (n < 1) broken();
+    std::int64_t n_left = n - 1;
+    const std::int64_t n_faces = corners.next();
+    for (std::int64_t face = 0; face < n_faces; ++face) {
+      if (n_left < 1) broken();
+      const std::int64_t n_points = corners.next();
+      if (n_points < 0 || n_points > --n_left) broken();
+      n_left -= n_points;
+      for (std::int64_t i = 0; i < n_points; ++i) {
+        const std::int64_t point = corners.next();
+        if (point < 0 || point >= n_points_)
+          refuse("cell " + std::to_string(cell) + " names point " + std::to_string(point) + " of " +
+                 std::to_string(n_points_));
+      }
+    }
+    if (n_faces < 0 || n_left != 0) broken();
+  }
+
+  std::int32_t binary_int() {
+    if (rest_.size() < 4) refuse_end();
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(rest_[i]);
+    rest_.remove_prefix(4);
+    return static_cast<std::int32_t>(value);
+  }
+
+  // Skips an array of POINT_DATA or CELL_DATA. Returns false if the keyword does not begin one.
+  bool attribute(const std::string &keyword) {
+    static const std::map<std::string, int> widths = {{"vectors", 3},   {"normals", 3},    {"tensors", 9},
+                                                      {"tensors6", 6},  {"global_ids", 1}, {"pedigree_ids", 1},
+                                                      {"edge_flags", 1}};
+    const auto found = widths.find(keyword);
+    if (found != widths.end()) {
+      next();
+      skip_tuples(n_tuples_, found->second, next());
+    } else if (keyword == "scalars") {
+      scalars();
+    } else if (keyword == "texture_coordinates") {
+      next();
+      const std::int64_t width = count();
+      skip_tuples(n_tuples_, width, next());
+    } else if (keyword == "color_scalars") {
+      next();
+      skip_tuples(n_tuples_, count(), type_of_colors());
+    } else if (keyword == "lookup_table") {
+      next();
+      skip_tuples(count(), 4, type_of_colors());
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  // Colours are bytes in a binary file, and numbers from 0 to 1 in an ASCII file.
+  std::string type_of_colors() const { return binary_ ? "unsigned_char" : "float"; }
+
+  void scalars() {
+    next();
+    const std::string type = next();
+    std::string after = next();
+    std::int64_t width = 1;
+    if (after != "lookup_table") {
+      width = number_of(after);
+      if (width < 1 || width > n_bits_left()) refuse("has SCALARS of " + after + " components");
+      after = next();
+    }
+    if (after != "lookup_table") refuse("has SCALARS without LOOKUP_TABLE");
+    next();
+    skip_tuples(n_tuples_, width, type);
+  }
+
+  const std::string &path_;
+  std::string_view rest_;
+  std::int64_t version_ = 0;  // major
+  bool binary_ = false;
+  std::int64_t n_cells_ = -1;  // unknown
+  std::int64_t n_types_ = -1;
+  std::int64_t n_points_ = 0;
+  // The beginnings of the arrays. Up to version 4 there are no offsets: each cell's corners stand behind their number.
+  std::string_view types_, offsets_, corners_;
+  std::string type_of_offsets_ = "int", type_of_corners_ = "int";
+  std::int64_t n_corners_ = 0;
+  std::int64_t n_tuples_ = 0;  // of each array in the POINT_DATA or CELL_DATA that the scan is in
+};
+
+}  // namespace
+
+std::int64_t check_legacy(const std::string &path) {
+  const MappedFile file(path, check_readable(path));
+  return Scan(path, file.bytes()).file();
+}
+
+}  // namespace riis::vtk

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// Volume meshes of riis_vtk.h: reads a file into a grid with double points, makes an adjacency from its cells, puts marks into
+// its point arrays, and writes the grid to a .vtu file.
+#include <riis/riis_vtk.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include <vtkDoubleArray.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include "common/array_view.hpp"
+#include "riis_vtk/array_names.hpp"
+#include "riis_vtk/edge_length.hpp"
+#include "riis_vtk/files.hpp"
+#include "riis_vtk/grid_files.hpp"
+#include "riis_vtk/mesh.hpp"
+#include "riis_vtk/point_arrays.hpp"
+#include "riis_vtk/text.hpp"
+#include "riis_vtk/volume_cells.hpp"
+#include "riis_vtk/vtk_errors.hpp"
+#include "riis_vtk/xml_writing.hpp"
+
+namespace riis::vtk {
+namespace {
+
+void make_points_double(vtkUnstructuredGrid *grid) {
+  if (vtkDoubleArray::SafeDownCast(grid->GetPoints()->GetData())) return;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->DeepCopy(grid->GetPoints());
+  grid->SetPoints(points);
+}
+
+// Throws the core's error without the name of its struct, because the caller gave a plain argument.
+void check_adjacency(riis_status status, const std::string &structure) {
+  if (status == RIIS_OK) return;
+  const std::string text = riis_last_error();
+  fail(status, text.rfind(structure, 0) == 0 ? text.substr(structure.size()) : text);
+}
+
+// The core makes adjacencies from cells and the faces that join them. Here nodes stand for the cells and edges for the faces.
+riis_adjacency *adjacency_of_edges(std::int64_t n_nodes, const std::vector<std::int64_t> &edges,
+                                   std::int32_t n_threads) {
+  riis_mesh_faces faces;
+  check_core(riis_mesh_faces_init(&faces, sizeof faces));
+  faces.n_cells = n_nodes;
+  faces.n_faces = static_cast<std::int64_t>(edges.size() / 2);
+  if (!edges.empty()) {
+    faces.owner = edges.data();
+    faces.neighbor = edges.data() + 1;
+  }
+  faces.stride = 2;
+  faces.id_bits = 64;
+  faces.n_threads = n_threads;
+  riis_adjacency *made = nullptr;
+  check_adjacency(riis_adjacency_create_from_faces(&faces, &made), "faces.");
+  return made;
+}
+
+riis_adjacency *adjacency_of(vtkUnstructuredGrid *grid, std::int32_t n_threads) {
+  const VolumeCounts counts = count_volumes(grid);
+  if (counts.n_linear == 0 || counts.n_linear < counts.n_volumes)
+    return adjacency_of_edges(grid->GetNumberOfPoints(), volume_edges_of(grid).node_ids, n_threads);
+  // Lists of cells are a third of the lists of their edges.
+  const VolumeCells volumes = volume_cells_of(grid);
+  riis_mesh_cells cells;
+  check_core(riis_mesh_cells_init(&cells, sizeof cells));
+  cells.n_nodes = grid->GetNumberOfPoints();
+  cells.n_cells = view(volumes.offsets).size() - 1;
+  cells.node_ids = volumes.node_ids.data();
+  cells.offsets = volumes.offsets.data();
+  cells.id_bits = 64;
+  cells.n_threads = n_threads;
+  riis_adjacency *made = nullptr;
+  check_adjacency(riis_adjacency_create_from_cells(&cells, &made), "cells.");
+  return made;
+}
+
+void check_length(double longer_than) {
+  if (longer_than >= 0 && std::isfinite(longer_than)) return;
+  fail(RIIS_INVALID_ARGUMENT, "longer_than is " + shortest(longer_than) + "; it must be finite and at least 0");
+}
+
+const double *points_of(vtkUnstructuredGrid *grid) {
+  return vtkDoubleArray::SafeDownCast(grid->GetPoints()->GetData())->GetPointer(0);
+}
+
+}  // namespace
+}  // namespace riis::vtk
+
+using namespace riis::vtk;
+
+extern "C" {
+
+RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh) {
+  return guarded([&](const CaughtOutput &caught) {
+    require(path, "path");
+    require(mesh, "mesh");
+    naming(path, [&] {
+      auto made = std::make_unique<riis_vtk_mesh>();
+      made->grid = read_grid(path, caught);
+      make_points_double(made->grid);
+      *mesh = made.release();
+    });
+  });
+}
+
+RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh) {
+  if (!mesh) return;
+  delete *mesh;
+  *mesh = nullptr;
+}
+
+RIIS_API riis_status riis_vtk_mesh_get_nodes(const riis_vtk_mesh *mesh, int64_t *n_nodes, int64_t *n_cells,
+                                             const double **xyz) {
+  return guarded([&](const CaughtOutput &) {
+    vtkUnstructuredGrid *grid = require(mesh, "mesh")->grid;
+    if (n_nodes) *n_nodes = grid->GetNumberOfPoints();
+    if (n_cells) *n_cells = grid->GetNumberOfCells();
+    if (xyz) *xyz = points_of(grid);
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_create_adjacency(const riis_vtk_mesh *mesh, int32_t n_threads,
+                                                    riis_adjacency **adjacency) {
+  return guarded([&](const CaughtOutput &) {
+    require(mesh, "mesh");
+    require(adjacency, "adjacency");
+    *adjacency = adjacency_of(mesh->grid, n_threads);
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, const riis_surface *surface,
+                                                     double longer_than, int32_t n_threads, int64_t *n_cells_left_out,
+                                                     riis_adjacency **adjacency) {
+  return guarded([&](const CaughtOutput &) {
+    vtkUnstructuredGrid *grid = require(mesh, "mesh")->grid;
+    require(surface, "surface");
+    check_length(longer_than);
+    require(adjacency, "adjacency");
+    riis_surface_info info;
+    check_core(riis_surface_get_info(surface, &info, sizeof info));
+    const VolumeEdges edges = long_edges_of(grid, points_of(grid), longer_than, info.lower, info.upper);
+    *adjacency = adjacency_of_edges(grid->GetNumberOfPoints(), edges.node_ids, n_threads);
+    if (n_cells_left_out) *n_cells_left_out = edges.n_cells_left_out;
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, int64_t *n_volume_cells,
+                                                    int64_t *n_cells_left_out) {
+  return guarded([&](const CaughtOutput &) {
+    const VolumeCounts counts = count_volumes(require(mesh, "mesh")->grid);
+    if (n_volume_cells) *n_volume_cells = counts.n_volumes;
+    if (n_cells_left_out) *n_cells_left_out = counts.n_unknown;
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_marks *marks, double far_distance,
+                                             const char *prefix) {
+  return guarded([&](const CaughtOutput &) {
+    set_marks(require(mesh, "mesh")->grid, require(marks, "marks"), far_distance, prefix ? prefix : default_prefix);
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_set_fields(riis_vtk_mesh *mesh, const riis_marks *marks, int32_t fields,
+                                              const char *prefix) {
+  return guarded([&](const CaughtOutput &) {
+    set_fields(require(mesh, "mesh")->grid, require(marks, "marks"), fields, require(prefix, "prefix"));
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_set_point_array(riis_vtk_mesh *mesh, const char *name, int64_t n_nodes,
+                                                   int64_t n_components, const double *values) {
+  return guarded([&](const CaughtOutput &) {
+    require(mesh, "mesh");
+    set_point_array(mesh->grid, require(name, "name"), n_nodes, n_components, require(values, "values"));
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, const char *name, int32_t *has) {
+  return guarded([&](const CaughtOutput &) {
+    require(mesh, "mesh");
+    require(name, "name");
+    *require(has, "has") = mesh->grid->GetPointData()->HasArray(name) != 0;
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, double *length) {
+  return guarded([&](const CaughtOutput &) {
+    require(mesh, "mesh");
+    require(length, "length");
+    *length = median_edge_of(mesh->grid);
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *path) {
+  return guarded([&](const CaughtOutput &caught) {
+    require(mesh, "mesh");
+    require(path, "path");
+    naming(path, [&] { write_xml<vtkXMLUnstructuredGridWriter>(path, "vtu", mesh->grid, caught); });
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: a surface's triangles, a marked mesh. Out: the two panels of a picture, made once for all views.
+#pragma once
+
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+#include <vtkType.h>
+
+#include <cstdint>
+#include <memory>
+#include <set>
+
+#include "riis_vtk/picture_view.hpp"
+
+class vtkActor;
+class vtkPolyData;
+
+class vtkUnstructuredGrid;
+
+namespace riis::vtk {
+
+// red, green, blue from 0 to 1
+using Colour = std::array<double, 3>;
+
+Colour colour_of_leaflet(vtkIdType leaflet);
+constexpr Colour leak_colour = {0.86, 0.0, 0.0};
+constexpr Colour grey = {0.2, 0.2, 0.2};
+
+// The surface, each leaflet in its colour. The rims are lines, because faces that the view meets edge on have no pixels.
+class SurfacePanel {
+ public:
+  // pixels is the width of a line.
+  explicit SurfacePanel(double pixels);
+  // Replaces the surface shown before.
+  void show(vtkPolyData *surface);
+  // Turns to a view: the lines are a little behind the faces, which hide them wherever they can.
+  void look(const View &view, const Sight &sight);
+  vtkRenderer *renderer() const { return renderer_; }
+  const std::set<vtkIdType> &leaflets() const { return leaflets_; }
+
+ private:
+  vtkSmartPointer<vtkRenderer> renderer_;
+  double pixels_;
+  vtkSmartPointer<vtkActor> rims_;
+  std::set<vtkIdType> leaflets_;
+};
+
+struct MarkCounts {
+  vtkIdType n_nodes = 0, n_marked_nodes = 0;
+  vtkIdType n_whole_cells = 0;   // cells with all nodes marked
+  vtkIdType n_partly_cells = 0;  // cells with some but not all nodes marked
+};
+
+// Marked cells in the faint boundary of the mesh. A cell has the colour of its closest node's leaflet; a partly marked
+// cell is paler. Edges that leak are red. Cells of less than the grid's largest dimension are left out.
+class MarksPanel {
+ public:
+  // pixels is the width of a line.
+  MarksPanel(vtkUnstructuredGrid *grid, double pixels);
+  // Replaces the marks shown before by the present marks of the grid's point arrays. leaking_edges(2, n_leaking_edges) holds
+  // checked node ids.
+  void show(vtkUnstructuredGrid *grid, std::int64_t n_leaking_edges, const std::int64_t *leaking_edges);
+  vtkRenderer *renderer() const { return renderer_; }
+  const MarkCounts &counts() const { return counts_; }
+  // Turns to a view: cuts a mesh that goes on beyond the panel, and moves leaking edges in front of everything else.
+  void look(const View &view, const Sight &sight);
+
+ private:
+  void add_marks(vtkUnstructuredGrid *grid);
+  void add_leaks(vtkUnstructuredGrid *grid, std::int64_t n, const std::int64_t *edges);
+  void add_outline(vtkUnstructuredGrid *grid);
+
+  vtkSmartPointer<vtkRenderer> renderer_;
+  MarkCounts counts_;
+  double pixels_;
+  double partly_length_ = 0;                                                 // mean edge length of partly marked cells
+  vtkSmartPointer<vtkActor> partly_, whole_, leaks_, skin_, outline_, cut_;  // leaks_ NULL without any
+};
+
+}  // namespace riis::vtk
