@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests what bench/compare.py calls slower, on files made up here."""
+"""Tests what bench/report/compare.py calls slower, on files made up here."""
 
 import contextlib
 import io
@@ -9,7 +9,7 @@ import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "bench"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "bench", "report"))
 import compare
 import gbench
 
@@ -110,7 +110,7 @@ class Compare(unittest.TestCase):
             self.assertEqual(compare.main([os.path.join(self.folder, "none.json")] * 2), 2)
 
     def test_kept_baselines_can_be_read(self):
-        folder = os.path.join(os.path.dirname(compare.__file__), "baselines")
+        folder = os.path.join(os.path.dirname(compare.__file__), "..", "baselines")
         kept = [name for name in os.listdir(folder) if name.endswith(".json")]
         self.assertTrue(kept)
         for name in kept:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests that the page of bench/report.py agrees with the JSON, on files made up here."""
+"""Tests that the page of bench/report/report.py agrees with the JSON, on files made up here."""
 
 import contextlib
 import io
@@ -10,7 +10,7 @@ import tempfile
 import unittest
 import unittest.mock
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "bench"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "bench", "report"))
 import report
 import report_text
 import study
@@ -290,7 +290,7 @@ class Page(unittest.TestCase):
 
 
 class Study(unittest.TestCase):
-    """The measurements of bench/study.py for the figures. The programs are replaced."""
+    """The measurements of bench/report/study.py for the figures. The programs are replaced."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

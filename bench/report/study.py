@@ -166,7 +166,7 @@ class Study:
                     print(f"==> {package} cannot be installed and is left out", flush=True)
             open(os.path.join(environment, "complete"), "w", encoding="ascii").close()
         here = os.path.dirname(os.path.abspath(__file__))
-        self.run("peers_python", [python, os.path.join(here, "peers.py"), os.path.join(self.out, "peers"), "OUT"])
+        self.run("peers_python", [python, os.path.join(here, "..", "peers", "peers.py"), os.path.join(self.out, "peers"), "OUT"])
 
     def missing_for_figures(self):
         """Measures the costs that the figures' page plots and that out/bench lacks; what is there may be of a longer run."""

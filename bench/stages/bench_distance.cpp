@@ -11,7 +11,7 @@
 
 #include "api/handles.hpp"
 #include "distance/sample_set.hpp"
-#include "handles.hpp"
+#include "shared/handles.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "handles.hpp"
+#include "shared/handles.hpp"
 
 namespace bench {
 

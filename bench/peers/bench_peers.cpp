@@ -18,18 +18,18 @@
 #include <utility>
 #include <vector>
 
-#include "contest.hpp"
-#include "cylinder.hpp"
-#include "middles.hpp"
-#include "references.hpp"
+#include "shared/contest.hpp"
+#include "shared/cylinder.hpp"
+#include "shared/middles.hpp"
+#include "shared/references.hpp"
 #if defined(RIIS_WITH_CGAL)
-#include "cgal_reference.hpp"
+#include "shared/cgal_reference.hpp"
 #endif
 #if defined(RIIS_WITH_OPENVDB)
 #include "openvdb_reference.hpp"
 #endif
 #if defined(RIIS_WITH_VTK)
-#include "vtk_reference.hpp"
+#include "shared/vtk_reference.hpp"
 #endif
 
 namespace {

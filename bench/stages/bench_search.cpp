@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "../tests/support/brute_force.hpp"
+#include "../../tests/support/brute_force.hpp"
 #include "api/handles.hpp"
 #include "counters.hpp"
-#include "cylinder.hpp"
-#include "references.hpp"
+#include "shared/cylinder.hpp"
+#include "shared/references.hpp"
 
 namespace {
 

@@ -14,8 +14,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "cylinder.hpp"
-#include "memory.hpp"
+#include "shared/cylinder.hpp"
+#include "shared/memory.hpp"
 
 namespace {
 

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "cylinder.hpp"
-#include "shortest.hpp"
+#include "shared/cylinder.hpp"
+#include "shared/shortest.hpp"
 
 namespace {
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "cylinder.hpp"
+#include "shared/cylinder.hpp"
 #include "plain_adjacency.hpp"
 
 namespace bench {

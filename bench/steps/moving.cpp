@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "contest.hpp"
-#include "cylinder.hpp"
-#include "handles.hpp"
+#include "shared/contest.hpp"
+#include "shared/cylinder.hpp"
+#include "shared/handles.hpp"
 #include "k_jump.hpp"
 
 namespace {

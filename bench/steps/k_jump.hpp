@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <string>
 
-#include "cylinder.hpp"
-#include "handles.hpp"
+#include "shared/cylinder.hpp"
+#include "shared/handles.hpp"
 
 namespace bench {
 

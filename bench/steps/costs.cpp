@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "cylinder.hpp"
-#include "memory.hpp"
-#include "shortest.hpp"
+#include "shared/cylinder.hpp"
+#include "shared/memory.hpp"
+#include "shared/shortest.hpp"
 
 namespace {
 

@@ -11,10 +11,10 @@
 #include <cstring>
 #include <vector>
 
-#include "../tests/support/brute_force.hpp"
+#include "../../tests/support/brute_force.hpp"
 #include "api/handles.hpp"
-#include "cylinder.hpp"
-#include "time_steps.hpp"
+#include "shared/cylinder.hpp"
+#include "shared/time_steps.hpp"
 
 namespace {
 

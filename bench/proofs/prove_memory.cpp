@@ -10,9 +10,9 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "cylinder.hpp"
-#include "memory.hpp"
-#include "time_steps.hpp"
+#include "shared/cylinder.hpp"
+#include "shared/memory.hpp"
+#include "shared/time_steps.hpp"
 
 namespace {
 

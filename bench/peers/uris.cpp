@@ -23,9 +23,9 @@
 #include <string>
 #include <vector>
 
-#include "cylinder.hpp"
-#include "middles.hpp"
-#include "vtk_reference.hpp"
+#include "shared/cylinder.hpp"
+#include "shared/middles.hpp"
+#include "shared/vtk_reference.hpp"
 
 namespace {
 

@@ -19,13 +19,13 @@
 #include <vector>
 
 #include "api/handles.hpp"
-#include "cylinder.hpp"
+#include "shared/cylinder.hpp"
 #include "kernels/count.hpp"
 #include "kernels/table.hpp"
 #include "marking/cluster_search.hpp"
 #include "marking/put_in_order.hpp"
 #include "peak.hpp"
-#include "time_steps.hpp"
+#include "shared/time_steps.hpp"
 
 namespace riis {
 Counts counts_of_kernels{0, 0};

@@ -14,13 +14,13 @@
 #include <vector>
 
 #include "compare_adjacencies.hpp"
-#include "contest.hpp"
-#include "cylinder.hpp"
-#include "memory.hpp"
-#include "references.hpp"
-#include "time_steps.hpp"
+#include "shared/contest.hpp"
+#include "shared/cylinder.hpp"
+#include "shared/memory.hpp"
+#include "shared/references.hpp"
+#include "shared/time_steps.hpp"
 #if defined(RIIS_WITH_CGAL)
-#include "cgal_reference.hpp"
+#include "shared/cgal_reference.hpp"
 #endif
 
 namespace {

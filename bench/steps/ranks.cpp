@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "cylinder.hpp"
-#include "handles.hpp"
+#include "shared/cylinder.hpp"
+#include "shared/handles.hpp"
 
 namespace {
 

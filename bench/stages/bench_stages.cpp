@@ -9,10 +9,10 @@
 #include <random>
 #include <vector>
 
-#include "../tests/support/brute_force.hpp"
+#include "../../tests/support/brute_force.hpp"
 #include "api/handles.hpp"
 #include "counters.hpp"
-#include "handles.hpp"
+#include "shared/handles.hpp"
 
 namespace {
 

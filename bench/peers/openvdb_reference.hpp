@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "references.hpp"
+#include "shared/references.hpp"
 
 namespace bench {
 

@@ -6,7 +6,7 @@
 
 #include "api/handles.hpp"
 #include "geometry/polyline.hpp"
-#include "handles.hpp"
+#include "shared/handles.hpp"
 #include "surface/grids.hpp"
 #include "surface/triangle_scene.hpp"
 #include "surface/triangulate.hpp"

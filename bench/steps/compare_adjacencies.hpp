@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "contest.hpp"
+#include "shared/contest.hpp"
 
 namespace bench {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "references.hpp"
+#include "shared/references.hpp"
 
 namespace {
 
