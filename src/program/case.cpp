@@ -5,19 +5,16 @@
 #include <optional>
 #include <utility>
 
-#include "program/advice.hpp"
-#include "program/cycle_file.hpp"
-#include "program/interruption.hpp"
-#include "program/joined_surface.hpp"
+#include "program/leaks.hpp"
 #include "program/mesh_marking.hpp"
-#include "program/motion.hpp"
 #include "program/moving_valve.hpp"
+#include "program/opening_law.hpp"
 #include "program/outputs.hpp"
-#include "program/passage_check.hpp"
+#include "program/pictures.hpp"
 #include "program/progress.hpp"
 #include "program/series.hpp"
-#include "program/series_pictures.hpp"
-#include "program/series_table.hpp"
+#include "program/series_files.hpp"
+#include "program/valve_source.hpp"
 #include "program/warnings.hpp"
 
 namespace riis::program {

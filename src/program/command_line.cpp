@@ -10,15 +10,15 @@
 
 #include "common/nearest_name.hpp"
 #include "program/help.hpp"
-#include "program/motion.hpp"
-#include "program/numbers.hpp"
+#include "program/leaks.hpp"
 #include "program/outputs.hpp"
-#include "program/passage_check.hpp"
 #include "program/refusal.hpp"
 #include "program/series_options.hpp"
 #include "program/state_options.hpp"
+#include "program/text.hpp"
 #include "program/uris_options.hpp"
 #include "program/valve_file.hpp"
+#include "program/valve_source.hpp"
 
 namespace riis::program {
 namespace {

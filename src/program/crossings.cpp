@@ -5,9 +5,8 @@
 #include <cstdio>
 #include <string>
 
-#include "program/advice.hpp"
-#include "program/drawing.hpp"
 #include "program/handles.hpp"
+#include "program/pictures.hpp"
 #include "program/progress.hpp"
 #include "program/refusal.hpp"
 #include "program/valve_file.hpp"

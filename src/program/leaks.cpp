@@ -4,15 +4,17 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
-#include "program/advice.hpp"
 #include "program/handles.hpp"
-#include "program/numbers.hpp"
+#include "program/moving_valve.hpp"
 #include "program/progress.hpp"
 #include "program/refusal.hpp"
+#include "program/text.hpp"
 #include "program/warnings.hpp"
 
 namespace riis::program {
+
 namespace {
 
 // Examines the edges that may leak. longer_than is the argument of riis_vtk_mesh_create_long_edges.
@@ -124,6 +126,213 @@ void look_for_leaks(const Options &options, const MarkedMesh &marked, Report &re
     warn((leaks.found.n_edges > 0 ? "more leaks of " : "leaks of ") + marked.surface_name +
          " are unknown: " + why_unknown(leaks, options.mesh));
   report.seconds.leaks = stage.seconds();
+}
+
+// ---- Passage check ----
+
+namespace {
+
+// The user's own numbers.
+std::string text_of(const double *point) {
+  return shortest(point[0]) + " " + shortest(point[1]) + " " + shortest(point[2]);
+}
+
+double distance_between(const double *p, const double *q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
+
+// The nodes of a file and their neighbours.
+class JoinedNodes {
+ public:
+  JoinedNodes(const MarkedMesh &marked, int32_t n_threads) : mesh_(marked.mesh) {
+    riis_adjacency *handle = nullptr;
+    check(riis_vtk_mesh_get_nodes(marked.file, &n_, nullptr, &xyz_));
+    check(riis_vtk_mesh_create_adjacency(marked.file, n_threads, &handle));
+    adjacency_.reset(handle);
+    check(riis_adjacency_get_csr(adjacency_.get(), &rows_, sizeof rows_));
+    check(riis_mesh_set_adjacency(mesh_, &rows_));
+  }
+  ~JoinedNodes() { riis_mesh_set_adjacency(mesh_, nullptr); }
+  JoinedNodes(const JoinedNodes &) = delete;
+  JoinedNodes &operator=(const JoinedNodes &) = delete;
+
+  // Returns the nearest node that has a neighbour. name is FROM or TO. why_none says why no node may have one.
+  int64_t nearest(const Options &options, const char *name, const double *point, const std::string &why_none) const {
+    const LeakCheck &asked = *options.check_leaks;
+    const auto refuse = [&](const std::string &why) {
+      throw Refusal{asked.exit_code, asked.subject + ": " + name + ", " + text_of(point) + ", " + why};
+    };
+    int64_t found = -1;
+    double least = 0, lower[3], upper[3];
+    for (int64_t i = 0; i < n_; ++i) {
+      const double *p = xyz_ + 3 * i;
+      for (int k = 0; k < 3; ++k) {
+        lower[k] = i == 0 ? p[k] : std::min(lower[k], p[k]);
+        upper[k] = i == 0 ? p[k] : std::max(upper[k], p[k]);
+      }
+      if (longest_edge(i) == 0) continue;
+      const double away = distance_between(p, point);
+      if (found < 0 || away < least) found = i, least = away;
+    }
+    if (found < 0)
+      refuse("has no node near it: " + (why_none.empty() ? "no edge joins two nodes of the mesh" : why_none));
+    for (int k = 0; k < 3; ++k)
+      if (point[k] < lower[k] || point[k] > upper[k])
+        refuse("is outside the mesh, which goes from " + place_text(options, lower, longest_edge(found)) + " to " +
+               place_text(options, upper, longest_edge(found)));
+    if (least > edges_away * longest_edge(found))
+      refuse("is outside the mesh: the nearest node, " + std::to_string(found) + ", is " + shown(least) +
+             " away, its longest edge " + shown(longest_edge(found)));
+    return found;
+  }
+
+  double longest_edge(int64_t node) const {
+    const auto *offsets = static_cast<const int64_t *>(rows_.offsets);
+    double longest = 0;
+    for (int64_t k = offsets[node]; k < offsets[node + 1]; ++k) {
+      const int64_t other = rows_.column_bits == 64 ? static_cast<const int64_t *>(rows_.columns)[k]
+                                                    : static_cast<const int32_t *>(rows_.columns)[k];
+      longest = std::max(longest, distance_between(xyz_ + 3 * node, xyz_ + 3 * other));
+    }
+    return longest;
+  }
+
+ private:
+  // A point inside a cell is at most an edge away from one of its nodes.
+  static constexpr double edges_away = 2;
+
+  riis_mesh *mesh_;
+  Adjacency adjacency_;
+  riis_csr rows_{};
+  int64_t n_ = 0;
+  const double *xyz_ = nullptr;
+};
+
+struct Ends {
+  int64_t from, to;
+};
+
+riis_passage passage_of(const LeakCheck &asked, const riis_surface *surface, const riis_mesh *mesh,
+                        const riis_mark_options &options, Ends ends) {
+  riis_mark_options how = options;
+  how.search = RIIS_SEARCH_AUTO;
+  how.distance_limit = RIIS_AUTO;
+  riis_passage_ends sets;
+  check(riis_passage_ends_init(&sets, sizeof sets));
+  sets.n_from = sets.n_to = 1;
+  sets.from = &ends.from;
+  sets.to = &ends.to;
+  riis_passage passage;
+  const riis_status status = riis_find_passage(surface, mesh, &sets, &how, &passage, sizeof passage);
+  for (const auto &[argument, name] :
+       {std::pair<std::string, const char *>{"ends.from[0]", "FROM"}, {"ends.to[0]", "TO"}}) {
+    const std::string text = riis_last_error();
+    if (status == RIIS_INVALID_ARGUMENT && text.rfind(argument, 0) == 0)
+      throw Refusal{asked.exit_code, asked.subject + ": " + name + text.substr(argument.size())};
+  }
+  check(status);
+  return passage;
+}
+
+// The triangles of a valve follow the half thickness, so the number is tried. 0: none was found.
+double closing_half_thickness(const Options &options, const MarkedMesh &marked, const riis_passage &passage,
+                              Ends ends) {
+  constexpr int n_tries = 8;
+  double wanted = rounded_up(passage.distance);
+  if (!marked.valve) return wanted;
+  try {
+    for (int i = 0; i < n_tries; ++i) {
+      riis_surface_options thicker = options.surface_options;
+      thicker.half_thickness = wanted;
+      riis_surface *handle = nullptr;
+      check(riis_surface_create(marked.valve, &thicker, &handle));
+      const Surface surface(handle);
+      const riis_passage left =
+          passage_of(*options.check_leaks, surface.get(), marked.mesh, options.mark_options, ends);
+      if (left.state == RIIS_PASSAGE_CLOSED) return wanted;
+      wanted = rounded_up(std::max(left.distance, 1.01 * wanted));
+    }
+  } catch (const Refusal &) {
+    // The answer is good without advice: an end may be in the thicker band.
+  }
+  return 0;
+}
+
+// Not even --quiet silences this: the valve does not hold.
+void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const std::string &surface,
+                     const std::string &unknown) {
+  const std::string ends = text_of(asked.from) + " and " + text_of(asked.to);
+  const riis_passage &found = report.found;
+  if (report.is_unknown)
+    warn("whether unmarked nodes join " + ends + " is unknown: " + unknown);
+  else if (found.state == RIIS_PASSAGE_NONE)
+    warn("nothing to seal: the mesh itself does not join " + ends);
+  if (found.state != RIIS_PASSAGE_OPEN) return;
+  const std::string text = surface + " leaks: unmarked nodes join " + ends + "; the passage is ";
+  if (report.is_end)
+    warn(text + "nowhere nearer to the surface than its end at " + report.place + ", " + shown(found.distance));
+  else if (report.closing_half_thickness > 0)
+    warn({{Cause::leaks, text + "at " + report.place,
+           ", and --half-thickness " + shortest(report.closing_half_thickness) + " closes it"}});
+  else
+    warn(text + "at " + report.place + ", " + shown(found.distance) + " from the surface");
+}
+
+}  // namespace
+
+std::optional<LeakCheck> parse_leak_check(const std::vector<std::string> &points) {
+  if (points.empty()) return std::nullopt;
+  LeakCheck made;
+  made.subject = "--check-leaks";
+  const std::vector<double> from = parse_list(points[0], made.subject, 3, "X,Y,Z"),
+                            to = parse_list(points[1], made.subject, 3, "X,Y,Z");
+  std::copy_n(from.begin(), 3, made.from);
+  std::copy_n(to.begin(), 3, made.to);
+  return made;
+}
+
+void check_passage(const Options &options, const MarkedMesh &marked, Report &report) {
+  if (!options.check_leaks) return;
+  const Stage stage("looking for a passage", options.quiet);
+  const LeakCheck &asked = *options.check_leaks;
+  const JoinedNodes nodes(marked, options.mark_options.n_threads);
+  LeakReport &leaks = report.leaks;
+  check(riis_vtk_mesh_get_volume_cells(marked.file, &leaks.n_volume_cells, &leaks.n_cells_left_out));
+  const std::string unknown = why_unknown(leaks, options.mesh);
+  const Ends ends{nodes.nearest(options, "FROM", asked.from, unknown), nodes.nearest(options, "TO", asked.to, unknown)};
+  PassageReport passage;
+  passage.found = passage_of(asked, marked.surface, marked.mesh, options.mark_options, ends);
+  // Edges that are not known cannot close a path along known ones.
+  passage.is_unknown = passage.found.state != RIIS_PASSAGE_OPEN && !unknown.empty();
+  passage.is_end = passage.found.node_id == ends.from || passage.found.node_id == ends.to;
+  if (passage.found.state == RIIS_PASSAGE_OPEN && !passage.is_end && unknown.empty())
+    passage.closing_half_thickness = closing_half_thickness(options, marked, passage.found, ends);
+  if (passage.found.node_id >= 0)
+    passage.place = place_text(options, passage.found.point, nodes.longest_edge(passage.found.node_id));
+  warn_of_passage(asked, passage, marked.surface_name, unknown);
+  leaks.passage = passage;
+  report.seconds.leaks += stage.seconds();
+}
+
+void check_passage_of(const Case &all, const std::vector<MovingValve> &valves, riis_mesh *mesh,
+                      const riis_vtk_mesh *file, Report &report) {
+  if (!all.options.check_leaks) return;
+  const MovingValve &first = valves[0];
+  if (valves.size() == 1)
+    return check_passage(first.options(),
+                         {first.surface(), first.source().valve.get(), file, mesh, nullptr, "the surface"}, report);
+  riis_surface_options together;
+  check(riis_surface_options_init(&together, sizeof together));
+  for (const MovingValve &valve : valves) {
+    riis_surface_info info;
+    check(riis_surface_get_info(valve.surface(), &info, sizeof info));
+    if (&valve == &first) together.half_thickness = info.half_thickness;
+    if (info.half_thickness != together.half_thickness)
+      throw Refusal{all.options.check_leaks->exit_code,
+                    all.options.check_leaks->subject + ": the valves must have one half thickness; that of " +
+                        first.options().prefix + " is " + shown(together.half_thickness) + ", that of " +
+                        valve.options().prefix + " " + shown(info.half_thickness)};
+  }
+  const Surface joined = joined_surface(valves, &together);
+  check_passage(all.options, {joined.get(), nullptr, file, mesh, nullptr, "the surface of all valves"}, report);
 }
 
 }  // namespace riis::program

@@ -18,7 +18,8 @@ namespace {
 
 // Names of files and parameters may hold line breaks, which are replaced: one line stays one line.
 int give_up(int exit_code, std::string text) {
-  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 127; }, '?');
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 127; }, '?');
   std::cerr << "riis-mark: " << text << std::endl;
   return exit_code;
 }

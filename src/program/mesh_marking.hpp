@@ -4,6 +4,7 @@
 
 #include <riis/riis_vtk.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -45,5 +46,11 @@ class ResistanceSum {
   std::vector<double> K_, K_u_surface_;
   bool has_any_ = false;
 };
+
+// --steps: the cost of a time step of a moving valve, once the mesh is prepared for many markings.
+
+// Moves the opening to and fro between 0 and 1 and marks the nodes of the file after each step. Afterwards the valve is as
+// before. Other surfaces and results do not change. Throws a Refusal for a valve that cannot move.
+StepTimes time_steps(const Options &options, riis_valve *valve, const riis_vtk_mesh *file);
 
 }  // namespace riis::program

@@ -2,8 +2,10 @@
 // One valve of a series: its surface at a time, with velocities or without, and its marks.
 #pragma once
 
+#include <riis/riis.h>
 #include <riis/riis_vtk.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -50,5 +52,14 @@ void look_for_leaks_of(const Case &all, const std::vector<MovingValve> &valves, 
 
 // Makes the valves of a case at its first time, if it has one, and tries each with its options.
 std::vector<MovingValve> moving_valves(Case &all);
+
+// In: the surfaces of several valves. Out: their triangles in one surface, with leaflets numbered on from valve to valve.
+
+// One more than the largest id.
+int32_t n_leaflets_of(const riis_surface *surface);
+// Returns each valve's first leaflet among the leaflets of all valves, and the number of all.
+std::vector<int32_t> first_leaflets(const std::vector<MovingValve> &valves);
+// options may be NULL, for the defaults.
+Surface joined_surface(const std::vector<MovingValve> &valves, const riis_surface_options *options = nullptr);
 
 }  // namespace riis::program

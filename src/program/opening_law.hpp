@@ -43,4 +43,10 @@ double largest_opening(const OpeningLaw &law, const std::vector<double> &times);
 // Returns the names of RIIS_INTERPOLATION_*, each at its position.
 const std::vector<std::string> &interpolation_names();
 
+// In: a CSV file of times and openings. Out: the keys. Refusals name the file, the line and the value.
+
+// Two columns, time and opening, separated by a comma, a semicolon, blanks or a tab. The first line may name them. Empty lines
+// and lines that begin with # are left out. Times must ascend, openings lie from 0 to 1.
+OpeningTable read_cycle(const std::string &path);
+
 }  // namespace riis::program

@@ -2,14 +2,56 @@
 // The program's outputs. Before any long work the program checks that it can write them. Text goes out whole or fails.
 #pragma once
 
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "program/command_line.hpp"
-#include "program/output_locks.hpp"
 
 namespace riis::program {
+
+// Locks on the program's outputs: of two runs that would replace one file, only the first goes on.
+
+// Holds an empty file .riis-NAME.lock beside each output NAME, locked by flock. The kernel ends the lock with its process,
+// however that ends. The file is removed when the object ends, and by SIGINT, SIGTERM and SIGHUP. A run that is killed leaves
+// the file behind; the next run takes it over.
+class OutputLocks {
+ public:
+  // Throws a Refusal if another run holds the lock of one of these files. The paths name no devices or pipes.
+  explicit OutputLocks(const std::vector<std::string> &paths);
+  ~OutputLocks();
+  OutputLocks(OutputLocks &&other) noexcept = default;
+  OutputLocks(const OutputLocks &) = delete;
+  OutputLocks &operator=(const OutputLocks &) = delete;
+
+ private:
+  void release();
+
+  std::vector<int> files_;  // empty once moved from
+};
+
+// Ctrl-C and its like while a file is written. Every file is written beside its place and then moved. A process that ends in
+// between leaves the unfinished file behind.
+
+// While an object of this type lives, the first SIGINT, SIGTERM or SIGHUP waits. It ends the process when the object ends. A
+// second signal, from a user who will not wait, acts at once. Signals that were ignored stay ignored. Only the first of
+// several objects counts: objects made while it lives do nothing. Other threads make
+// objects only while it lives.
+class UnbrokenWrite {
+ public:
+  UnbrokenWrite();
+  ~UnbrokenWrite();
+  UnbrokenWrite(const UnbrokenWrite &) = delete;
+  UnbrokenWrite &operator=(const UnbrokenWrite &) = delete;
+
+  // Whether a signal waits. Work in several parts ends after the part.
+  static bool has_signal();
+
+ private:
+  static constexpr int signals_[] = {SIGINT, SIGTERM, SIGHUP};
+  struct sigaction before_[3];
+};
 
 // Throws a Refusal for an output that would replace an input or another output, that has a wrong ending, or whose folder is
 // missing or not writable. Throws one also for a picture without a display, and for an output that another run is writing. The

@@ -8,9 +8,9 @@
 #include <map>
 #include <vector>
 
-#include "program/json_file.hpp"
-#include "program/numbers.hpp"
+#include "program/json.hpp"
 #include "program/refusal.hpp"
+#include "program/text.hpp"
 
 namespace riis::program {
 namespace {

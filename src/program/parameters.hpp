@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "program/json_file.hpp"
+#include "program/json.hpp"
 
 namespace riis::program {
 

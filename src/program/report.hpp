@@ -8,9 +8,17 @@
 #include <string>
 #include <vector>
 
-#include "program/steps.hpp"
-
 namespace riis::program {
+
+// The opening's way in a step: the valve opens within 50 steps.
+inline constexpr double opening_of_step = 0.02;
+
+// The medians of the steps.
+struct StepTimes {
+  std::int32_t n_steps;
+  std::int32_t search;      // RIIS_SEARCH_*
+  double surface, marking;  // seconds
+};
 
 struct Seconds {
   double read = 0;     // files

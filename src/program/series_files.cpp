@@ -5,15 +5,20 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <filesystem>
+#include <limits>
 #include <system_error>
+#include <utility>
 
-#include "program/numbers.hpp"
 #include "program/outputs.hpp"
 #include "program/refusal.hpp"
-#include "program/xml_text.hpp"
+#include "program/report.hpp"
+#include "program/text.hpp"
+#include "program/warnings.hpp"
 
 namespace riis::program {
+
 SeriesFiles::SeriesFiles(const std::string &pvd, const std::string &ending, std::size_t n_times)
     : pvd_(pvd), ending_(ending), n_digits_(std::max<std::size_t>(4, std::to_string(n_times - 1).size())) {
   const std::filesystem::path path(pvd);
@@ -58,6 +63,118 @@ void SeriesFiles::write_list() const {
             "\" file=\"" + in_xml(entry.name) + "\"/>\n";
   }
   write_text(pvd_, text + "  </Collection>\n</VTKFile>\n");
+}
+
+// ---- Series lists ----
+
+SeriesLists::SeriesLists(std::function<void(bool)> write) : write_(std::move(write)), thread_([this] { follow(); }) {}
+
+SeriesLists::~SeriesLists() { stop(); }
+
+void SeriesLists::add(const std::function<void()> &note) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (failure_) std::rethrow_exception(failure_);
+    note();
+    has_news_ = true;
+  }
+  changed_.notify_one();
+}
+
+void SeriesLists::end() {
+  stop();
+  write_(true);
+}
+
+// A pause follows each writing, twenty times as long, so that lists take little of the run's time.
+void SeriesLists::follow() {
+  using Clock = std::chrono::steady_clock;
+  constexpr Clock::duration longest_pause = std::chrono::milliseconds(500);
+  std::unique_lock<std::mutex> lock(mutex_);
+  try {
+    for (;;) {
+      changed_.wait(lock, [this] { return has_news_ || has_ended_; });
+      if (has_ended_) return;
+      has_news_ = false;
+      const Clock::time_point begin = Clock::now();
+      write_(false);
+      const Clock::duration pause = std::min(20 * (Clock::now() - begin), longest_pause);
+      if (changed_.wait_for(lock, pause, [this] { return has_ended_; })) return;
+    }
+  } catch (...) {
+    failure_ = std::current_exception();
+  }
+}
+
+void SeriesLists::stop() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    has_ended_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+// ---- Series table ----
+
+namespace {
+
+std::string from_to(const std::string &least, const std::string &most) {
+  return least == most ? least : least + " to " + most;
+}
+
+}  // namespace
+
+void SeriesTable::Range::add(double value) {
+  least = std::min(least, value);
+  most = std::max(most, value);
+}
+
+SeriesTable::SeriesTable(const Case &all) : text_("time") {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  for (std::size_t valve = 0; valve < all.valves.size(); ++valve) {
+    const std::string part = all.part_of(valve), prefix = part.empty() ? "" : part + "_";
+    const Options &options = all.valves[valve].options;
+    text_ += "," + prefix + "opening," + prefix + "n_marked," + prefix + "largest_speed";
+    const std::string name = part.empty() ? (options.surface.empty() ? options.valve : options.surface) : part;
+    rows_.push_back({name, {far, -far}, {far, -far}, {far, -far}});
+  }
+  text_ += ",seconds\n";
+}
+
+void SeriesTable::add(double time, const std::vector<MovingValve> &valves, double seconds) {
+  text_ += shortest(time);
+  for (std::size_t i = 0; i < valves.size(); ++i) {
+    const double opening = valves[i].opening(), speed = valves[i].largest_speed();
+    const int64_t n_marked = valves[i].stats().n_marked;
+    text_ += "," + (valves[i].source().valve ? shortest(opening) : "") + "," + std::to_string(n_marked) + "," +
+             shortest(speed);
+    if (valves[i].source().valve) rows_[i].opening.add(opening);
+    rows_[i].n_marked.add(static_cast<double>(n_marked));
+    rows_[i].speed.add(speed);
+  }
+  text_ += "," + shortest(seconds) + "\n";
+}
+
+int64_t SeriesTable::most_marked() const {
+  double most = 0;
+  for (const Row &row : rows_) most = std::max(most, row.n_marked.most);
+  return static_cast<int64_t>(most);
+}
+
+std::string SeriesTable::summary() const {
+  std::string text;
+  for (const Row &row : rows_) {
+    // A surface from a file has none.
+    const bool has_opening = row.opening.least <= row.opening.most;
+    text +=
+        "valve     " + row.name + ": " +
+        (has_opening ? "opening " + from_to(shown(row.opening.least), shown(row.opening.most)) + ", " : "") +
+        from_to(grouped(static_cast<int64_t>(row.n_marked.least)), grouped(static_cast<int64_t>(row.n_marked.most))) +
+        " nodes marked, largest speed " + shown(row.speed.most) + "\n";
+  }
+  return text;
 }
 
 }  // namespace riis::program

@@ -2,9 +2,18 @@
 // The files of a series: one for each time in a folder, and the .pvd file beside the folder that lists them with their times.
 #pragma once
 
+#include <condition_variable>
 #include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
+
+#include "program/case.hpp"
+#include "program/moving_valve.hpp"
 
 namespace riis::program {
 
@@ -38,6 +47,61 @@ class SeriesFiles {
   std::string pvd_, folder_, stem_, ending_;
   std::size_t n_digits_;
   std::vector<Entry> entries_;
+};
+
+// The lists of a series, which follow its files within half a second, however long the next step takes. So a process that is
+// killed leaves lists of nearly all that it wrote. Writing a long list takes longer than
+// writing a file, so the lists are not written for each file.
+
+class SeriesLists {
+ public:
+  // write writes all lists. A thread of the object calls it, and end() calls it with true.
+  explicit SeriesLists(std::function<void(bool is_last)> write);
+  ~SeriesLists();
+  SeriesLists(const SeriesLists &) = delete;
+  SeriesLists &operator=(const SeriesLists &) = delete;
+
+  // Calls note, which adds to the lists, while nobody writes them. Throws what write threw.
+  void add(const std::function<void()> &note);
+  // Ends the thread and writes the lists a last time.
+  void end();
+
+ private:
+  void follow();
+  void stop();
+
+  const std::function<void(bool)> write_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool has_news_ = false, has_ended_ = false;
+  std::exception_ptr failure_;
+  std::thread thread_;
+};
+
+// The table of a series, a line for each time, as CSV.
+
+// time, opening, n_marked, largest_speed, seconds. Each of several valves has its own columns, NAME_opening and so on.
+class SeriesTable {
+ public:
+  explicit SeriesTable(const Case &all);
+  void add(double time, const std::vector<MovingValve> &valves, double seconds);
+  const std::string &text() const { return text_; }
+  // Returns the most marked nodes of all valves and times.
+  int64_t most_marked() const;
+  // Returns a line for each valve: its openings, marked nodes and speed.
+  std::string summary() const;
+
+ private:
+  struct Range {
+    double least, most;
+    void add(double value);
+  };
+  struct Row {
+    std::string name;
+    Range opening, n_marked, speed;
+  };
+  std::string text_;
+  std::vector<Row> rows_;
 };
 
 }  // namespace riis::program

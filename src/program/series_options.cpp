@@ -6,11 +6,10 @@
 #include <cmath>
 #include <set>
 
-#include "program/motion.hpp"
-#include "program/numbers.hpp"
 #include "program/opening_law.hpp"
 #include "program/refusal.hpp"
-#include "program/times.hpp"
+#include "program/text.hpp"
+#include "program/valve_source.hpp"
 
 namespace riis::program {
 namespace {

@@ -4,8 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <set>
 
-#include "program/numbers.hpp"
 #include "program/refusal.hpp"
+#include "program/text.hpp"
 
 namespace riis::program {
 namespace {

@@ -40,4 +40,12 @@ States measure_states(const Options &options);
 // Measures, writes the table, and prints the summary.
 void run_states(const Options &options);
 
+// In: the states of a valve. Out: the table as CSV, and a summary for people.
+
+// opening, then NAME_edge, NAME_edge_ratio, NAME_area and NAME_area_ratio of each leaflet, then orifice_area. Ratios are to
+// the closed state.
+std::string csv_of(const States &states);
+
+std::string summary_of(const States &states, const Options &options);
+
 }  // namespace riis::program

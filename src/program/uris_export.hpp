@@ -2,11 +2,40 @@
 // --export-uris: a valve's opening and closing as files of svMultiPhysics, and the block of its input that names them.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "program/command_line.hpp"
 
 namespace riis::program {
 
 // Writes the folder, and prints the block on stdout.
 void export_uris(const Options &options);
+
+// The files of an export, in a folder that is whole or not there.
+
+// A folder that gets its files when all of them are written. Until then they stand in a folder inside it, whose name begins with
+// a dot. Without take_place() everything is removed again.
+class WholeFolder {
+ public:
+  // Makes the folder, or takes an empty one. Throws a Refusal that names the option for any other, and for one that cannot be
+  // made or written to.
+  WholeFolder(const std::string &path, const std::string &option);
+  ~WholeFolder();
+  WholeFolder(const WholeFolder &) = delete;
+  WholeFolder &operator=(const WholeFolder &) = delete;
+
+  // Returns where to write the file of this name. The file must be new.
+  std::string new_file(const std::string &name);
+  void take_place();
+
+ private:
+  std::string path_, unfinished_;
+  bool was_made_ = false, is_whole_ = false;
+  std::vector<std::string> names_;
+};
+
+// Throws a Refusal for a folder that WholeFolder would refuse, and changes nothing.
+void check_whole_folder(const std::string &path, const std::string &option);
 
 }  // namespace riis::program

@@ -7,11 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "program/cycle_file.hpp"
-#include "program/numbers.hpp"
 #include "program/opening_law.hpp"
 #include "program/refusal.hpp"
-#include "program/times.hpp"
+#include "program/text.hpp"
 #include "program/warnings.hpp"
 
 namespace riis::program {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
-#include "program/numbers.hpp"
 #include "program/refusal.hpp"
+#include "program/text.hpp"
 
 namespace riis::program {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "common/array_view.hpp"
-#include "program/json_file.hpp"
+#include "program/json.hpp"
 #include "program/refusal.hpp"
 
 namespace riis::program {

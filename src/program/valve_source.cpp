@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/valve_source.hpp"
 
+#include <algorithm>
+#include <filesystem>
 #include <set>
 #include <vector>
 
-#include "program/conversion.hpp"
-#include "program/motion.hpp"
+#include "program/outputs.hpp"
 #include "program/parameters.hpp"
 #include "program/progress.hpp"
 #include "program/refusal.hpp"
+#include "program/text.hpp"
 #include "program/valve_file.hpp"
 
 namespace riis::program {
+
 namespace {
 
 void set_parameters(const Options &options, riis_valve *valve) {
@@ -133,6 +136,138 @@ int64_t count_leaflets(const riis_surface *surface) {
   const riis_triangles triangles = triangles_of(surface);
   const std::set<int32_t> ids(triangles.leaflet_id, triangles.leaflet_id + triangles.n_triangles);
   return static_cast<int64_t>(ids.size());
+}
+
+// ---- Motion ----
+
+namespace {
+
+Motion read_motion(const Options &options) {
+  const bool by_pieces = options.leaflets == "connected";
+  const char *leaflets = options.leaflets.empty() || by_pieces ? nullptr : options.leaflets.c_str();
+  riis_vtk_motion *handle = nullptr;
+  check(riis_vtk_motion_read_pvd(options.surface.c_str(), leaflets, &handle));
+  Motion motion(handle);
+  if (by_pieces) check(riis_vtk_motion_number_pieces(motion.get()));
+  return motion;
+}
+
+std::vector<std::string> files_of(const riis_vtk_motion *motion) {
+  int64_t n_files = 0;
+  const char *const *paths = nullptr;
+  check(riis_vtk_motion_get_files(motion, &n_files, &paths));
+  return {paths, paths + n_files};
+}
+
+Keyframes keyframes_of(const Options &options, const riis_vtk_motion *motion) {
+  riis_surface_arrays arrays;
+  riis_keyframe_arrays frames;
+  check(riis_vtk_motion_get_arrays(motion, &arrays, sizeof arrays));
+  check(riis_vtk_motion_get_frames(motion, &frames, sizeof frames));
+  frames.period = options.period;
+  riis_keyframes *handle = nullptr;
+  check(riis_keyframes_create(&arrays, &frames, &handle), options.surface);
+  return Keyframes(handle);
+}
+
+}  // namespace
+
+bool is_motion_file(const std::string &surface) {
+  const std::string ending = surface.substr(surface.size() - std::min<std::size_t>(surface.size(), 4));
+  return ending == ".pvd" || ending == ".PVD";
+}
+
+void parse_motion(const std::string &time, const std::string &period, Options &options) {
+  const auto refuse = [](const std::string &text) { throw Refusal{exit_wrong_usage, text}; };
+  const bool is_motion = is_motion_file(options.surface), is_series = !options.series.times.empty();
+  if (is_motion && time.empty() && !is_series)
+    refuse("--surface " + options.surface + " is a motion: it needs --time T");
+  if (is_series && !time.empty()) refuse("--time has no effect with --times");
+  if (!is_motion && !time.empty())
+    refuse("--time has no effect with --surface " + options.surface + ": a motion is a .pvd file");
+  if (!period.empty() && !is_motion && options.series.cycle.empty())
+    refuse("--period needs a motion, --surface FILE.pvd, or --cycle");
+  if (!time.empty()) options.time = parse_number(time, "--time");
+  if (!period.empty()) options.period = parse_number(period, "--period");
+  if (!period.empty() && !(options.period > 0)) refuse("--period: " + period + " is not above 0");
+}
+
+KeyframeFiles read_keyframes(const Options &options, Seconds &seconds) {
+  const Stage stage("reading " + options.surface, options.quiet);
+  const Motion motion = read_motion(options);
+  seconds.read += stage.seconds();
+  KeyframeFiles read{nullptr, files_of(motion.get())};
+  // Outputs are written when all frames have been read, and would replace them unnoticed.
+  check_no_output_is("a frame of --surface " + options.surface, read.files, options);
+  read.keyframes = keyframes_of(options, motion.get());
+  return read;
+}
+
+Surface surface_of_keyframes(const Options &options, const riis_keyframes *keyframes) {
+  riis_surface *surface = nullptr;
+  check(riis_surface_create_from_keyframes(keyframes, *options.time, 0, &options.surface_options, &surface),
+        options.surface);
+  return Surface(surface);
+}
+
+// ---- Conversion ----
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Every ending here was tried. tests/cli/test_cli_conversions.c tries it again if the tool is installed.
+const std::set<std::string> meshes_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh"};
+const std::set<std::string> meshes_of_meshio = {".inp", ".su2"};
+const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply", ".ply2", ".vtk"};
+const std::set<std::string> surfaces_of_meshio = {".obj", ".off"};
+const std::set<std::string> surfaces_only = {".stl", ".vtp", ".ply", ".ply2", ".obj", ".off"};
+
+std::string ending_of(const std::string &path) {
+  std::string ending = fs::path(path).extension().string();
+  for (char &c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return ending;
+}
+
+// Quotes the path so that a shell takes it for one word, and a program does not take it for an option.
+std::string shell_word(std::string path) {
+  if (path[0] == '-') path.insert(0, "./");
+  const auto is_plain = [](unsigned char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c >= 128 ||
+           std::string("_-./+,:@%").find(static_cast<char>(c)) != std::string::npos;
+  };
+  if (std::all_of(path.begin(), path.end(), is_plain)) return path;
+  std::string quoted = "'";
+  for (const char c : path) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string with_ending(const std::string &path, const char *ending) {
+  return shell_word(fs::path(path).replace_extension(ending).string());
+}
+
+std::string by_gmsh(const std::string &path, const char *format) {
+  return "; gmsh converts it: gmsh -save " + shell_word(path) + " -format " + format + " -o " +
+         with_ending(path, format);
+}
+
+std::string by_meshio(const std::string &path, const char *format) {
+  return "; meshio converts it: meshio convert " + shell_word(path) + " " + with_ending(path, format);
+}
+
+}  // namespace
+
+std::string conversion_hint(const std::string &path, Content wanted) {
+  const std::string ending = ending_of(path);
+  // Control characters would not survive in the one line of a refusal.
+  if (std::any_of(path.begin(), path.end(), [](unsigned char c) { return c < ' ' || c == 127; })) return "";
+  if (wanted == Content::mesh) {
+    if (meshes_of_gmsh.count(ending) != 0) return by_gmsh(path, "vtk");
+    if (meshes_of_meshio.count(ending) != 0) return by_meshio(path, "vtu");
+    return surfaces_only.count(ending) != 0 ? "; --surface takes a surface" : "";
+  }
+  if (surfaces_of_gmsh.count(ending) != 0) return by_gmsh(path, "stl");
+  return surfaces_of_meshio.count(ending) != 0 ? by_meshio(path, "stl") : "";
 }
 
 }  // namespace riis::program

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "program/command_line.hpp"
 #include "program/handles.hpp"
@@ -18,9 +19,9 @@ struct ValveSource {
   Valve valve;       // null if a file holds the surface
   SurfaceFile file;  // null for a valve, and for a surface that moves
   OpeningLaw law{0.0};
-  Keyframes keyframes{};  // of a surface that moves
+  Keyframes keyframes{};        // of a surface that moves
   bool has_open_state = false;  // that the user chose
-  std::string subject{};  // goes before refusals, such as the place in a case; "" for the command line
+  std::string subject{};        // goes before refusals, such as the place in a case; "" for the command line
 };
 
 // subject goes before the refusal of a kind.
@@ -43,5 +44,31 @@ enum class FileVelocity { none, zero };
 Surface make_surface(const ValveSource &source, FileVelocity velocity);
 
 int64_t count_leaflets(const riis_surface *surface);
+
+// --surface FILE.pvd: the surface of a motion by frames.
+
+// Tells whether --surface is a motion, which ends in .pvd.
+bool is_motion_file(const std::string &surface);
+
+// Reads --time and --period. Fails if a motion lacks its time, and for either without a motion.
+void parse_motion(const std::string &time, const std::string &period, Options &options);
+
+// --surface FILE.pvd, and the files that hold its frames.
+struct KeyframeFiles {
+  Keyframes keyframes;
+  std::vector<std::string> files;
+};
+KeyframeFiles read_keyframes(const Options &options, Seconds &seconds);
+
+// Makes the surface at options.time, with velocities.
+Surface surface_of_keyframes(const Options &options, const riis_keyframes *keyframes);
+
+// In: a file that cannot be read as it is. Out: the command that makes a readable file of it.
+
+enum class Content { mesh, surface };
+
+// Such as "; gmsh converts it: gmsh -save in.msh -format vtk -o in.vtk". It is "" for an ending that can be read or is
+// unknown.
+std::string conversion_hint(const std::string &path, Content wanted);
 
 }  // namespace riis::program

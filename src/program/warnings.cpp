@@ -2,16 +2,19 @@
 #include "program/warnings.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <utility>
 
-#include "program/advice.hpp"
 #include "program/refusal.hpp"
 #include "program/report.hpp"
+#include "program/valve_file.hpp"
 
 namespace riis::program {
+
 namespace {
 
 std::int64_t n_printed = 0;
@@ -131,6 +134,202 @@ std::string place_text(const Options &options, const double *point, double edge)
   std::string text;
   for (int k = 0; k < 3; ++k) text += (k == 0 ? "" : " ") + coordinate_text(point[k], edge);
   return options.unit ? text + " " + name_of(*options.unit) : text;
+}
+
+// ---- Advice ----
+
+namespace {
+
+// A mesh fits its valve under three conditions. It is half as large to 40 times as large, its edges are up to 0.3 of the valve,
+// and both overlap.
+constexpr double smallest_mesh = 0.5, largest_mesh = 40, usual_mesh = 3, longest_edge = 0.3;
+// Shares of the surface's largest side. The paper's 0.1 cm is 0.04 of its aortic valve.
+constexpr double usual_half_thickness = 0.04, largest_half_thickness = 0.25;
+// A share of an edge of the mesh. Below it, the band between two layers of nodes holds few of either.
+constexpr double smallest_half_thickness = 0.3;
+
+constexpr std::array<double, 6> factors = {0.1, 10, 0.01, 100, 0.001, 1000};
+
+// Compares the boxes as if the surface had been scaled by 1 / factor. Its translation is in the mesh's unit and stays.
+bool overlap_at(double factor, const Situation &s) {
+  for (int k = 0; k < 3; ++k) {
+    const double shift = s.options.surface_options.translation[k];
+    const double lower = (s.surface.lower[k] - shift) / factor + shift,
+                 upper = (s.surface.upper[k] - shift) / factor + shift;
+    if (upper < s.mesh.lower[k] || lower > s.mesh.upper[k]) return false;
+  }
+  return true;
+}
+
+double mesh_in_surfaces(const Situation &s) { return s.mesh.largest_side() / s.surface.largest_side(); }
+
+bool sizes_fit_at(double factor, const Situation &s) {
+  const double ratio = factor * mesh_in_surfaces(s);
+  return ratio >= smallest_mesh && ratio <= largest_mesh &&
+         factor * s.median_edge <= longest_edge * s.surface.largest_side();
+}
+
+bool is_parametric(const Options &options) { return options.surface.empty() && !is_valve_file(options.valve); }
+
+// The default half thickness belongs to a parametric valve. Edges that are much longer suggest that the mesh has another unit or,
+// if the user named the unit, that it is coarse.
+bool edges_fit_at(double factor, const Situation &s) {
+  return s.options.has_half_thickness || s.options.unit || s.options.has_scale || !is_parametric(s.options) ||
+         !is_too_small(s.half_thickness / factor, s);
+}
+
+// Returns the factor by which the mesh's lengths must grow to fit the surface's, or none if they fit or no power of ten helps.
+std::optional<double> missing_factor(const Situation &s) {
+  const bool sizes_fit = sizes_fit_at(1, s);
+  if (sizes_fit && edges_fit_at(1, s)) {
+    // Sizes that are alike, or that fit in the units that the user named, are in these units. Then the place is wrong.
+    const bool are_alike = mesh_in_surfaces(s) > 1.0 / 3 && mesh_in_surfaces(s) < 3;
+    if (overlap_at(1, s) || are_alike || s.options.unit || s.options.has_scale) return std::nullopt;
+  }
+  // Sizes that differ this much are not in one unit, whatever the places.
+  const bool differ_widely = mesh_in_surfaces(s) < 0.1 || mesh_in_surfaces(s) > 100;
+  std::optional<double> best;
+  // A mesh in another unit may also be too coarse.
+  struct Pass {
+    bool must_overlap, must_resolve;
+  };
+  for (const auto [must_overlap, must_resolve] :
+       {Pass{true, true}, Pass{false, true}, Pass{true, false}, Pass{false, false}}) {
+    if (best || (!must_overlap && !differ_widely) || (!must_resolve && sizes_fit)) continue;
+    double least = std::numeric_limits<double>::infinity();
+    for (const double factor : factors) {
+      if (!sizes_fit_at(factor, s) || (must_resolve && !edges_fit_at(factor, s)) ||
+          (must_overlap && !overlap_at(factor, s)))
+        continue;
+      const double oddity = std::abs(std::log(factor * mesh_in_surfaces(s) / usual_mesh));
+      if (oddity < least) {
+        least = oddity;
+        best = factor;
+      }
+    }
+  }
+  return best;
+}
+
+// Returns the situation after the surface was scaled to go with the mesh.
+Situation rescaled(const Situation &s, double factor) {
+  Situation changed = s;
+  for (int k = 0; k < 3; ++k) {
+    changed.surface.lower[k] /= factor;
+    changed.surface.upper[k] /= factor;
+  }
+  changed.area /= factor * factor;
+  return changed;
+}
+
+// Returns a power of ten times the half thickness that fits. If none fits, it returns the edge of the mesh, or 0 if that also
+// does not fit.
+double better_half_thickness(const Situation &s) {
+  const auto fits = [&](double half_thickness) {
+    return !is_too_large(half_thickness, s) && !is_too_small(half_thickness, s);
+  };
+  const double usual = usual_half_thickness * s.surface.largest_side();
+  double best = 0;
+  for (const double factor : factors) {
+    const double candidate = s.half_thickness * factor;
+    if (!fits(candidate)) continue;
+    if (best == 0 || std::abs(std::log(candidate / usual)) < std::abs(std::log(best / usual))) best = candidate;
+  }
+  if (best != 0) return best;
+  return s.median_edge > 0 && fits(s.median_edge) ? s.median_edge : 0;
+}
+
+std::string option(const char *name, Unit unit) { return std::string(name) + " " + name_of(unit); }
+
+// Two phrases of a warning: which unit the sizes suggest, and which options make the scale.
+struct Cure {
+  std::string look, write;
+};
+
+std::string look_of(Unit mesh, Unit surface) {
+  if (mesh == surface) return std::string("the mesh looks as if it were in ") + words_of(mesh) + ", as the surface is";
+  return std::string("the mesh looks as if it were in ") + words_of(mesh) + ", the surface in " + words_of(surface);
+}
+
+Cure cure_for_scale(const Options &options, double scale) {
+  if (is_parametric(options)) {
+    if (const auto mesh = unit_reached(Unit::centimetre, scale)) {
+      return {look_of(*mesh, Unit::centimetre), option("--unit", *mesh)};
+    }
+  } else {
+    const auto mesh = options.surface_unit ? unit_reached(*options.surface_unit, scale) : std::nullopt;
+    const auto pair = mesh ? UnitPair{*options.surface_unit, *mesh} : units_of_factor(scale);
+    if (pair) {
+      return {look_of(pair->mesh, pair->surface),
+              option("--unit", pair->mesh) + " " + option("--surface-unit", pair->surface)};
+    }
+  }
+  return {"the mesh and the surface look as if they were in different units", "--scale " + shown(scale)};
+}
+
+// Names the user's own options for the scale, which must go.
+std::string in_place_of(const Options &options) {
+  if (options.unit) {
+    const std::string unit = " in place of " + option("--unit", *options.unit);
+    return options.surface_unit ? unit + " " + option("--surface-unit", *options.surface_unit) : unit;
+  }
+  return options.has_scale ? " in place of --scale " + shown(options.surface_options.scale) : "";
+}
+
+}  // namespace
+
+std::string shown(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", number);
+  return text;
+}
+
+bool is_too_large(double half_thickness, const Situation &s) {
+  return half_thickness > largest_half_thickness * s.surface.largest_side();
+}
+
+bool is_too_small(double half_thickness, const Situation &s) {
+  return half_thickness < smallest_half_thickness * s.median_edge;
+}
+
+std::optional<Warning> warning_of_units(const Situation &s) {
+  const auto factor = missing_factor(s);
+  if (!factor) return std::nullopt;
+  const Cure cure = cure_for_scale(s.options, s.options.surface_options.scale / *factor);
+  std::string write = cure.write;
+  if (s.options.has_half_thickness) {
+    const Situation cured = rescaled(s, *factor);
+    if (is_too_large(s.half_thickness, cured) || is_too_small(s.half_thickness, cured)) {
+      const double better = better_half_thickness(cured);
+      if (better > 0) write += " --half-thickness " + shown(better);
+    }
+  }
+  return Warning{
+      Cause::units,
+      cure.look + " (largest sides " + shown(s.mesh.largest_side()) + " and " + shown(s.surface.largest_side()) + ")",
+      ": write " + write + in_place_of(s.options)};
+}
+
+std::optional<Warning> warning_of_half_thickness(const Situation &s) {
+  const bool is_large = is_too_large(s.half_thickness, s);
+  if (!is_large && !is_too_small(s.half_thickness, s)) return std::nullopt;
+  Warning warning{Cause::half_thickness, "the half thickness is " + shown(s.half_thickness), ""};
+  warning.text += is_large ? ", the largest side of the surface " + shown(s.surface.largest_side())
+                           : ", the median edge of the mesh " + shown(s.median_edge);
+  // Nobody has named the file's unit, and the half thickness is the default for centimetres.
+  const bool is_unknown =
+      !is_parametric(s.options) && !s.options.unit && !s.options.has_scale && !s.options.has_half_thickness;
+  const auto unit = is_unknown ? unit_of_valve(s.surface.largest_side()) : std::nullopt;
+  if (unit && !is_too_large(paper_half_thickness(*unit), s) && !is_too_small(paper_half_thickness(*unit), s)) {
+    warning.text += ", and both look as if they were in " + std::string(words_of(*unit));
+    warning.advice = ": write " + option("--unit", *unit) + " " + option("--surface-unit", *unit);
+    return warning;
+  }
+  const double better = better_half_thickness(s);
+  warning.advice = better > 0 ? ": write --half-thickness " + shown(better)
+                   : is_large ? ": see --half-thickness, --scale"
+                              : ": the mesh is too coarse for this surface";
+  return warning;
 }
 
 }  // namespace riis::program

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "program/cycle_file.hpp"
 #include "program/opening_law.hpp"
 #include "program/refusal.hpp"
 #include "expect.hpp"

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <functional>
 
-#include "program/case_opening.hpp"
-#include "program/json_file.hpp"
+#include "program/case_file.hpp"
+#include "program/json.hpp"
 #include "program/parameters.hpp"
 #include "program/refusal.hpp"
 #include "program/valve_file.hpp"

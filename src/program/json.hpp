@@ -1,16 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: an object of a case file. Out: its values by key, checked. Refusals name the file, the object and the key.
+// In: a JSON file. Out: its value. Deep nesting, keys given twice and control characters in keys are refused, which the parser
+// would let pass.
 #pragma once
+
+#include <nlohmann/json.hpp>
 
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "program/json_file.hpp"
+#include "program/text.hpp"
 #include "program/units.hpp"
 
 namespace riis::program {
+
+using Json = nlohmann::ordered_json;
+
+// content, such as "parameters", names what the file should hold. The refusal of a file that is nested too deep uses it.
+Json parse_json_file(const std::string &path, const std::string &content);
+
+// Refuses a value that is not an object, and a key that is not among these, with the nearest of them. subject names the value.
+void check_keys(const std::string &path, const std::string &subject, const Json &value,
+                const std::vector<std::string> &keys);
+
+// In: an object of a case file. Out: its values by key, checked. Refusals name the file, the object and the key.
 
 class CaseValues {
  public:

@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/pictures.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "common/array_view.hpp"
+#include "program/mesh_marking.hpp"
+#include "program/moving_valve.hpp"
+#include "program/outputs.hpp"
+#include "program/progress.hpp"
+#include "program/refusal.hpp"
+#include "program/text.hpp"
+#include "program/valve_file.hpp"
+
+extern char **environ;
+
+namespace riis::program {
+
+namespace {
+
+// Says whether the valve is the paper's aortic valve, which nobody should take for a closed one (docs/meshes.md).
+bool is_papers_aortic_valve(const Options &options, const riis_valve *valve) {
+  if (!valve || options.valve != "aortic") return false;
+  int64_t n_parameters = 0;
+  check(riis_valve_get_n_parameters(valve, &n_parameters));
+  for (int64_t i = 0; i < n_parameters; ++i) {
+    riis_parameter parameter;
+    double values[3] = {0, 0, 0};
+    check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
+    check(riis_valve_get(valve, parameter.name, parameter.n_values, values));
+    // The parameters of the open state do not matter at opening 0.
+    const std::string_view name = parameter.name;
+    if (name == "open_radius_ratio" || name == "commissure_expansion") continue;
+    if (!std::equal(values, values + 3, parameter.default_values)) return false;
+  }
+  return true;
+}
+
+// Leaking edges are drawn red. A picture of a mesh without leaks says so if the edges of all cells are known.
+void show_leaks(const LeakReport &leaks, riis_vtk_picture_options &how) {
+  static constexpr int64_t none = 0;
+  how.n_leaking_edges = leaks.found.n_edges;
+  how.leaking_edges = leaks.edges.empty() ? nullptr : leaks.edges.data();
+  if (how.n_leaking_edges == 0 && leaks.has_all_edges()) how.leaking_edges = &none;
+}
+
+}  // namespace
+
+std::vector<const char *> leaflet_names(const Options &options) {
+  if (!options.surface.empty()) return {};
+  if (options.valve == "aortic" || options.valve == "trileaflet") return {"right", "left", "non-coronary"};
+  if (options.valve == "bileaflet") return {"x > 0", "x < 0", "housing"};
+  if (options.valve == "mitral") return {"anterior", "posterior"};
+  return {};
+}
+
+std::string title_of_valve(const Options &options) {
+  const std::string name = options.surface.empty() ? options.valve : options.surface;
+  if (!options.surface.empty() || is_valve_file(options.valve)) return name.substr(name.rfind('/') + 1);
+  std::string title = name + " valve";
+  title[0] = static_cast<char>(title[0] - 'a' + 'A');
+  return title;
+}
+
+std::string picture_title(const Options &options, const riis_valve *valve, const Report &report) {
+  std::string title = surface_title(report);
+  title.erase(0, report.surface_name.rfind('/') + 1);
+  if (report.opening && !is_valve_file(report.surface_name)) title[0] = static_cast<char>(title[0] - 'a' + 'A');
+  if (is_papers_aortic_valve(options, valve)) title += " (the paper's, not closed)";
+  return title;
+}
+
+void draw_pictures(const Options &options, const std::string &title, const std::vector<const char *> &names,
+                   const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_marks *result, Report &report) {
+  std::vector<int32_t> views;
+  std::vector<const char *> paths;
+  for (const Picture &picture : options.pictures) {
+    views.push_back(picture.view);
+    paths.push_back(picture.path.c_str());
+  }
+  const auto n_pictures = view(paths).size();
+  if (n_pictures == 0) return;
+  const Stage stage("drawing " + options.pictures[0].path + (n_pictures > 1 ? ", ..." : ""), options.quiet);
+  const UnbrokenWrite unbroken;
+  riis_vtk_picture_options how;
+  check(riis_vtk_picture_options_init(&how, sizeof how));
+  how.title = title.c_str();
+  how.leaflet_names = names.data();
+  how.n_leaflet_names = view(names).size();
+  how.unit = options.unit ? name_of(*options.unit) : nullptr;
+  if (result) show_leaks(report.leaks, how);
+  check(riis_vtk_draw_views(surface, mesh, &how, n_pictures, views.data(), paths.data()));
+  report.written.insert(report.written.end(), paths.begin(), paths.end());
+  report.seconds.picture = stage.seconds();
+}
+
+// ---- Series pictures ----
+
+namespace {
+
+// Returns the most digits behind the point that one of the times has. So the numbers of a movie do not jump.
+int decimals_of(const std::vector<double> &times) {
+  constexpr std::size_t most = 6;
+  std::size_t n = 0;
+  for (const double time : times) {
+    const std::string text = shortest(time);
+    const std::size_t point = text.find('.');
+    if (point != std::string::npos) n = std::max(n, text.size() - point - 1);
+  }
+  return static_cast<int>(std::min(n, most));
+}
+
+std::string fixed(double number, int decimals) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, number);
+  return text;
+}
+
+// Marks of several valves in one: a node has the leaflet of its nearest valve.
+struct JoinedMarks {
+  explicit JoinedMarks(std::size_t n) : marked(n, 0.0), distance(n, RIIS_FAR_DISTANCE), leaflet(n, -1.0) {}
+
+  void add(const riis_marks *result, int32_t first_leaflet) {
+    const riis_mark_list list = list_of(result, RIIS_LIST_MARKED);
+    for (int64_t i = 0; i < list.n_nodes; ++i) {
+      const int64_t node = list.node_id[i];
+      if (view(distance)[node] <= list.distance[i]) continue;
+      view(marked)[node] = 1;
+      view(distance)[node] = list.distance[i];
+      view(leaflet)[node] = first_leaflet + list.leaflet_id[i];
+    }
+  }
+
+  std::vector<double> marked, distance, leaflet;
+};
+
+// Returns the names of all leaflets, or their numbers if a valve's leaflets have no names.
+std::vector<std::string> leaflet_texts_of(const Case &all, const std::vector<MovingValve> &valves) {
+  std::vector<std::string> texts;
+  for (std::size_t valve = 0; valve < valves.size(); ++valve) {
+    const std::vector<const char *> names = leaflet_names(valves[valve].options());
+    const std::string part = all.part_of(valve), prefix = part.empty() ? "" : part + " ";
+    const int32_t n = n_leaflets_of(valves[valve].surface());
+    for (int32_t leaflet = 0; leaflet < n; ++leaflet) {
+      const bool named = leaflet < view(names).size();
+      texts.push_back(prefix + (named ? view(names)[leaflet] : "leaflet " + std::to_string(leaflet)));
+    }
+  }
+  return texts;
+}
+
+}  // namespace
+
+SeriesPictures::SeriesPictures(const Case &all, MeshFile mesh, const Box &box)
+    : all_(all), mesh_(std::move(mesh)), nodes_(borrow_nodes(mesh_.get(), all.options.mesh)), box_(box) {
+  if (!all.options.series.movie.empty()) movie_.emplace(all.options.series.movie, all.options.series.frame_rate);
+}
+
+bool SeriesPictures::are_wanted(const Options &options) {
+  return !options.pictures.empty() || !options.series.movie.empty();
+}
+
+void SeriesPictures::set_marks_of(std::vector<MovingValve> &valves) {
+  int64_t n = 0;
+  check(riis_vtk_mesh_get_nodes(mesh_.get(), &n, nullptr, nullptr));
+  JoinedMarks marks(static_cast<std::size_t>(n));
+  const std::vector<int32_t> first = first_leaflets(valves);
+  for (std::size_t valve = 0; valve < valves.size(); ++valve) {
+    valves[valve].mark(nodes_.get(), 0);
+    marks.add(valves[valve].result(), first[valve]);
+  }
+  check(riis_vtk_mesh_set_point_array(mesh_.get(), "riis_marked", n, 1, marks.marked.data()));
+  check(riis_vtk_mesh_set_point_array(mesh_.get(), "riis_distance", n, 1, marks.distance.data()));
+  check(riis_vtk_mesh_set_point_array(mesh_.get(), "riis_leaflet", n, 1, marks.leaflet.data()));
+}
+
+std::string SeriesPictures::title(std::size_t step, const std::vector<MovingValve> &valves) const {
+  const std::vector<double> &times = all_.options.series.times;
+  const std::string time = times.empty() ? "" : fixed(times[step], decimals_of(times));
+  if (valves.size() > 1) {
+    std::string text = time.empty() ? "" : "Time " + time + ": ";
+    for (std::size_t valve = 0; valve < valves.size(); ++valve)
+      text += (valve > 0 ? ", " : "") + all_.part_of(valve) +
+              (valves[valve].source().valve ? " " + fixed(valves[valve].opening(), 2) : "");
+    return text;
+  }
+  std::string text = title_of_valve(valves[0].options());
+  if (!time.empty()) text += ", time " + time;
+  return valves[0].source().valve ? text + ", opening " + fixed(valves[0].opening(), 2) : text;
+}
+
+riis_vtk_film *SeriesPictures::film() {
+  if (film_) return film_.get();
+  riis_vtk_picture_options how;
+  check(riis_vtk_picture_options_init(&how, sizeof how));
+  how.view = all_.options.series.movie_view;
+  how.leaflet_names = leaflet_names_.data();
+  how.n_leaflet_names = view(leaflet_names_).size();
+  how.unit = all_.options.unit ? name_of(*all_.options.unit) : nullptr;
+  riis_vtk_film *film = nullptr;
+  check(riis_vtk_film_create(mesh_.get(), box_.lower, box_.upper, &how, &film));
+  film_.reset(film);
+  return film;
+}
+
+void SeriesPictures::draw(std::size_t step, std::vector<MovingValve> &valves, Report &report) {
+  if (step > 0 && !movie_) return;
+  if (leaflet_names_.empty()) {
+    leaflet_texts_ = leaflet_texts_of(all_, valves);
+    for (const std::string &text : leaflet_texts_) leaflet_names_.push_back(text.c_str());
+  }
+  set_marks_of(valves);
+  const Surface joined = valves.size() > 1 ? joined_surface(valves) : nullptr;
+  const riis_surface *surface = joined ? joined.get() : valves[0].surface();
+  const std::string text = title(step, valves);
+  if (step == 0) draw_pictures(all_.options, text, leaflet_names_, surface, mesh_.get(), nullptr, report);
+  if (movie_) check(riis_vtk_film_draw(film(), surface, text.c_str(), movie_->next_frame().c_str()));
+}
+
+void SeriesPictures::encode(Report &report) {
+  if (!movie_) return;
+  const Stage stage("making " + all_.options.series.movie, all_.options.quiet);
+  movie_->encode();
+  report.written.push_back(all_.options.series.movie);
+}
+
+// ---- Movie ----
+
+namespace {
+
+// Returns the program of that name on the PATH, or "" if there is none.
+std::string program_on_path(const std::string &name) {
+  const char *path = std::getenv("PATH");
+  std::string folders = path ? path : "";
+  for (std::size_t begin = 0; begin <= folders.size();) {
+    const std::size_t end = std::min(folders.find(':', begin), folders.size());
+    const std::string program = folders.substr(begin, end - begin) + "/" + name;
+    std::error_code error;
+    if (end > begin && std::filesystem::is_regular_file(program, error) && access(program.c_str(), X_OK) == 0)
+      return program;
+    begin = end + 1;
+  }
+  return "";
+}
+
+[[noreturn]] void refuse_movie(const std::string &path, const std::string &reason) {
+  throw Refusal{exit_bad_data, path + ": the movie cannot be made: " + reason};
+}
+
+// Returns the name of a frame's file, in which ffmpeg counts.
+std::string frame_name(std::size_t number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "frame_%06zu.png", number);
+  return text;
+}
+
+// Returns ffmpeg's pattern for the frames. A % of the folder is doubled, because it has a meaning there.
+std::string frame_pattern(const std::string &folder) {
+  std::string pattern;
+  for (const char c : folder) pattern += c == '%' ? std::string("%%") : std::string(1, c);
+  return pattern + "/frame_%06d.png";
+}
+
+std::vector<std::string> encoding_of(const std::string &path) {
+  if (has_ending(path, ".gif")) {
+    // The palette has the colours of the whole movie, which loops without end.
+    return {
+        "-filter_complex",
+        "scale='min(800,iw)':-2:flags=lanczos,split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=bayer:bayer_scale=5",
+        "-loop",
+        "0",
+        "-f",
+        "gif"};
+  }
+  // Every player knows this kind of H.264.
+  return {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart", "-f", "mp4"};
+}
+
+// Runs a program without a shell. Its messages go to a file. Returns its exit status, or -1 if it did not end by itself.
+int run_program_to_log(const std::vector<std::string> &words, const std::string &log) {
+  std::vector<char *> arguments;
+  for (const std::string &word : words) arguments.push_back(const_cast<char *>(word.c_str()));
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  if (posix_spawn_file_actions_init(&actions) != 0) throw std::bad_alloc();
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  pid_t process = 0;
+  const int error = posix_spawn(&process, words[0].c_str(), &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) throw Refusal{exit_bad_data, words[0] + ": cannot be run: " + std::generic_category().message(error)};
+  int status = 0;
+  while (waitpid(process, &status, 0) < 0)
+    if (errno != EINTR) return -1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+std::string last_line_of(const std::string &path) {
+  std::ifstream file(path);
+  std::string last, line;
+  while (std::getline(file, line))
+    if (!line.empty()) last = line;
+  return last.substr(0, 200);
+}
+
+}  // namespace
+
+void check_movie(const std::string &path) {
+  if (path.empty()) return;
+  if (!has_ending(path, ".mp4") && !has_ending(path, ".gif"))
+    throw Refusal{exit_wrong_usage, "--movie: " + path + " must end in .mp4 or .gif"};
+  if (program_on_path("ffmpeg").empty())
+    throw Refusal{exit_bad_data,
+                  "--movie needs the program ffmpeg, which is not on the PATH; on Debian the package ffmpeg has it"};
+}
+
+Movie::Movie(const std::string &path, double frame_rate) : path_(path), frame_rate_(frame_rate) {
+  std::string folder = (std::filesystem::temp_directory_path() / "riis-mark-XXXXXX").string();
+  if (!mkdtemp(folder.data())) refuse_movie(path, folder + ": " + std::generic_category().message(errno));
+  folder_ = folder;
+}
+
+Movie::~Movie() {
+  std::error_code ignored;
+  std::filesystem::remove_all(folder_, ignored);
+}
+
+std::string Movie::next_frame() { return folder_ + "/" + frame_name(n_frames_++); }
+
+void Movie::encode() const {
+  const UnbrokenWrite unbroken;
+  const std::filesystem::path place = place_of(path_);
+  const std::string temporary = (folder_of(place) / (".riis-" + std::to_string(getpid()) + "-movie.tmp")).string();
+  const std::string log = folder_ + "/ffmpeg.log";
+  std::vector<std::string> words = {
+      program_on_path("ffmpeg"), "-nostdin", "-loglevel",           "error", "-y", "-framerate",
+      shortest(frame_rate_),     "-i",       frame_pattern(folder_)};
+  const std::vector<std::string> encoding = encoding_of(path_);
+  words.insert(words.end(), encoding.begin(), encoding.end());
+  words.push_back(temporary);
+  const int status = run_program_to_log(words, log);
+  if (status == 0 && std::rename(temporary.c_str(), place.c_str()) == 0) return;
+  const int error = errno;
+  std::remove(temporary.c_str());
+  // The user's Ctrl-C also reaches ffmpeg.
+  if (UnbrokenWrite::has_signal()) return;
+  if (status == 0) refuse_movie(path_, std::generic_category().message(error));
+  refuse_movie(path_, "ffmpeg ends with status " + std::to_string(status) + ": " + last_line_of(log));
+}
+
+}  // namespace riis::program
