@@ -20,7 +20,7 @@
 namespace riis::program {
 namespace {
 
-OpeningLaw law_of_command_line(const Options &options) {
+OpeningLaw law_of_command_line(const MarkOptions &options) {
   const SeriesOptions &series = options.series;
   OpeningTable table = read_cycle(series.cycle);
   table.period = options.period;
@@ -28,7 +28,7 @@ OpeningLaw law_of_command_line(const Options &options) {
   return OpeningLaw(std::move(table), series.cycle);
 }
 
-// Options of a series that mean nothing at one time.
+// MarkOptions of a series that mean nothing at one time.
 void check_one_time(const Case &all) {
   const SeriesOptions &series = all.options.series;
   const std::string why = " needs times: " + series.case_file + " has none, and --times is not given";
@@ -48,7 +48,7 @@ std::vector<std::string> names_of_case(const Case &all) {
   return names;
 }
 
-void write_case_files(const Options &options, const std::vector<MovingValve> &valves, const riis_vtk_mesh *file,
+void write_case_files(const MarkOptions &options, const std::vector<MovingValve> &valves, const riis_vtk_mesh *file,
                       Report &report) {
   const Stage stage("writing", options.quiet);
   const UnbrokenWrite unbroken;
@@ -101,7 +101,7 @@ int64_t mark_valves(const Case &all, std::vector<MovingValve> &valves, const rii
 }
 
 ExitCode run_one_time(Case &all) {
-  const Options &options = all.options;
+  const MarkOptions &options = all.options;
   std::vector<MovingValve> valves = moving_valves(all);
   Report report;
   MeshFile file = read_mesh(options, report.seconds);
@@ -126,7 +126,7 @@ bool Case::has_resistance() const {
                      [](const ValveSource &valve) { return valve.options.resistance.has_value(); });
 }
 
-Case case_of_command_line(const Options &options) {
+Case case_of_command_line(const MarkOptions &options) {
   Case all{options, {}, {}};
   ValveSource source{options, nullptr, nullptr};
   if (options.surface.empty()) {
@@ -138,6 +138,7 @@ Case case_of_command_line(const Options &options) {
   } else {
     Seconds seconds;
     KeyframeFiles read = read_keyframes(options, seconds);
+    check_no_output_is("a frame of --surface " + options.surface, read.files, options);
     source.keyframes = std::move(read.keyframes);
     all.files = std::move(read.files);
   }

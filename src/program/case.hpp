@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "program/command_line.hpp"
+#include "program/options.hpp"
 #include "program/refusal.hpp"
 #include "program/valve_source.hpp"
 
 namespace riis::program {
 
 struct Case {
-  Options options;  // the mesh, the times, the outputs; a prefix for the arrays that all valves share
+  MarkOptions options;  // the mesh, the times, the outputs; a prefix for the arrays that all valves share
   std::vector<ValveSource> valves;
   std::vector<std::string> files;  // that were read, which no output may replace
 
@@ -23,7 +23,7 @@ struct Case {
 };
 
 // Returns the command line's valve, with --times and --cycle, as a case.
-Case case_of_command_line(const Options &options);
+Case case_of_command_line(const MarkOptions &options);
 
 // Marks the mesh at one time. Returns exit_fine, or exit_none_marked if the user did not allow that. Throws a Refusal.
 ExitCode run_case(Case &all);

@@ -8,6 +8,7 @@
 
 #include "program/json.hpp"
 #include "program/opening_law.hpp"
+#include "program/outputs.hpp"
 #include "program/parameters.hpp"
 #include "program/refusal.hpp"
 #include "program/text.hpp"
@@ -27,7 +28,7 @@ const std::vector<std::string> valve_keys = {
 
 class CaseReader {
  public:
-  explicit CaseReader(const Options &options) : path_(options.series.case_file), all_{options, {}, {}} {}
+  explicit CaseReader(const MarkOptions &options) : path_(options.series.case_file), all_{options, {}, {}} {}
 
   Case read() {
     const Json root = parse_json_file(path_, "a case");
@@ -41,7 +42,7 @@ class CaseReader {
 
  private:
   void read_common(const CaseValues &values) {
-    Options &options = all_.options;
+    MarkOptions &options = all_.options;
     if (options.mesh.empty()) options.mesh = file_of(values, "mesh");
     if (options.mesh.empty()) values.refuse("mesh", "it is missing, and no MESH is on the command line");
     options.unit = values.unit("unit");
@@ -93,7 +94,7 @@ class CaseReader {
   void read_valve(const Json &value, std::size_t number, std::size_t n_valves) {
     CaseValues values(path_, "valve " + std::to_string(number), value, valve_keys);
     ValveSource source{all_.options, nullptr, nullptr};
-    Options &options = source.options;
+    MarkOptions &options = source.options;
     options.prefix = name_of(values, n_valves);
     if (n_valves > 1) values.set_subject("valve \"" + options.prefix + "\"");
     source.subject = values.subject();
@@ -124,7 +125,7 @@ class CaseReader {
     return name;
   }
 
-  void read_placement(const CaseValues &values, Options &options) const {
+  void read_placement(const CaseValues &values, MarkOptions &options) const {
     riis_surface_options &surface = options.surface_options;
     if (const auto scale = values.above_zero("scale")) {
       if (options.unit) values.refuse("scale", "it goes with no \"unit\", which gives the scale");
@@ -217,6 +218,7 @@ class CaseReader {
     if (!all_.is_series()) values.refuse("surface", "a surface that moves needs times, in the file or by --times");
     source.options.period = values.above_zero("period").value_or(0);
     KeyframeFiles read = read_keyframes(source.options, seconds);
+    check_no_output_is("a frame of --surface " + source.options.surface, read.files, source.options);
     source.keyframes = std::move(read.keyframes);
     all_.files.insert(all_.files.end(), read.files.begin(), read.files.end());
   }
@@ -228,7 +230,7 @@ class CaseReader {
 
 }  // namespace
 
-Case read_case(const Options &options) { return CaseReader(options).read(); }
+Case read_case(const MarkOptions &options) { return CaseReader(options).read(); }
 
 // ---- Case opening ----
 

@@ -13,7 +13,7 @@
 namespace riis::program {
 
 // Reads the case of --case. A mesh, times and distance limit on the command line take the place of the file's.
-Case read_case(const Options &options);
+Case read_case(const MarkOptions &options);
 
 // In: the opening of a valve in a case. Out: its law.
 

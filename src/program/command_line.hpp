@@ -1,107 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: argc and argv. Out: the user's request, with its form checked. The library decides whether the values are good.
+// In: argc and argv. Out: the command and its options.
 #pragma once
 
-#include <riis/riis_vtk.h>
-
-#include <cstdint>
 #include <optional>
-#include <string>
-#include <vector>
+#include <variant>
 
-#include "program/refusal.hpp"
-#include "program/units.hpp"
+#include "program/options.hpp"
 
 namespace riis::program {
 
-struct Picture {
-  std::string path;
-  int32_t view;
-};
+// What a command line asks for. riis surface and riis check are runs of MarkOptions.
+using Request = std::variant<MarkOptions, StatesOptions, ExportOptions, ParamsOptions>;
 
-// A series in time, and cases of several valves.
-struct SeriesOptions {
-  std::string case_file;      // "": the command line describes the only valve
-  std::vector<double> times;  // ascending; empty: no series
-  std::string cycle;          // file
-  std::int32_t interpolation = RIIS_INTERPOLATION_LINEAR;
-  std::string movie, table;  // "": not wanted
-  double frame_rate = 10;    // frames a second
-  std::int32_t movie_view = RIIS_VTK_VIEW_OBLIQUE;
-  bool all_cells = false;
-};
-
-// Two points, which a valve is to part, and what refusals say of them.
-struct LeakCheck {
-  double from[3], to[3];
-  std::string subject;
-  ExitCode exit_code = exit_wrong_usage;
-};
-
-struct TimeSpan {
-  double start, stop;
-};
-
-// An export to svMultiPhysics.
-struct UrisOptions {
-  std::string folder;  // "": not wanted
-  std::optional<double> time_step;
-  std::optional<double> opening_duration, closing_duration;  // without a cycle
-  std::optional<TimeSpan> opening_span, closing_span;        // of the cycle
-  double largest_edge = 0;                                   // 0: as the library cuts
-};
-
-// At the position of their RIIS_TRIANGULATION_*.
-const std::vector<std::string> &triangulation_names();
-// Returns the names of the views, each at the position of its RIIS_VTK_VIEW_*.
-const std::vector<std::string> &view_names();
-
-struct Options {
-  std::string mesh;                   // "": none
-  std::string valve;                  // kind, or a file that ends in .json; used without surface
-  std::string surface;                // file; "": the valve
-  std::optional<double> time;         // of a surface that moves
-  double period = 0;                  // of its motion, or of the cycle; 0: none
-  std::string params, params_open;    // JSON files; "": none
-  std::vector<std::string> settings;  // NAME=VALUE, in order
-  std::optional<double> opening;      // from 0 to 1
-  riis_surface_options surface_options;
-  std::optional<Unit> unit, surface_unit;  // of the mesh, and of a file with the surface; the scale is made of them
-  // The user gave them as numbers.
-  bool has_scale = false, has_half_thickness = false, has_tolerance = false;
-  std::string
-      leaflets;  // of the surface's file: "connected", the name of a cell array, or "" for the array riis_leaflet
-  riis_mark_options mark_options;
-  double far_distance = RIIS_FAR_DISTANCE;
-  std::optional<double> resistance;           // R, for an array of K
-  std::string output, surface_output, stats;  // "": not wanted
-  std::vector<Picture> pictures;
-  std::int32_t n_steps = 0;     // to be timed
-  std::string prefix = "riis";  // of the arrays in the output
-  bool replace = false;         // arrays of these names
-  bool allow_none = false;
-  bool check_crossing = false;
-  std::optional<LeakCheck> check_leaks;
-  SeriesOptions series;
-  UrisOptions uris;
-  std::string states;           // the table of --states; "": not wanted
-  std::int32_t n_states = 101;  // openings in it
-  bool print_params = false, describe_params = false;
-  bool quiet = false;
-  bool strict = false;  // a warning is an exit status
-};
-
-// Derives the scale from the units, and the half thickness unless the user gave one.
-void apply_units(Options &options);
-
-// Returns whether the user gave the valve's opening, by --opening or --set.
-bool sets_opening(const Options &options);
-
-// Whether arrays can be named so.
-bool is_prefix(const std::string &name);
-
-// Returns nothing if the command line requested only the help or the version, which it has then printed.
+// Returns nothing if the command line asked only for help or the version, which it has then printed.
 // Throws a Refusal for wrong usage.
-std::optional<Options> parse_command_line(int argc, char **argv);
+std::optional<Request> parse_command_line(int argc, char **argv);
 
 }  // namespace riis::program

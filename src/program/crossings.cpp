@@ -19,10 +19,10 @@ namespace {
 constexpr int n_openings = 101;
 
 // Returns the list without its arrays.
-riis_crossing_list crossings_of(const Options &options, const riis_surface *surface) {
+riis_crossing_list crossings_of(const ValveOptions &options, const riis_surface *surface) {
   riis_crossing_options how;
   check(riis_crossing_options_init(&how, sizeof how));
-  how.n_threads = options.mark_options.n_threads;
+  how.n_threads = options.n_threads;
   riis_crossings *handle = nullptr;
   check(riis_crossings_create(&handle));
   const Crossings crossings(handle);
@@ -35,20 +35,20 @@ riis_crossing_list crossings_of(const Options &options, const riis_surface *surf
 }
 
 // Crossings do not depend on how distances are measured, and triangles make the least work.
-riis_surface_options by_triangles(const Options &options) {
+riis_surface_options by_triangles(const ValveOptions &options) {
   riis_surface_options how = options.surface_options;
   how.measure = RIIS_MEASURE_TRIANGLES;
   how.measure_tolerance = RIIS_AUTO;
   return how;
 }
 
-bool can_open(const Options &options, riis_valve *valve) {
+bool can_open(const ValveOptions &options, riis_valve *valve) {
   riis_surface_options how = by_triangles(options);
   how.triangulation = RIIS_TRIANGULATION_ADAPTED;
   return why_closed(valve, how).empty();
 }
 
-void sweep_openings(const Options &options, riis_valve *valve, CrossingReport &report) {
+void sweep_openings(const ValveOptions &options, riis_valve *valve, CrossingReport &report) {
   check(riis_valve_set_scalar(valve, "opening", 0));
   const std::string subject = is_valve_file(options.valve) ? options.valve : "";
   const riis_surface_options how = by_triangles(options);
@@ -68,14 +68,14 @@ void sweep_openings(const Options &options, riis_valve *valve, CrossingReport &r
   }
 }
 
-std::string leaflet_text(const Options &options, int32_t leaflet) {
+std::string leaflet_text(const ValveOptions &options, int32_t leaflet) {
   const std::vector<const char *> names = leaflet_names(options);
   const auto at = static_cast<std::size_t>(leaflet);
   return at < names.size() ? names[at] : std::to_string(leaflet);
 }
 
 // Not even --quiet silences this: such a valve cannot be built, and its normals contradict each other.
-void warn_of_crossings(const Options &options, const CrossingReport &report, const std::string &part,
+void warn_of_crossings(const ValveOptions &options, const CrossingReport &report, const std::string &part,
                        const std::string &advice) {
   const riis_crossing_list &found = report.found;
   std::string at;
@@ -112,7 +112,7 @@ bool has_default_values(const riis_valve *valve) {
 }
 
 // Returns the depth that triangles of leaflets which only touch may have (docs/theory.md, section 16).
-double depth_of_contacts(const Options &options, const riis_surface *surface) {
+double depth_of_contacts(const ValveOptions &options, const riis_surface *surface) {
   riis_surface_info info;
   check(riis_surface_get_info(surface, &info, sizeof info));
   const bool has_cusps = options.valve == "aortic" || options.valve == "trileaflet";
@@ -130,7 +130,8 @@ Surface surface_at(riis_valve *valve, double opening, const riis_surface_options
 
 }  // namespace
 
-void look_for_crossings(const Options &options, const riis_valve *valve, const riis_surface *surface, Report &report) {
+void look_for_crossings(const ValveOptions &options, const riis_valve *valve, const riis_surface *surface,
+                        Report &report) {
   const Stage stage("looking for crossings", options.quiet);
   CrossingReport &crossings = report.crossings.emplace();
   const Valve copy = valve ? copy_of(valve) : nullptr;
@@ -143,7 +144,7 @@ void look_for_crossings(const Options &options, const riis_valve *valve, const r
   if (crossings.found.n_pairs > 0) warn_of_crossings(options, crossings, "", "");
 }
 
-std::optional<CrossingReport> check_shape(const Options &options, const riis_valve *valve, bool has_open_state,
+std::optional<CrossingReport> check_shape(const ValveOptions &options, const riis_valve *valve, bool has_open_state,
                                           const std::string &part) {
   if (!is_valve_file(options.valve) && !has_open_state && has_default_values(valve)) return std::nullopt;
   const Valve copy = copy_of(valve);
@@ -161,7 +162,7 @@ std::optional<CrossingReport> check_shape(const Options &options, const riis_val
     if (found.deepest_depth <= depth_of_contacts(options, surface.get())) continue;
     report.found = found;
     warn_of_crossings(options, report, part.empty() ? "" : part + ": ",
-                      "; change the sizes, and look at all openings by --check-crossing");
+                      "; change the sizes, and look at all openings by riis check crossings");
     return report;
   }
   return report.n_openings > 0 ? std::optional(report) : std::nullopt;

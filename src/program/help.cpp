@@ -1,180 +1,255 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/help.hpp"
 
+#include "common/nearest_name.hpp"
+#include "program/refusal.hpp"
+
 namespace riis::program {
+namespace {
+
+struct Footer {
+  const char *command, *text;
+};
+
+const Footer footers[] = {
+    {"mark", R"(Examples:
+  riis mark mesh.vtu --output marked.vtu --picture valve.png
+  riis mark mesh.vtu --unit m --rotate 0,0,1,90 --set right.leaflet_angle=60 --stats -
+  riis mark mesh.vtu --unit mm --surface valve.stl --surface-unit mm --leaflets connected --output marked.vtu
+  riis mark mesh.vtu --valve mitral --opening 0.5 --output half_open.vtu
+  riis mark mesh.vtu --params-closed closed.json --params-open open.json --opening 0.5 --output half_open.vtu
+  riis mark mesh.vtu --surface patient.pvd --time 0.3 --period 0.8 --output marked.vtu
+  riis mark mesh.vtu --valve mitral --cycle beat.csv --period 0.8 --times 0:0.8:0.01 --output beat.pvd --movie beat.mp4
+  riis mark --case beating_valves.json --output beat.pvd --series-table beat.csv
+riis help explains: mesh, units, parameters, opening, patches, series, cases, motion, warnings, leaks, searches, distances, status.)"},
+    {"surface", R"(Examples:
+  riis surface --valve mitral --opening 0.5 --output half_open.vtp --picture half_open.png --view top
+  riis surface --surface patient.pvd --time 0.3 --output moved.vtp
+riis help explains: units, parameters, opening, patches, motion.)"},
+    {"states", R"(Examples:
+  riis states states.csv --valve mitral
+  riis states - --valve prosthesis.json --count 11
+riis help states explains the table.)"},
+    {"crossings", R"(Examples:
+  riis check crossings --valve prosthesis.json
+riis help crossings explains what counts.)"},
+    {"leaks", R"(Examples:
+  riis check leaks mesh.vtu --valve mitral --opening 0 --between 0,0,2 0,0,-2
+riis help leaks explains what counts.)"},
+    {"check", R"(Examples:
+  riis check crossings --valve prosthesis.json
+  riis check leaks mesh.vtu --between 0,0,2 0,0,-2)"},
+    {"export", R"(Examples:
+  riis export mitral_valve --valve mitral --time-step 0.001 --opening-seconds 0.05 --closing-seconds 0.04 --resistance 1e4
+riis help export explains the files.)"},
+    {"params", R"(Examples:
+  riis params > valve.json
+  riis params --describe --valve mitral
+riis help parameters explains the names.)"},
+    {"help", R"(Examples:
+  riis help units)"},
+    {"riis", R"(Examples:
+  riis mark mesh.vtu --output marked.vtu
+  riis mark mesh.vtu --unit m --valve mitral --output marked.vtu
+  riis params --describe --valve mitral
+riis COMMAND --help lists the options of a command. riis help lists the topics that it explains.)"},
+};
+
+struct Topic {
+  const char *name, *subject, *text;
+};
+
+// clang-format off
+const Topic topics[] = {
+    {"mesh", "the marked mesh and its arrays",
+     R"(The marked mesh is a copy of the input. Its nodes keep the input's order. It has the point arrays riis_marked (UInt8: 0 or
+1), riis_distance (Float64) and riis_leaflet (Int32: -1 for none). --prefix NAME names them NAME_marked and so on, so a mesh
+can take the marks of several valves. Only --replace replaces arrays that the mesh already has.
+)"},
+    {"units", "units of lengths, and the scale",
+     R"(Lengths are in the mesh's unit. --unit names that unit, and the scale follows from it. The parameters of the kinds of
+valves are in centimetres. If a file holds the surface or the patches, --unit needs --surface-unit, the file's
+own unit. With --unit the half thickness is the paper's, 0.1 cm, unless --half-thickness says otherwise. Without --unit the
+program knows no units, and --scale is the factor from the surface's unit to the mesh's.
+)"},
+    {"parameters", "names and files of parameters",
+     R"(A name with a cusp (right.leaflet_angle) is a parameter of that cusp. A name without a cusp (leaflet_angle) stands for all
+cusps. A JSON file sets the names without a cusp first, whatever their order in the file. --set comes after the file, from
+left to right. --opening comes last, and excludes --set opening.
+)"},
+    {"opening", "closed and open states",
+     R"(The parameters of a kind of valve make it closed and open. The mitral valve is open unless --opening says otherwise, the
+others are at 0. With --params-open, the other options make the closed state. The defaults with that file's
+parameters make the open state; an opening in that file does not matter. The paper's aortic valve, at opening 0 with the
+default parameters, is not closed: along its axis 19 % of a disc of radius 1.2 cm stay open. --valve trileaflet closes.
+)"},
+    {"patches", "a file of curves for a valve of your own",
+     R"(--valve FILE.json is a valve from patches, by the curves that bound them:
+{"curves":  {"hinge": [[0,0,0], [1,0,0]], "edge": [[0,1,0], [0.5,1,0.3], [1,1,0]],
+             "left": [[0,0,0], [0,1,0]], "right": [[1,1,0], [1,0,0]]},
+ "patches": [{"v0": "hinge", "v1": "edge", "u0": "left", "u1": "-right", "leaflet": 0}]}
+2, 3 or 4 points control a curve of degree 1, 2 or 3. One point is a side collapsed to it. A minus runs a curve the other
+way. v0 and v1 run from u0 to u1; u0 and u1 run from v0 to v1. "leaflet" is 0 if it is left out. "open": {"curves": {...}}
+beside "patches" holds all curves at --opening 1; without it the valve stays at 0. Its only parameter is opening.
+)"},
+    {"series", "many times: .pvd, movies, tables",
+     R"(--times marks the nodes at each time, and --cycle tells the opening: a line for each key, with a time and an opening from 0
+to 1, ascending in time. The first line may name the columns. --output beat.pvd writes beat/beat_0000.vtu and so on, and
+beat.pvd, which ParaView plays. --surface-output does the same with the triangles. With --triangulation fixed all times have
+the same triangles, so that K does not jump with them.
+Each mesh has the point arrays of a marked mesh, and riis_normal, riis_side and riis_velocity of the closest point. With
+--resistance it has riis_K and riis_K_u_surface, K times that velocity. Velocities are means since the time before;
+the first time takes the length of the first step. Without --all-cells the meshes are the cells near the valve's whole
+motion, with the arrays riis_node_id and riis_cell_id, ids of the input from 0. All times have the same cells.
+A line on stderr tells the size of all files before they are written. Ctrl-C ends a series after the present step. A line
+then says how many steps are written, and the .pvd lists them. If the process is killed, the list is at most a second behind
+the files. --series-table has a line for each time: opening, marked nodes, the largest speed of the surface, and the seconds for
+surface and marks. --picture draws the first time. --movie draws all times by one camera, and needs the program ffmpeg. The
+check for leaks runs at the time when the valve is least open, and for --surface at the first time.
+)"},
+    {"cases", "several valves in one mesh, from a file",
+     R"(--case FILE.json describes several valves, and takes the place of the options for surface, placement and marking:
+{"mesh": "heart.vtu", "unit": "cm", "half_thickness": 0.1, "distance_limit": 0.2, "resistance": 1e4,
+ "times": "0:0.8:0.01",
+ "valves": [{"name": "mitral", "valve": "mitral", "opening": {"file": "beat.csv", "period": 0.8}},
+            {"name": "aortic", "valve": "trileaflet",
+             "rotate": [1,0,0,-30], "translate": [0,3.8,1], "opening": 0.3, "half_thickness": 0.08}]}
+Paths are relative to the file. A MESH, --times and --distance-limit on the command line take the place of the file's.
+A valve has "valve", a kind or a file of patches, or "surface", a file. A surface stays at rest unless the file is a .pvd,
+with "period". A valve may have "parameters" and "open_parameters", each an object or a file, and "scale", "surface_unit",
+"rotate", "translate", "half_thickness", "resistance", "tolerance", "triangulation", "flip_normals", "leaflets" and
+"skip_zero_area", as the options of these names. "opening" is a number or one of
+  {"file": "beat.csv", "period": 0.8, "interpolation": "cubic"}
+  {"times": [0, 0.1, 0.4], "openings": [0, 1, 0], "period": 0.8, "interpolation": "linear"}
+  {"opening_start": 0.4, "opening_duration": 0.05, "closing_start": 0.7, "closing_duration": 0.05, "closed": 0, "open": 1,
+   "period": 0.8}
+Each of several valves has its own arrays, NAME_marked and so on; riis_K and riis_K_u_surface are sums over the valves.
+Without times there is one mesh, --output marked.vtu.
+)"},
+    {"motion", "a surface from a file that moves",
+     R"(--surface FILE.pvd is a ParaView collection of surface files, each with a time. All have the same points and faces, only the
+points move. --time T takes them there, linearly between two files, and --times to each of its times. --surface-output then
+has the velocities of the points, riis_velocity, in the mesh's unit over the unit of T. Triangles of .stl files must keep
+their order.
+)"},
+    {"warnings", "what they mean, and which comes first",
+     R"(A line on stderr tells what looks wrong and what to write instead. It comes if no node is marked, if all or hardly any nodes
+are marked, and if the half thickness does not fit the surface or the edges of the mesh. --quiet does not silence it, because
+wrong marks look like right ones. --allow-none is for valves that are near no node at times.
+One thing may be the cause of all others, in this order: units, half thickness, places, leaks. Only the first cause comes with
+advice; run again once it is mended. A unit that you name by --unit or --scale counts as known, if the sizes allow it.
+With --strict the status is 4 if there was any warning, whatever its kind. Places have as many digits as an edge of the mesh
+there needs, and the unit of --unit.
+)"},
+    {"leaks", "edges and passages through the band",
+     R"(The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats say how many
+edges leak, and which half thickness closes them. Edges of at most two half thicknesses do not leak. Leaks are unknown in a
+mesh without volume cells, and at cells whose edges are not known, such as convex point sets. Edges do not show gaps between
+leaflets, nor ways round the valve. riis check leaks MESH --between FROM TO does: two points, one on either side, each as X,Y,Z in the mesh.
+The program says whether unmarked nodes join them, where the widest passage is, and which half thickness closes it. Take
+points farther from the valve than the passage is wide. A case has them as "check_leaks": [x,y,z, x,y,z]. All its valves
+count together, each where it is least open.
+)"},
+    {"crossings", "leaflets that go through each other",
+     R"(riis check crossings looks at a valve's triangles at 101 openings from 0 to 1, and ends at the first one where two go through
+each other. A line on stderr tells that opening, the number of pairs, the length of their intersections, and depth and place
+of the deepest. The depth is how far one of the triangles must move until both only touch. Up to 1e-6 half thicknesses count
+as touching. A valve that does not open, a surface from a file and a valve with --opening are looked at as they are. It needs
+no MESH. riis mark looks at fewer: a valve whose shape is chosen by --set, --params, --params-open or a file is looked at only at
+openings 0, 0.5 and 1. Contacts of leaflets and of a housing with its hinges do not count then.
+)"},
+    {"states", "what the table of riis states has",
+     R"(riis states measures the valve in its own frame at 101 openings, or as many as --count says, and takes no MESH. The table
+has a line for each opening: the length of each free edge, the area of each leaflet, both also as a share of their closed
+values, and the area of the orifice. The summary on stdout names the free edges that leave 10 % of their closed length. Free
+edges are the sides v = 1 of the patches on a leaflet's rim. The orifice is the part of a disc that the leaflets leave
+uncovered along the axis z. The disc is that of root_radius when closed, or of the housing's radius. Valves that have neither
+take the inside of the free sides v = 0, such as the annulus. Columns that a valve has no measure for are left out. The
+tolerance is 0.01 unless --tolerance says otherwise. A valve without an open state has one line, at opening 0.
+)"},
+    {"export", "what riis export writes",
+     R"(riis export FOLDER writes what the solver's Add_URIS_mesh reads: for each leaflet NAME.vtu, NAME_open.dat and
+NAME_close.dat. The same files of a face "box" widen the box in which the solver looks. normal.dat is the direction of flow.
+The folder must be new or empty. The block for the solver's input goes to stdout; it needs --resistance. The solver plays a
+frame in each of its time steps, so --time-step must be its own. The valve opens from 0 to 1 in --opening-seconds by a ramp
+of fifth degree, and closes in --closing-seconds. With --cycle it opens from the last key of its least opening to the first
+of its largest, and closes on the way back; --opening-span and --closing-span name other times. The solver measures to the
+middles of triangles. With --largest-edge 0.15 half thicknesses its sum of K is within 1 % of the exact one. Triangles
+without area in some frame are left out, and a line on stderr says so.
+)"},
+    {"searches", "how nodes are found",
+     R"(exhaustive  queries the distance of every node near the valve
+neighbor    walks from marked nodes to their neighbours and then proves that the rest is far
+clusters    takes nodes that are near each other together
+paper       the published search, for comparison: from one start, through marked nodes only
+The first three give the same marks. neighbor needs the neighbours, the mesh's adjacency; clusters needs the nodes sorted.
+Either costs more than it saves if a mesh is marked once, as here, so auto is exhaustive. paper misses nodes that are not
+connected to its start, so it is never complete, and a line on stderr says so. Neighbours are nodes joined by an edge of a
+volume cell.
+)"},
+    {"distances", "how distances are measured",
+     R"(--distance sampling takes the nearest of points on the valve's patches, as many as --distance-tolerance needs.
+--distance minimization takes Powell's method on every patch, which may miss the closest point. Both are the paper's, slow,
+and here for comparison.
+)"},
+    {"running", "progress, Ctrl-C, locks",
+     R"(On a terminal, a line on stderr announces a stage that takes longer than a second, and counts the steps of a series, unless
+--quiet is given. While a file is written, the first Ctrl-C waits until the file is whole; the second does not wait.
+An empty file .riis-NAME.lock beside each output NAME keeps other runs from writing that output meanwhile. A run that is
+killed leaves the lock behind, and the next run takes it over.
+)"},
+    {"status", "exit statuses",
+     R"(0  fine
+1  bad data: a file that cannot be read or written or holds what it should not, a valve's kind, a parameter's name or
+   value (in a file or by --set), an output that another run is writing, no display for a picture, no ffmpeg for a movie,
+   no memory
+2  wrong usage: an option that is unknown, malformed, out of range, without effect, or at odds with another; an output
+   that would replace an input, another output, or arrays of the mesh
+3  no node is marked at any time, without --allow-none; the outputs are written all the same
+4  with --strict, a warning that none of the above covers; the outputs are written all the same
+)"},
+};
+// clang-format on
+
+std::string list_of_topics() {
+  std::string text = "riis help TOPIC explains one of these:\n";
+  for (const Topic &topic : topics) {
+    const std::string name = topic.name;
+    text += "  " + name + std::string(12 - name.size(), ' ') + topic.subject + "\n";
+  }
+  return text;
+}
+
+}  // namespace
 
 const char *const description =
     "Marks the nodes of a mesh whose distance to the surface of a heart valve is at most the half thickness.";
 
-const char *const footer = R"(Examples:
-  riis-mark mesh.vtu --output marked.vtu --picture valve.png
-  riis-mark mesh.vtu --unit m --rotate 0,0,1,90 --set right.leaflet_angle=60 --stats -
-  riis-mark mesh.vtu --unit mm --surface valve.stl --surface-unit mm --leaflets connected --output marked.vtu
-  riis-mark --print-params > valve.json
-  riis-mark --describe-params --valve mitral
-  riis-mark mesh.vtu --valve mitral --opening 0.5 --output half_open.vtu
-  riis-mark mesh.vtu --params-closed closed.json --params-open open.json --opening 0.5 --output half_open.vtu
-  riis-mark mesh.vtu --valve prosthesis.json --output marked.vtu
-  riis-mark --valve mitral --states states.csv
-  riis-mark mesh.vtu --surface patient.pvd --time 0.3 --period 0.8 --output marked.vtu --surface-output moved.vtp
-  riis-mark mesh.vtu --valve mitral --cycle beat.csv --period 0.8 --times 0:0.8:0.01 --output beat.pvd --movie beat.mp4
-  riis-mark --valve prosthesis.json --check-crossing
-  riis-mark --case beating_valves.json --output beat.pvd --series-table beat.csv
-  riis-mark --export-uris uris --valve mitral --time-step 0.001 --opening-seconds 0.05 --closing-seconds 0.04 --resistance 1e4
+std::string help_of(const std::string &command) {
+  for (const Footer &footer : footers)
+    if (command == footer.command) return footer.text;
+  return "";
+}
 
-Marked mesh
-  The marked mesh is a copy of the input. Its nodes keep the input's order. It has the point arrays riis_marked (UInt8: 0 or
-  1), riis_distance (Float64) and riis_leaflet (Int32: -1 for none). --prefix NAME names them NAME_marked and so on, so a mesh
-  can take the marks of several valves. Only --replace replaces arrays that the mesh already has.
-
-Units
-  Lengths are in the mesh's unit. --unit names that unit, and the scale follows from it. The parameters of the kinds of
-  valves are in centimetres. If a file holds the surface or the patches, --unit needs --surface-unit, the file's
-  own unit. With --unit the half thickness is the paper's, 0.1 cm, unless --half-thickness says otherwise. Without --unit the
-  program knows no units, and --scale is the factor from the surface's unit to the mesh's.
-
-Warnings
-  A line on stderr tells what looks wrong and what to write instead. It comes if no node is marked, if all or hardly any nodes
-  are marked, and if the half thickness does not fit the surface or the edges of the mesh. --quiet does not silence it, because
-  wrong marks look like right ones. --allow-none is for valves that are near no node at times.
-  One thing may be the cause of all others, in this order: units, half thickness, places, leaks. Only the first cause comes with
-  advice; run again once it is mended. A unit that you name by --unit or --scale counts as known, if the sizes allow it.
-  With --strict the status is 4 if there was any warning, whatever its kind. Places have as many digits as an edge of the mesh
-  there needs, and the unit of --unit.
-
-Parameters
-  A name with a cusp (right.leaflet_angle) is a parameter of that cusp. A name without a cusp (leaflet_angle) stands for all
-  cusps. A JSON file sets the names without a cusp first, whatever their order in the file. --set comes after the file, from
-  left to right. --opening comes last, and excludes --set opening.
-
-Opening
-  The parameters of a kind of valve make it closed and open. The mitral valve is open unless --opening says otherwise, the
-  others are at 0. With --params-open, the options above make the closed state. The defaults with that file's
-  parameters make the open state; an opening in that file does not matter. The paper's aortic valve, at opening 0 with the
-  default parameters, is not closed: along its axis 19 % of a disc of radius 1.2 cm stay open. --valve trileaflet closes.
-
-Series in time
-  --times marks the nodes at each time, and --cycle tells the opening: a line for each key, with a time and an opening from 0
-  to 1, ascending in time. The first line may name the columns. --output beat.pvd writes beat/beat_0000.vtu and so on, and
-  beat.pvd, which ParaView plays. --surface-output does the same with the triangles. With --triangulation fixed all times have
-  the same triangles, so that K does not jump with them.
-  Each mesh has the point arrays of a marked mesh, and riis_normal, riis_side and riis_velocity of the closest point. With
-  --resistance it has riis_K and riis_K_u_surface, K times that velocity. Velocities are means since the time before;
-  the first time takes the length of the first step. Without --all-cells the meshes are the cells near the valve's whole
-  motion, with the arrays riis_node_id and riis_cell_id, ids of the input from 0. All times have the same cells.
-  A line on stderr tells the size of all files before they are written. Ctrl-C ends a series after the present step. A line
-  then says how many steps are written, and the .pvd lists them. If the process is killed, the list is at most a second behind
-  the files. --series-table has a line for each time: opening, marked nodes, the largest speed of the surface, and the seconds for
-  surface and marks. --picture draws the first time. --movie draws all times by one camera, and needs the program ffmpeg. The
-  check for leaks runs at the time when the valve is least open, and for --surface at the first time.
-
-Cases
-  --case FILE.json describes several valves, and takes the place of the options for surface, placement and marking:
-  {"mesh": "heart.vtu", "unit": "cm", "half_thickness": 0.1, "distance_limit": 0.2, "resistance": 1e4,
-   "times": "0:0.8:0.01",
-   "valves": [{"name": "mitral", "valve": "mitral", "opening": {"file": "beat.csv", "period": 0.8}},
-              {"name": "aortic", "valve": "trileaflet",
-               "rotate": [1,0,0,-30], "translate": [0,3.8,1], "opening": 0.3, "half_thickness": 0.08}]}
-  Paths are relative to the file. A MESH, --times and --distance-limit on the command line take the place of the file's.
-  A valve has "valve", a kind or a file of patches, or "surface", a file. A surface stays at rest unless the file is a .pvd,
-  with "period". A valve may have "parameters" and "open_parameters", each an object or a file, and "scale", "surface_unit",
-  "rotate", "translate", "half_thickness", "resistance", "tolerance", "triangulation", "flip_normals", "leaflets" and
-  "skip_zero_area", as the options of these names. "opening" is a number or one of
-    {"file": "beat.csv", "period": 0.8, "interpolation": "cubic"}
-    {"times": [0, 0.1, 0.4], "openings": [0, 1, 0], "period": 0.8, "interpolation": "linear"}
-    {"opening_start": 0.4, "opening_duration": 0.05, "closing_start": 0.7, "closing_duration": 0.05, "closed": 0, "open": 1,
-     "period": 0.8}
-  Each of several valves has its own arrays, NAME_marked and so on; riis_K and riis_K_u_surface are sums over the valves.
-  Without times there is one mesh, --output marked.vtu.
-
-Leaks
-  The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats say how many
-  edges leak, and which half thickness closes them. Edges of at most two half thicknesses do not leak. Leaks are unknown in a
-  mesh without volume cells, and at cells whose edges are not known, such as convex point sets. Edges do not show gaps between
-  leaflets, nor ways round the valve. --check-leaks FROM TO does: two points, one on either side, each as X,Y,Z in the mesh.
-  The program says whether unmarked nodes join them, where the widest passage is, and which half thickness closes it. Take
-  points farther from the valve than the passage is wide. A case has them as "check_leaks": [x,y,z, x,y,z]. All its valves
-  count together, each where it is least open.
-
-States
-  --states measures the valve in its own frame at 101 openings, or as many as --state-count says, and takes no MESH. The table
-  has a line for each opening: the length of each free edge, the area of each leaflet, both also as a share of their closed
-  values, and the area of the orifice. The summary on stdout names the free edges that leave 10 % of their closed length. Free
-  edges are the sides v = 1 of the patches on a leaflet's rim. The orifice is the part of a disc that the leaflets leave
-  uncovered along the axis z. The disc is that of root_radius when closed, or of the housing's radius. Valves that have neither
-  take the inside of the free sides v = 0, such as the annulus. Columns that a valve has no measure for are left out. The
-  tolerance is 0.01 unless --tolerance says otherwise. A valve without an open state has one line, at opening 0.
-
-Crossings
-  --check-crossing looks at a valve's triangles at 101 openings from 0 to 1, and ends at the first one where two go through
-  each other. A line on stderr tells that opening, the number of pairs, the length of their intersections, and depth and place
-  of the deepest. The depth is how far one of the triangles must move until both only touch. Up to 1e-6 half thicknesses count
-  as touching. A valve that does not open, a surface from a file and a valve with --opening are looked at as they are. It needs
-  no MESH. Without the option, a valve whose shape is chosen by --set, --params, --params-open or a file is looked at only at
-  openings 0, 0.5 and 1. Contacts of leaflets and of a housing with its hinges do not count then.
-
-Valve from patches
-  --valve FILE.json is a valve from patches, by the curves that bound them:
-  {"curves":  {"hinge": [[0,0,0], [1,0,0]], "edge": [[0,1,0], [0.5,1,0.3], [1,1,0]],
-               "left": [[0,0,0], [0,1,0]], "right": [[1,1,0], [1,0,0]]},
-   "patches": [{"v0": "hinge", "v1": "edge", "u0": "left", "u1": "-right", "leaflet": 0}]}
-  2, 3 or 4 points control a curve of degree 1, 2 or 3. One point is a side collapsed to it. A minus runs a curve the other
-  way. v0 and v1 run from u0 to u1; u0 and u1 run from v0 to v1. "leaflet" is 0 if it is left out. "open": {"curves": {...}}
-  beside "patches" holds all curves at --opening 1; without it the valve stays at 0. Its only parameter is opening.
-
-Export to svMultiPhysics
-  --export-uris FOLDER writes what the solver's Add_URIS_mesh reads: for each leaflet NAME.vtu, NAME_open.dat and
-  NAME_close.dat. The same files of a face "box" widen the box in which the solver looks. normal.dat is the direction of flow.
-  The folder must be new or empty. The block for the solver's input goes to stdout; it needs --resistance. The solver plays a
-  frame in each of its time steps, so --time-step must be its own. The valve opens from 0 to 1 in --opening-seconds by a ramp
-  of fifth degree, and closes in --closing-seconds. With --cycle it opens from the last key of its least opening to the first
-  of its largest, and closes on the way back; --opening-span and --closing-span name other times. The solver measures to the
-  middles of triangles. With --largest-edge 0.15 half thicknesses its sum of K is within 1 % of the exact one. Triangles
-  without area in some frame are left out, and a line on stderr says so.
-
-Motion
-  --surface FILE.pvd is a ParaView collection of surface files, each with a time. All have the same points and faces, only the
-  points move. --time T takes them there, linearly between two files, and --times to each of its times. --surface-output then
-  has the velocities of the points, riis_velocity, in the mesh's unit over the unit of T. Triangles of .stl files must keep
-  their order.
-
-Searches
-  exhaustive  queries the distance of every node near the valve
-  neighbor    walks from marked nodes to their neighbours and then proves that the rest is far
-  clusters    takes nodes that are near each other together
-  paper       the published search, for comparison: from one start, through marked nodes only
-  The first three give the same marks. neighbor needs the neighbours, the mesh's adjacency; clusters needs the nodes sorted.
-  Either costs more than it saves if a mesh is marked once, as here, so auto is exhaustive. paper misses nodes that are not
-  connected to its start, so it is never complete, and a line on stderr says so. Neighbours are nodes joined by an edge of a
-  volume cell.
-
-Distances
-  --distance sampling takes the nearest of points on the valve's patches, as many as --distance-tolerance needs.
-  --distance minimization takes Powell's method on every patch, which may miss the closest point. Both are the paper's, slow,
-  and here for comparison.
-
-While it runs
-  On a terminal, a line on stderr announces a stage that takes longer than a second, and counts the steps of a series, unless
-  --quiet is given. While a file is written, the first Ctrl-C waits until the file is whole; the second does not wait.
-  An empty file .riis-NAME.lock beside each output NAME keeps other runs from writing that output meanwhile. A run that is
-  killed leaves the lock behind, and the next run takes it over.
-
-Exit status; one line on stderr says what was wrong:
-  0  fine
-  1  bad data: a file that cannot be read or written or holds what it should not, a valve's kind, a parameter's name or
-     value (in a file or by --set), an output that another run is writing, no display for a picture, no ffmpeg for a movie,
-     no memory
-  2  wrong usage: an option that is unknown, malformed, out of range, without effect, or at odds with another; an output
-     that would replace an input, another output, or arrays of the mesh
-  3  no node is marked at any time, without --allow-none; the outputs are written all the same
-  4  with --strict, a warning that none of the above covers; the outputs are written all the same)";
+std::string text_of_topic(const std::string &name) {
+  if (name.empty()) return list_of_topics();
+  NearestName nearest(name);
+  for (const Topic &topic : topics) {
+    if (name == topic.name) return topic.text;
+    nearest.consider(topic.name);
+  }
+  const std::string near(nearest.nearest());
+  throw Refusal{exit_wrong_usage, "'" + name.substr(0, 64) + "' is not a topic" +
+                                      (near.empty() ? "" : ", did you mean " + near + "?") +
+                                      " (riis help lists the topics)"};
+}
 
 std::string short_help() {
-  return R"(riis-mark marks the nodes of a mesh that lie near a heart valve.
-  riis-mark MESH.vtu --output MARKED.vtu                     the aortic valve, in a mesh in centimetres
-  riis-mark MESH.vtu --unit m --valve mitral --output MARKED.vtu            the mitral valve, in metres
-  riis-mark MESH.vtu --unit mm --surface VALVE.stl --surface-unit mm --output MARKED.vtu
-riis-mark --help lists all options, riis-mark --describe-params the parameters of the valve.
+  return R"(riis marks the nodes of a mesh that lie near a heart valve.
+  riis mark MESH.vtu --output MARKED.vtu                     the aortic valve, in a mesh in centimetres
+  riis mark MESH.vtu --unit m --valve mitral --output MARKED.vtu            the mitral valve, in metres
+  riis mark MESH.vtu --unit mm --surface VALVE.stl --surface-unit mm --output MARKED.vtu
+riis --help lists the commands, riis params --describe the parameters of the valve.
 )";
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The prose of --help, before and behind the options.
+// What the program says of itself.
 #pragma once
 
 #include <string>
@@ -7,9 +7,14 @@
 namespace riis::program {
 
 extern const char *const description;
-extern const char *const footer;
 
-// For a command line without arguments: the purpose of the program, in five lines.
+// What stands below the options of a command: examples, and where to read on. "riis" is the program's own.
+std::string help_of(const std::string &command);
+
+// The text of a topic, or the list of topics for "". Throws a Refusal for another name.
+std::string text_of_topic(const std::string &name);
+
+// The lines for a command line without arguments.
 std::string short_help();
 
 }  // namespace riis::program

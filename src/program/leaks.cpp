@@ -37,7 +37,7 @@ Leaks leaks_of(const MarkedMesh &marked, const riis_mark_options &options, doubl
 }
 
 // Marks once more, with another half thickness, and finds what leaks then.
-Leaks leaks_with(const Options &options, const MarkedMesh &marked, double half_thickness) {
+Leaks leaks_with(const MarkOptions &options, const MarkedMesh &marked, double half_thickness) {
   riis_surface_options surface_options = options.surface_options;
   surface_options.half_thickness = half_thickness;
   riis_surface *surface_handle = nullptr;
@@ -56,7 +56,7 @@ Leaks leaks_with(const Options &options, const MarkedMesh &marked, double half_t
 }
 
 // The triangles of a valve follow the half thickness, so the number is tried. The triangles of a file stay. 0: none was found.
-double closing_half_thickness(const Options &options, const MarkedMesh &marked, const riis_leak_list &leaks) {
+double closing_half_thickness(const MarkOptions &options, const MarkedMesh &marked, const riis_leak_list &leaks) {
   constexpr int n_tries = 8;
   double wanted = rounded_up(leaks.half_thickness);
   if (!marked.valve) return wanted;
@@ -74,7 +74,7 @@ double closing_half_thickness(const Options &options, const MarkedMesh &marked, 
 }
 
 // Not even --quiet silences this: the valve does not hold.
-void warn_of_leaks(const Options &options, const LeakReport &report, const std::string &surface,
+void warn_of_leaks(const MarkOptions &options, const LeakReport &report, const std::string &surface,
                    double half_thickness) {
   const riis_leak_list &leaks = report.found;
   const bool is_one = leaks.n_edges == 1;
@@ -104,7 +104,7 @@ double rounded_up(double x) {
   }
 }
 
-void look_for_leaks(const Options &options, const MarkedMesh &marked, Report &report) {
+void look_for_leaks(const MarkOptions &options, const MarkedMesh &marked, Report &report) {
   const Stage stage("looking for leaks", options.quiet);
   LeakReport &leaks = report.leaks;
   // Short edges may also leak if marks may be missing, or if distances are not those to the triangles.
@@ -155,7 +155,8 @@ class JoinedNodes {
   JoinedNodes &operator=(const JoinedNodes &) = delete;
 
   // Returns the nearest node that has a neighbour. name is FROM or TO. why_none says why no node may have one.
-  int64_t nearest(const Options &options, const char *name, const double *point, const std::string &why_none) const {
+  int64_t nearest(const MarkOptions &options, const char *name, const double *point,
+                  const std::string &why_none) const {
     const LeakCheck &asked = *options.check_leaks;
     const auto refuse = [&](const std::string &why) {
       throw Refusal{asked.exit_code, asked.subject + ": " + name + ", " + text_of(point) + ", " + why};
@@ -233,7 +234,7 @@ riis_passage passage_of(const LeakCheck &asked, const riis_surface *surface, con
 }
 
 // The triangles of a valve follow the half thickness, so the number is tried. 0: none was found.
-double closing_half_thickness(const Options &options, const MarkedMesh &marked, const riis_passage &passage,
+double closing_half_thickness(const MarkOptions &options, const MarkedMesh &marked, const riis_passage &passage,
                               Ends ends) {
   constexpr int n_tries = 8;
   double wanted = rounded_up(passage.distance);
@@ -278,10 +279,9 @@ void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const 
 
 }  // namespace
 
-std::optional<LeakCheck> parse_leak_check(const std::vector<std::string> &points) {
-  if (points.empty()) return std::nullopt;
+LeakCheck leak_check_between(const std::vector<std::string> &points) {
   LeakCheck made;
-  made.subject = "--check-leaks";
+  made.subject = "--between";
   const std::vector<double> from = parse_list(points[0], made.subject, 3, "X,Y,Z"),
                             to = parse_list(points[1], made.subject, 3, "X,Y,Z");
   std::copy_n(from.begin(), 3, made.from);
@@ -289,7 +289,7 @@ std::optional<LeakCheck> parse_leak_check(const std::vector<std::string> &points
   return made;
 }
 
-void check_passage(const Options &options, const MarkedMesh &marked, Report &report) {
+void check_passage(const MarkOptions &options, const MarkedMesh &marked, Report &report) {
   if (!options.check_leaks) return;
   const Stage stage("looking for a passage", options.quiet);
   const LeakCheck &asked = *options.check_leaks;

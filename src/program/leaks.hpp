@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "program/case.hpp"
-#include "program/command_line.hpp"
 #include "program/moving_valve.hpp"
+#include "program/options.hpp"
 #include "program/report.hpp"
 
 namespace riis::program {
@@ -30,16 +30,16 @@ double rounded_up(double x);
 
 // Writes report.leaks and report.seconds.leaks, and warns on stderr if flow passes, or if that is not known. If two points are
 // checked, that check warns instead.
-void look_for_leaks(const Options &options, const MarkedMesh &marked, Report &report);
+void look_for_leaks(const MarkOptions &options, const MarkedMesh &marked, Report &report);
 
 // In: a marked mesh and two points. Out: whether unmarked nodes join them, where, and the half thickness that would part them.
 
-// The two values of --check-leaks; nothing for an empty list.
-std::optional<LeakCheck> parse_leak_check(const std::vector<std::string> &points);
+// The two points of --between.
+LeakCheck leak_check_between(const std::vector<std::string> &points);
 
 // Both write report.leaks.passage, and warn on stderr if the points are joined. They do nothing unless the options have points.
 // The mesh loses its adjacency.
-void check_passage(const Options &options, const MarkedMesh &marked, Report &report);
+void check_passage(const MarkOptions &options, const MarkedMesh &marked, Report &report);
 // All valves together where they are, which must have the same half thickness.
 void check_passage_of(const Case &all, const std::vector<MovingValve> &valves, riis_mesh *mesh,
                       const riis_vtk_mesh *file, Report &report);

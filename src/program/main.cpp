@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis-mark: from the command line to an exit status. Every error ends in one line on stderr. A command line without arguments
+// riis: from the command line to an exit status. Every error ends in one line on stderr. A command line without arguments
 // gets a few lines of help there, because nobody can have meant it.
 #include <fcntl.h>
 
@@ -20,7 +20,7 @@ namespace {
 int give_up(int exit_code, std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 127; }, '?');
-  std::cerr << "riis-mark: " << text << std::endl;
+  std::cerr << "riis: " << text << std::endl;
   return exit_code;
 }
 
@@ -43,8 +43,8 @@ int main(int argc, char **argv) {
       std::cerr << riis::program::short_help();
       return riis::program::exit_wrong_usage;
     }
-    const auto options = riis::program::parse_command_line(argc, argv);
-    return options ? riis::program::run(*options) : riis::program::exit_fine;
+    const auto request = riis::program::parse_command_line(argc, argv);
+    return request ? riis::program::run(*request) : riis::program::exit_fine;
   } catch (const riis::program::Refusal &refusal) {
     return give_up(refusal.exit_code, refusal.text);
   } catch (const std::bad_alloc &) {

@@ -14,7 +14,7 @@
 
 namespace riis::program {
 
-MeshFile read_mesh(const Options &options, Seconds &seconds) {
+MeshFile read_mesh(const MarkOptions &options, Seconds &seconds) {
   const Stage stage("reading " + options.mesh, options.quiet);
   riis_vtk_mesh *mesh = nullptr;
   check_mesh_read(riis_vtk_mesh_read(options.mesh.c_str(), &mesh), options.mesh);
@@ -39,7 +39,7 @@ Marks new_result() {
 
 bool needs_adjacency(int32_t search) { return search == RIIS_SEARCH_NEIGHBOR || search == RIIS_SEARCH_PAPER; }
 
-void rehearse_marking(const Options &options, const riis_surface *surface) {
+void rehearse_marking(const MarkOptions &options, const riis_surface *surface) {
   const double origin[3] = {0, 0, 0};
   riis_mesh *mesh_handle = nullptr;
   check(riis_mesh_create(1, origin, origin + 1, origin + 2, 3, &mesh_handle));
@@ -62,7 +62,7 @@ void warn_of_incomplete_marks() {
       "neighbor finds them");
 }
 
-void check_new_arrays(const Options &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh) {
+void check_new_arrays(const MarkOptions &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh) {
   if (options.output.empty() || options.replace) return;
   for (const std::string &name : names) {
     int32_t has = 0;
@@ -81,7 +81,7 @@ std::vector<std::string> names_of_marks(const std::string &prefix, int32_t field
   return names;
 }
 
-void set_marks(const Options &options, const riis_marks *result, int32_t fields, riis_vtk_mesh *file) {
+void set_marks(const MarkOptions &options, const riis_marks *result, int32_t fields, riis_vtk_mesh *file) {
   check(riis_vtk_mesh_set_marks(file, result, options.far_distance, options.prefix.c_str()));
   check(riis_vtk_mesh_set_fields(file, result, fields, options.prefix.c_str()));
 }
@@ -91,7 +91,7 @@ ResistanceSum::ResistanceSum(int64_t n_nodes, WithVelocity with_velocity)
       K_(static_cast<std::size_t>(n_nodes), 0.0),
       K_u_surface_(with_velocity == WithVelocity::yes ? 3 * static_cast<std::size_t>(n_nodes) : 0, 0.0) {}
 
-void ResistanceSum::add(const Options &options, const riis_marks *result) {
+void ResistanceSum::add(const MarkOptions &options, const riis_marks *result) {
   if (!options.resistance) return;
   has_any_ = true;
   riis_resistance how;
@@ -170,7 +170,7 @@ struct Steps {
   Marks result;
 };
 
-Steps prepared(const Options &options, const riis_valve *valve, const riis_vtk_mesh *file) {
+Steps prepared(const MarkOptions &options, const riis_valve *valve, const riis_vtk_mesh *file) {
   Steps steps;
   int64_t n_nodes = 0;
   const double *xyz = nullptr;
@@ -198,7 +198,7 @@ Steps prepared(const Options &options, const riis_valve *valve, const riis_vtk_m
 
 }  // namespace
 
-StepTimes time_steps(const Options &options, riis_valve *valve, const riis_vtk_mesh *file) {
+StepTimes time_steps(const MarkOptions &options, riis_valve *valve, const riis_vtk_mesh *file) {
   const Stage stage("timing " + std::to_string(options.n_steps) + " steps", options.quiet);
   const Steps steps = prepared(options, valve, file);
   const KeptOpening kept(valve);

@@ -8,36 +8,36 @@
 #include <string>
 #include <vector>
 
-#include "program/command_line.hpp"
 #include "program/handles.hpp"
+#include "program/options.hpp"
 #include "program/report.hpp"
 
 namespace riis::program {
 
-MeshFile read_mesh(const Options &options, Seconds &seconds);
+MeshFile read_mesh(const MarkOptions &options, Seconds &seconds);
 // Makes a mesh of the nodes of the file, which outlives the mesh. path names the file in refusals.
 Mesh borrow_nodes(const riis_vtk_mesh *file, const std::string &path);
 Marks new_result();
 
 // Marks a single node, so that the library refuses bad options before a large mesh is read and marked.
-void rehearse_marking(const Options &options, const riis_surface *surface);
+void rehearse_marking(const MarkOptions &options, const riis_surface *surface);
 bool needs_adjacency(int32_t search);
 // Not even --quiet silences this: some marks may be missing.
 void warn_of_incomplete_marks();
 
 // Refuses to replace an array of the mesh without --replace.
-void check_new_arrays(const Options &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh);
+void check_new_arrays(const MarkOptions &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh);
 
 // PREFIX_marked, PREFIX_distance, PREFIX_leaflet, and those of the fields.
 std::vector<std::string> names_of_marks(const std::string &prefix, int32_t fields);
-void set_marks(const Options &options, const riis_marks *result, int32_t fields, riis_vtk_mesh *file);
+void set_marks(const MarkOptions &options, const riis_marks *result, int32_t fields, riis_vtk_mesh *file);
 
 // K and K u_surface of every node, summed over the valves that have a resistance.
 class ResistanceSum {
  public:
   enum class WithVelocity { no, yes };
   ResistanceSum(int64_t n_nodes, WithVelocity with_velocity);
-  void add(const Options &options, const riis_marks *result);
+  void add(const MarkOptions &options, const riis_marks *result);
   // PREFIX_K and PREFIX_K_u_surface; none if no valve had a resistance.
   void set_arrays(const std::string &prefix, riis_vtk_mesh *file) const;
 
@@ -51,6 +51,6 @@ class ResistanceSum {
 
 // Moves the opening to and fro between 0 and 1 and marks the nodes of the file after each step. Afterwards the valve is as
 // before. Other surfaces and results do not change. Throws a Refusal for a valve that cannot move.
-StepTimes time_steps(const Options &options, riis_valve *valve, const riis_vtk_mesh *file);
+StepTimes time_steps(const MarkOptions &options, riis_valve *valve, const riis_vtk_mesh *file);
 
 }  // namespace riis::program

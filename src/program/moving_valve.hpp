@@ -26,7 +26,7 @@ class MovingValve {
   // Marks with these RIIS_FIELD_*. The last form of move_to must have been the second for velocities.
   void mark(const riis_mesh *mesh, int32_t fields);
 
-  const Options &options() const { return source_.options; }
+  const MarkOptions &options() const { return source_.options; }
   const ValveSource &source() const { return source_; }
   const riis_surface *surface() const { return surface_.get(); }
   riis_marks *result() const { return result_.get(); }

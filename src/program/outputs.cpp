@@ -63,23 +63,32 @@ struct NamedFile {
   std::string option, path;
 };
 
-std::vector<NamedFile> inputs_of(const Options &options) {
-  return {{"MESH", options.mesh},
-          {"--surface", options.surface},
+using NamedFiles = std::vector<NamedFile>;
+
+NamedFiles inputs_of(const ValveOptions &options) {
+  return {{"--surface", options.surface},
           {"--params", options.params},
           {"--params-open", options.params_open},
-          {"--valve", is_valve_file(options.valve) ? options.valve : ""},
-          {"--cycle", options.series.cycle},
-          {"--case", options.series.case_file}};
+          {"--valve", is_valve_file(options.valve) ? options.valve : ""}};
 }
 
-std::vector<NamedFile> outputs_of(const Options &options) {
-  std::vector<NamedFile> outputs = {{"--output", options.output}, {"--surface-output", options.surface_output}};
+NamedFiles inputs_of(const MarkOptions &options, const std::vector<std::string> &more_inputs) {
+  NamedFiles inputs = inputs_of(static_cast<const ValveOptions &>(options));
+  const SeriesOptions &series = options.series;
+  for (const NamedFile &input :
+       {NamedFile{"MESH", options.mesh}, {"--cycle", series.cycle}, {"--case", series.case_file}})
+    inputs.push_back(input);
+  for (const std::string &path : more_inputs)
+    inputs.push_back({series.case_file.empty() ? "--surface" : "--case", path});
+  return inputs;
+}
+
+NamedFiles outputs_of(const MarkOptions &options) {
+  NamedFiles outputs = {{"--output", options.output}, {options.surface_output_option, options.surface_output}};
   for (const Picture &picture : options.pictures) outputs.push_back({"--picture", picture.path});
   if (options.stats != "-") outputs.push_back({"--stats", options.stats});
   outputs.push_back({"--movie", options.series.movie});
   outputs.push_back({"--series-table", options.series.table});
-  if (options.states != "-") outputs.push_back({"--states", options.states});
   return outputs;
 }
 
@@ -95,12 +104,10 @@ std::string identity_of(const std::string &path) {
 // The option that named a file, by the file's identity.
 using KnownFiles = std::map<std::string, std::string>;
 
-KnownFiles known_inputs(const Options &options, const std::vector<std::string> &more_inputs) {
+KnownFiles known(const NamedFiles &files) {
   KnownFiles known;
-  for (const NamedFile &input : inputs_of(options))
-    if (!input.path.empty()) known.emplace(identity_of(input.path), input.option);
-  const std::string option = options.series.case_file.empty() ? "--surface" : "--case";
-  for (const std::string &path : more_inputs) known.emplace(identity_of(path), option);
+  for (const NamedFile &file : files)
+    if (!file.path.empty()) known.emplace(identity_of(file.path), file.option);
   return known;
 }
 
@@ -117,10 +124,9 @@ void check_folder_of_steps(const std::string &option, const std::string &folder,
     throw Refusal{exit_bad_data, folder + ": the folder cannot be read: " + error.message()};
 }
 
-void check_distinct(const Options &options, const std::vector<std::string> &more_inputs) {
-  const KnownFiles inputs = known_inputs(options, more_inputs);
+void check_distinct(const KnownFiles &inputs, const NamedFiles &files) {
   KnownFiles outputs;
-  for (const NamedFile &output : outputs_of(options)) {
+  for (const NamedFile &output : files) {
     if (output.path.empty()) continue;
     const std::string identity = identity_of(output.path);
     const auto input = inputs.find(identity);
@@ -129,9 +135,13 @@ void check_distinct(const Options &options, const std::vector<std::string> &more
     throw Refusal{exit_wrong_usage,
                   output.option + ": " + output.path + " is also the file of " + (is_new ? input : other)->second};
   }
-  if (options.series.times.empty()) return;
-  for (const NamedFile &list : {NamedFile{"--output", options.output}, {"--surface-output", options.surface_output}})
-    if (!list.path.empty()) check_folder_of_steps(list.option, SeriesFiles(list.path, "", 1).folder(), inputs);
+}
+
+OutputLocks locks_of(const NamedFiles &outputs) {
+  std::vector<std::string> written;
+  for (const NamedFile &output : outputs)
+    if (!output.path.empty() && !is_special(output.path)) written.push_back(output.path);
+  return OutputLocks(written);
 }
 
 // The component refuses the same, but only when it draws, after all other work.
@@ -179,32 +189,41 @@ fs::path place_of(const std::string &path) {
 
 fs::path folder_of(const fs::path &place) { return place.has_parent_path() ? place.parent_path() : fs::path("."); }
 
-OutputLocks check_outputs(const Options &options, const std::vector<std::string> &more_inputs) {
-  check_distinct(options, more_inputs);
-  const auto check_file = [](const std::string &path, const char *ending, const char *option) {
+OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::string> &more_inputs) {
+  const KnownFiles inputs = known(inputs_of(options, more_inputs));
+  const NamedFiles outputs = outputs_of(options);
+  const bool is_series = !options.series.times.empty();
+  check_distinct(inputs, outputs);
+  const std::vector<NamedFile> lists = {{"--output", options.output}, {"--surface-output", options.surface_output}};
+  for (const NamedFile &list : lists)
+    if (is_series && !list.path.empty())
+      check_folder_of_steps(list.option, SeriesFiles(list.path, "", 1).folder(), inputs);
+  const auto check_file = [](const std::string &path, const char *ending, const std::string &option) {
     if (path.empty()) return;
     check_ending(path, ending, option);
     check_place(path);
   };
-  const bool is_series = !options.series.times.empty();
   check_file(options.output, is_series ? ".pvd" : ".vtu", "--output");
-  check_file(options.surface_output, is_series ? ".pvd" : ".vtp", "--surface-output");
+  check_file(options.surface_output, is_series ? ".pvd" : ".vtp", options.surface_output_option);
   for (const Picture &picture : options.pictures) check_file(picture.path, ".png", "--picture");
   if (!options.stats.empty() && options.stats != "-") check_place(options.stats);
   if (!options.series.table.empty()) check_place(options.series.table);
-  if (!options.states.empty() && options.states != "-") check_place(options.states);
-  for (const std::string &list : {options.output, options.surface_output})
-    if (is_series && !list.empty()) SeriesFiles(list, "", 1).check_folder();
+  for (const NamedFile &list : lists)
+    if (is_series && !list.path.empty()) SeriesFiles(list.path, "", 1).check_folder();
   check_movie(options.series.movie);
   if (!options.series.movie.empty()) check_place(options.series.movie);
   if (!options.pictures.empty() || !options.series.movie.empty()) check_display();
-  std::vector<std::string> written;
-  for (const NamedFile &output : outputs_of(options))
-    if (!output.path.empty() && !is_special(output.path)) written.push_back(output.path);
-  return OutputLocks(written);
+  return locks_of(outputs);
 }
 
-void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const Options &options) {
+OutputLocks check_outputs(const StatesOptions &options) {
+  const NamedFiles outputs = {{"OUT", options.output == "-" ? "" : options.output}};
+  check_distinct(known(inputs_of(options)), outputs);
+  if (options.output != "-") check_place(options.output);
+  return locks_of(outputs);
+}
+
+void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const MarkOptions &options) {
   std::set<std::string> identities;
   for (const std::string &file : files) identities.insert(identity_of(file));
   for (const NamedFile &output : outputs_of(options)) {
@@ -308,7 +327,7 @@ int take(const std::string &output, const std::string &lock) {
     const int error = errno;
     close(file);
     if (error == EINTR) continue;
-    if (error == EWOULDBLOCK) refuse_lock(output, "another run of riis-mark is writing it, and holds " + lock);
+    if (error == EWOULDBLOCK) refuse_lock(output, "another run of riis is writing it, and holds " + lock);
     warn(output +
          ": it cannot be locked, so other runs may write it meanwhile: " + std::generic_category().message(error));
     unlink(lock.c_str());

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "program/command_line.hpp"
+#include "program/options.hpp"
 
 namespace riis::program {
 
@@ -57,7 +57,8 @@ class UnbrokenWrite {
 // missing or not writable. Throws one also for a picture without a display, and for an output that another run is writing. The
 // caller holds the locks until all is written.
 // more_inputs are further files that were read.
-[[nodiscard]] OutputLocks check_outputs(const Options &options, const std::vector<std::string> &more_inputs = {});
+[[nodiscard]] OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::string> &more_inputs = {});
+[[nodiscard]] OutputLocks check_outputs(const StatesOptions &options);
 
 // Whether the path ends so, in capitals or not.
 bool has_ending(const std::string &path, const std::string &ending);
@@ -67,7 +68,7 @@ std::filesystem::path place_of(const std::string &path);
 std::filesystem::path folder_of(const std::filesystem::path &place);
 
 // Throws a Refusal for an output that is one of these files, and says what they are.
-void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const Options &options);
+void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const MarkOptions &options);
 
 // Whether a later text can take an earlier one's place: not on stdout, in a device or in a pipe.
 bool can_be_replaced(const std::string &path);

@@ -34,7 +34,7 @@ namespace riis::program {
 namespace {
 
 // Says whether the valve is the paper's aortic valve, which nobody should take for a closed one (docs/meshes.md).
-bool is_papers_aortic_valve(const Options &options, const riis_valve *valve) {
+bool is_papers_aortic_valve(const ValveOptions &options, const riis_valve *valve) {
   if (!valve || options.valve != "aortic") return false;
   int64_t n_parameters = 0;
   check(riis_valve_get_n_parameters(valve, &n_parameters));
@@ -61,7 +61,7 @@ void show_leaks(const LeakReport &leaks, riis_vtk_picture_options &how) {
 
 }  // namespace
 
-std::vector<const char *> leaflet_names(const Options &options) {
+std::vector<const char *> leaflet_names(const ValveOptions &options) {
   if (!options.surface.empty()) return {};
   if (options.valve == "aortic" || options.valve == "trileaflet") return {"right", "left", "non-coronary"};
   if (options.valve == "bileaflet") return {"x > 0", "x < 0", "housing"};
@@ -69,7 +69,7 @@ std::vector<const char *> leaflet_names(const Options &options) {
   return {};
 }
 
-std::string title_of_valve(const Options &options) {
+std::string title_of_valve(const ValveOptions &options) {
   const std::string name = options.surface.empty() ? options.valve : options.surface;
   if (!options.surface.empty() || is_valve_file(options.valve)) return name.substr(name.rfind('/') + 1);
   std::string title = name + " valve";
@@ -77,7 +77,7 @@ std::string title_of_valve(const Options &options) {
   return title;
 }
 
-std::string picture_title(const Options &options, const riis_valve *valve, const Report &report) {
+std::string picture_title(const ValveOptions &options, const riis_valve *valve, const Report &report) {
   std::string title = surface_title(report);
   title.erase(0, report.surface_name.rfind('/') + 1);
   if (report.opening && !is_valve_file(report.surface_name)) title[0] = static_cast<char>(title[0] - 'a' + 'A');
@@ -85,7 +85,7 @@ std::string picture_title(const Options &options, const riis_valve *valve, const
   return title;
 }
 
-void draw_pictures(const Options &options, const std::string &title, const std::vector<const char *> &names,
+void draw_pictures(const MarkOptions &options, const std::string &title, const std::vector<const char *> &names,
                    const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_marks *result, Report &report) {
   std::vector<int32_t> views;
   std::vector<const char *> paths;
@@ -171,7 +171,7 @@ SeriesPictures::SeriesPictures(const Case &all, MeshFile mesh, const Box &box)
   if (!all.options.series.movie.empty()) movie_.emplace(all.options.series.movie, all.options.series.frame_rate);
 }
 
-bool SeriesPictures::are_wanted(const Options &options) {
+bool SeriesPictures::are_wanted(const MarkOptions &options) {
   return !options.pictures.empty() || !options.series.movie.empty();
 }
 
@@ -331,7 +331,7 @@ void check_movie(const std::string &path) {
 }
 
 Movie::Movie(const std::string &path, double frame_rate) : path_(path), frame_rate_(frame_rate) {
-  std::string folder = (std::filesystem::temp_directory_path() / "riis-mark-XXXXXX").string();
+  std::string folder = (std::filesystem::temp_directory_path() / "riis-XXXXXX").string();
   if (!mkdtemp(folder.data())) refuse_movie(path, folder + ": " + std::generic_category().message(errno));
   folder_ = folder;
 }

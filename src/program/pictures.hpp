@@ -10,25 +10,25 @@
 #include <vector>
 
 #include "program/case.hpp"
-#include "program/command_line.hpp"
 #include "program/handles.hpp"
 #include "program/moving_valve.hpp"
+#include "program/options.hpp"
 #include "program/report.hpp"
 #include "program/warnings.hpp"
 
 namespace riis::program {
 
 // Returns the names of a valve's leaflets, or none for files, whose leaflets have numbers.
-std::vector<const char *> leaflet_names(const Options &options);
+std::vector<const char *> leaflet_names(const ValveOptions &options);
 
 // Returns a title such as "Mitral valve", or a file's name without folders.
-std::string title_of_valve(const Options &options);
+std::string title_of_valve(const ValveOptions &options);
 
 // A file has its name without folders as title. A kind of valve has its name with a capital, like the other captions.
-std::string picture_title(const Options &options, const riis_valve *valve, const Report &report);
+std::string picture_title(const ValveOptions &options, const riis_valve *valve, const Report &report);
 
 // Draws options.pictures. mesh and result may be NULL; leaks are shown with a result.
-void draw_pictures(const Options &options, const std::string &title, const std::vector<const char *> &names,
+void draw_pictures(const MarkOptions &options, const std::string &title, const std::vector<const char *> &names,
                    const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_marks *result, Report &report);
 
 // In: frames, as files in a folder of their own. Out: a movie, by the program ffmpeg.
@@ -62,7 +62,7 @@ class SeriesPictures {
   // The mesh gets the arrays that pictures show, so it is not written. box holds the surfaces at all times.
   SeriesPictures(const Case &all, MeshFile mesh, const Box &box);
   // Whether the user wants a picture or a movie.
-  static bool are_wanted(const Options &options);
+  static bool are_wanted(const MarkOptions &options);
   // Draws the pictures at the first step, and a frame of the movie at each. The valves are where they are to be drawn; their
   // marks change.
   void draw(std::size_t step, std::vector<MovingValve> &valves, Report &report);

@@ -12,7 +12,7 @@ Stage::Stage(const std::string &what, bool quiet) : begin_(std::chrono::steady_c
   watcher_ = std::thread([this, what] {
     std::unique_lock<std::mutex> lock(mutex_);
     if (!ended_.wait_for(lock, std::chrono::seconds(1), [this] { return has_ended_; })) {
-      std::cerr << "riis-mark: " << what << " ..." << std::endl;
+      std::cerr << "riis: " << what << " ..." << std::endl;
     }
   });
 }
@@ -50,7 +50,7 @@ void StepProgress::begin(std::size_t step) {
   has_line_ = true;
   const double left = seconds() / static_cast<double>(step) * static_cast<double>(n_steps_ - step);
   // The blanks cover the end of a longer line before.
-  std::cerr << "\rriis-mark: " << what_ << ": step " << step + 1 << " of " << n_steps_ << ", "
+  std::cerr << "\rriis: " << what_ << ": step " << step + 1 << " of " << n_steps_ << ", "
             << static_cast<long long>(left + 0.5) << " s left   " << std::flush;
 }
 

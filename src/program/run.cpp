@@ -24,7 +24,7 @@
 namespace riis::program {
 namespace {
 
-Mesh borrowed_nodes(const Options &options, const riis_vtk_mesh *file, Report &report) {
+Mesh borrowed_nodes(const MarkOptions &options, const riis_vtk_mesh *file, Report &report) {
   const Stage stage("checking the nodes", options.quiet);
   check(riis_vtk_mesh_get_nodes(file, nullptr, &report.n_cells, nullptr));
   Mesh mesh = borrow_nodes(file, options.mesh);
@@ -33,7 +33,7 @@ Mesh borrowed_nodes(const Options &options, const riis_vtk_mesh *file, Report &r
 }
 
 // The mesh borrows the adjacency.
-Adjacency give_adjacency(const Options &options, const riis_vtk_mesh *file, riis_mesh *mesh, Report &report) {
+Adjacency give_adjacency(const MarkOptions &options, const riis_vtk_mesh *file, riis_mesh *mesh, Report &report) {
   const Stage stage("finding the nodes' neighbours", options.quiet);
   riis_adjacency *handle = nullptr;
   check(riis_vtk_mesh_create_adjacency(file, options.mark_options.n_threads, &handle), options.mesh);
@@ -45,14 +45,14 @@ Adjacency give_adjacency(const Options &options, const riis_vtk_mesh *file, riis
   return adjacency;
 }
 
-std::vector<std::string> names_of_arrays(const Options &options) {
+std::vector<std::string> names_of_arrays(const MarkOptions &options) {
   std::vector<std::string> names = names_of_marks(options.prefix, 0);
   if (options.resistance) names.push_back(options.prefix + "_K");
   return names;
 }
 
 // Returns the marks, because pictures may need them under other names than the output.
-Marks mark(const Options &options, const riis_surface *surface, const riis_valve *valve, riis_vtk_mesh *file,
+Marks mark(const MarkOptions &options, const riis_surface *surface, const riis_valve *valve, riis_vtk_mesh *file,
            Report &report) {
   Adjacency adjacency;  // outlives the mesh, which borrows it
   const Mesh mesh = borrowed_nodes(options, file, report);
@@ -79,7 +79,7 @@ Marks mark(const Options &options, const riis_surface *surface, const riis_valve
   return result;
 }
 
-void write_files(const Options &options, const riis_surface *surface, const riis_vtk_mesh *mesh, Report &report) {
+void write_files(const MarkOptions &options, const riis_surface *surface, const riis_vtk_mesh *mesh, Report &report) {
   const Stage stage("writing", options.quiet);
   if (!options.surface_output.empty()) {
     const UnbrokenWrite unbroken;
@@ -94,25 +94,28 @@ void write_files(const Options &options, const riis_surface *surface, const riis
   report.seconds.write = stage.seconds();
 }
 
-void write_stats(const Options &options, const Report &report) {
+void write_stats(const MarkOptions &options, const Report &report) {
   if (!options.stats.empty()) write_text(options.stats, json_of(report));
 }
 
-void print_table(const Options &options, const Report &report) {
+void print_table(const MarkOptions &options, const Report &report) {
   if (!options.quiet && options.stats != "-") write_text("-", table_of(report));
 }
 
-ExitCode run_single(const Options &options) {
+// Outputs are written when all frames have been read, and would replace them unnoticed.
+Keyframes keyframes_of_run(const MarkOptions &options, Seconds &seconds) {
+  KeyframeFiles read = read_keyframes(options, seconds);
+  check_no_output_is("a frame of --surface " + options.surface, read.files, options);
+  return std::move(read.keyframes);
+}
+
+ExitCode run_single(const MarkOptions &options) {
   ValveSource source{options, options.surface.empty() ? make_valve(options) : nullptr, nullptr};
   const riis_valve *valve = source.valve.get();
-  if (options.print_params || options.describe_params) {
-    write_text("-", options.print_params ? json_template(valve) + "\n" : parameter_table(valve));
-    return exit_fine;
-  }
   const OutputLocks locks = check_outputs(options);
   Report report;
   if (options.time)
-    source.keyframes = read_keyframes(options, report.seconds).keyframes;
+    source.keyframes = keyframes_of_run(options, report.seconds);
   else if (!valve)
     source.file = read_surface(options, report.seconds);
   const Surface surface = make_surface(source, FileVelocity::none);
@@ -149,15 +152,7 @@ ExitCode run_single(const Options &options) {
   return result && report.marks.n_marked == 0 && !options.allow_none ? exit_none_marked : exit_fine;
 }
 
-ExitCode run_leniently(const Options &options) {
-  if (!options.states.empty()) {
-    run_states(options);
-    return exit_fine;
-  }
-  if (!options.uris.folder.empty()) {
-    export_uris(options);
-    return exit_fine;
-  }
+ExitCode run_command(const MarkOptions &options) {
   const bool has_case = !options.series.case_file.empty();
   if (!has_case && options.series.times.empty()) return run_single(options);
   // This comes before the case's own files are read, which may be many.
@@ -166,11 +161,30 @@ ExitCode run_leniently(const Options &options) {
   return run_case(all);
 }
 
+ExitCode run_command(const StatesOptions &options) {
+  run_states(options);
+  return exit_fine;
+}
+
+ExitCode run_command(const ExportOptions &options) {
+  export_uris(options);
+  return exit_fine;
+}
+
+ExitCode run_command(const ParamsOptions &options) {
+  const Valve valve = make_valve(options, OpeningCheck::no);
+  write_text("-", options.describe ? parameter_table(valve.get()) : json_template(valve.get()) + "\n");
+  return exit_fine;
+}
+
 }  // namespace
 
-ExitCode run(const Options &options) {
-  const ExitCode code = run_leniently(options);
-  return code == exit_fine && options.strict && n_warnings() > 0 ? exit_warned : code;
+ExitCode run(const Request &request) {
+  const auto run_it = [](const auto &options) {
+    const ExitCode code = run_command(options);
+    return code == exit_fine && options.strict && n_warnings() > 0 ? exit_warned : code;
+  };
+  return std::visit(run_it, request);
 }
 
 }  // namespace riis::program

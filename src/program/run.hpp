@@ -9,6 +9,6 @@
 namespace riis::program {
 
 // Returns exit_fine, or exit_none_marked if the user did not allow that. Throws a Refusal.
-ExitCode run(const Options &options);
+ExitCode run(const Request &request);
 
 }  // namespace riis::program

@@ -80,7 +80,7 @@ class Writing {
     int64_t n_bytes = 0;
     check(riis_vtk_mesh_get_file_size(part_, &n_bytes));
     const auto n = static_cast<double>(times().size());
-    std::fprintf(stderr, "riis-mark: writing %s with %s of %s nodes, %s in all, to %s\n",
+    std::fprintf(stderr, "riis: writing %s with %s of %s nodes, %s in all, to %s\n",
                  counted(view(times()).size(), "file").c_str(), grouped(n_nodes_of(part_)).c_str(),
                  grouped(n_nodes_of_mesh).c_str(), bytes_text(n * static_cast<double>(n_bytes)).c_str(),
                  meshes_.folder().c_str());
@@ -230,7 +230,7 @@ void print_summary(const Case &all, const Writing &writing, int64_t n_nodes, int
 }  // namespace
 
 ExitCode run_series(Case &all) {
-  const Options &options = all.options;
+  const MarkOptions &options = all.options;
   std::vector<MovingValve> valves = moving_valves(all);
   Report report;
   MeshFile file = read_mesh(options, report.seconds);
@@ -260,7 +260,7 @@ ExitCode run_series(Case &all) {
   const int64_t n_written = n_nodes_of(written);
   writing.run(report);
   if (UnbrokenWrite::has_signal())
-    std::fprintf(stderr, "riis-mark: interrupted: %zu of %zu written\n", writing.n_done(), options.series.times.size());
+    std::fprintf(stderr, "riis: interrupted: %zu of %zu written\n", writing.n_done(), options.series.times.size());
   else
     print_summary(all, writing, n_nodes, n_written, report);
   return writing.table().most_marked() == 0 && !options.allow_none ? exit_none_marked : exit_fine;

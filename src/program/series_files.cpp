@@ -135,7 +135,7 @@ SeriesTable::SeriesTable(const Case &all) : text_("time") {
   constexpr double far = std::numeric_limits<double>::infinity();
   for (std::size_t valve = 0; valve < all.valves.size(); ++valve) {
     const std::string part = all.part_of(valve), prefix = part.empty() ? "" : part + "_";
-    const Options &options = all.valves[valve].options;
+    const MarkOptions &options = all.valves[valve].options;
     text_ += "," + prefix + "opening," + prefix + "n_marked," + prefix + "largest_speed";
     const std::string name = part.empty() ? (options.surface.empty() ? options.valve : options.surface) : part;
     rows_.push_back({name, {far, -far}, {far, -far}, {far, -far}});

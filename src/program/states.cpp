@@ -31,8 +31,8 @@ namespace {
 // less than 0.1 %, and the aortic valve's by 0.1 %.
 constexpr double fine_tolerance = 0.01;
 
-riis_surface_options own_frame(const Options &options) {
-  riis_surface_options own = options.surface_options;  // placement by scale alone, as the options go with --states
+riis_surface_options own_frame(const StatesOptions &options) {
+  riis_surface_options own = options.surface_options;  // placement by scale alone, the command has no other
   if (!options.has_tolerance) own.tolerance = fine_tolerance;
   return own;
 }
@@ -51,7 +51,7 @@ bool ends_in_translation(const std::string &name) {
 // A valve with its surface.
 class OpeningValve {
  public:
-  explicit OpeningValve(const Options &options) : options_(options), valve_(make_valve(options)) {
+  explicit OpeningValve(const StatesOptions &options) : options_(options), valve_(make_valve(options)) {
     set_opening(0);
     const riis_surface_options own = own_frame(options);
     riis_surface *surface = nullptr;
@@ -105,12 +105,13 @@ class OpeningValve {
   std::string subject() const { return is_valve_file(options_.valve) ? options_.valve : ""; }
   void set_opening(double opening) { check(riis_valve_set_scalar(valve_.get(), "opening", opening)); }
 
-  const Options &options_;
+  const StatesOptions &options_;
   Valve valve_;
   Surface surface_;
 };
 
-std::vector<std::string> names_of_leaflets(const Options &options, const std::map<std::int32_t, LeafletSize> &sizes) {
+std::vector<std::string> names_of_leaflets(const StatesOptions &options,
+                                           const std::map<std::int32_t, LeafletSize> &sizes) {
   const std::vector<const char *> known = leaflet_names(options);
   std::vector<std::string> names;
   for (const auto &[id, size] : sizes) {
@@ -134,7 +135,7 @@ bool is_rigid(const std::string &valve) { return valve == "bileaflet"; }
 
 class Measures {
  public:
-  Measures(const Options &options, OpeningValve &valve, bool can_open)
+  Measures(const StatesOptions &options, OpeningValve &valve, bool can_open)
       : options_(options), valve_(valve), disc_(valve.disc()) {
     valve_.open_to(0);
     free_ = free_edges_of(valve_, can_open);
@@ -181,7 +182,7 @@ class Measures {
     return disc_ ? circle(disc_->radius, disc_->centre) : closed_outline(attachment(patches));
   }
 
-  const Options &options_;
+  const StatesOptions &options_;
   OpeningValve &valve_;
   std::optional<Disc> disc_;
   std::set<std::int32_t> free_;
@@ -189,7 +190,7 @@ class Measures {
 
 }  // namespace
 
-States measure_states(const Options &options) {
+States measure_states(const StatesOptions &options) {
   OpeningValve valve(options);
   const std::string why_closed = valve.why_closed();
   Measures measures(options, valve, why_closed.empty());
@@ -205,12 +206,12 @@ States measure_states(const Options &options) {
   return states;
 }
 
-void run_states(const Options &options) {
+void run_states(const StatesOptions &options) {
   const OutputLocks locks = check_outputs(options);
   const States states = measure_states(options);
   check_shape(options, make_valve(options).get(), !options.params_open.empty());
-  write_text(options.states, csv_of(states));
-  if (options.quiet || options.states == "-") return;
+  write_text(options.output, csv_of(states));
+  if (options.quiet || options.output == "-") return;
   write_text("-", summary_of(states, options));
 }
 
@@ -354,7 +355,7 @@ std::string csv_of(const States &states) {
   return text;
 }
 
-std::string summary_of(const States &states, const Options &options) {
+std::string summary_of(const States &states, const StatesOptions &options) {
   const bool can_open = states.why_closed.empty();
   Summary summary(states);
   summary.add("valve",
@@ -365,7 +366,7 @@ std::string summary_of(const States &states, const Options &options) {
   summary.add("orifice", text_of_orifice(states));
   if (!states.has_edges()) summary.add("edges", "not measured: " + states.why_no_edges);
   if (states.has_edges() && can_open) summary.add("edges", text_of_changes(states));
-  summary.add("written", options.states);
+  summary.add("written", options.output);
   return summary.text();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// --states: free edges, leaflet areas and the orifice of a valve at openings from 0 to 1, in its own frame.
+// riis states: free edges, leaflet areas and the orifice of a valve at openings from 0 to 1, in its own frame.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "program/command_line.hpp"
+#include "program/options.hpp"
 
 namespace riis::program {
 
@@ -35,10 +35,10 @@ struct States {
 };
 
 // Measures the valve of the options at n_states openings, or at 0 alone if it has no state to open to.
-States measure_states(const Options &options);
+States measure_states(const StatesOptions &options);
 
 // Measures, writes the table, and prints the summary.
-void run_states(const Options &options);
+void run_states(const StatesOptions &options);
 
 // In: the states of a valve. Out: the table as CSV, and a summary for people.
 
@@ -46,6 +46,6 @@ void run_states(const Options &options);
 // the closed state.
 std::string csv_of(const States &states);
 
-std::string summary_of(const States &states, const Options &options);
+std::string summary_of(const States &states, const StatesOptions &options);
 
 }  // namespace riis::program

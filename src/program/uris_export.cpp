@@ -91,7 +91,7 @@ std::string vtu_text(const std::vector<double> &xyz, const UrisLeaflet &leaflet)
 
 // Ends the export between two frames. The signal ends the process once the files are removed, so nobody reads the text.
 void stop_if_interrupted() {
-  if (UnbrokenWrite::has_signal()) throw Refusal{exit_bad_data, "--export-uris: interrupted, and nothing is left"};
+  if (UnbrokenWrite::has_signal()) throw Refusal{exit_bad_data, "riis export: interrupted, and nothing is left"};
 }
 
 void write_frames(UrisLeaflets &leaflets, const std::vector<double> &openings, const std::string &ending,
@@ -113,9 +113,9 @@ void write_frames(UrisLeaflets &leaflets, const std::vector<double> &openings, c
   for (TextFile &file : files) file.close();
 }
 
-void write_export(const Options &options, const UrisMotion &motion, UrisLeaflets &leaflets) {
+void write_export(const ExportOptions &options, const UrisMotion &motion, UrisLeaflets &leaflets) {
   const UnbrokenWrite unbroken;
-  WholeFolder folder(options.uris.folder, "--export-uris");
+  WholeFolder folder(options.folder, "FOLDER");
   StepProgress progress("writing", motion.opening.size() + motion.closing.size(), options.quiet);
   const auto write_small = [&](const std::string &name, const std::string &text) {
     TextFile file(folder.new_file(name));
@@ -135,7 +135,7 @@ void write_export(const Options &options, const UrisMotion &motion, UrisLeaflets
 }
 
 // The solver puts it into names of files.
-std::string block_name(const Options &options) {
+std::string block_name(const ExportOptions &options) {
   if (!is_valve_file(options.valve)) return options.valve;
   std::string name = std::filesystem::path(options.valve).stem().string();
   // A comment of XML holds no two dashes in a row.
@@ -143,8 +143,8 @@ std::string block_name(const Options &options) {
   return name;
 }
 
-std::string mesh_block(const Options &options, const UrisMotion &motion, const UrisLeaflets &leaflets) {
-  const std::string folder = in_xml(options.uris.folder) + (options.uris.folder.back() == '/' ? "" : "/");
+std::string mesh_block(const ExportOptions &options, const UrisMotion &motion, const UrisLeaflets &leaflets) {
+  const std::string folder = in_xml(options.folder) + (options.folder.back() == '/' ? "" : "/");
   const auto element = [](const std::string &name, const std::string &value) {
     return "<" + name + "> " + value + " </" + name + ">\n";
   };
@@ -155,10 +155,10 @@ std::string mesh_block(const Options &options, const UrisMotion &motion, const U
   const std::string half_thickness = shortest(leaflets.half_thickness());
   const double edges = leaflets.longest_edge() / leaflets.half_thickness();
   std::string text =
-      "<!-- riis-mark, " + block_name(options) + " valve\n     opening: " + frames(motion.opening) +
+      "<!-- riis, " + block_name(options) + " valve\n     opening: " + frames(motion.opening) +
       "\n     closing: " + frames(motion.closing) + "\n     a frame is a time step: Time_step_size must be " +
-      shortest(*options.uris.time_step) + "\n     " + counted(leaflets.n_triangles(), "triangle") +
-      ", the longest edge " + shown(leaflets.longest_edge()) + ", " + shown(edges) + " half thicknesses" +
+      shortest(options.time_step) + "\n     " + counted(leaflets.n_triangles(), "triangle") + ", the longest edge " +
+      shown(leaflets.longest_edge()) + ", " + shown(edges) + " half thicknesses" +
       "\n     face box widens the box of nodes in which svMultiPhysics looks; Mesh_scale_factor must stay 1";
   if (edges > fine_edges) {
     text += "\n     svMultiPhysics measures to middles of triangles; to be within 1 %, export with largest-edge " +
@@ -181,7 +181,7 @@ std::string mesh_block(const Options &options, const UrisMotion &motion, const U
   text += "  " + element("Mesh_scale_factor", "1.0");
   text += "  " + element("Thickness", half_thickness);
   text += "  " + element("Closed_thickness", half_thickness);
-  text += "  " + element("Resistance", shortest(*options.resistance));
+  text += "  " + element("Resistance", shortest(options.resistance));
   text += "  " + element("Valve_starts_as_closed", "true");
   text += "  " + element("Invert_normal", "false");
   text += "  " + element("Include_URIS_velocity", "true");
@@ -191,8 +191,8 @@ std::string mesh_block(const Options &options, const UrisMotion &motion, const U
 
 }  // namespace
 
-void export_uris(const Options &options) {
-  check_whole_folder(options.uris.folder, "--export-uris");
+void export_uris(const ExportOptions &options) {
+  check_whole_folder(options.folder, "FOLDER");
   const UrisMotion motion = uris_motion_of(options);
   UrisLeaflets leaflets(options, motion);
   if (leaflets.n_left_out() > 0) {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// --export-uris: a valve's opening and closing as files of svMultiPhysics, and the block of its input that names them.
+// riis export: a valve's opening and closing as files of svMultiPhysics, and the block of its input that names them.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "program/command_line.hpp"
+#include "program/options.hpp"
 
 namespace riis::program {
 
 // Writes the folder, and prints the block on stdout.
-void export_uris(const Options &options);
+void export_uris(const ExportOptions &options);
 
 // The files of an export, in a folder that is whole or not there.
 

@@ -39,7 +39,7 @@ std::array<double, 3> twice_area(const double *xyz, const Corners &corners) {
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
-Surface fixed_surface(const Options &options, const riis_valve *valve, const std::string &subject) {
+Surface fixed_surface(const ExportOptions &options, const riis_valve *valve, const std::string &subject) {
   riis_surface_options how = options.surface_options;
   how.triangulation = RIIS_TRIANGULATION_FIXED;
   riis_surface *surface = nullptr;
@@ -55,7 +55,7 @@ void for_all_frames(const UrisMotion &motion, const Use &use) {
 
 }  // namespace
 
-UrisLeaflets::UrisLeaflets(const Options &options, const UrisMotion &motion)
+UrisLeaflets::UrisLeaflets(const ExportOptions &options, const UrisMotion &motion)
     : subject_(is_valve_file(options.valve) ? options.valve : ""), valve_(make_valve(options)), net_(0, {}) {
   check(riis_valve_set_scalar(valve_.get(), "opening", motion.opening[0]), subject_);
   surface_ = fixed_surface(options, valve_.get(), subject_);
@@ -68,7 +68,7 @@ UrisLeaflets::UrisLeaflets(const Options &options, const UrisMotion &motion)
   if (options.valve == "bileaflet") housing_ = RIIS_LEAFLET_HOUSING;
   std::vector<FinerTriangles::Triangle> lasting = lasting_triangles(motion);
   net_ = FinerTriangles(info.n_vertices, std::move(lasting));
-  refine(motion, options.uris.largest_edge);
+  refine(motion, options.largest_edge);
   find_forward(motion.opening[0]);
   part(options);
   add_boxes(motion);
@@ -145,7 +145,7 @@ void UrisLeaflets::find_forward(double opening) {
   for (double &x : forward_) x /= length;
 }
 
-void UrisLeaflets::part(const Options &options) {
+void UrisLeaflets::part(const ExportOptions &options) {
   std::map<std::int32_t, std::vector<Corners>> by_leaflet;
   for (const auto &[corners, leaflet] : net_.triangles()) by_leaflet[leaflet].push_back(corners);
   for (auto &[id, triangles] : by_leaflet) {

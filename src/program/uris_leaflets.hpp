@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "program/command_line.hpp"
 #include "program/handles.hpp"
+#include "program/options.hpp"
 #include "program/uris_motion.hpp"
 
 namespace riis::program {
@@ -99,7 +99,7 @@ struct UrisLeaflet {
 class UrisLeaflets {
  public:
   // Looks at all frames, and cuts the triangles as the options say.
-  UrisLeaflets(const Options &options, const UrisMotion &motion);
+  UrisLeaflets(const ExportOptions &options, const UrisMotion &motion);
 
   const riis_valve *valve() const { return valve_.get(); }
   const std::vector<UrisLeaflet> &leaflets() const { return leaflets_; }
@@ -118,7 +118,7 @@ class UrisLeaflets {
   std::vector<FinerTriangles::Triangle> lasting_triangles(const UrisMotion &motion);
   void refine(const UrisMotion &motion, double largest_edge);
   void find_forward(double opening);
-  void part(const Options &options);
+  void part(const ExportOptions &options);
   void add_boxes(const UrisMotion &motion);
 
   std::string subject_;

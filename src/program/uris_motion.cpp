@@ -52,19 +52,18 @@ TimeSpan found(const std::optional<TimeSpan> &way, const std::string &path, cons
                     "; --period or " + option + " may say more"};
 }
 
-Spans spans_of_cycle(const Options &options, const OpeningTable &table) {
-  const UrisOptions &uris = options.uris;
-  if (uris.opening_span && uris.closing_span) return {*uris.opening_span, *uris.closing_span};
+Spans spans_of_cycle(const ExportOptions &options, const OpeningTable &table) {
+  if (options.opening_span && options.closing_span) return {*options.opening_span, *options.closing_span};
   const auto [least, largest] = std::minmax_element(table.openings.begin(), table.openings.end());
   if (*least == *largest)
-    throw Refusal{exit_bad_data, options.series.cycle + ": the opening is " + shortest(*least) + " throughout"};
+    throw Refusal{exit_bad_data, options.cycle + ": the opening is " + shortest(*least) + " throughout"};
   const Keys keys(table);
   const auto span = [&](const std::optional<TimeSpan> &given, double from, double to, const char *verb,
                         const char *option) {
-    return given ? *given : found(way_between(keys, from, to), options.series.cycle, verb, option);
+    return given ? *given : found(way_between(keys, from, to), options.cycle, verb, option);
   };
-  return {span(uris.opening_span, *least, *largest, "open", "--opening-span"),
-          span(uris.closing_span, *largest, *least, "close", "--closing-span")};
+  return {span(options.opening_span, *least, *largest, "open", "--opening-span"),
+          span(options.closing_span, *largest, *least, "close", "--closing-span")};
 }
 
 std::vector<double> frame_times(const TimeSpan &span, double step, const char *what) {
@@ -97,22 +96,22 @@ struct LawWithSpans {
   Spans spans;
 };
 
-LawWithSpans law_of_cycle(const Options &options) {
-  OpeningTable table = read_cycle(options.series.cycle);
+LawWithSpans law_of_cycle(const ExportOptions &options) {
+  OpeningTable table = read_cycle(options.cycle);
   table.period = options.period;
-  table.interpolation = options.series.interpolation;
+  table.interpolation = options.interpolation;
   const Spans spans = spans_of_cycle(options, table);
-  return {OpeningLaw(table, options.series.cycle), spans};
+  return {OpeningLaw(table, options.cycle), spans};
 }
 
-LawWithSpans law_of_seconds(const UrisOptions &uris) {
+LawWithSpans law_of_seconds(const ExportOptions &options) {
   riis_opening_times times;
   check(riis_opening_times_init(&times, sizeof times));
   // The valve is open at 0, so that both ends of both ramps are met exactly.
-  times.opening_start = -*uris.opening_duration;
-  times.opening_duration = *uris.opening_duration;
+  times.opening_start = -*options.opening_duration;
+  times.opening_duration = *options.opening_duration;
   times.closing_start = 0;
-  times.closing_duration = *uris.closing_duration;
+  times.closing_duration = *options.closing_duration;
   return {OpeningLaw(times, "--opening-seconds"), {{times.opening_start, 0}, {0, times.closing_duration}}};
 }
 
@@ -132,9 +131,9 @@ void warn_of_jump(const char *from, double before, const char *to, double after)
 
 }  // namespace
 
-UrisMotion uris_motion_of(const Options &options) {
-  const LawWithSpans motion = options.series.cycle.empty() ? law_of_seconds(options.uris) : law_of_cycle(options);
-  const double step = *options.uris.time_step;
+UrisMotion uris_motion_of(const ExportOptions &options) {
+  const LawWithSpans motion = options.cycle.empty() ? law_of_seconds(options) : law_of_cycle(options);
+  const double step = options.time_step;
   UrisMotion frames{openings_at(motion.law, frame_times(motion.spans.opening, step, "opening")),
                     openings_at(motion.law, frame_times(motion.spans.closing, step, "closing"))};
   check_way(frames.opening, true, motion.spans.opening);

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "program/command_line.hpp"
+#include "program/options.hpp"
 
 namespace riis::program {
 
@@ -14,6 +14,6 @@ struct UrisMotion {
 };
 
 // Frames are a time step apart. The last one is that of the span's end, so the last step may be shorter.
-UrisMotion uris_motion_of(const Options &options);
+UrisMotion uris_motion_of(const ExportOptions &options);
 
 }  // namespace riis::program

@@ -17,13 +17,13 @@ namespace riis::program {
 
 namespace {
 
-void set_parameters(const Options &options, riis_valve *valve) {
+void set_parameters(const ValveOptions &options, riis_valve *valve) {
   if (!options.params.empty()) set_from_json_file(valve, options.params);
   for (const std::string &setting : options.settings) set_from_text(valve, setting);
   if (options.opening) check(riis_valve_set_scalar(valve, "opening", *options.opening), "--opening");
 }
 
-Valve make_valve_of_kind(const Options &options) {
+Valve make_valve_of_kind(const ValveOptions &options) {
   Valve valve = make_kind(options.valve, "--valve");
   set_parameters(options, valve.get());
   if (!options.params_open.empty()) {
@@ -34,11 +34,11 @@ Valve make_valve_of_kind(const Options &options) {
   return valve;
 }
 
-Valve make_valve_of_file(const Options &options) {
+Valve make_valve_of_file(const ValveOptions &options, OpeningCheck opening) {
   const Stage stage("reading " + options.valve, options.quiet);
   ValveFile file(options.valve);
   set_parameters(options, file.valve());
-  if (!options.print_params && !options.describe_params) file.check_opening();
+  if (opening == OpeningCheck::yes) file.check_opening();
   return file.take_valve();
 }
 
@@ -52,7 +52,7 @@ void check_read(riis_status status, const std::string &path, Content content) {
   }
 }
 
-Surface surface_of_valve(const Options &options, const riis_valve *valve) {
+Surface surface_of_valve(const ValveOptions &options, const riis_valve *valve) {
   const Stage stage("making the surface", options.quiet);
   riis_surface *surface = nullptr;
   check(riis_surface_create(valve, &options.surface_options, &surface),
@@ -60,7 +60,7 @@ Surface surface_of_valve(const Options &options, const riis_valve *valve) {
   return Surface(surface);
 }
 
-Surface surface_of_file(const Options &options, const riis_vtk_surface *file, FileVelocity velocity) {
+Surface surface_of_file(const ValveOptions &options, const riis_vtk_surface *file, FileVelocity velocity) {
   riis_surface_arrays arrays;
   check(riis_vtk_surface_get_arrays(file, &arrays, sizeof arrays));
   std::vector<double> zeros;
@@ -85,8 +85,8 @@ Valve make_kind(const std::string &kind, const std::string &subject) {
   return Valve(handle);
 }
 
-Valve make_valve(const Options &options) {
-  return is_valve_file(options.valve) ? make_valve_of_file(options) : make_valve_of_kind(options);
+Valve make_valve(const ValveOptions &options, OpeningCheck opening) {
+  return is_valve_file(options.valve) ? make_valve_of_file(options, opening) : make_valve_of_kind(options);
 }
 
 double opening_of(const riis_valve *valve) {
@@ -112,7 +112,7 @@ std::string why_closed(riis_valve *valve, const riis_surface_options &how) {
 
 void check_mesh_read(riis_status status, const std::string &path) { check_read(status, path, Content::mesh); }
 
-SurfaceFile read_surface(const Options &options, Seconds &seconds) {
+SurfaceFile read_surface(const ValveOptions &options, Seconds &seconds) {
   const Stage stage("reading " + options.surface, options.quiet);
   const char *path = options.surface.c_str();
   const bool by_pieces = options.leaflets == "connected";
@@ -142,7 +142,7 @@ int64_t count_leaflets(const riis_surface *surface) {
 
 namespace {
 
-Motion read_motion(const Options &options) {
+Motion read_motion(const ValveOptions &options) {
   const bool by_pieces = options.leaflets == "connected";
   const char *leaflets = options.leaflets.empty() || by_pieces ? nullptr : options.leaflets.c_str();
   riis_vtk_motion *handle = nullptr;
@@ -159,7 +159,7 @@ std::vector<std::string> files_of(const riis_vtk_motion *motion) {
   return {paths, paths + n_files};
 }
 
-Keyframes keyframes_of(const Options &options, const riis_vtk_motion *motion) {
+Keyframes keyframes_of(const ValveOptions &options, const riis_vtk_motion *motion) {
   riis_surface_arrays arrays;
   riis_keyframe_arrays frames;
   check(riis_vtk_motion_get_arrays(motion, &arrays, sizeof arrays));
@@ -177,33 +177,16 @@ bool is_motion_file(const std::string &surface) {
   return ending == ".pvd" || ending == ".PVD";
 }
 
-void parse_motion(const std::string &time, const std::string &period, Options &options) {
-  const auto refuse = [](const std::string &text) { throw Refusal{exit_wrong_usage, text}; };
-  const bool is_motion = is_motion_file(options.surface), is_series = !options.series.times.empty();
-  if (is_motion && time.empty() && !is_series)
-    refuse("--surface " + options.surface + " is a motion: it needs --time T");
-  if (is_series && !time.empty()) refuse("--time has no effect with --times");
-  if (!is_motion && !time.empty())
-    refuse("--time has no effect with --surface " + options.surface + ": a motion is a .pvd file");
-  if (!period.empty() && !is_motion && options.series.cycle.empty())
-    refuse("--period needs a motion, --surface FILE.pvd, or --cycle");
-  if (!time.empty()) options.time = parse_number(time, "--time");
-  if (!period.empty()) options.period = parse_number(period, "--period");
-  if (!period.empty() && !(options.period > 0)) refuse("--period: " + period + " is not above 0");
-}
-
-KeyframeFiles read_keyframes(const Options &options, Seconds &seconds) {
+KeyframeFiles read_keyframes(const ValveOptions &options, Seconds &seconds) {
   const Stage stage("reading " + options.surface, options.quiet);
   const Motion motion = read_motion(options);
   seconds.read += stage.seconds();
   KeyframeFiles read{nullptr, files_of(motion.get())};
-  // Outputs are written when all frames have been read, and would replace them unnoticed.
-  check_no_output_is("a frame of --surface " + options.surface, read.files, options);
   read.keyframes = keyframes_of(options, motion.get());
   return read;
 }
 
-Surface surface_of_keyframes(const Options &options, const riis_keyframes *keyframes) {
+Surface surface_of_keyframes(const ValveOptions &options, const riis_keyframes *keyframes) {
   riis_surface *surface = nullptr;
   check(riis_surface_create_from_keyframes(keyframes, *options.time, 0, &options.surface_options, &surface),
         options.surface);

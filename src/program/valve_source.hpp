@@ -6,18 +6,18 @@
 #include <string>
 #include <vector>
 
-#include "program/command_line.hpp"
 #include "program/handles.hpp"
 #include "program/opening_law.hpp"
+#include "program/options.hpp"
 #include "program/report.hpp"
 
 namespace riis::program {
 
 // One valve of a run.
 struct ValveSource {
-  Options options;   // as the command line of this valve alone would give them
-  Valve valve;       // null if a file holds the surface
-  SurfaceFile file;  // null for a valve, and for a surface that moves
+  MarkOptions options;  // as the command line of this valve alone would give them
+  Valve valve;          // null if a file holds the surface
+  SurfaceFile file;     // null for a valve, and for a surface that moves
   OpeningLaw law{0.0};
   Keyframes keyframes{};        // of a surface that moves
   bool has_open_state = false;  // that the user chose
@@ -26,8 +26,10 @@ struct ValveSource {
 
 // subject goes before the refusal of a kind.
 Valve make_kind(const std::string &kind, const std::string &subject);
+// Whether a file of patches that cannot open so far is refused here, in place of where its surface is made.
+enum class OpeningCheck { no, yes };
 // Makes the valve of --valve, --params and the options that go with them.
-Valve make_valve(const Options &options);
+Valve make_valve(const ValveOptions &options, OpeningCheck opening = OpeningCheck::yes);
 double opening_of(const riis_valve *valve);
 Valve copy_of(const riis_valve *valve);
 // Returns "" if the valve opens, or else why it has one state, as the library says it. The options are those of surfaces that
@@ -37,7 +39,7 @@ std::string why_closed(riis_valve *valve, const riis_surface_options &how);
 // Adds to the component's refusal of a mesh the command that makes a readable file of it.
 void check_mesh_read(riis_status status, const std::string &path);
 // Reads the surface of --surface and --leaflets.
-SurfaceFile read_surface(const Options &options, Seconds &seconds);
+SurfaceFile read_surface(const ValveOptions &options, Seconds &seconds);
 
 // Which velocities a surface from a file has.
 enum class FileVelocity { none, zero };
@@ -50,18 +52,15 @@ int64_t count_leaflets(const riis_surface *surface);
 // Tells whether --surface is a motion, which ends in .pvd.
 bool is_motion_file(const std::string &surface);
 
-// Reads --time and --period. Fails if a motion lacks its time, and for either without a motion.
-void parse_motion(const std::string &time, const std::string &period, Options &options);
-
 // --surface FILE.pvd, and the files that hold its frames.
 struct KeyframeFiles {
   Keyframes keyframes;
   std::vector<std::string> files;
 };
-KeyframeFiles read_keyframes(const Options &options, Seconds &seconds);
+KeyframeFiles read_keyframes(const ValveOptions &options, Seconds &seconds);
 
 // Makes the surface at options.time, with velocities.
-Surface surface_of_keyframes(const Options &options, const riis_keyframes *keyframes);
+Surface surface_of_keyframes(const ValveOptions &options, const riis_keyframes *keyframes);
 
 // In: a file that cannot be read as it is. Out: the command that makes a readable file of it.
 

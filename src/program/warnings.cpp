@@ -90,7 +90,7 @@ Warning warning_of_places(const Situation &s) {
 
 double Box::largest_side() const { return std::max({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]}); }
 
-Situation situation_of(const Options &options, const riis_surface_info &surface, const riis_mark_stats &marks,
+Situation situation_of(const MarkOptions &options, const riis_surface_info &surface, const riis_mark_stats &marks,
                        const riis_vtk_mesh *mesh) {
   int64_t n_nodes = 0;
   const double *xyz = nullptr;
@@ -115,7 +115,7 @@ std::optional<Warning> warning_of(const Situation &s) {
 
 void warn(const std::string &text) {
   ++n_printed;
-  std::fprintf(stderr, "riis-mark: %s\n", text.c_str());
+  std::fprintf(stderr, "riis: %s\n", text.c_str());
 }
 
 void warn(std::vector<Warning> warnings) {
@@ -130,7 +130,7 @@ void warn(std::vector<Warning> warnings) {
 
 std::int64_t n_warnings() { return n_printed; }
 
-std::string place_text(const Options &options, const double *point, double edge) {
+std::string place_text(const ValveOptions &options, const double *point, double edge) {
   std::string text;
   for (int k = 0; k < 3; ++k) text += (k == 0 ? "" : " ") + coordinate_text(point[k], edge);
   return options.unit ? text + " " + name_of(*options.unit) : text;
@@ -169,7 +169,7 @@ bool sizes_fit_at(double factor, const Situation &s) {
          factor * s.median_edge <= longest_edge * s.surface.largest_side();
 }
 
-bool is_parametric(const Options &options) { return options.surface.empty() && !is_valve_file(options.valve); }
+bool is_parametric(const MarkOptions &options) { return options.surface.empty() && !is_valve_file(options.valve); }
 
 // The default half thickness belongs to a parametric valve. Edges that are much longer suggest that the mesh has another unit or,
 // if the user named the unit, that it is coarse.
@@ -251,7 +251,7 @@ std::string look_of(Unit mesh, Unit surface) {
   return std::string("the mesh looks as if it were in ") + words_of(mesh) + ", the surface in " + words_of(surface);
 }
 
-Cure cure_for_scale(const Options &options, double scale) {
+Cure cure_for_scale(const MarkOptions &options, double scale) {
   if (is_parametric(options)) {
     if (const auto mesh = unit_reached(Unit::centimetre, scale)) {
       return {look_of(*mesh, Unit::centimetre), option("--unit", *mesh)};
@@ -268,7 +268,7 @@ Cure cure_for_scale(const Options &options, double scale) {
 }
 
 // Names the user's own options for the scale, which must go.
-std::string in_place_of(const Options &options) {
+std::string in_place_of(const MarkOptions &options) {
   if (options.unit) {
     const std::string unit = " in place of " + option("--unit", *options.unit);
     return options.surface_unit ? unit + " " + option("--surface-unit", *options.surface_unit) : unit;

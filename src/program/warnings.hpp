@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "program/command_line.hpp"
+#include "program/options.hpp"
 
 namespace riis::program {
 
@@ -21,7 +21,7 @@ struct Box {
 
 // A marking with the sizes of its mesh and surface, in the mesh's unit.
 struct Situation {
-  const Options &options;
+  const MarkOptions &options;
   int64_t n_nodes, n_marked;
   Box mesh, surface;
   double median_edge;  // of the mesh; 0 if unknown
@@ -29,7 +29,7 @@ struct Situation {
   double half_thickness;
 };
 
-Situation situation_of(const Options &options, const riis_surface_info &surface, const riis_mark_stats &marks,
+Situation situation_of(const MarkOptions &options, const riis_surface_info &surface, const riis_mark_stats &marks,
                        const riis_vtk_mesh *mesh);
 
 // What may be wrong, in the order in which to mend it: a wrong unit also makes the half thickness wrong, and either makes leaks.
@@ -53,7 +53,7 @@ std::int64_t n_warnings();
 
 // Returns the coordinates of a place for a warning, with the unit if the user named it. They are rounded to
 // a tenth of the edge's length or finer, so that they tell its ends apart. If the length is 0, they have six digits.
-std::string place_text(const Options &options, const double *point, double edge);
+std::string place_text(const ValveOptions &options, const double *point, double edge);
 
 // In: sizes that do not fit each other. Out: what they look like, and the options that would make them fit.
 

@@ -58,7 +58,7 @@ static void take_common_warnings(void) {
 }
 
 static pid_t start(const char *argument, va_list rest) {
-  const char *arguments[64] = {RIIS_MARK_PROGRAM};
+  const char *arguments[64] = {RIIS_PROGRAM};
   int n = 1;
   for (const char *next = argument; next; next = va_arg(rest, const char *)) arguments[n++] = next;
   out = temporary_file();
@@ -71,7 +71,7 @@ static pid_t start(const char *argument, va_list rest) {
     dup2(err, STDERR_FILENO);
     if (program_stdout) close(STDOUT_FILENO);
     if (program_stdout && *program_stdout) open(program_stdout, O_WRONLY); /* takes the lowest number: stdout's */
-    execv(RIIS_MARK_PROGRAM, (char *const *)(uintptr_t)arguments);
+    execv(RIIS_PROGRAM, (char *const *)(uintptr_t)arguments);
     _exit(127);
   }
   return process;

@@ -149,7 +149,7 @@ static pid_t start_held_run(const char *output) {
 /* The runner of programs keeps one run's streams, so the second one runs by a shell. */
 static void expect_locked(const char *mesh, const char *option, const char *output) {
   char command[1024];
-  snprintf(command, sizeof command, "%s %s %s %s --quiet 2>%s", RIIS_MARK_PROGRAM, mesh, option, scratch_path(output),
+  snprintf(command, sizeof command, "%s %s %s %s --quiet 2>%s", RIIS_PROGRAM, mesh, option, scratch_path(output),
            scratch_path("second.txt"));
   const int status = system(command);
   assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 1);

@@ -53,7 +53,7 @@ static int measure_states(void) {
     char arguments[1024];
     snprintf(arguments, sizeof arguments, "--quiet --valve %s --state-count %d --states %s", kinds[i], n_openings[i],
              table_path(kinds[i]));
-    if (run(RIIS_MARK_PROGRAM, arguments) != 0) return -1;
+    if (run(RIIS_PROGRAM, arguments) != 0) return -1;
   }
   return 0;
 }

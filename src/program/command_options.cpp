@@ -1,0 +1,632 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/command_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <utility>
+
+#include "program/leaks.hpp"
+#include "program/opening_law.hpp"
+#include "program/text.hpp"
+#include "program/valve_file.hpp"
+#include "program/valve_source.hpp"
+
+namespace riis::program {
+namespace {
+
+// Each name stands at the position of its RIIS_SEARCH_*, RIIS_MEASURE_* or RIIS_VTK_VIEW_*.
+const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor", "paper", "clusters"};
+const std::vector<std::string> distance_names = {"triangles", "sampling", "minimization"};
+const std::vector<std::string> view_names = {"side", "top", "oblique"};
+
+[[noreturn]] void refuse(const std::string &text) { throw Refusal{exit_wrong_usage, text}; }
+
+std::int32_t position_of(const std::string &name, const std::vector<std::string> &names) {
+  return static_cast<std::int32_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+// RIIS_AUTO is a negative number, and a user's number must not pass for it.
+double parse_positive(const std::string &text, const std::string &subject) {
+  const double number = parse_number(text, subject);
+  if (!(number > 0)) refuse(subject + ": " + text + " is not above 0");
+  return number;
+}
+
+double parse_positive_finite(const std::string &text, const std::string &subject) {
+  const double number = parse_number(text, subject);
+  if (!(number > 0 && std::isfinite(number))) refuse(subject + ": " + text + " is not above 0 and finite");
+  return number;
+}
+
+std::int32_t parse_count(const std::string &text, const std::string &subject, std::int32_t least, std::int32_t most) {
+  const std::int32_t n = parse_integer(text, subject);
+  if (n < least || n > most)
+    refuse(subject + ": " + text + " is not from " + std::to_string(least) + " to " + std::to_string(most));
+  return n;
+}
+
+TimeSpan parse_span(const std::string &text, const std::string &subject) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos || text.find(':', colon + 1) != std::string::npos)
+    refuse(subject + ": '" + text + "' is not START:STOP");
+  const TimeSpan span{parse_number(text.substr(0, colon), subject), parse_number(text.substr(colon + 1), subject)};
+  if (!(std::abs(span.start) <= 1e30 && std::abs(span.stop) <= 1e30))
+    refuse(subject + ": " + text + " is not finite and at most 1e30 in magnitude");
+  if (!(span.stop > span.start)) refuse(subject + ": the stop of " + text + " is not after its start");
+  return span;
+}
+
+std::string option_name(const std::string &names) { return names.substr(0, names.find(',')); }
+
+// ---- Groups of options ----
+
+void declare_valve(Command &command, ValveOptions &options) {
+  command.group("Valve");
+  command.text("--valve", "KIND|FILE.json", "aortic (default), mitral, trileaflet, bileaflet, or a file of patches",
+               options.valve);
+  command.text("--params,--params-closed", "FILE.json", "Parameters of the valve, or of its closed state",
+               options.params);
+  command
+      .values("--set", "NAME=VALUE", "Set one parameter to a number or X,Y,Z; may be repeated",
+              [&options](const std::vector<std::string> &settings) { options.settings = settings; })
+      ->allow_extra_args(false);
+}
+
+void declare_opening(Command &command, ValveOptions &options) {
+  command.value("--opening", "X", "How far the valve is open, from 0, closed, to 1, open",
+                [&options](const std::string &text) {
+                  options.opening = parse_number(text, "--opening");
+                  if (!(*options.opening >= 0 && *options.opening <= 1))
+                    refuse("--opening: " + text + " is not from 0 to 1");
+                });
+}
+
+void declare_open_state(Command &command, ValveOptions &options) {
+  command.text("--params-open", "FILE.json", "Parameters of the state that the valve opens to", options.params_open);
+}
+
+void declare_tolerance(Command &command, ValveOptions &options) {
+  command.value("--tolerance", "F", "Largest deviation of triangles from the smooth valve, in half thicknesses",
+                [&options](const std::string &text) {
+                  options.has_tolerance = true;
+                  options.surface_options.tolerance = parse_number(text, "--tolerance");
+                });
+}
+
+// A surface from a file, and how triangles are made of either.
+void declare_file(Command &command, ValveOptions &options) {
+  riis_surface_options &how = options.surface_options;
+  command.group("Surface");
+  CLI::Option *const surface = command.text(
+      "--surface", "FILE", "A file in place of a valve: .vtp, .vtu, .stl, or .pvd, its motion", options.surface);
+  for (const char *name : {"--valve", "--opening", "--params", "--params-open", "--set"})
+    surface->excludes(command.option(name));
+  command
+      .text("--leaflets", "connected|ARRAY", "Leaflets of --surface: connected pieces, or a cell array",
+            options.leaflets)
+      ->needs(surface);
+  command
+      .value("--skip-zero-area", nullptr, "Leave out triangles of --surface that have no area",
+             [&how](const std::string &) { how.zero_area = RIIS_ZERO_AREA_SKIP; })
+      ->needs(surface);
+  command.value("--flip-normals", nullptr, "Turn every triangle over",
+                [&how](const std::string &) { how.flip_normals = 1; });
+  declare_tolerance(command, options);
+  command.choice("--triangulation", "Triangles adapted to each opening (default), or fixed, the same at every opening",
+                 triangulation_names(), how.triangulation);
+  for (const char *name : {"--tolerance", "--triangulation"}) surface->excludes(command.option(name));
+  command
+      .value("--time", "T", "Time at which to take a motion, --surface FILE.pvd",
+             [&options](const std::string &text) { options.time = parse_number(text, "--time"); })
+      ->needs(surface);
+  command.positive("--period", "P", "Period of that motion, or of --cycle (default none)", options.period);
+}
+
+void declare_unit(Command &command, ValveOptions &options) {
+  command.group("Placement (x -> scale * rotation * x + translation)");
+  CLI::Option *const scale = command.value("--scale", "S", "Factor from the surface's unit to the mesh's (default 1)",
+                                           [&options](const std::string &text) {
+                                             options.has_scale = true;
+                                             options.surface_options.scale = parse_number(text, "--scale");
+                                           });
+  const auto unit = [&](const char *name, const char *help, std::optional<Unit> &to) {
+    return command.value(name, "m|cm|mm", help, [&to](const std::string &text) { to = unit_of(text); })
+        ->check(CLI::IsMember(unit_names()));
+  };
+  unit("--unit", "Unit of the mesh, in place of --scale", options.unit)->excludes(scale);
+  unit("--surface-unit", "Unit of the file that holds the surface or the patches", options.surface_unit);
+}
+
+void declare_placement(Command &command, ValveOptions &options) {
+  riis_surface_options &how = options.surface_options;
+  declare_unit(command, options);
+  command.value("--rotate", "X,Y,Z,DEG", "Rotate about an axis by an angle in degrees",
+                [&how](const std::string &text) {
+                  const std::vector<double> turn = parse_list(text, "--rotate", 4, "X,Y,Z,DEG");
+                  std::copy_n(turn.begin(), 3, how.rotation_axis);
+                  how.rotation_angle = turn[3];
+                });
+  command.value("--translate", "X,Y,Z", "Translate by a vector in the mesh's unit", [&how](const std::string &text) {
+    const std::vector<double> shift = parse_list(text, "--translate", 3, "X,Y,Z");
+    std::copy_n(shift.begin(), 3, how.translation);
+  });
+}
+
+void declare_half_thickness(Command &command, ValveOptions &options) {
+  command.value("--half-thickness", "L", "Half thickness of the band (default 0.1 times the scale)",
+                [&options](const std::string &text) {
+                  options.has_half_thickness = true;
+                  options.surface_options.half_thickness = parse_positive(text, "--half-thickness");
+                });
+}
+
+void declare_threads(Command &command, ValveOptions &options) {
+  command.value("--threads", "N", "Number of threads (default as many as the work feeds)",
+                [&options](const std::string &text) { options.n_threads = parse_integer(text, "--threads"); });
+}
+
+void declare_search(Command &command, MarkOptions &options) {
+  command.choice("--search", "auto (default), exhaustive, neighbor, clusters or paper", search_names,
+                 options.mark_options.search);
+  command.positive("--distance-limit", "L", "Report distances up to this one (default the half thickness)",
+                   options.mark_options.distance_limit);
+  declare_threads(command, options);
+}
+
+void declare_marking(Command &command, MarkOptions &options) {
+  command.group("Marking");
+  declare_half_thickness(command, options);
+  command.value("--resistance", "R", "Write riis_K, R/eps times the delta function at each node",
+                [&options](const std::string &text) { options.resistance = parse_number(text, "--resistance"); });
+  command.number("--far-distance", "X", "riis_distance of nodes beyond the limit (default 1e30)", options.far_distance);
+  command
+      .choice("--distance", "Distances to triangles (default), or by sampling or minimization", distance_names,
+              options.surface_options.measure)
+      ->excludes(command.option("--surface"));
+  command.positive("--distance-tolerance", "F", "Tolerance of sampling or minimization, in half thicknesses",
+                   options.surface_options.measure_tolerance);
+  declare_search(command, options);
+  command
+      .value("--steps", "N", "Also time N steps: each moves the opening by 0.02 and marks again",
+             [&options](const std::string &text) {
+               options.n_steps = parse_integer(text, "--steps");
+               if (options.n_steps < 1) refuse("--steps: " + text + " is not above 0");
+             })
+      ->excludes(command.option("--surface"));
+}
+
+void declare_loudness(Command &command, ValveOptions &options) {
+  command.flag("--quiet", "Print no table on stdout and no progress on stderr; warnings stay", options.quiet);
+  command.flag("--strict", "Exit with status 4 if there was a warning", options.strict);
+}
+
+// A view is declared after the pictures, so its values come when these are known.
+void declare_pictures(Command &command, MarkOptions &options) {
+  CLI::Option *const pictures =
+      command
+          .values("--picture", "OUT.png", "Draw the surface and the marked cells; may be repeated",
+                  [&options](const std::vector<std::string> &paths) {
+                    for (const std::string &path : paths) options.pictures.push_back({path, RIIS_VTK_VIEW_OBLIQUE});
+                  })
+          ->allow_extra_args(false);
+  command
+      .values("--view", "VIEW", "View of a --picture: side, top or oblique (default); one for each, in their order",
+              [&options](const std::vector<std::string> &views) {
+                if (views.size() > options.pictures.size()) refuse("--view: there are more views than pictures");
+                for (std::size_t i = 0; i < views.size(); ++i)
+                  options.pictures[i].view = position_of(views[i], view_names);
+              })
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(view_names))
+      ->needs(pictures);
+}
+
+void declare_stats(Command &command, MarkOptions &options) {
+  command.text("--stats", "FILE.json|-", "Write counts and seconds as JSON; - is stdout", options.stats);
+}
+
+void declare_cycle(Command &command, std::string &cycle, std::int32_t &interpolation) {
+  CLI::Option *const file =
+      command.text("--cycle", "FILE.csv", "Times and openings of the valve, in two columns", cycle);
+  command
+      .choice("--interpolation", "Between the times of the cycle: linear (default) or cubic", interpolation_names(),
+              interpolation)
+      ->needs(file);
+}
+
+void declare_series(Command &command, MarkOptions &options) {
+  SeriesOptions &series = options.series;
+  command.group("Series in time, and several valves");
+  CLI::Option *const times =
+      command.value("--times", "START:STOP:STEP|T,T,...", "Mark at each of these times; --output then takes a .pvd",
+                    [&series](const std::string &text) { series.times = parse_times(text, "--times"); });
+  declare_cycle(command, series.cycle, series.interpolation);
+  CLI::Option *const all_of_it = command.text(
+      "--case", "FILE.json", "Valves, placements, cycles and times from a file (riis help cases)", series.case_file);
+  command.flag("--all-cells", "Write the whole mesh each time, not only the cells near the sweep", series.all_cells);
+  command.text("--series-table", "OUT.csv", "Write time, opening, marked nodes and speed of each step", series.table);
+  CLI::Option *const movie =
+      command.text("--movie", "OUT.mp4|OUT.gif", "Draw each time and make a movie of it, by ffmpeg", series.movie);
+  command
+      .value("--frame-rate", "N", "Frames of the movie a second (default 10)",
+             [&series](const std::string &text) { series.frame_rate = parse_positive_finite(text, "--frame-rate"); })
+      ->needs(movie);
+  command.choice("--movie-view", "side, top or oblique (default)", view_names, series.movie_view, "VIEW")->needs(movie);
+  // A case says these itself.
+  for (const char *name : {"--surface",        "--leaflets",       "--valve",        "--opening",
+                           "--params",         "--params-open",    "--set",          "--tolerance",
+                           "--triangulation",  "--skip-zero-area", "--flip-normals", "--scale",
+                           "--unit",           "--surface-unit",   "--rotate",       "--translate",
+                           "--half-thickness", "--resistance",     "--cycle",        "--period",
+                           "--interpolation",  "--prefix",         "--time"})
+    command.option(name)->excludes(all_of_it);
+  for (const char *name : {"--steps", "--stats", "--search", "--distance", "--distance-tolerance"})
+    command.option(name)->excludes(all_of_it)->excludes(times);
+  command.option("--opening")->excludes(times);
+  command.option("--time")->excludes(times);
+}
+
+// ---- Checks ----
+
+void check_set_opening(const ValveOptions &options, const std::string &reason) {
+  for (const std::string &setting : options.settings)
+    if (setting.rfind("opening=", 0) == 0) refuse("--set opening " + reason);
+}
+
+void check_opening(const ValveOptions &options) {
+  if (options.opening) check_set_opening(options, "and --opening exclude each other");
+}
+
+// Derives the scale and the default half thickness from the units.
+void finish_units(ValveOptions &options) {
+  const bool is_file = !options.surface.empty() || is_valve_file(options.valve);
+  if (!is_file && options.surface_unit && options.surface_unit != Unit::centimetre)
+    refuse("--surface-unit: the parameters of the " + options.valve + " valve are in centimetres, not in " +
+           words_of(*options.surface_unit));
+  if (!options.unit && options.surface_unit) refuse("--surface-unit needs --unit, the unit of the mesh");
+  if (!options.unit) return;
+  if (is_file && !options.surface_unit)
+    refuse("--unit needs --surface-unit, the unit of " + (options.surface.empty() ? options.valve : options.surface));
+  apply_units(options);
+}
+
+// A time belongs to a motion, and a period to a motion or a cycle.
+void check_motion(const Command &command, const ValveOptions &options, bool has_times, bool has_cycle) {
+  const bool is_motion = is_motion_file(options.surface);
+  if (is_motion && !options.time && !has_times)
+    refuse("--surface " + options.surface + " is a motion: it needs --time T");
+  if (!is_motion && options.time)
+    refuse("--time has no effect with --surface " + options.surface + ": a motion is a .pvd file");
+  if (command.has("--period") && !is_motion && !has_cycle)
+    refuse("--period needs a motion, --surface FILE.pvd, or --cycle");
+}
+
+void check_open_state(const ValveOptions &options) {
+  if (!options.params_open.empty() && is_valve_file(options.valve))
+    refuse("--params-open has no effect with --valve " + options.valve + ": the open state is in that file");
+}
+
+// At the default opening of most valves the file would have no effect, and nobody would see it.
+void check_open_state_is_met(const ValveOptions &options, bool has_cycle) {
+  if (!options.params_open.empty() && !sets_opening(options) && !has_cycle)
+    refuse("--params-open needs --opening or --cycle: without either the valve does not open to that state");
+}
+
+void finish_valve(const Command &command, ValveOptions &options) {
+  check_opening(options);
+  check_open_state(options);
+  check_motion(command, options, false, false);
+  finish_units(options);
+}
+
+void check_series(const Command &command, const MarkOptions &options) {
+  const SeriesOptions &series = options.series;
+  if (!series.case_file.empty()) return;
+  if (series.times.empty()) {
+    for (const char *name : {"--cycle", "--movie", "--series-table", "--all-cells"})
+      if (command.has(name)) refuse(std::string(name) + " needs --times");
+    return;
+  }
+  if (!options.surface.empty()) {
+    if (!series.cycle.empty()) refuse("--cycle has no effect with --surface");
+    if (!is_motion_file(options.surface))
+      refuse("--times has no effect with --surface " + options.surface + ": a motion is a .pvd file");
+    return;
+  }
+  if (series.cycle.empty()) refuse("--times needs --cycle, the valve's opening in time");
+  check_set_opening(options, "has no effect with --times: see --cycle");
+}
+
+void check_distance(const Command &command, const MarkOptions &options) {
+  if (command.has("--distance-tolerance") && options.surface_options.measure == RIIS_MEASURE_TRIANGLES)
+    refuse("--distance-tolerance has no effect with --distance triangles: see --tolerance");
+}
+
+bool has_output(const MarkOptions &options) {
+  return !options.output.empty() || !options.surface_output.empty() || !options.pictures.empty() ||
+         !options.stats.empty() || !options.series.movie.empty() || !options.series.table.empty();
+}
+
+// The solver takes every blank out of a path.
+void check_folder_name(const std::string &folder) {
+  const auto is_blank = [](unsigned char c) { return c <= ' ' || c == 127; };
+  if (std::any_of(folder.begin(), folder.end(), is_blank))
+    refuse("FOLDER: '" + folder + "' has a blank, and svMultiPhysics reads no path with one");
+}
+
+}  // namespace
+
+// ---- Declaring an option ----
+
+bool Command::parsed() const { return app_->parsed(); }
+CLI::Option *Command::option(const std::string &name) const { return app_->get_option(name); }
+bool Command::has(const std::string &name) const { return option(name)->count() > 0; }
+
+CLI::Option *Command::finished(CLI::Option *option, const char *type) const {
+  if (type) option->type_name(type);
+  return option->group(group_);
+}
+
+CLI::Option *Command::value(const std::string &names, const char *type, const char *help, const Take &take) {
+  if (!type)
+    return finished(app_->add_flag_callback(
+                        names, [take] { take(""); }, help),
+                    nullptr);
+  const auto taken = [take, name = option_name(names)](const std::string &text) {
+    // An empty value would pass for an option that was not given.
+    if (text.empty()) refuse_empty(name);
+    take(text);
+  };
+  return finished(app_->add_option_function<std::string>(names, taken, help), type);
+}
+
+CLI::Option *Command::text(const std::string &names, const char *type, const char *help, std::string &to) {
+  return value(names, type, help, [&to](const std::string &text) { to = text; });
+}
+
+CLI::Option *Command::values(const std::string &names, const char *type, const char *help, const TakeAll &take) {
+  const auto taken = [take, name = option_name(names)](const std::vector<std::string> &words) {
+    if (std::find(words.begin(), words.end(), "") != words.end()) refuse_empty(name);
+    take(words);
+  };
+  return finished(app_->add_option_function<std::vector<std::string>>(names, taken, help), type);
+}
+
+CLI::Option *Command::number(const std::string &names, const char *type, const char *help, double &to) {
+  return value(names, type, help,
+               [&to, name = option_name(names)](const std::string &text) { to = parse_number(text, name); });
+}
+
+CLI::Option *Command::positive(const std::string &names, const char *type, const char *help, double &to) {
+  return value(names, type, help,
+               [&to, name = option_name(names)](const std::string &text) { to = parse_positive(text, name); });
+}
+
+CLI::Option *Command::choice(const std::string &names, const char *help, const std::vector<std::string> &words,
+                             std::int32_t &to, const char *type) {
+  return value(names, type, help, [&to, &words](const std::string &text) { to = position_of(text, words); })
+      ->check(CLI::IsMember(words));
+}
+
+CLI::Option *Command::flag(const std::string &names, const char *help, bool &to) {
+  return finished(app_->add_flag(names, to, help), nullptr);
+}
+
+void refuse_empty(const std::string &name) { refuse(name + ": the value is empty"); }
+
+// ---- The commands ----
+
+void declare_mark(Command command, MarkOptions &options) {
+  command.group("Mesh");
+  command.text("MESH", "FILE", "The mesh, an unstructured grid: .vtu (XML) or .vtk (legacy)", options.mesh);
+  declare_valve(command, options);
+  declare_opening(command, options);
+  declare_open_state(command, options);
+  declare_file(command, options);
+  declare_placement(command, options);
+  declare_marking(command, options);
+  command.group("Output");
+  CLI::Option *const output = command.text("--output", "OUT.vtu", "Write the marked mesh", options.output);
+  command.text("--prefix", "NAME", "Names of the arrays: NAME_marked and so on (default riis)", options.prefix)
+      ->needs(output);
+  command.flag("--replace", "Replace arrays of these names that the mesh already has", options.replace)->needs(output);
+  command.flag("--allow-none", "Exit with status 0 and without a warning if no node is marked", options.allow_none);
+  command.text("--surface-output", "OUT.vtp", "Write the placed triangles", options.surface_output);
+  declare_pictures(command, options);
+  declare_stats(command, options);
+  declare_loudness(command, options);
+  declare_series(command, options);
+}
+
+void declare_surface(Command command, MarkOptions &options) {
+  options.surface_output_option = "--output";
+  declare_valve(command, options);
+  declare_opening(command, options);
+  declare_open_state(command, options);
+  declare_file(command, options);
+  declare_placement(command, options);
+  declare_half_thickness(command, options);
+  command.group("Output");
+  command.text("--output", "OUT.vtp", "Write the placed triangles", options.surface_output);
+  declare_pictures(command, options);
+  declare_loudness(command, options);
+}
+
+void declare_crossings(Command command, MarkOptions &options) {
+  options.check_crossing = true;
+  declare_valve(command, options);
+  declare_opening(command, options);
+  declare_open_state(command, options);
+  declare_file(command, options);
+  declare_placement(command, options);
+  declare_half_thickness(command, options);
+  declare_threads(command, options);
+  declare_loudness(command, options);
+}
+
+void declare_leaks(Command command, MarkOptions &options) {
+  command.group("Mesh");
+  command.text("MESH", "FILE", "The mesh, an unstructured grid: .vtu (XML) or .vtk (legacy)", options.mesh)->required();
+  command
+      .values("--between", "X,Y,Z X,Y,Z", "Say whether unmarked nodes join these two points, and where",
+              [&options](const std::vector<std::string> &points) { options.check_leaks = leak_check_between(points); })
+      ->expected(2)
+      ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  declare_valve(command, options);
+  declare_opening(command, options);
+  declare_open_state(command, options);
+  declare_file(command, options);
+  declare_placement(command, options);
+  command.group("Marking");
+  declare_half_thickness(command, options);
+  declare_search(command, options);
+  command.group("Output");
+  declare_stats(command, options);
+  declare_loudness(command, options);
+}
+
+void declare_states(Command command, StatesOptions &options) {
+  command.text("OUT", "OUT.csv|-", "The table: free edges, leaflet areas and the orifice; - is stdout", options.output)
+      ->required();
+  command.value("--count", "N", "Number of openings (default 101)", [&options](const std::string &text) {
+    options.n_states = parse_count(text, "--count", 2, most_states);
+  });
+  declare_loudness(command, options);
+  declare_valve(command, options);
+  declare_open_state(command, options);
+  declare_tolerance(command, options);
+  declare_unit(command, options);
+  declare_half_thickness(command, options);
+}
+
+void declare_export(Command command, ExportOptions &options) {
+  command.text("FOLDER", "FOLDER", "A new or empty folder for the files of svMultiPhysics", options.folder)->required();
+  const auto time = [&](const char *name, const char *help, std::optional<double> &to) {
+    return command.value(name, "T", help,
+                         [&to, name](const std::string &text) { to = parse_positive_finite(text, name); });
+  };
+  const auto span = [&](const char *name, const char *help, std::optional<TimeSpan> &to) {
+    return command.value(name, "START:STOP", help,
+                         [&to, name](const std::string &text) { to = parse_span(text, name); });
+  };
+  command
+      .value("--time-step", "DT", "Time step of the solver, which plays a frame in each",
+             [&options](const std::string &text) { options.time_step = parse_positive_finite(text, "--time-step"); })
+      ->required();
+  command
+      .number("--resistance", "R", "Resistance of the valve, for the block of the solver's input", options.resistance)
+      ->required();
+  time("--opening-seconds", "Open from 0 to 1 in this time, by a smooth ramp", options.opening_duration);
+  time("--closing-seconds", "Close from 1 to 0 in this time", options.closing_duration);
+  declare_cycle(command, options.cycle, options.interpolation);
+  command.positive("--period", "P", "Period of --cycle (default none)", options.period)
+      ->needs(command.option("--cycle"));
+  span("--opening-span", "Times of --cycle at which the valve opens", options.opening_span)
+      ->needs(command.option("--cycle"));
+  span("--closing-span", "Times of --cycle at which the valve closes", options.closing_span)
+      ->needs(command.option("--cycle"));
+  for (const char *name : {"--opening-seconds", "--closing-seconds"})
+    command.option(name)->excludes(command.option("--cycle"));
+  command.value(
+      "--largest-edge", "L", "Cut triangles until no edge is longer in any frame",
+      [&options](const std::string &text) { options.largest_edge = parse_positive_finite(text, "--largest-edge"); });
+  declare_loudness(command, options);
+  declare_valve(command, options);
+  declare_open_state(command, options);
+  declare_tolerance(command, options);
+  declare_placement(command, options);
+  declare_half_thickness(command, options);
+}
+
+void declare_params(Command command, ParamsOptions &options) {
+  command.flag("--describe", "A table with units, ranges and descriptions, in place of JSON", options.describe);
+  declare_loudness(command, options);
+  declare_valve(command, options);
+  declare_opening(command, options);
+}
+
+MarkOptions finish_mark(const Command &command, MarkOptions options) {
+  const bool has_case = !options.series.case_file.empty(), has_cycle = !options.series.cycle.empty();
+  check_opening(options);
+  check_open_state(options);
+  check_series(command, options);
+  check_motion(command, options, !options.series.times.empty(), has_cycle);
+  check_open_state_is_met(options, has_cycle);
+  finish_units(options);
+  check_distance(command, options);
+  if (!is_prefix(options.prefix))
+    refuse("--prefix: '" + options.prefix.substr(0, 64) + "' must be 1 to 64 letters, digits, _, - and .");
+  options.mark_options.n_threads = options.n_threads;
+  if (has_case) return options;
+  if (options.mesh.empty()) refuse("nothing to do: a MESH is needed");
+  if (options.quiet && !has_output(options)) refuse("nothing to do: --quiet is given and no output is named");
+  return options;
+}
+
+MarkOptions finish_surface(const Command &command, MarkOptions options) {
+  finish_valve(command, options);
+  check_open_state_is_met(options, false);
+  if (!has_output(options)) refuse("nothing to do: --output or --picture is needed");
+  return options;
+}
+
+MarkOptions finish_crossings(const Command &command, MarkOptions options) {
+  finish_valve(command, options);
+  options.mark_options.n_threads = options.n_threads;
+  return options;
+}
+
+MarkOptions finish_leaks(const Command &command, MarkOptions options) {
+  finish_valve(command, options);
+  check_open_state_is_met(options, false);
+  options.mark_options.n_threads = options.n_threads;
+  return options;
+}
+
+StatesOptions finish_states(const Command &, StatesOptions options) {
+  check_set_opening(options, "has no effect: the table has all openings");
+  check_open_state(options);
+  finish_units(options);
+  return options;
+}
+
+ExportOptions finish_export(const Command &, ExportOptions options) {
+  check_folder_name(options.folder);
+  check_set_opening(options, "has no effect: the valve opens and closes in an export");
+  check_open_state(options);
+  finish_units(options);
+  if (options.cycle.empty() && (!options.opening_duration || !options.closing_duration))
+    refuse("riis export needs --opening-seconds and --closing-seconds, or --cycle");
+  return options;
+}
+
+ParamsOptions finish_params(const Command &, ParamsOptions options) {
+  check_opening(options);
+  return options;
+}
+
+// ---- What options say ----
+
+const std::vector<std::string> &triangulation_names() {
+  static const std::vector<std::string> names = {"adapted", "fixed"};
+  return names;
+}
+
+void apply_units(ValveOptions &options) {
+  options.surface_options.scale = factor_between(options.surface_unit.value_or(Unit::centimetre), *options.unit);
+  if (!options.has_half_thickness) options.surface_options.half_thickness = paper_half_thickness(*options.unit);
+}
+
+bool sets_opening(const ValveOptions &options) {
+  return options.opening || std::any_of(options.settings.begin(), options.settings.end(),
+                                        [](const std::string &setting) { return setting.rfind("opening=", 0) == 0; });
+}
+
+bool is_prefix(const std::string &name) {
+  const auto is_good = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
+  return !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), is_good);
+}
+
+}  // namespace riis::program

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a user asks of a command, with its form checked. The library decides whether the values are good.
+#pragma once
+
+#include <riis/riis_vtk.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "program/refusal.hpp"
+#include "program/units.hpp"
+
+namespace riis::program {
+
+// Which surface, and where it lies. Every command has these, or some of them.
+struct ValveOptions {
+  ValveOptions() { check(riis_surface_options_init(&surface_options, sizeof surface_options)); }
+
+  std::string valve = "aortic";       // kind, or a file that ends in .json; used without surface
+  std::string surface;                // file; "": the valve
+  std::string leaflets;               // of that file: "connected", the name of a cell array, or "" for riis_leaflet
+  std::optional<double> time;         // of a surface that moves
+  double period = 0;                  // of its motion, or of the cycle; 0: none
+  std::string params, params_open;    // JSON files; "": none
+  std::vector<std::string> settings;  // NAME=VALUE, in order
+  std::optional<double> opening;      // from 0 to 1
+  riis_surface_options surface_options;
+  std::optional<Unit> unit, surface_unit;  // of the mesh, and of a file with the surface; the scale is made of them
+  // The user gave them as numbers.
+  bool has_scale = false, has_half_thickness = false, has_tolerance = false;
+  std::int32_t n_threads = RIIS_AUTO;
+  bool quiet = false;
+  bool strict = false;  // a warning is an exit status
+};
+
+struct Picture {
+  std::string path;
+  std::int32_t view;
+};
+
+// A series in time, and cases of several valves.
+struct SeriesOptions {
+  std::string case_file;      // "": the command line describes the only valve
+  std::vector<double> times;  // ascending; empty: no series
+  std::string cycle;          // file
+  std::int32_t interpolation = RIIS_INTERPOLATION_LINEAR;
+  std::string movie, table;  // "": not wanted
+  double frame_rate = 10;    // frames a second
+  std::int32_t movie_view = RIIS_VTK_VIEW_OBLIQUE;
+  bool all_cells = false;
+};
+
+// Two points, which a valve is to part, and what refusals say of them.
+struct LeakCheck {
+  double from[3], to[3];
+  std::string subject;
+  ExitCode exit_code = exit_wrong_usage;
+};
+
+// riis mark. riis surface and riis check are the same run with less: the first has no mesh.
+struct MarkOptions : ValveOptions {
+  MarkOptions() { check(riis_mark_options_init(&mark_options, sizeof mark_options)); }
+
+  std::string mesh;  // "": none
+  riis_mark_options mark_options;
+  double far_distance = RIIS_FAR_DISTANCE;
+  std::optional<double> resistance;           // R, for an array of K
+  std::string output, surface_output, stats;  // "": not wanted
+  std::string surface_output_option = "--surface-output";
+  std::vector<Picture> pictures;
+  std::int32_t n_steps = 0;     // to be timed
+  std::string prefix = "riis";  // of the arrays in the output
+  bool replace = false;         // arrays of these names
+  bool allow_none = false;
+  bool check_crossing = false;
+  std::optional<LeakCheck> check_leaks;
+  SeriesOptions series;
+};
+
+// riis states
+struct StatesOptions : ValveOptions {
+  std::string output;           // the table; "-": stdout
+  std::int32_t n_states = 101;  // openings in it
+};
+
+struct TimeSpan {
+  double start, stop;
+};
+
+// riis export
+struct ExportOptions : ValveOptions {
+  std::string folder;
+  double time_step = 0, resistance = 0;
+  std::optional<double> opening_duration, closing_duration;  // without a cycle
+  std::string cycle;                                         // file
+  std::int32_t interpolation = RIIS_INTERPOLATION_LINEAR;
+  std::optional<TimeSpan> opening_span, closing_span;  // of the cycle
+  double largest_edge = 0;                             // 0: as the library cuts
+};
+
+// riis params
+struct ParamsOptions : ValveOptions {
+  bool describe = false;  // a table in place of JSON
+};
+
+// At the position of their RIIS_TRIANGULATION_*.
+const std::vector<std::string> &triangulation_names();
+
+// Derives the scale from the units, and the half thickness unless the user gave one.
+void apply_units(ValveOptions &options);
+
+// Returns whether the user gave the valve's opening, by --opening or --set.
+bool sets_opening(const ValveOptions &options);
+
+// Whether arrays can be named so.
+bool is_prefix(const std::string &name);
+
+}  // namespace riis::program
