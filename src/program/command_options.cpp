@@ -270,13 +270,17 @@ void declare_series(Command &command, MarkOptions &options) {
 
 // ---- Checks ----
 
+bool has_set_opening(const ValveOptions &options) {
+  return std::any_of(options.settings.begin(), options.settings.end(),
+                     [](const std::string &setting) { return setting.rfind("opening=", 0) == 0; });
+}
+
 void check_set_opening(const ValveOptions &options, const std::string &reason) {
-  for (const std::string &setting : options.settings)
-    if (setting.rfind("opening=", 0) == 0) refuse("--set opening " + reason);
+  if (has_set_opening(options)) refuse("--set opening " + reason);
 }
 
 void check_opening(const ValveOptions &options) {
-  if (options.opening) check_set_opening(options, "and --opening exclude each other");
+  if (options.opening && has_set_opening(options)) refuse("--opening and --set opening exclude each other");
 }
 
 // Derives the scale and the default half thickness from the units.
@@ -463,6 +467,7 @@ void declare_crossings(Command command, MarkOptions &options) {
   declare_placement(command, options);
   declare_half_thickness(command, options);
   declare_threads(command, options);
+  declare_stats(command, options);
   declare_loudness(command, options);
 }
 
@@ -483,6 +488,7 @@ void declare_leaks(Command command, MarkOptions &options) {
   declare_half_thickness(command, options);
   declare_search(command, options);
   command.group("Output");
+  command.flag("--allow-none", "Exit with status 0 and without a warning if no node is marked", options.allow_none);
   declare_stats(command, options);
   declare_loudness(command, options);
 }
@@ -619,10 +625,7 @@ void apply_units(ValveOptions &options) {
   if (!options.has_half_thickness) options.surface_options.half_thickness = paper_half_thickness(*options.unit);
 }
 
-bool sets_opening(const ValveOptions &options) {
-  return options.opening || std::any_of(options.settings.begin(), options.settings.end(),
-                                        [](const std::string &setting) { return setting.rfind("opening=", 0) == 0; });
-}
+bool sets_opening(const ValveOptions &options) { return options.opening || has_set_opening(options); }
 
 bool is_prefix(const std::string &name) {
   const auto is_good = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };

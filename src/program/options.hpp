@@ -30,7 +30,7 @@ struct ValveOptions {
   std::optional<Unit> unit, surface_unit;  // of the mesh, and of a file with the surface; the scale is made of them
   // The user gave them as numbers.
   bool has_scale = false, has_half_thickness = false, has_tolerance = false;
-  std::int32_t n_threads = RIIS_AUTO;
+  std::int32_t n_threads = 0;  // 0: as many as the work feeds
   bool quiet = false;
   bool strict = false;  // a warning is an exit status
 };

@@ -197,6 +197,25 @@ std::string json_of(const Report &report) {
                  {"leaks", seconds.leaks},
                  {"write", seconds.write},
                  {"picture", seconds.picture}}}});
+  // Without a mesh there are no marks.
+  static const char *const of_marks[] = {"n_nodes",
+                                         "n_cells",
+                                         "n_marked",
+                                         "n_within_limit",
+                                         "distance_limit",
+                                         "search",
+                                         "distance",
+                                         "threads",
+                                         "complete",
+                                         "n_unreached",
+                                         "n_leaking_edges",
+                                         "longest_leaking_edge",
+                                         "longest_leaking_edge_middle",
+                                         "closing_half_thickness",
+                                         "n_volume_cells",
+                                         "n_cells_without_known_edges"};
+  if (report.mesh_name.empty())
+    for (const char *key : of_marks) json.erase(key);
   if (report.leaks.passage) json["passage"] = json_of_passage(*report.leaks.passage);
   if (report.step) {
     json["step"] = {{"n_steps", report.step->n_steps},

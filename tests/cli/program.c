@@ -47,7 +47,7 @@ static void take_common_warnings(void) {
     char *const end = strchr(line, '\n'), *const next = end ? end + 1 : line + strlen(line);
     const size_t length = (size_t)(next - line);
     const char *const leaks = strstr(line, " leaks: "), *const cross = strstr(line, " go through each other");
-    const int is_leak = strncmp(line, "riis-mark: the surface", 22) == 0 && leaks && leaks < next;
+    const int is_leak = strncmp(line, "riis: the surface", 17) == 0 && leaks && leaks < next;
     if (is_leak || (cross && cross < next)) {
       strncat(is_leak ? program_leaks : program_crossings, line, length);
       memmove(line, next, strlen(next) + 1);
@@ -110,7 +110,7 @@ void expect_run_fine(const char *file, int line) {
 }
 
 void expect_run_without_cells(const char *file, int line) {
-  const char *const said = strstr(program_err, "riis-mark: leaks of the surface are unknown: ");
+  const char *const said = strstr(program_err, "riis: leaks of the surface are unknown: ");
   if (said != program_err || !strstr(program_err, " has no volume cells\n")) {
     print_error("%s:%d: stderr: %s\n", file, line, program_err);
     fail();
@@ -122,7 +122,7 @@ void expect_run_without_cells(const char *file, int line) {
 void expect_run_refused(int exit_code, const char *part_of_text, const char *file, int line) {
   const char *end = strchr(program_err, '\n');
   const int one_line = end && end[1] == 0;
-  const int named = strncmp(program_err, "riis-mark: ", 11) == 0;
+  const int named = strncmp(program_err, "riis: ", 6) == 0;
   if (program_exit_code != exit_code || !one_line || !named || !strstr(program_err, part_of_text) || program_out[0]) {
     print_error("%s:%d: exit code %d for %d, wanted one line with \"%s\"\nstderr: %s\nstdout: %s\n", file, line,
                 program_exit_code, exit_code, part_of_text, program_err, program_out);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Runs riis-mark as a user would, and keeps its output. */
+ * Runs riis as a user would, and keeps its output. */
 #ifndef RIIS_TESTS_PROGRAM_H
 #define RIIS_TESTS_PROGRAM_H
 

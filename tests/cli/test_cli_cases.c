@@ -44,11 +44,11 @@ static void test_example(void **state) {
   static double K[n_nodes], of_mitral[n_nodes], of_aortic[n_nodes], ids[n_nodes], momentum[3 * n_nodes];
   static double u[2][3 * n_nodes];
   const char *mesh = scratch_path("heart.vtu");
-  RUN_FINE(mesh, "--case", example, "--times", "0.27,0.3,0.44", "--output", scratch_path("c.pvd"), "--series-table",
-           scratch_path("c.csv"), "--surface-output", scratch_path("cs.pvd"), "--quiet");
+  RUN_FINE("mark", mesh, "--case", example, "--times", "0.27,0.3,0.44", "--output", scratch_path("c.pvd"),
+           "--series-table", scratch_path("c.csv"), "--surface-output", scratch_path("cs.pvd"), "--quiet");
   /* The mesh is too coarse for the closed valves, and the warning names them. */
-  assert_non_null(strstr(program_leaks, "riis-mark: the surface of mitral leaks: "));
-  assert_non_null(strstr(program_leaks, "riis-mark: the surface of aortic leaks: "));
+  assert_non_null(strstr(program_leaks, "riis: the surface of mitral leaks: "));
+  assert_non_null(strstr(program_leaks, "riis: the surface of aortic leaks: "));
   char *table = scratch_read(scratch_path("c.csv"), NULL);
   double row[8];
   assert_int_equal(strncmp(table,
@@ -65,9 +65,9 @@ static void test_example(void **state) {
   free(table);
   /* The same valves one by one, by options. */
   scratch_write_text("open.json", "{\"leaflet_radius_in\": 1, \"bending_radius_in\": 1.1}");
-  RUN_FINE(mesh, "--unit", "cm", "--half-thickness", "0.1", "--valve", "mitral", "--opening", "0", "--resistance",
-           "10000", "--prefix", "mitral", "--output", scratch_path("m.vtu"), "--quiet");
-  RUN_FINE(mesh, "--unit", "cm", "--half-thickness", "0.1", "--valve", "aortic", "--params-open",
+  RUN_FINE("mark", mesh, "--unit", "cm", "--half-thickness", "0.1", "--valve", "mitral", "--opening", "0",
+           "--resistance", "10000", "--prefix", "mitral", "--output", scratch_path("m.vtu"), "--quiet");
+  RUN_FINE("mark", mesh, "--unit", "cm", "--half-thickness", "0.1", "--valve", "aortic", "--params-open",
            scratch_path("open.json"), "--opening", "0.5", "--rotate", "1,0,0,-30", "--translate", "0,3.8,1",
            "--resistance", "20000", "--prefix", "aortic", "--output", scratch_path("a.vtu"), "--quiet");
   const char *part = scratch_path("c/c_0001.vtu");
@@ -116,7 +116,7 @@ static void test_ramps(void **state) {
   ramps.period = 0.8;
   expect_fine(riis_opening_from_times(&ramps, 0.44, &opening, NULL));
   assert_true(opening > 0.5 && opening < 1);
-  RUN_FINE(scratch_path("heart.vtu"), "--case", example, "--times", "0.44,1.24", "--series-table",
+  RUN_FINE("mark", scratch_path("heart.vtu"), "--case", example, "--times", "0.44,1.24", "--series-table",
            scratch_path("ramps.csv"), "--quiet");
   char *table = scratch_read(scratch_path("ramps.csv"), NULL);
   for (int i = 0; i < 2; ++i) {
@@ -143,13 +143,13 @@ static void test_one_time(void **state) {
       "{\"name\": \"b\", \"valve\": \"aortic\", \"translate\": [0, 0, 1], \"half_thickness\": 0.4,"
       "\"parameters\": \"more.json\"}",
       "\"resistance\": 3,");
-  RUN_FINE("--case", scratch_path("case.json"), "--output", out, "--surface-output", scratch_path("one.vtp"));
+  RUN_FINE("mark", "--case", scratch_path("case.json"), "--output", out, "--surface-output", scratch_path("one.vtp"));
   assert_non_null(strstr(program_out, "valve     a: opening 0.25, "));
-  RUN_FINE(scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--opening", "0.25", "--resistance",
-           "5", "--prefix", "a", "--output", scratch_path("a1.vtu"), "--quiet");
-  RUN_FINE(scratch_path("a1.vtu"), "--valve", "aortic", "--half-thickness", "0.4", "--translate", "0,0,1", "--params",
-           scratch_path("more.json"), "--resistance", "3", "--prefix", "b", "--output", scratch_path("b1.vtu"),
-           "--quiet");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--opening", "0.25",
+           "--resistance", "5", "--prefix", "a", "--output", scratch_path("a1.vtu"), "--quiet");
+  RUN_FINE("mark", scratch_path("a1.vtu"), "--valve", "aortic", "--half-thickness", "0.4", "--translate", "0,0,1",
+           "--params", scratch_path("more.json"), "--resistance", "3", "--prefix", "b", "--output",
+           scratch_path("b1.vtu"), "--quiet");
   static const char *const names[] = {"a_marked", "a_distance", "a_leaflet", "b_marked", "b_distance", "b_leaflet"};
   for (int k = 0; k < 6; ++k) {
     read_array(out, names[k], one);
@@ -172,13 +172,13 @@ static void test_one_time(void **state) {
 static void test_surface_at_rest(void **state) {
   (void)state;
   static double velocity[3 * n_box], marked[n_box];
-  RUN_FINE("--surface-output", scratch_path("stent.vtp"), "--quiet");
+  RUN_FINE("surface", "--output", scratch_path("stent.vtp"), "--quiet");
   write_case(
       "{\"name\": \"m\", \"valve\": \"mitral\", \"opening\": {\"file\": \"beat.csv\", \"period\": 1}},"
       "{\"name\": \"stent\", \"surface\": \"stent.vtp\", \"scale\": 1.2}",
       "\"times\": [0, 0.1, 0.2],");
   scratch_write_text("beat.csv", "0,0\n0.2,1\n");
-  RUN_FINE("--case", scratch_path("case.json"), "--output", scratch_path("rest.pvd"), "--all-cells", "--quiet");
+  RUN_FINE("mark", "--case", scratch_path("case.json"), "--output", scratch_path("rest.pvd"), "--all-cells", "--quiet");
   const char *step = scratch_path("rest/rest_0002.vtu");
   int n_still = 0, n_moving = 0;
   read_array(step, "stent_marked", marked);
@@ -193,7 +193,7 @@ static void test_surface_at_rest(void **state) {
 
 static void expect_case_refused(const char *text, const char *valves, const char *rest) {
   write_case(valves, rest);
-  RUN_REFUSED(1, text, "--case", scratch_path("case.json"), "--output", scratch_path("r.vtu"));
+  RUN_REFUSED(1, text, "mark", "--case", scratch_path("case.json"), "--output", scratch_path("r.vtu"));
   assert_non_null(strstr(program_err, "case.json: "));
 }
 
@@ -246,26 +246,26 @@ static void test_refused_cases(void **state) {
   expect_case_refused("surface: a surface that moves needs times", "{\"surface\": \"a.pvd\"}", "");
   expect_case_refused("period: it needs a \"surface\" that moves", "{\"surface\": \"a.stl\", \"period\": 1}", "");
   scratch_write_text("case.json", "{\"valves\": [{\"valve\": \"mitral\"}]}");
-  RUN_REFUSED(1, "mesh: it is missing", "--case", scratch_path("case.json"));
+  RUN_REFUSED(1, "mesh: it is missing", "mark", "--case", scratch_path("case.json"));
   scratch_write_text("case.json", "[]");
-  RUN_REFUSED(1, "the case must be an object", "--case", scratch_path("case.json"));
-  RUN_REFUSED(1, "missing.json: cannot be read", "--case", "missing.json");
+  RUN_REFUSED(1, "the case must be an object", "mark", "--case", scratch_path("case.json"));
+  RUN_REFUSED(1, "missing.json: cannot be read", "mark", "--case", "missing.json");
 }
 
 static void test_refused_options(void **state) {
   (void)state;
   write_case("{\"valve\": \"mitral\"}", "");
   const char *file = scratch_path("case.json");
-  RUN_REFUSED(2, "--movie needs times: ", "--case", file, "--movie", "a.avi.mp4");
-  RUN_REFUSED(2, "--series-table needs times: ", "--case", file, "--series-table", scratch_path("a.csv"));
-  RUN_REFUSED(2, "--all-cells needs times: ", "--case", file, "--all-cells");
-  RUN_REFUSED(2, "--valve has no effect with --case, which says it itself", "--case", file, "--valve", "mitral");
-  RUN_REFUSED(2, "--resistance has no effect with --case", "--case", file, "--resistance", "1");
-  RUN_REFUSED(2, "--half-thickness has no effect with --case", "--case", file, "--half-thickness", "1");
-  RUN_REFUSED(2, "--prefix has no effect with --case", "--case", file, "--prefix", "x", "--output", "o.vtu");
-  RUN_REFUSED(2, "--stats has no effect with --case", "--case", file, "--stats", "-");
-  RUN_REFUSED(2, "is also the file of MESH", "--case", file, "--output", scratch_path("in.vtu"), "--replace");
-  RUN_REFUSED(2, "is also the file of --case", "--case", file, "--surface-output", scratch_path("case.json"));
+  RUN_REFUSED(2, "--movie needs times: ", "mark", "--case", file, "--movie", "a.avi.mp4");
+  RUN_REFUSED(2, "--series-table needs times: ", "mark", "--case", file, "--series-table", scratch_path("a.csv"));
+  RUN_REFUSED(2, "--all-cells needs times: ", "mark", "--case", file, "--all-cells");
+  RUN_REFUSED(2, "--valve excludes --case", "mark", "--case", file, "--valve", "mitral");
+  RUN_REFUSED(2, "--resistance excludes --case", "mark", "--case", file, "--resistance", "1");
+  RUN_REFUSED(2, "--half-thickness excludes --case", "mark", "--case", file, "--half-thickness", "1");
+  RUN_REFUSED(2, "--prefix excludes --case", "mark", "--case", file, "--prefix", "x", "--output", "o.vtu");
+  RUN_REFUSED(2, "--stats excludes --case", "mark", "--case", file, "--stats", "-");
+  RUN_REFUSED(2, "is also the file of MESH", "mark", "--case", file, "--output", scratch_path("in.vtu"), "--replace");
+  RUN_REFUSED(2, "is also the file of --case", "mark", "--case", file, "--surface-output", scratch_path("case.json"));
 }
 
 static int make_heart(void **state) {

@@ -16,21 +16,21 @@ static void test_texts(void **state) {
   RUN_REFUSED(1,
               "dir/heart.msh: a mesh must be a .vtu or .vtk file; gmsh converts it: gmsh -save dir/heart.msh -format "
               "vtk -o dir/heart.vtk\n",
-              "dir/heart.msh");
-  RUN_REFUSED(1, "; gmsh converts it: gmsh -save heart.UNV -format vtk -o heart.vtk\n", "heart.UNV");
-  RUN_REFUSED(1, "; meshio converts it: meshio convert heart.inp heart.vtu\n", "heart.inp");
-  RUN_REFUSED(1, "gmsh -save 'my heart.msh' -format vtk -o 'my heart.vtk'\n", "my heart.msh");
-  RUN_REFUSED(1, "gmsh -save 'it'\\''s.msh' -format vtk -o 'it'\\''s.vtk'\n", "it's.msh");
-  RUN_REFUSED(1, "gmsh -save ./-x.msh -format vtk -o ./-x.vtk\n", "--", "-x.msh");
-  RUN_REFUSED(1, "valve.stl: a mesh must be a .vtu or .vtk file; --surface takes a surface\n", "valve.stl");
-  RUN_REFUSED(1, "a mesh must be a .vtu or .vtk file\n", "heart.doc");
-  RUN_REFUSED(1, "a mesh must be a .vtu or .vtk file\n", "he\nart.msh");
+              "mark", "dir/heart.msh");
+  RUN_REFUSED(1, "; gmsh converts it: gmsh -save heart.UNV -format vtk -o heart.vtk\n", "mark", "heart.UNV");
+  RUN_REFUSED(1, "; meshio converts it: meshio convert heart.inp heart.vtu\n", "mark", "heart.inp");
+  RUN_REFUSED(1, "gmsh -save 'my heart.msh' -format vtk -o 'my heart.vtk'\n", "mark", "my heart.msh");
+  RUN_REFUSED(1, "gmsh -save 'it'\\''s.msh' -format vtk -o 'it'\\''s.vtk'\n", "mark", "it's.msh");
+  RUN_REFUSED(1, "gmsh -save ./-x.msh -format vtk -o ./-x.vtk\n", "mark", "--", "-x.msh");
+  RUN_REFUSED(1, "valve.stl: a mesh must be a .vtu or .vtk file; --surface takes a surface\n", "mark", "valve.stl");
+  RUN_REFUSED(1, "a mesh must be a .vtu or .vtk file\n", "mark", "heart.doc");
+  RUN_REFUSED(1, "a mesh must be a .vtu or .vtk file\n", "mark", "he\nart.msh");
   RUN_REFUSED(1,
               "valve.ply: a surface must be a .vtp, .vtu or .stl file; gmsh converts it: gmsh -save valve.ply -format "
               "stl -o valve.stl\n",
-              mesh, "--surface", "valve.ply");
-  RUN_REFUSED(1, "; meshio converts it: meshio convert valve.obj valve.stl\n", mesh, "--surface", "valve.obj");
-  RUN_REFUSED(1, "a surface must be a .vtp, .vtu or .stl file\n", mesh, "--surface", "valve.doc");
+              "mark", mesh, "--surface", "valve.ply");
+  RUN_REFUSED(1, "; meshio converts it: meshio convert valve.obj valve.stl\n", "mark", mesh, "--surface", "valve.obj");
+  RUN_REFUSED(1, "a surface must be a .vtp, .vtu or .stl file\n", "mark", mesh, "--surface", "valve.doc");
 }
 
 #if defined(RIIS_GMSH) || defined(RIIS_MESHIO)
@@ -70,8 +70,8 @@ static void test_meshes_by_gmsh(void **state) {
     snprintf(name, sizeof name, "cube_%d.%s", i, endings[i]);
     snprintf(path, sizeof path, "%s", scratch_path(name));
     make_by_gmsh(3, formats[i], path);
-    RUN_REFUSED(1, "gmsh converts it", path);
-    run_program(convert("gmsh", RIIS_GMSH), "--half-thickness", "0.6", "--stats", "-", NULL);
+    RUN_REFUSED(1, "gmsh converts it", "mark", path);
+    run_program("mark", convert("gmsh", RIIS_GMSH), "--half-thickness", "0.6", "--stats", "-", NULL);
     assert_int_equal(program_exit_code, 0);
     assert_true(json_number(program_out, "n_nodes") > 100 && json_number(program_out, "n_marked") > 5);
   }
@@ -94,9 +94,9 @@ static void test_surfaces_by_gmsh(void **state) {
           "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
           "-1 -1 -1\n1 -1 -1\n1 1 -1\n-1 1 -1\n3 0 1 2\n3 0 2 3\n");
     }
-    RUN_REFUSED(1, "gmsh converts it", "--surface", path, "--surface-output", scratch_path("skin.vtp"));
-    RUN_FINE(scratch_path("in.vtu"), "--surface", convert("gmsh", RIIS_GMSH), "--half-thickness", "0.4", "--stats", "-",
-             "--allow-none");
+    RUN_REFUSED(1, "gmsh converts it", "surface", "--surface", path, "--output", scratch_path("skin.vtp"));
+    RUN_FINE("mark", scratch_path("in.vtu"), "--surface", convert("gmsh", RIIS_GMSH), "--half-thickness", "0.4",
+             "--stats", "-", "--allow-none");
     const double area = json_number(program_out, "area");
     assert_true(i < 7 ? area > 95.99 && area < 96.01 : area == 4);
   }
@@ -117,13 +117,13 @@ static void test_meshio(void **state) {
   for (int i = 0; i < 2; ++i) {
     char path[256];
     snprintf(path, sizeof path, "%s", scratch_path(meshes[i]));
-    RUN_REFUSED(1, "meshio converts it", path);
-    run_program(convert("meshio", RIIS_MESHIO), "--half-thickness", "0.6", "--stats", "-", NULL);
+    RUN_REFUSED(1, "meshio converts it", "mark", path);
+    run_program("mark", convert("meshio", RIIS_MESHIO), "--half-thickness", "0.6", "--stats", "-", NULL);
     assert_int_equal(program_exit_code, 0);
     assert_true(json_number(program_out, "n_nodes") == 4 && json_number(program_out, "n_cells") == 1);
     snprintf(path, sizeof path, "%s", scratch_path(surfaces[i]));
-    RUN_REFUSED(1, "meshio converts it", "--surface", path, "--surface-output", scratch_path("skin.vtp"));
-    RUN_FINE("--surface", convert("meshio", RIIS_MESHIO), "--surface-output", scratch_path("skin.vtp"));
+    RUN_REFUSED(1, "meshio converts it", "surface", "--surface", path, "--output", scratch_path("skin.vtp"));
+    RUN_FINE("surface", "--surface", convert("meshio", RIIS_MESHIO), "--output", scratch_path("skin.vtp"));
     assert_non_null(strstr(program_out, "1 triangle, area 2\n"));
   }
 }

@@ -40,35 +40,35 @@ static void expect_warning(const char *begins) {
 static void the_first_opening_is_named(void **state) {
   (void)state;
   const char *file = write_squares();
-  run_program("--valve", file, "--check-crossing", NULL);
-  expect_warning("riis-mark: leaflets 0 and 1 cross at opening 0.25: ");
+  run_program("check", "crossings", "--valve", file, NULL);
+  expect_warning("riis: leaflets 0 and 1 cross at opening 0.25: ");
   assert_non_null(strstr(program_crossings,
                          " of triangles go through each other, along a length of 1; the deepest is 0.005 deep, "
                          "at 0.5 "));
   assert_non_null(strstr(program_out, "crossing  "));
   assert_non_null(strstr(program_out, " at opening 0.25, along a length of 1, up to 0.005 deep\n"));
   /* Warnings stay. */
-  run_program("--valve", file, "--check-crossing", "--quiet", NULL);
-  expect_warning("riis-mark: leaflets 0 and 1 cross at opening 0.25: ");
+  run_program("check", "crossings", "--valve", file, "--quiet", NULL);
+  expect_warning("riis: leaflets 0 and 1 cross at opening 0.25: ");
   assert_string_equal(program_out, "");
 }
 
 static void a_given_opening_is_the_only_one(void **state) {
   (void)state;
   const char *file = write_squares();
-  RUN_FINE("--valve", file, "--check-crossing", "--opening", "0.245");
+  RUN_FINE("check", "crossings", "--valve", file, "--opening", "0.245");
   assert_non_null(strstr(program_out, "crossing  none: no triangles go through each other\n"));
-  RUN_FINE("--valve", file, "--check-crossing", "--set", "opening=0.2");
-  run_program("--valve", file, "--check-crossing", "--opening", "0.5", NULL);
-  expect_warning("riis-mark: leaflets 0 and 1 cross at opening 0.5: ");
+  RUN_FINE("check", "crossings", "--valve", file, "--set", "opening=0.2");
+  run_program("check", "crossings", "--valve", file, "--opening", "0.5", NULL);
+  expect_warning("riis: leaflets 0 and 1 cross at opening 0.5: ");
   /* Without the option the state that the user gave does not count. */
-  run_program("--valve", file, "--opening", "0.5", "--surface-output", scratch_path("crossed.vtp"), NULL);
-  expect_warning("riis-mark: leaflets 0 and 1 cross at opening 0.5: ");
-  run_program("--valve", file, "--opening", "0.1", "--surface-output", scratch_path("sound.vtp"), NULL);
-  expect_warning("riis-mark: leaflets 0 and 1 cross at opening 0.5: ");
+  run_program("surface", "--valve", file, "--opening", "0.5", "--output", scratch_path("crossed.vtp"), NULL);
+  expect_warning("riis: leaflets 0 and 1 cross at opening 0.5: ");
+  run_program("surface", "--valve", file, "--opening", "0.1", "--output", scratch_path("sound.vtp"), NULL);
+  expect_warning("riis: leaflets 0 and 1 cross at opening 0.5: ");
   /* A file has one state. */
-  run_program("--surface", scratch_path("crossed.vtp"), "--check-crossing", NULL);
-  expect_warning("riis-mark: leaflets 0 and 1 cross: ");
+  run_program("check", "crossings", "--surface", scratch_path("crossed.vtp"), NULL);
+  expect_warning("riis: leaflets 0 and 1 cross: ");
   assert_non_null(strstr(program_crossings, "along a length of 1; "));
 }
 
@@ -84,9 +84,9 @@ static void numbers_are_those_of_the_c_interface(void **state) {
   expect_fine(find_crossings_in(surface, NULL, &by_c));
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);
-  run_program(scratch_path("in.vtu"), "--set", "right.rotation=0,0,60", "--opening", "0", "--check-crossing", "--stats",
-              "-", NULL);
-  expect_warning("riis-mark: leaflets right and left cross at opening 0: ");
+  run_program("check", "crossings", "--set", "right.rotation=0,0,60", "--opening", "0",
+              "--stats", "-", NULL);
+  expect_warning("riis: leaflets right and left cross at opening 0: ");
   assert_true(by_c.deepest_leaflet_id[0] == RIIS_LEAFLET_RIGHT && by_c.deepest_leaflet_id[1] == RIIS_LEAFLET_LEFT);
   const char *json = strstr(program_out, "\"crossings\"");
   assert_non_null(json);
@@ -102,8 +102,8 @@ static void a_leaflet_may_cross_itself(void **state) {
   strcpy(text, squares);
   *(strstr(text, "\"leaflet\": 1") + strlen("\"leaflet\": ")) = '0';
   scratch_write_text("one.json", text);
-  run_program("--valve", scratch_path("one.json"), "--check-crossing", NULL);
-  expect_warning("riis-mark: leaflet 0 crosses itself at opening 0.25: ");
+  run_program("check", "crossings", "--valve", scratch_path("one.json"), NULL);
+  expect_warning("riis: leaflet 0 crosses itself at opening 0.25: ");
 }
 
 static void the_library_s_valves_do_not_cross(void **state) {
@@ -111,23 +111,23 @@ static void the_library_s_valves_do_not_cross(void **state) {
   static const char all[] = "crossing  none: no triangles go through each other at 101 openings from 0 to 1\n";
   static const char *const kinds[] = {"aortic", "trileaflet", "bileaflet", "mitral"};
   for (int kind = 0; kind < 4; ++kind) {
-    RUN_FINE("--valve", kinds[kind], "--check-crossing");
+    RUN_FINE("check", "crossings", "--valve", kinds[kind]);
     assert_non_null(strstr(program_out, all));
   }
   static const char *const files[] = {RIIS_EXAMPLES "/prosthesis.json", RIIS_EXAMPLES "/valves/bicuspid.json"};
   for (int file = 0; file < 2; ++file) {
-    RUN_FINE("--valve", files[file], "--check-crossing");
+    RUN_FINE("check", "crossings", "--valve", files[file]);
     assert_non_null(strstr(program_out, all));
   }
   static const char *const parameters[] = {RIIS_EXAMPLES "/valves/pulmonary.json",
                                            RIIS_EXAMPLES "/valves/stenotic.json"};
   for (int file = 0; file < 2; ++file) {
-    RUN_FINE("--valve", "trileaflet", "--params", parameters[file], "--check-crossing");
+    RUN_FINE("check", "crossings", "--valve", "trileaflet", "--params", parameters[file]);
     assert_non_null(strstr(program_out, all));
   }
   /* Between two states, as README.md has them. */
   scratch_write_text("open.json", "{\"leaflet_radius_in\": 1, \"bending_radius_in\": 1.1}");
-  RUN_FINE("--params-open", scratch_path("open.json"), "--check-crossing");
+  RUN_FINE("check", "crossings", "--params-open", scratch_path("open.json"));
   assert_non_null(strstr(program_out, all));
 }
 
@@ -135,8 +135,8 @@ static void the_library_s_valves_do_not_cross(void **state) {
 
 #define TALL "--valve", "trileaflet", "--set", "leaflet_height=1.3"
 
-static const char tall_crosses[] = "riis-mark: leaflets right and non-coronary cross at opening 0: ";
-static const char advice[] = "; change the sizes, and look at all openings by --check-crossing\n";
+static const char tall_crosses[] = "riis: leaflets right and non-coronary cross at opening 0: ";
+static const char advice[] = "; change the sizes, and look at all openings by riis check crossings\n";
 
 static void expect_tall(const char *begins) {
   expect_warning(begins);
@@ -161,7 +161,7 @@ static void a_chosen_shape_is_looked_at(void **state) {
   snprintf(pairs, sizeof pairs, "%s%lld pairs of triangles", tall_crosses, (long long)by_c.n_pairs);
   const char *const openings[] = {"0", "0.7", "1"};
   for (int i = 0; i < 3; ++i) {
-    run_program(scratch_path("in.vtu"), TALL, "--opening", openings[i], "--quiet", "--stats", "-", NULL);
+    run_program("mark", scratch_path("in.vtu"), TALL, "--opening", openings[i], "--quiet", "--stats", "-", NULL);
     expect_tall(pairs);
     const char *json = strstr(program_out, "\"crossings\"");
     assert_non_null(json);
@@ -169,10 +169,10 @@ static void a_chosen_shape_is_looked_at(void **state) {
     assert_true(json_number(json, "n_pairs") == (double)by_c.n_pairs);
     assert_true(json_number(json, "depth") == by_c.deepest_depth);
   }
-  run_program(scratch_path("in.vtu"), TALL, "--strict", NULL);
+  run_program("mark", scratch_path("in.vtu"), TALL, "--strict", NULL);
   assert_int_equal(program_exit_code, 4);
   /* --check-crossing looks in its own way, and gives no advice to use it. */
-  run_program(TALL, "--check-crossing", NULL);
+  run_program("check", "crossings", TALL, NULL);
   expect_warning(tall_crosses);
   assert_null(strstr(program_crossings, advice));
 }
@@ -182,29 +182,29 @@ static void every_run_looks(void **state) {
   (void)state;
   const char *in = scratch_path("in.vtu");
   scratch_write_text("tall.json", "{\"leaflet_height\": 1.3}");
-  run_program(in, "--valve", "trileaflet", "--params", scratch_path("tall.json"), NULL);
+  run_program("mark", in, "--valve", "trileaflet", "--params", scratch_path("tall.json"), NULL);
   expect_tall(tall_crosses);
-  run_program("--valve", write_squares(), "--surface-output", scratch_path("half_open.vtp"), NULL);
-  expect_tall("riis-mark: leaflets 0 and 1 cross at opening 0.5: ");
+  run_program("surface", "--valve", write_squares(), "--output", scratch_path("half_open.vtp"), NULL);
+  expect_tall("riis: leaflets 0 and 1 cross at opening 0.5: ");
   /* The open state alone makes another shape. Closed it is the paper's. */
   scratch_write_text("turned.json", "{\"right.rotation\": [0, 0, 60]}");
-  run_program(in, "--valve", "aortic", "--params-open", scratch_path("turned.json"), "--opening", "0", NULL);
-  expect_tall("riis-mark: leaflets right and left cross at opening ");
-  run_program(TALL, "--states", scratch_path("states.csv"), "--state-count", "2", NULL);
+  run_program("mark", in, "--valve", "aortic", "--params-open", scratch_path("turned.json"), "--opening", "0", NULL);
+  expect_tall("riis: leaflets right and left cross at opening ");
+  run_program("states", scratch_path("states.csv"), TALL, "--count", "2", NULL);
   expect_tall(tall_crosses);
-  run_program(TALL, "--export-uris", scratch_path("uris"), "--resistance", "1", "--time-step", "0.01",
-              "--opening-seconds", "0.02", "--closing-seconds", "0.02", NULL);
+  run_program("export", scratch_path("uris"), TALL, "--resistance", "1", "--time-step", "0.01", "--opening-seconds",
+              "0.02", "--closing-seconds", "0.02", NULL);
   expect_tall(tall_crosses);
   scratch_write_text("beat.csv", "0,0\n1,1\n");
-  run_program(in, TALL, "--cycle", scratch_path("beat.csv"), "--times", "0,0.5,1", "--output", scratch_path("s.pvd"),
-              "--quiet", NULL);
+  run_program("mark", in, TALL, "--cycle", scratch_path("beat.csv"), "--times", "0,0.5,1", "--output",
+              scratch_path("s.pvd"), "--quiet", NULL);
   expect_tall(tall_crosses);
   scratch_write_text("case.json",
                      "{\"mesh\": \"in.vtu\", \"valves\": ["
                      "{\"name\": \"a\", \"valve\": \"trileaflet\", \"parameters\": {\"leaflet_height\": 1.3}},"
                      "{\"name\": \"b\", \"valve\": \"trileaflet\"}]}");
-  run_program("--case", scratch_path("case.json"), "--output", scratch_path("case.vtu"), NULL);
-  expect_tall("riis-mark: a: leaflets right and non-coronary cross at opening 0: ");
+  run_program("mark", "--case", scratch_path("case.json"), "--output", scratch_path("case.vtu"), NULL);
+  expect_tall("riis: a: leaflets right and non-coronary cross at opening 0: ");
 }
 
 /* Placement and opening choose no shape. Hinges reach into a housing, which is sound. */
@@ -213,32 +213,30 @@ static void sound_shapes_are_not_named(void **state) {
   static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet"};
   const char *in = scratch_path("in.vtu");
   for (int kind = 0; kind < 4; ++kind) {
-    RUN_FINE(in, "--valve", kinds[kind], "--opening", "0.4", "--rotate", "1,0,0,10", "--translate", "0,0,0.1",
+    RUN_FINE("mark", in, "--valve", kinds[kind], "--opening", "0.4", "--rotate", "1,0,0,10", "--translate", "0,0,0.1",
              "--half-thickness", "0.2", "--stats", "-");
     assert_string_equal(program_crossings, "");
     assert_null(strstr(program_out, "\"crossings\""));
   }
-  RUN_FINE(in, "--valve", "bileaflet", "--set", "ring_height=0.5", "--stats", "-");
+  RUN_FINE("mark", in, "--valve", "bileaflet", "--set", "ring_height=0.5", "--stats", "-");
   assert_string_equal(program_crossings, "");
   assert_true(json_number(strstr(program_out, "\"crossings\""), "n_openings") == 3);
-  run_program("--valve", "bileaflet", "--set", "ring_height=0.5", "--check-crossing", NULL);
+  run_program("check", "crossings", "--valve", "bileaflet", "--set", "ring_height=0.5", NULL);
   assert_true(program_crossings[0] != 0);
-  RUN_FINE(in, "--valve", "mitral", "--set", "anterior_length=2.2", "--triangulation", "fixed");
+  RUN_FINE("mark", in, "--valve", "mitral", "--set", "anterior_length=2.2", "--triangulation", "fixed");
   assert_string_equal(program_crossings, "");
   static const char *const files[] = {RIIS_EXAMPLES "/prosthesis.json", RIIS_EXAMPLES "/valves/bicuspid.json"};
   for (int file = 0; file < 2; ++file) {
-    RUN_FINE(in, "--valve", files[file], "--allow-none");
+    RUN_FINE("mark", in, "--valve", files[file], "--allow-none");
     assert_string_equal(program_crossings, "");
   }
 }
 
 static void what_has_no_effect_is_refused(void **state) {
   (void)state;
-  RUN_REFUSED(2, "--check-crossing has no effect with --print-params", "--check-crossing", "--print-params");
-  RUN_REFUSED(2, "--check-crossing has no effect with --case", "--case", RIIS_EXAMPLES "/beating_valves.json",
-              "--check-crossing");
-  RUN_REFUSED(2, "--check-crossing has no effect with --times", scratch_path("in.vtu"), "--valve", "mitral", "--cycle",
-              "beat.csv", "--times", "0,1", "--check-crossing");
+  RUN_REFUSED(2, "in.vtu is one argument too many", "check", "crossings", scratch_path("in.vtu"));
+  RUN_REFUSED(2, "--case is not an option", "check", "crossings", "--case", RIIS_EXAMPLES "/beating_valves.json");
+  RUN_REFUSED(2, "--times is not an option", "check", "crossings", "--valve", "mitral", "--times", "0,1");
 }
 
 int main(void) {

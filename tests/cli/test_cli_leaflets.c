@@ -50,8 +50,8 @@ static void expect_leaflets(const char *path, const int leaflets[3]) {
   for (int k = 0; k < 3; ++k) assert_true(n_of[k] > 10);
 }
 
-#define RUN_LEAFLETS(surface, ...)                                                                            \
-  RUN_FINE(scratch_path("in.vtu"), "--surface", scratch_path(surface), "--half-thickness", "0.2", "--output", \
+#define RUN_LEAFLETS(surface, ...)                                                                                    \
+  RUN_FINE("mark", scratch_path("in.vtu"), "--surface", scratch_path(surface), "--half-thickness", "0.2", "--output", \
            scratch_path("out.vtu"), __VA_ARGS__)
 
 static void test_leaflets(void **state) {
@@ -65,7 +65,7 @@ static void test_leaflets(void **state) {
   RUN_LEAFLETS("squares.stl", "--leaflets", "connected", "--stats", "-");
   assert_true(json_number(program_out, "n_leaflets") == 3);
   /* The written surface keeps the leaflets and has other arrays: riis_triangle is the triangle's own number. */
-  RUN_FINE("--surface", scratch_path("squares.stl"), "--leaflets", "connected", "--surface-output",
+  RUN_FINE("surface", "--surface", scratch_path("squares.stl"), "--leaflets", "connected", "--output",
            scratch_path("squares.vtp"));
   RUN_LEAFLETS("squares.vtp", "--quiet");
   expect_leaflets(scratch_path("out.vtu"), (int[3]){0, 1, 2});
@@ -80,11 +80,11 @@ static void test_leaflets(void **state) {
 static void test_leaflet_refusals(void **state) {
   (void)state;
   const char *mesh = scratch_path("in.vtu");
-  RUN_FINE("--surface", scratch_path("squares.stl"), "--surface-output", scratch_path("s.vtp"));
-  RUN_REFUSED(1, "s.vtp: has no cell array colour; there are: riis_leaflet, riis_patch, riis_triangle", mesh,
+  RUN_FINE("surface", "--surface", scratch_path("squares.stl"), "--output", scratch_path("s.vtp"));
+  RUN_REFUSED(1, "s.vtp: has no cell array colour; there are: riis_leaflet, riis_patch, riis_triangle", "mark", mesh,
               "--surface", scratch_path("s.vtp"), "--leaflets", "colour");
-  RUN_REFUSED(1, "squares.stl: has no cell array colour; there is none", mesh, "--surface", scratch_path("squares.stl"),
-              "--leaflets", "colour");
+  RUN_REFUSED(1, "squares.stl: has no cell array colour; there is none", "mark", mesh, "--surface",
+              scratch_path("squares.stl"), "--leaflets", "colour");
   scratch_write_text(
       "bad.vtp",
       "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"><PolyData>\n"
@@ -94,9 +94,9 @@ static void test_leaflet_refusals(void **state) {
       "</Points>\n<Polys><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2</DataArray>"
       "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">3</DataArray></Polys>\n"
       "</Piece></PolyData></VTKFile>\n");
-  RUN_REFUSED(1, "bad.vtp: cell array half: cell 0 has 1.5", mesh, "--surface", scratch_path("bad.vtp"), "--leaflets",
-              "half");
-  RUN_REFUSED(2, "--leaflets: the value is empty", mesh, "--surface", scratch_path("s.vtp"), "--leaflets", "");
+  RUN_REFUSED(1, "bad.vtp: cell array half: cell 0 has 1.5", "mark", mesh, "--surface", scratch_path("bad.vtp"),
+              "--leaflets", "half");
+  RUN_REFUSED(2, "--leaflets: the value is empty", "mark", mesh, "--surface", scratch_path("s.vtp"), "--leaflets", "");
 }
 
 static double n_marked_in(const char *path, const char *name) {
@@ -113,25 +113,25 @@ static void test_two_valves(void **state) {
   char first[256], both[256];
   snprintf(first, sizeof first, "%s", scratch_path("first.vtu"));
   snprintf(both, sizeof both, "%s", scratch_path("both.vtu"));
-  RUN_FINE(scratch_path("in.vtu"), "--output", first, "--stats", "-");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--output", first, "--stats", "-");
   const double n_aortic = json_number(program_out, "n_marked");
-  RUN_REFUSED(2, "first.vtu already has an array riis_marked: write --replace to replace it, or --prefix NAME", first,
-              "--valve", "mitral", "--output", both);
+  RUN_REFUSED(2, "first.vtu already has an array riis_marked: write --replace to replace it, or --prefix NAME", "mark",
+              first, "--valve", "mitral", "--output", both);
   assert_int_equal(scratch_exists("both.vtu"), 0);
-  RUN_FINE(first, "--valve", "mitral", "--prefix", "mitral", "--output", both, "--stats", "-");
+  RUN_FINE("mark", first, "--valve", "mitral", "--prefix", "mitral", "--output", both, "--stats", "-");
   const double n_mitral = json_number(program_out, "n_marked");
   assert_true(n_mitral > 0 && n_mitral != n_aortic);
   assert_true(n_marked_in(both, "riis_marked") == n_aortic);
   assert_true(n_marked_in(both, "mitral_marked") == n_mitral);
   assert_int_equal(shim_read_array(both, 'p', "mitral_distance", NULL, NULL, NULL, NULL), 1);
   assert_int_equal(shim_read_array(both, 'p', "mitral_leaflet", NULL, NULL, NULL, NULL), 1);
-  RUN_REFUSED(2, "both.vtu already has an array mitral_marked", both, "--prefix", "mitral", "--output", first);
-  RUN_FINE(both, "--replace", "--prefix", "mitral", "--output", first, "--quiet");
+  RUN_REFUSED(2, "both.vtu already has an array mitral_marked", "mark", both, "--prefix", "mitral", "--output", first);
+  RUN_FINE("mark", both, "--replace", "--prefix", "mitral", "--output", first, "--quiet");
   assert_true(n_marked_in(first, "mitral_marked") == n_aortic);
-  RUN_FINE(both, "--valve", "mitral", "--replace", "--output", first, "--quiet");
+  RUN_FINE("mark", both, "--valve", "mitral", "--replace", "--output", first, "--quiet");
   assert_true(n_marked_in(first, "riis_marked") == n_mitral);
   /* Without an output there is nothing to replace. */
-  RUN_FINE(both, "--stats", "-");
+  RUN_FINE("mark", both, "--stats", "-");
   assert_true(json_number(program_out, "n_marked") == n_aortic);
 }
 

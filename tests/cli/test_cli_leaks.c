@@ -72,12 +72,12 @@ static void expect_advice(const char *name, const char *kind) {
   const riis_leak_list leaks = leaks_by_c(name, surface);
   riis_surface_destroy(&surface);
   assert_true(leaks.n_edges > 1);
-  run_program(scratch_path(name), "--valve", kind, "--opening", "0", "--quiet", "--stats", scratch_path("stats.json"),
-              NULL);
+  run_program("mark", scratch_path(name), "--valve", kind, "--opening", "0", "--quiet", "--stats",
+              scratch_path("stats.json"), NULL);
   assert_int_equal(program_exit_code, 0);
   char expected[256];
   snprintf(expected, sizeof expected,
-           "riis-mark: the surface leaks: %d edges cross it between two unmarked nodes, the longest (%.3g) at ",
+           "riis: the surface leaks: %d edges cross it between two unmarked nodes, the longest (%.3g) at ",
            (int)leaks.n_edges, leaks.longest_length);
   assert_int_equal(strncmp(program_leaks, expected, strlen(expected)), 0);
   /* In the coarsest meshes the half thickness does not fit the edges at all. That warning comes first, and gives the advice. */
@@ -97,7 +97,7 @@ static void expect_advice(const char *name, const char *kind) {
   snprintf(typed, sizeof typed, "%g", closing);
   if (!earlier) assert_int_equal(sscanf(strstr(program_leaks, "--half-thickness ") + 17, "%31s", typed), 1);
   assert_true(strtod(typed, NULL) == closing && strlen(typed) <= 5);
-  RUN_FINE(scratch_path(name), "--valve", kind, "--opening", "0", "--half-thickness", typed, "--stats", "-");
+  RUN_FINE("mark", scratch_path(name), "--valve", kind, "--opening", "0", "--half-thickness", typed, "--stats", "-");
   assert_string_equal(program_leaks, "");
   assert_true(json_number(program_out, "n_leaking_edges") == 0);
   assert_true(json_has_text(program_out, "closing_half_thickness", "null"));
@@ -125,7 +125,7 @@ static void test_fine_meshes_do_not(void **state) {
   for (int i = 0; i < 2; ++i) {
     riis_surface *surface = make_surface(kinds[i], 0.1);
     write_mesh("fine.vtu", surface, 0.2);
-    RUN_FINE(scratch_path("fine.vtu"), "--valve", kinds[i], "--opening", "0");
+    RUN_FINE("mark", scratch_path("fine.vtu"), "--valve", kinds[i], "--opening", "0");
     assert_string_equal(program_leaks, "");
     assert_non_null(strstr(program_out, "leaks     none: no edge crosses the surface between unmarked nodes\n"));
     riis_surface_destroy(&surface);
@@ -140,16 +140,16 @@ static void test_surface_from_file(void **state) {
   expect_fine(riis_vtk_surface_write(surface, scratch_path("valve.vtp")));
   const riis_leak_list leaks = leaks_by_c("coarse.vtu", surface);
   riis_surface_destroy(&surface);
-  run_program(scratch_path("coarse.vtu"), "--surface", scratch_path("valve.vtp"), "--stats", "-", NULL);
+  run_program("mark", scratch_path("coarse.vtu"), "--surface", scratch_path("valve.vtp"), "--stats", "-", NULL);
   assert_true(json_number(program_out, "n_leaking_edges") == (double)leaks.n_edges);
   const double closing = json_number(program_out, "closing_half_thickness");
   assert_true(closing >= leaks.half_thickness && closing <= 1.01 * leaks.half_thickness);
   char text[32];
   snprintf(text, sizeof text, "%.17g", leaks.half_thickness);
-  RUN_FINE(scratch_path("coarse.vtu"), "--surface", scratch_path("valve.vtp"), "--half-thickness", text);
+  RUN_FINE("mark", scratch_path("coarse.vtu"), "--surface", scratch_path("valve.vtp"), "--half-thickness", text);
   assert_string_equal(program_leaks, "");
   snprintf(text, sizeof text, "%.17g", nextafter(leaks.half_thickness, 0));
-  RUN_FINE(scratch_path("coarse.vtu"), "--surface", scratch_path("valve.vtp"), "--half-thickness", text);
+  RUN_FINE("mark", scratch_path("coarse.vtu"), "--surface", scratch_path("valve.vtp"), "--half-thickness", text);
   assert_non_null(strstr(program_leaks, " edge"));
 }
 
@@ -163,16 +163,16 @@ static void test_searches_and_distances(void **state) {
   const char *const names[3] = {"exhaustive", "neighbor", "clusters"};
   static char first[longest_output];
   for (int i = 0; i < 3; ++i) {
-    run_program(scratch_path("coarse.vtu"), "--valve", "mitral", "--opening", "0", "--search", names[i], NULL);
+    run_program("mark", scratch_path("coarse.vtu"), "--valve", "mitral", "--opening", "0", "--search", names[i], NULL);
     assert_int_equal(program_exit_code, 0); /* succeeds with a warning that the mesh is coarse */
     assert_non_null(strstr(program_out, " edges between unmarked nodes across the surface, length up to 0."));
     if (i == 0) memcpy(first, program_leaks, sizeof first);
     assert_true(first[0] && strcmp(program_leaks, first) == 0);
   }
-  run_program(scratch_path("finer.vtu"), "--valve", "mitral", "--opening", "0", "--distance", "sampling", NULL);
+  run_program("mark", scratch_path("finer.vtu"), "--valve", "mitral", "--opening", "0", "--distance", "sampling", NULL);
   assert_int_equal(program_exit_code, 0);
   assert_non_null(strstr(program_leaks, "--half-thickness"));
-  run_program(scratch_path("coarse.vtu"), "--valve", "mitral", "--opening", "0", "--search", "paper", NULL);
+  run_program("mark", scratch_path("coarse.vtu"), "--valve", "mitral", "--opening", "0", "--search", "paper", NULL);
   assert_int_equal(program_exit_code, 3); /* the search's single start is not marked, so it finds no node */
   assert_non_null(strstr(program_err, "may be incomplete"));
   assert_non_null(strstr(program_leaks, " between two unmarked nodes"));
@@ -188,10 +188,10 @@ static void test_one_edge(void **state) {
   scratch_write_text("one.stl",
                      "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
                      "endloop\nendfacet\nendsolid\n");
-  RUN_FINE(scratch_path("one.vtk"), "--surface", scratch_path("one.stl"));
+  RUN_FINE("mark", scratch_path("one.vtk"), "--surface", scratch_path("one.stl"));
   assert_string_equal(
       program_leaks,
-      "riis-mark: the surface leaks: 1 edge of length 0.75 crosses it between two unmarked nodes at 0.2 0.2 "
+      "riis: the surface leaks: 1 edge of length 0.75 crosses it between two unmarked nodes at 0.2 0.2 "
       "-0.12; --half-thickness 0.25 closes it; edges of at most two half thicknesses (0.2) do not leak\n");
   assert_non_null(
       strstr(program_out, "leaks     1 edge between unmarked nodes across the surface, length up to 0.75\n"));
@@ -222,7 +222,7 @@ static void test_places(void **state) {
     scratch_write_text("small.vtk", mesh);
     scratch_write_text("small.stl", surface);
     const char *const unit = meshes[i].unit;
-    RUN_FINE(scratch_path("small.vtk"), "--surface", scratch_path("small.stl"), "--half-thickness",
+    RUN_FINE("mark", scratch_path("small.vtk"), "--surface", scratch_path("small.stl"), "--half-thickness",
              meshes[i].half_thickness, "--allow-none", unit ? "--unit" : NULL, unit, "--surface-unit", unit);
     const char *const at = strstr(program_leaks, " between two unmarked nodes at ");
     assert_non_null(at);
@@ -259,7 +259,7 @@ static void test_quadratic_cells(void **state) {
   const riis_leak_list all = leaks_of_mitral("cut.vtu"), expected = leaks_of_mitral("corners.vtu");
   assert_true(expected.n_edges > 20 && expected.n_edges <= all.n_edges);
   assert_true(all.n_edges < expected.n_edges + quadratic.n_cells / 10);
-  RUN_FINE(scratch_path("quadratic.vtu"), "--valve", "mitral", "--opening", "0", "--stats", "-");
+  RUN_FINE("mark", scratch_path("quadratic.vtu"), "--valve", "mitral", "--opening", "0", "--stats", "-");
   assert_true(json_number(program_out, "n_leaking_edges") == (double)expected.n_edges);
   assert_true(json_number(program_out, "longest_leaking_edge") == expected.longest_length);
   assert_true(json_number(program_out, "n_volume_cells") == (double)quadratic.n_cells);
@@ -288,12 +288,12 @@ static void test_polyhedra(void **state) {
   plain_mesh hexahedra = box_of_mitral(9);
   for (int i = 0; i < 3; ++i) {
     plain_write(names[i], &hexahedra, (enum plain_layout)i, 2);
-    run_program(scratch_path(names[i]), "--valve", "mitral", "--opening", "0", "--stats", "-", NULL);
+    run_program("mark", scratch_path(names[i]), "--valve", "mitral", "--opening", "0", "--stats", "-", NULL);
     assert_int_equal(program_exit_code, 0);
     assert_true(json_number(program_out, "n_leaking_edges") > 10);
     keep("\"n_leaking_edges\"", said[i][0]);
-    run_program(scratch_path(names[i]), "--valve", "mitral", "--opening", "0", "--stats", "-", "--check-leaks",
-                "0,0,2.1", "1,1,0.6", NULL);
+    run_program("check", "leaks", scratch_path(names[i]), "--valve", "mitral", "--opening", "0", "--stats", "-",
+                "--between", "0,0,2.1", "1,1,0.6", NULL);
     assert_int_equal(program_exit_code, 0);
     keep("\"passage\"", said[i][1]);
     for (int k = 0; k < 2; ++k) assert_string_equal(said[i][k], said[0][k]);
@@ -304,17 +304,17 @@ static void test_polyhedra(void **state) {
 /* Runs the program on this mesh, far from the valve or around it, and expects that it calls leaks unknown for this reason. */
 static void expect_unknown(const char *name, const char *place, int exit_code, const char *reason) {
   char text[512];
-  run_program(scratch_path(name), "--translate", place, "--quiet", "--stats", scratch_path("stats.json"), NULL);
+  run_program("mark", scratch_path(name), "--translate", place, "--quiet", "--stats", scratch_path("stats.json"), NULL);
   assert_int_equal(program_exit_code, exit_code);
-  snprintf(text, sizeof text, "riis-mark: leaks of the surface are unknown: %s in %s\n", reason, scratch_path(name));
+  snprintf(text, sizeof text, "riis: leaks of the surface are unknown: %s in %s\n", reason, scratch_path(name));
   if (strstr(reason, "no volume"))
-    snprintf(text, sizeof text, "riis-mark: leaks of the surface are unknown: %s %s\n", scratch_path(name), reason);
+    snprintf(text, sizeof text, "riis: leaks of the surface are unknown: %s %s\n", scratch_path(name), reason);
   if (!strstr(program_err, text)) fail_msg("no '%s' in '%s'", text, program_err);
   char *json = scratch_read(scratch_path("stats.json"), NULL);
   assert_true(json_has_text(json, "n_leaking_edges", "null"));
   assert_true(json_has_text(json, "longest_leaking_edge", "null"));
   free(json);
-  run_program(scratch_path(name), "--translate", place, NULL);
+  run_program("mark", scratch_path(name), "--translate", place, NULL);
   snprintf(text, sizeof text, "\nleaks     unknown: %s in the mesh\n", reason);
   if (strstr(reason, "no volume")) snprintf(text, sizeof text, "\nleaks     unknown: the mesh %s\n", reason);
   assert_non_null(strstr(program_out, text));
@@ -338,23 +338,23 @@ static void test_unknown(void **state) {
     scratch_write_text("other.vtk", text);
     expect_unknown("other.vtk", "50,0,0", 3, reasons[i]);
     if (i < 3)
-      RUN_REFUSED(2, reasons[i], scratch_path("other.vtk"), "--translate", "50,0,0", "--allow-none", "--check-leaks",
-                  "0.1,0,0.6", "0,0.1,0.6");
+      RUN_REFUSED(2, reasons[i], "check", "leaks", scratch_path("other.vtk"), "--translate", "50,0,0", "--allow-none",
+                  "--between", "0.1,0,0.6", "0,0.1,0.6");
   }
   /* The tetrahedron joins its nodes, whatever else joins them. It does not join the others. */
-  run_program(scratch_path("other.vtk"), "--translate", "50,0,0", "--allow-none", "--check-leaks", "0.1,0,0.6",
-              "0,0.1,0.6", NULL);
+  run_program("check", "leaks", scratch_path("other.vtk"), "--translate", "50,0,0", "--allow-none", "--between",
+              "0.1,0,0.6", "0,0.1,0.6", NULL);
   assert_non_null(strstr(program_out, "\npassage   open: at "));
   scratch_write_text("two.vtk",
                      "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 9 double\n"
                      "0 0 0.5 1 0 0.5 0 1 0.5 0 0 1 5 0 0.5 6 0 0.5 5 1 0.5 5 0 1 4 4 4\n"
                      "CELLS 3 16\n4 0 1 2 3\n4 4 5 6 7\n5 0 1 5 7 8\nCELL_TYPES 3\n10\n10\n41\n");
-  run_program(scratch_path("two.vtk"), "--translate", "50,0,0", "--allow-none", "--check-leaks", "0.1,0,0.6",
-              "5.1,0,0.6", "--stats", scratch_path("stats.json"), NULL);
+  run_program("check", "leaks", scratch_path("two.vtk"), "--translate", "50,0,0", "--allow-none", "--stats",
+              scratch_path("stats.json"), "--between", "0.1,0,0.6", "5.1,0,0.6", NULL);
   assert_int_equal(program_exit_code, 0);
   assert_non_null(
       strstr(program_err,
-             "riis-mark: whether unmarked nodes join 0.1 0 0.6 and 5.1 0 0.6 is unknown: riis does not know the edges "
+             "riis: whether unmarked nodes join 0.1 0 0.6 and 5.1 0 0.6 is unknown: riis does not know the edges "
              "of 1 of 3 volume cells in "));
   assert_non_null(strstr(program_out, "\npassage   unknown; along the known edges none: "));
   char *json = scratch_read(scratch_path("stats.json"), NULL);
@@ -366,13 +366,13 @@ static void test_unknown(void **state) {
 static void test_other_cells(void **state) {
   (void)state;
   assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
-  RUN_FINE(scratch_path("zoo.vtu"), "--translate", "50,0,0", "--allow-none", "--quiet", "--stats",
+  RUN_FINE("mark", scratch_path("zoo.vtu"), "--translate", "50,0,0", "--allow-none", "--quiet", "--stats",
            scratch_path("stats.json"));
   char *json = scratch_read(scratch_path("stats.json"), NULL);
   assert_true(json_number(json, "n_cells_without_known_edges") == 0);
   assert_true(json_number(json, "n_volume_cells") == 3 * 8);
   free(json);
-  run_program(scratch_path("zoo.vtu"), "--translate", "50,0,0", NULL);
+  run_program("mark", scratch_path("zoo.vtu"), "--translate", "50,0,0", NULL);
   assert_non_null(strstr(program_out, "\nleaks     none: no edge crosses the surface between unmarked nodes\n"));
 }
 
@@ -387,7 +387,7 @@ static void expect_warned(int exit_code) {
   do {                                          \
     run_program(__VA_ARGS__, NULL);             \
     expect_warned(0);                           \
-    run_program("--strict", __VA_ARGS__, NULL); \
+    run_program(__VA_ARGS__, "--strict", NULL); \
     expect_warned(4);                           \
   } while (0)
 
@@ -405,29 +405,29 @@ static void test_strict(void **state) {
   scratch_write_text("one.json", "{\"mesh\": \"coarse.vtu\", \"valves\": [{\"valve\": \"mitral\", \"opening\": 0}]}");
 #define MITRAL "--valve", "mitral"
 #define CLOSED MITRAL, "--opening", "0"
-  EXPECT_STRICT(fine, CLOSED, "--half-thickness", "1.9", "--stats", scratch_path("s.json"));
-  EXPECT_STRICT(coarse, CLOSED, "--output", scratch_path("marked.vtu"), "--quiet");
+  EXPECT_STRICT("mark", fine, CLOSED, "--half-thickness", "1.9", "--stats", scratch_path("s.json"));
+  EXPECT_STRICT("mark", coarse, CLOSED, "--output", scratch_path("marked.vtu"), "--quiet");
   assert_true(scratch_exists("s.json") && scratch_exists("marked.vtu"));
-  EXPECT_STRICT(fine, MITRAL, "--check-leaks", "0,0,0.7", "0,0,1.9");
-  EXPECT_STRICT(fine, "--search", "paper", MITRAL);
-  EXPECT_STRICT("--set", "right.rotation=0,0,60", "--opening", "0", "--check-crossing");
-  EXPECT_STRICT(coarse, MITRAL, "--cycle", scratch_path("beat.csv"), "--times", "0,0.1", "--output",
+  EXPECT_STRICT("check", "leaks", fine, MITRAL, "--between", "0,0,0.7", "0,0,1.9");
+  EXPECT_STRICT("mark", fine, "--search", "paper", MITRAL);
+  EXPECT_STRICT("check", "crossings", "--set", "right.rotation=0,0,60", "--opening", "0");
+  EXPECT_STRICT("mark", coarse, MITRAL, "--cycle", scratch_path("beat.csv"), "--times", "0,0.1", "--output",
                 scratch_path("s.pvd"), "--quiet");
   assert_true(scratch_exists("s/s_0001.vtu"));
-  EXPECT_STRICT("--case", scratch_path("one.json"), "--output", scratch_path("case.vtu"));
+  EXPECT_STRICT("mark", "--case", scratch_path("one.json"), "--output", scratch_path("case.vtu"));
   for (int strict = 0; strict < 2; ++strict) {
-    run_program("--export-uris", scratch_path(strict ? "strict" : "lenient"), MITRAL, "--resistance", "1e4",
-                "--time-step", "0.05", "--cycle", scratch_path("beat.csv"), "--opening-span", "0:0.1", "--closing-span",
-                "0.1:0.2", strict ? "--strict" : NULL, NULL);
+    run_program("export", scratch_path(strict ? "strict" : "lenient"), MITRAL, "--resistance", "1e4", "--time-step",
+                "0.05", "--cycle", scratch_path("beat.csv"), "--opening-span", "0:0.1", "--closing-span", "0.1:0.2",
+                strict ? "--strict" : NULL, NULL);
     expect_warned(strict ? 4 : 0);
     assert_true(scratch_exists(strict ? "strict/normal.dat" : "lenient/normal.dat"));
   }
   /* Without a warning the status is 0, and a mesh without marks keeps its own status. */
-  RUN_FINE(fine, CLOSED, "--strict");
+  RUN_FINE("mark", fine, CLOSED, "--strict");
   assert_string_equal(program_leaks, "");
-  RUN_FINE("--print-params", "--strict");
-  RUN_FINE("--states", "-", MITRAL, "--state-count", "2", "--strict");
-  run_program(fine, "--translate", "50,0,0", "--strict", NULL);
+  RUN_FINE("params", "--strict");
+  RUN_FINE("states", "-", MITRAL, "--count", "2", "--strict");
+  run_program("mark", fine, "--translate", "50,0,0", "--strict", NULL);
   expect_warned(3);
 }
 

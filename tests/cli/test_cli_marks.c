@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The files that riis-mark writes, compared with the C interface on the same mesh. */
+ * The files that riis writes, compared with the C interface on the same mesh. */
 #include <riis/riis_vtk.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +17,8 @@ static void test_defaults(void **state) {
   expect_fine(riis_valve_create("aortic", &valve));
   mark_by_c(valve, NULL, RIIS_AUTO, RIIS_FAR_DISTANCE);
   riis_valve_destroy(&valve);
-  RUN_FINE(scratch_path("in.vtu"), "--output", scratch_path("out.vtu"), "--surface-output", scratch_path("out.vtp"));
+  RUN_FINE("mark", scratch_path("in.vtu"), "--output", scratch_path("out.vtu"), "--surface-output",
+           scratch_path("out.vtp"));
   expect_marked_mesh();
   expect_surface_output();
   assert_non_null(strstr(program_out, "2,197 nodes"));
@@ -46,7 +47,7 @@ static void test_every_number(void **state) {
   options.flip_normals = 1;
   mark_by_c(valve, &options, 0.35, -2.5);
   riis_valve_destroy(&valve);
-  RUN_FINE("--set", "root_radius=1.3", "--set", "right.leaflet_angle=60", scratch_path("in.vtu"), "--set",
+  RUN_FINE("mark", "--set", "root_radius=1.3", "--set", "right.leaflet_angle=60", scratch_path("in.vtu"), "--set",
            "left.translation=0.1,-0.05,-0.9", "--half-thickness", "0.17", "--tolerance", ".4", "--scale", "1.1",
            "--rotate", "1,-2,0.5,-12.5", "--translate", "-0.1,0,-2e-1", "--flip-normals", "--distance-limit", "0.35",
            "--far-distance", "-2.5", "--search", "exhaustive", "--threads", "1", "--output", scratch_path("out.vtu"),
@@ -80,7 +81,7 @@ static void test_every_number(void **state) {
 
 static void test_stats_on_stdout(void **state) {
   (void)state;
-  RUN_FINE(scratch_path("in.vtu"), "--stats", "-");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--stats", "-");
   assert_true(program_out[0] == '{' && strcmp(program_out + strlen(program_out) - 3, "\n}\n") == 0);
   assert_true(json_number(program_out, "n_nodes") == n_box);
 }
@@ -96,9 +97,9 @@ static void test_surface_from_file(void **state) {
   mark_by_c(valve, &options, 0.3, RIIS_FAR_DISTANCE);
   riis_valve_destroy(&valve);
   /* The triangles depend on the half thickness through the tolerance. */
-  RUN_FINE("--half-thickness", "0.2", "--surface-output", scratch_path("out.vtp"));
-  RUN_FINE(scratch_path("in.vtu"), "--surface", scratch_path("out.vtp"), "--half-thickness", "0.2", "--distance-limit",
-           "0.3", "--output", scratch_path("out.vtu"));
+  RUN_FINE("surface", "--half-thickness", "0.2", "--output", scratch_path("out.vtp"));
+  RUN_FINE("mark", scratch_path("in.vtu"), "--surface", scratch_path("out.vtp"), "--half-thickness", "0.2",
+           "--distance-limit", "0.3", "--output", scratch_path("out.vtu"));
   expect_marked_mesh();
   assert_non_null(strstr(program_out, "out.vtp: "));
 }
@@ -111,7 +112,7 @@ static void test_one_of_each(void **state) {
   scratch_write_text("one.stl",
                      "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
                      "endloop\nendfacet\nendsolid\n");
-  RUN_WITHOUT_CELLS(scratch_path("one.vtk"), "--surface", scratch_path("one.stl"), "--threads", "1");
+  RUN_WITHOUT_CELLS("mark", scratch_path("one.vtk"), "--surface", scratch_path("one.stl"), "--threads", "1");
   assert_non_null(strstr(program_out, "one.stl: 1 triangle, area 0.5\n"));
   assert_non_null(strstr(program_out, "one.vtk: 1 node, 1 cell\n"));
   assert_non_null(strstr(program_out, "1 node within the half thickness 0.1\n"));
@@ -121,10 +122,10 @@ static void test_one_of_each(void **state) {
 /* A run without marks has an exit code of its own, unless that was expected. All requested files are written. */
 static void test_no_marks(void **state) {
   (void)state;
-  run_program(scratch_path("in.vtu"), "--translate", "9,9,9", "--stats", scratch_path("none.json"), "--output",
+  run_program("mark", scratch_path("in.vtu"), "--translate", "9,9,9", "--stats", scratch_path("none.json"), "--output",
               scratch_path("none.vtu"), NULL);
   assert_int_equal(program_exit_code, 3);
-  assert_non_null(strstr(program_err, "riis-mark: no node is marked: the mesh is in x"));
+  assert_non_null(strstr(program_err, "riis: no node is marked: the mesh is in x"));
   assert_non_null(strstr(program_err, "see --translate"));
   assert_ptr_equal(strchr(program_err, '\n') + 1, program_err + strlen(program_err));
   assert_non_null(strstr(program_out, "0 nodes within the half thickness"));
@@ -132,19 +133,19 @@ static void test_no_marks(void **state) {
   assert_true(json_number(json, "n_marked") == 0);
   free(json);
   assert_int_equal(shim_read_array(scratch_path("none.vtu"), 'p', "riis_marked", NULL, NULL, NULL, NULL), 1);
-  RUN_FINE(scratch_path("in.vtu"), "--translate", "9,9,9", "--allow-none");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--translate", "9,9,9", "--allow-none");
   /* A search that may miss nodes missed all. Both are reported. */
-  run_program(scratch_path("in.vtu"), "--translate", "9,9,9", "--search", "paper", NULL);
+  run_program("mark", scratch_path("in.vtu"), "--translate", "9,9,9", "--search", "paper", NULL);
   assert_int_equal(program_exit_code, 3);
-  assert_non_null(strstr(program_err, "riis-mark: the marks may be incomplete"));
-  assert_non_null(strstr(program_err, "riis-mark: no node is marked"));
+  assert_non_null(strstr(program_err, "riis: the marks may be incomplete"));
+  assert_non_null(strstr(program_err, "riis: no node is marked"));
 }
 
 static void test_legacy_mesh(void **state) {
   (void)state;
   const double lower[3] = {-1.5, -1.5, -1}, upper[3] = {1.5, 1.5, 0};
   assert_int_equal(shim_write_box(scratch_path("in.vtk"), SHIM_LEGACY_BINARY, 6, lower, upper, 0), 1);
-  RUN_FINE(scratch_path("in.vtk"), "--output", scratch_path("from_legacy.vtu"), "--half-thickness", "0.3");
+  RUN_FINE("mark", scratch_path("in.vtk"), "--output", scratch_path("from_legacy.vtu"), "--half-thickness", "0.3");
   int64_t n = 0;
   assert_int_equal(shim_read_array(scratch_path("from_legacy.vtu"), 'p', "riis_marked", NULL, NULL, &n, NULL), 1);
   assert_int_equal(n, 216);

@@ -51,17 +51,17 @@ static void expect_sheet(const char *path, double time, double speed, double sca
 static void test_times(void **state) {
   (void)state;
   const char *moved = scratch_path("moved.vtp");
-  RUN_FINE("--surface", scratch_path("sheet.pvd"), "--time", "2.125", "--surface-output", moved);
+  RUN_FINE("surface", "--surface", scratch_path("sheet.pvd"), "--time", "2.125", "--output", moved);
   expect_sheet(moved, 0.125, 1, 1);
   assert_non_null(strstr(program_out, "sheet.pvd, time 2.125: 24 triangles"));
-  RUN_FINE("--surface", scratch_path("sheet.pvd"), "--time", "2.75", "--scale", "2", "--surface-output", moved);
+  RUN_FINE("surface", "--surface", scratch_path("sheet.pvd"), "--time", "2.75", "--scale", "2", "--output", moved);
   expect_sheet(moved, 0.75, 1, 2);
-  RUN_FINE("--surface", scratch_path("sheet.pvd"), "--time", "-7", "--surface-output", moved);
+  RUN_FINE("surface", "--surface", scratch_path("sheet.pvd"), "--time", "-7", "--output", moved);
   expect_sheet(moved, 0, 0, 1);
   /* The period takes it back to the first frame in half a second. */
-  RUN_FINE("--surface", scratch_path("sheet.pvd"), "--time", "9.25", "--period", "1.5", "--surface-output", moved);
+  RUN_FINE("surface", "--surface", scratch_path("sheet.pvd"), "--time", "9.25", "--period", "1.5", "--output", moved);
   expect_sheet(moved, 0.5, -2, 1);
-  RUN_FINE("--surface", scratch_path("closed.pvd"), "--time", "2.75", "--period", "1", "--surface-output", moved);
+  RUN_FINE("surface", "--surface", scratch_path("closed.pvd"), "--time", "2.75", "--period", "1", "--output", moved);
   expect_sheet(moved, 0.25, -1, 1);
 }
 
@@ -70,10 +70,11 @@ static void test_marks(void **state) {
   (void)state;
   static double by_motion[n_box], by_file[n_box];
   sheet_write("now.vtp", 0.25, NULL);
-  RUN_FINE(scratch_path("in.vtu"), "--surface", scratch_path("sheet.pvd"), "--time", "2.25", "--half-thickness", "0.2",
-           "--leaflets", "connected", "--quiet", "--stats", scratch_path("stats.json"), "--output", scratch_path("out.vtu"));
-  RUN_FINE(scratch_path("in.vtu"), "--surface", scratch_path("now.vtp"), "--half-thickness", "0.2", "--quiet", "--output",
-           scratch_path("file.vtu"));
+  RUN_FINE("mark", scratch_path("in.vtu"), "--surface", scratch_path("sheet.pvd"), "--time", "2.25", "--half-thickness",
+           "0.2", "--leaflets", "connected", "--quiet", "--stats", scratch_path("stats.json"), "--output",
+           scratch_path("out.vtu"));
+  RUN_FINE("mark", scratch_path("in.vtu"), "--surface", scratch_path("now.vtp"), "--half-thickness", "0.2", "--quiet",
+           "--output", scratch_path("file.vtu"));
   assert_int_equal(shim_read_array(scratch_path("out.vtu"), 'p', "riis_distance", NULL, NULL, NULL, by_motion), 1);
   assert_int_equal(shim_read_array(scratch_path("file.vtu"), 'p', "riis_distance", NULL, NULL, NULL, by_file), 1);
   assert_memory_equal(by_motion, by_file, sizeof by_motion);
@@ -82,8 +83,8 @@ static void test_marks(void **state) {
   assert_true(json_number(stats, "n_leaflets") == 1);
   assert_true(json_number(stats, "n_marked") > 5);
   free(stats);
-  RUN_FINE(scratch_path("in.vtu"), "--surface", scratch_path("sheet.pvd"), "--time", "2.25", "--half-thickness", "0.2",
-           "--leaflets", "riis_leaflet", "--quiet", "--stats", scratch_path("stats.json"));
+  RUN_FINE("mark", scratch_path("in.vtu"), "--surface", scratch_path("sheet.pvd"), "--time", "2.25", "--half-thickness",
+           "0.2", "--leaflets", "riis_leaflet", "--quiet", "--stats", scratch_path("stats.json"));
   stats = scratch_read(scratch_path("stats.json"), NULL);
   assert_true(json_number(stats, "n_leaflets") == 2);
   free(stats);
@@ -92,38 +93,43 @@ static void test_marks(void **state) {
 static void test_usage(void **state) {
   (void)state;
   const char *motion = scratch_path("sheet.pvd"), *still = scratch_path("a.vtp"), *moved = scratch_path("moved.vtp");
-  RUN_REFUSED(2, "sheet.pvd is a motion: it needs --time T", "--surface", motion, "--surface-output", moved);
-  RUN_REFUSED(2, "--time has no effect with --surface", "--surface", still, "--time", "0", "--surface-output", moved);
-  RUN_REFUSED(2, "--time requires --surface", "--valve", "mitral", "--time", "0", "--surface-output", moved);
-  RUN_REFUSED(2, "--period needs a motion, --surface FILE.pvd, or --cycle", "--period", "1", "--surface-output", moved);
-  RUN_REFUSED(2, "it needs --time T", "--surface", motion, "--period", "1", "--surface-output", moved);
-  RUN_REFUSED(2, "--time: 'soon' is not a number", "--surface", motion, "--time", "soon", "--surface-output", moved);
-  RUN_REFUSED(2, "--time is nan; it must be finite", "--surface", motion, "--time", "nan", "--surface-output", moved);
-  RUN_REFUSED(2, "--time is 2e+30; it must be finite", "--surface", motion, "--time", "2e30", "--surface-output", moved);
-  RUN_REFUSED(2, "--period: 0 is not above 0", "--surface", motion, "--time", "0", "--period", "0", "--surface-output",
+  RUN_REFUSED(2, "sheet.pvd is a motion: it needs --time T", "surface", "--surface", motion, "--output", moved);
+  RUN_REFUSED(2, "--time has no effect with --surface", "surface", "--surface", still, "--time", "0", "--output",
               moved);
-  RUN_REFUSED(2, "--period: nan is not above 0", "--surface", motion, "--time", "0", "--period", "nan",
-              "--surface-output", moved);
-  RUN_REFUSED(2, "--period is inf", "--surface", motion, "--time", "0", "--period", "inf", "--surface-output", moved);
-  RUN_REFUSED(2, "--period: the time of key 2 is 3, beyond the period of 0.75", "--surface", motion, "--time", "0",
-              "--period", "0.75", "--surface-output", moved);
+  RUN_REFUSED(2, "--time requires --surface", "surface", "--valve", "mitral", "--time", "0", "--output", moved);
+  RUN_REFUSED(2, "--period needs a motion, --surface FILE.pvd, or --cycle", "surface", "--period", "1", "--output",
+              moved);
+  RUN_REFUSED(2, "it needs --time T", "surface", "--surface", motion, "--period", "1", "--output", moved);
+  RUN_REFUSED(2, "--time: 'soon' is not a number", "surface", "--surface", motion, "--time", "soon", "--output", moved);
+  RUN_REFUSED(2, "--time is nan; it must be finite", "surface", "--surface", motion, "--time", "nan", "--output",
+              moved);
+  RUN_REFUSED(2, "--time is 2e+30; it must be finite", "surface", "--surface", motion, "--time", "2e30", "--output",
+              moved);
+  RUN_REFUSED(2, "--period: 0 is not above 0", "surface", "--surface", motion, "--time", "0", "--period", "0",
+              "--output", moved);
+  RUN_REFUSED(2, "--period: nan is not above 0", "surface", "--surface", motion, "--time", "0", "--period", "nan",
+              "--output", moved);
+  RUN_REFUSED(2, "--period is inf", "surface", "--surface", motion, "--time", "0", "--period", "inf", "--output",
+              moved);
+  RUN_REFUSED(2, "--period: the time of key 2 is 3, beyond the period of 0.75", "surface", "--surface", motion,
+              "--time", "0", "--period", "0.75", "--output", moved);
   /* A frame is an input. */
-  RUN_REFUSED(2, "b.vtp is a frame of --surface ", "--surface", motion, "--time", "2", "--surface-output",
+  RUN_REFUSED(2, "b.vtp is a frame of --surface ", "surface", "--surface", motion, "--time", "2", "--output",
               scratch_path("b.vtp"));
 }
 
 static void test_bad_data(void **state) {
   (void)state;
   const char *moved = scratch_path("moved.vtp");
-  RUN_REFUSED(1, "missing.pvd: cannot be read: No such file", "--surface", scratch_path("missing.pvd"), "--time", "0",
-              "--surface-output", moved);
-  RUN_REFUSED(1, "sheet.pvd: vertex 0 in the last frame, a period after the first, has the ", "--surface",
-              scratch_path("sheet.pvd"), "--time", "0", "--period", "1", "--surface-output", moved);
+  RUN_REFUSED(1, "missing.pvd: cannot be read: No such file", "surface", "--surface", scratch_path("missing.pvd"),
+              "--time", "0", "--output", moved);
+  RUN_REFUSED(1, "sheet.pvd: vertex 0 in the last frame, a period after the first, has the ", "surface", "--surface",
+              scratch_path("sheet.pvd"), "--time", "0", "--period", "1", "--output", moved);
   write_collection("lost.pvd", DATA_SET("0", "a.vtp") DATA_SET("1", "lost.vtp"));
-  RUN_REFUSED(1, "lost.vtp: cannot be read: No such file", "--surface", scratch_path("lost.pvd"), "--time", "0",
-              "--surface-output", moved);
-  RUN_REFUSED(1, "a.vtp: has no cell array part", "--surface", scratch_path("sheet.pvd"), "--time", "0", "--leaflets",
-              "part", "--surface-output", moved);
+  RUN_REFUSED(1, "lost.vtp: cannot be read: No such file", "surface", "--surface", scratch_path("lost.pvd"), "--time",
+              "0", "--output", moved);
+  RUN_REFUSED(1, "a.vtp: has no cell array part", "surface", "--surface", scratch_path("sheet.pvd"), "--time", "0",
+              "--leaflets", "part", "--output", moved);
 }
 
 int main(void) {

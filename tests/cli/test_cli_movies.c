@@ -20,9 +20,9 @@ enum { n_frames = 4 };
 
 static void run_movie(const char *movie) {
   scratch_write_text("cycle.csv", "0,0\n1,1\n");
-  RUN_FINE(scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle", scratch_path("cycle.csv"),
-           "--times", "0,0.3,0.6,1", "--movie", scratch_path(movie), "--frame-rate", "5", "--movie-view", "side",
-           "--picture", scratch_path("first.png"), "--view", "side", "--quiet");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
+           scratch_path("cycle.csv"), "--times", "0,0.3,0.6,1", "--movie", scratch_path(movie), "--frame-rate", "5",
+           "--movie-view", "side", "--picture", scratch_path("first.png"), "--view", "side", "--quiet");
 }
 
 /* TMPDIR is the scratch folder: nothing of the frames is left there. */
@@ -31,7 +31,7 @@ static void expect_no_frames(void) {
   DIR *folder = opendir(place);
   assert_non_null(folder);
   for (const struct dirent *entry = readdir(folder); entry; entry = readdir(folder))
-    if (strncmp(entry->d_name, "riis-mark-", 10) == 0 || strncmp(entry->d_name, ".riis-", 6) == 0)
+    if (strncmp(entry->d_name, "riis-", 5) == 0 || strncmp(entry->d_name, ".riis-", 6) == 0)
       fail_msg("%s is left", entry->d_name);
   closedir(folder);
 }
@@ -104,7 +104,7 @@ static void test_failing_encoder(void **state) {
   scratch_write_text("kept.gif", "before");
   char *before = put_program("#!/bin/sh\necho first >&2\necho 'no such encoder' >&2\nexit 7\n");
   scratch_write_text("cycle.csv", "0,0\n1,1\n");
-  RUN_REFUSED(1, "kept.gif: the movie cannot be made: ffmpeg ends with status 7: no such encoder",
+  RUN_REFUSED(1, "kept.gif: the movie cannot be made: ffmpeg ends with status 7: no such encoder", "mark",
               scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
               scratch_path("cycle.csv"), "--times", "0,1", "--movie", scratch_path("kept.gif"), "--output",
               scratch_path("s.pvd"), "--quiet");
@@ -119,7 +119,7 @@ static void test_failing_encoder(void **state) {
 static int n_frames_there(void) {
   char command[8192];
   int n = 0;
-  snprintf(command, sizeof command, "ls '%s'/riis-mark-*/frame_*.png 2>/dev/null | wc -l", getenv("TMPDIR"));
+  snprintf(command, sizeof command, "ls '%s'/riis-*/frame_*.png 2>/dev/null | wc -l", getenv("TMPDIR"));
   FILE *output = popen(command, "r");
   assert_int_equal(fscanf(output, "%d", &n), 1);
   pclose(output);
@@ -132,8 +132,8 @@ static void test_interruption(void **state) {
   use_scratch_for_frames();
   char *before = put_program("#!/bin/sh\nexit 0\n");
   scratch_write_text("cycle.csv", "0,0\n1,1\n");
-  const pid_t process = start_program(scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
-                                      scratch_path("cycle.csv"), "--times", "0:1:0.001", "--movie",
+  const pid_t process = start_program("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3",
+                                      "--cycle", scratch_path("cycle.csv"), "--times", "0:1:0.001", "--movie",
                                       scratch_path("never.mp4"), "--output", scratch_path("cut.pvd"), "--quiet", NULL);
   for (int n_tries = 0; n_frames_there() < 2 && n_tries < 3000; ++n_tries) usleep(20000);
   kill(process, SIGINT);

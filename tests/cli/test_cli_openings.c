@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Valves that open, in riis-mark and in the C interface: the mitral valve by itself, and any valve between two files. */
+ * Valves that open, in riis and in the C interface: the mitral valve by itself, and any valve between two files. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,8 +33,8 @@ static void expect_outputs(void) {
   expect_surface_output();
 }
 
-#define RUN_ON_BOX(...)                                                                                     \
-  RUN_FINE(scratch_path("in.vtu"), "--half-thickness", half_thickness, "--output", scratch_path("out.vtu"), \
+#define RUN_ON_BOX(...)                                                                                             \
+  RUN_FINE("mark", scratch_path("in.vtu"), "--half-thickness", half_thickness, "--output", scratch_path("out.vtu"), \
            "--surface-output", scratch_path("out.vtp"), __VA_ARGS__)
 
 static void test_mitral(void **state) {
@@ -88,8 +88,8 @@ static void test_bileaflet(void **state) {
   mark_at(valve, 1);
   RUN_ON_BOX("--valve", "bileaflet", "--set", "ring_height=0.5", "--opening", "1");
   expect_outputs();
-  RUN_REFUSED(1, "closed_angle is 30; it must be less than open_angle, which is 20", scratch_path("in.vtu"), "--valve",
-              "bileaflet", "--set", "open_angle=20", "--stats", "-");
+  RUN_REFUSED(1, "closed_angle is 30; it must be less than open_angle, which is 20", "mark", scratch_path("in.vtu"),
+              "--valve", "bileaflet", "--set", "open_angle=20", "--stats", "-");
   riis_valve_destroy(&valve);
 }
 
@@ -141,7 +141,7 @@ static void test_between(void **state) {
   scratch_write_text("open.json", "{\"leaflet_angle\": 50}");
   double area[3];
   for (int i = 0; i < 3; ++i) {
-    RUN_FINE(scratch_path("in.vtu"), "--params-open", scratch_path("open.json"), "--opening", opening_texts[i],
+    RUN_FINE("mark", scratch_path("in.vtu"), "--params-open", scratch_path("open.json"), "--opening", opening_texts[i],
              "--half-thickness", half_thickness, "--stats", "-");
     area[i] = json_number(program_out, "area");
     assert_true(json_has_text(program_out, "valve", "\"aortic\""));
@@ -174,29 +174,31 @@ static void test_refusals(void **state) {
   snprintf(mesh, sizeof mesh, "%s", scratch_path("in.vtu"));
   snprintf(file, sizeof file, "%s", scratch_path("p.json"));
   scratch_write_text("p.json", "{\"root_radius\": 1.3}");
-  RUN_REFUSED(2, "--opening: 1.5 is not from 0 to 1", mesh, "--opening", "1.5");
-  RUN_REFUSED(2, "--opening: -0.1 is not from 0 to 1", mesh, "--opening", "-0.1");
-  RUN_REFUSED(2, "--opening: nan is not from 0 to 1", mesh, "--opening", "nan");
-  RUN_REFUSED(2, "--opening: 'half' is not a number", mesh, "--opening", "half");
-  RUN_REFUSED(1, "--set: parameter 'opening' is 1.5", mesh, "--set", "opening=1.5");
-  RUN_REFUSED(2, "--opening and --set opening exclude each other", mesh, "--opening", "0", "--set", "opening=0");
-  RUN_REFUSED(2, "--surface excludes --opening", mesh, "--opening", "0", "--surface", "a.stl");
-  RUN_REFUSED(2, "--params-open", mesh, "--params-open", file, "--surface", "a.stl");
-  RUN_REFUSED(2, "--params-open needs --opening", mesh, "--params-open", file);
-  RUN_REFUSED(2, "--params-open has no effect with --print-params", "--print-params", "--params-open", file,
+  RUN_REFUSED(2, "--opening: 1.5 is not from 0 to 1", "mark", mesh, "--opening", "1.5");
+  RUN_REFUSED(2, "--opening: -0.1 is not from 0 to 1", "mark", mesh, "--opening", "-0.1");
+  RUN_REFUSED(2, "--opening: nan is not from 0 to 1", "mark", mesh, "--opening", "nan");
+  RUN_REFUSED(2, "--opening: 'half' is not a number", "mark", mesh, "--opening", "half");
+  RUN_REFUSED(1, "--set: parameter 'opening' is 1.5", "mark", mesh, "--set", "opening=1.5");
+  RUN_REFUSED(2, "--opening and --set opening exclude each other", "mark", mesh, "--opening", "0", "--set",
+              "opening=0");
+  RUN_REFUSED(2, "--opening excludes --surface", "mark", mesh, "--opening", "0", "--surface", "a.stl");
+  RUN_REFUSED(2, "--params-open", "mark", mesh, "--params-open", file, "--surface", "a.stl");
+  RUN_REFUSED(2, "--params-open needs --opening", "mark", mesh, "--params-open", file);
+  RUN_REFUSED(2, "--params", "mark", mesh, "--params", file, "--params-closed", file);
+  RUN_REFUSED(1, "missing.json: cannot be read", "mark", mesh, "--params-open", scratch_path("missing.json"),
               "--opening", "0");
-  RUN_REFUSED(2, "--params", mesh, "--params", file, "--params-closed", file);
-  RUN_REFUSED(1, "missing.json: cannot be read", mesh, "--params-open", scratch_path("missing.json"), "--opening", "0");
-  RUN_REFUSED(1, "missing.json: cannot be read", mesh, "--params-closed", scratch_path("missing.json"));
+  RUN_REFUSED(1, "missing.json: cannot be read", "mark", mesh, "--params-closed", scratch_path("missing.json"));
   /* A file's parameters must be the valve's. */
-  RUN_REFUSED(1, "p.json: 'root_radius' is not a parameter of the mitral valve", mesh, "--valve", "mitral",
+  RUN_REFUSED(1, "p.json: 'root_radius' is not a parameter of the mitral valve", "mark", mesh, "--valve", "mitral",
               "--params-open", file, "--opening", "0");
-  RUN_REFUSED(1, "'left.leaflet_angle' is not a parameter of the mitral valve", mesh, "--valve", "mitral", "--set",
-              "left.leaflet_angle=3");
-  RUN_REFUSED(1, "is not a kind of valve; there are: aortic, bileaflet, mitral, trileaflet, and files of patches, FILE.json", mesh,
-              "--valve", "tricuspid");
+  RUN_REFUSED(1, "'left.leaflet_angle' is not a parameter of the mitral valve", "mark", mesh, "--valve", "mitral",
+              "--set", "left.leaflet_angle=3");
+  RUN_REFUSED(
+      1, "is not a kind of valve; there are: aortic, bileaflet, mitral, trileaflet, and files of patches, FILE.json",
+      "mark", mesh, "--valve", "tricuspid");
   /* No input is replaced. */
-  RUN_REFUSED(2, "is also the file of --params-open", mesh, "--params-open", file, "--opening", "0", "--stats", file);
+  RUN_REFUSED(2, "is also the file of --params-open", "mark", mesh, "--params-open", file, "--opening", "0", "--stats",
+              file);
 }
 
 static int make_mitral_box(void **state) {
@@ -210,8 +212,8 @@ static int destroy_all(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_mitral),        cmocka_unit_test(test_bileaflet), cmocka_unit_test(test_own_open_states),
-      cmocka_unit_test(test_aortic),        cmocka_unit_test(test_between),   cmocka_unit_test(test_mitral_states),
+      cmocka_unit_test(test_mitral),   cmocka_unit_test(test_bileaflet), cmocka_unit_test(test_own_open_states),
+      cmocka_unit_test(test_aortic),   cmocka_unit_test(test_between),   cmocka_unit_test(test_mitral_states),
       cmocka_unit_test(test_refusals),
   };
   return cmocka_run_group_tests(tests, make_mitral_box, destroy_all);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The output of riis-mark without a mesh, and the reading of its command line. */
+ * The output of riis without a mesh, and the reading of its command line. */
 #include <riis/riis.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,64 +15,72 @@ static void test_version(void **state) {
   (void)state;
   RUN_FINE("--version");
   char expected[64];
-  snprintf(expected, sizeof expected, "riis-mark %s\n", riis_version_string());
+  snprintf(expected, sizeof expected, "riis %s\n", riis_version_string());
   assert_string_equal(program_out, expected);
 }
 
+static void expect_printed(const char *name) {
+  if (!strstr(program_out, name)) fail_msg("%s is not in:\n%s", name, program_out);
+}
+
+static int lines_of(const char *text) {
+  int n = 0;
+  for (; *text; ++text) n += *text == '\n';
+  return n;
+}
+
+/* Each command has its own options and examples, on a screen or little more. */
 static void test_help(void **state) {
   (void)state;
-  RUN_FINE("--help");
-  const char *names[] = {"MESH",
-                         "--surface",
-                         "--valve",
-                         "--params",
-                         "--set",
-                         "--print-params",
-                         "--tolerance",
-                         "--skip-zero-area",
-                         "--flip-normals",
-                         "--scale",
-                         "--rotate",
-                         "--translate",
-                         "--half-thickness",
-                         "--distance-limit",
-                         "--far-distance",
-                         "--distance",
-                         "--distance-tolerance",
-                         "sampling",
-                         "minimization",
-                         "--search",
-                         "clusters or paper",
-                         "auto is exhaustive",
-                         "--threads",
-                         "--steps",
-                         "--output",
-                         "--surface-output",
-                         "--picture",
-                         "--view",
-                         "--stats",
-                         "--quiet",
-                         "--version",
-                         "--opening",
-                         "--params-closed",
-                         "--params-open",
-                         "mitral",
-                         "\"patches\"",
-                         "Exit status",
-                         "  1  bad data",
-                         "  2  wrong usage",
-                         "  3  no node is marked",
-                         "--unit",
-                         "--surface-unit",
-                         "--leaflets",
-                         "--prefix",
-                         "--replace",
-                         "--strict",
-                         "--allow-none",
-                         "--describe-params"};
-  for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
-    if (!strstr(program_out, names[i])) fail_msg("%s is not in the help", names[i]);
+  static const struct {
+    const char *command, *option[10];
+  } helps[] = {
+      {"mark",
+       {"MESH", "--surface-unit", "--params,--params-closed", "--half-thickness", "--search", "--prefix", "--times",
+        "--case", "--strict"}},
+      {"surface", {"--output OUT.vtp", "--picture", "--view", "--time T", "--rotate"}},
+      {"states", {"OUT", "--count", "--tolerance", "--params-open"}},
+      {"export", {"FOLDER", "--time-step", "--largest-edge", "--closing-span"}},
+      {"params", {"--describe", "--set", "--opening"}},
+      {"help", {"TOPIC"}},
+  };
+  for (size_t i = 0; i < sizeof helps / sizeof helps[0]; ++i) {
+    RUN_FINE(helps[i].command, "--help");
+    for (const char *const *option = helps[i].option; *option; ++option) expect_printed(*option);
+    expect_printed("Examples:\n  riis ");
+    assert_true(lines_of(program_out) < 85);
+    RUN_FINE("--help");
+    expect_printed(helps[i].command);
   }
+  RUN_FINE("check", "crossings", "--help");
+  expect_printed("--threads");
+  RUN_FINE("check", "leaks", "--help");
+  expect_printed("--between X,Y,Z X,Y,Z");
+}
+
+/* The list names every topic, and each topic is explained. */
+static void test_topics(void **state) {
+  (void)state;
+  RUN_FINE("help");
+  char *list = strdup(program_out), *next = NULL;
+  int n = 0;
+  for (char *line = strtok_r(list, "\n", &next); line; line = strtok_r(NULL, "\n", &next)) {
+    char name[64];
+    if (line[0] != ' ' || sscanf(line, " %63s", name) != 1) continue;
+    RUN_FINE("help", name);
+    assert_true(strlen(program_out) > 100);
+    assert_null(strstr(program_out, "riis-mark"));
+    ++n;
+  }
+  free(list);
+  assert_int_equal(n, 17);
+  RUN_FINE("help", "status");
+  const char *statuses[] = {"0  fine", "1  bad data", "2  wrong usage", "3  no node is marked", "4  with --strict"};
+  for (size_t i = 0; i < sizeof statuses / sizeof statuses[0]; ++i) expect_printed(statuses[i]);
+  RUN_FINE("help", "searches");
+  expect_printed("auto is exhaustive");
+  RUN_FINE("help", "patches");
+  expect_printed("\"patches\"");
 }
 
 /* The program fails if it cannot print its output. */
@@ -83,8 +91,8 @@ static void test_no_stdout(void **state) {
     program_stdout = places[i];
     RUN_REFUSED(1, "standard output: cannot be written", "--help");
     RUN_REFUSED(1, "standard output: cannot be written", "--version");
-    RUN_REFUSED(1, "standard output: cannot be written", "--print-params");
-    RUN_REFUSED(1, "standard output: cannot be written", scratch_path("in.vtu"), "--stats", "-");
+    RUN_REFUSED(1, "standard output: cannot be written", "params");
+    RUN_REFUSED(1, "standard output: cannot be written", "mark", scratch_path("in.vtu"), "--stats", "-");
   }
   program_stdout = NULL;
 }
@@ -92,11 +100,11 @@ static void test_no_stdout(void **state) {
 /* An option takes one value. The next argument is the mesh. */
 static void test_order(void **state) {
   (void)state;
-  RUN_FINE("--set", "root_radius=1.29", scratch_path("in.vtu"), "--stats", "-");
+  RUN_FINE("mark", "--set", "root_radius=1.29", scratch_path("in.vtu"), "--stats", "-");
   assert_true(json_number(program_out, "n_nodes") == n_box);
-  RUN_FINE("--stats=-", "--half-thickness=0.3", scratch_path("in.vtu"));
+  RUN_FINE("mark", "--stats=-", "--half-thickness=0.3", scratch_path("in.vtu"));
   assert_true(json_number(program_out, "half_thickness") == 0.3);
-  RUN_FINE("--stats=-", "--translate=-.5,+1,0", "--", scratch_path("in.vtu"));
+  RUN_FINE("mark", "--stats=-", "--translate=-.5,+1,0", "--", scratch_path("in.vtu"));
   assert_true(json_number(program_out, "n_nodes") == n_box);
 }
 
@@ -106,8 +114,8 @@ static void test_skip_zero_area(void **state) {
       "flat.stl",
       "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
       "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 2 0 0\nendloop\nendfacet\nendsolid\n");
-  RUN_REFUSED(1, "flat.stl: ", scratch_path("in.vtu"), "--surface", scratch_path("flat.stl"));
-  RUN_FINE(scratch_path("in.vtu"), "--surface", scratch_path("flat.stl"), "--skip-zero-area", "--stats", "-");
+  RUN_REFUSED(1, "flat.stl: ", "mark", scratch_path("in.vtu"), "--surface", scratch_path("flat.stl"));
+  RUN_FINE("mark", scratch_path("in.vtu"), "--surface", scratch_path("flat.stl"), "--skip-zero-area", "--stats", "-");
   assert_true(json_number(program_out, "n_triangles") == 1 && json_number(program_out, "n_zero_area") == 1);
   assert_true(json_number(program_out, "area") == 0.5);
 }
@@ -118,10 +126,9 @@ static void test_no_arguments(void **state) {
   run_program(NULL);
   assert_int_equal(program_exit_code, 2);
   assert_string_equal(program_out, "");
-  int n_lines = 0;
-  for (const char *c = program_err; *c; ++c) n_lines += *c == '\n';
-  assert_int_equal(n_lines, 5);
-  const char *parts[] = {"riis-mark marks the nodes", "MESH.vtu --output", "--unit m", "--surface-unit mm", "--help"};
+  assert_int_equal(lines_of(program_err), 5);
+  const char *parts[] = {"riis marks the nodes", "riis mark MESH.vtu --output", "--unit m", "--surface-unit mm",
+                         "--help"};
   for (size_t i = 0; i < sizeof parts / sizeof parts[0]; ++i) assert_non_null(strstr(program_err, parts[i]));
 }
 
@@ -129,16 +136,16 @@ static void test_no_arguments(void **state) {
 static void test_locale(void **state) {
   (void)state;
   setenv("LC_ALL", "de_DE.UTF-8", 1);
-  RUN_FINE(scratch_path("in.vtu"), "--half-thickness", "0.25", "--stats", "-");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--half-thickness", "0.25", "--stats", "-");
   unsetenv("LC_ALL");
   assert_true(json_number(program_out, "half_thickness") == 0.25);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_version),      cmocka_unit_test(test_help),           cmocka_unit_test(test_order),
-      cmocka_unit_test(test_no_stdout),    cmocka_unit_test(test_skip_zero_area), cmocka_unit_test(test_locale),
-      cmocka_unit_test(test_no_arguments),
+      cmocka_unit_test(test_version), cmocka_unit_test(test_help),         cmocka_unit_test(test_topics),
+      cmocka_unit_test(test_order),   cmocka_unit_test(test_no_stdout),    cmocka_unit_test(test_skip_zero_area),
+      cmocka_unit_test(test_locale),  cmocka_unit_test(test_no_arguments),
   };
   return cmocka_run_group_tests(tests, make_box, scratch_teardown);
 }

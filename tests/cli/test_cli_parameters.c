@@ -33,7 +33,7 @@ static double first_in_cusp(const char *json, const char *cusp, const char *key)
 /* Every parameter of the library is in the template. Reading the template back gives the same values. */
 static void expect_template(const char *kind) {
   static char defaults[longest_output];
-  RUN_FINE("--print-params", "--valve", kind);
+  RUN_FINE("params", "--valve", kind);
   strcpy(defaults, program_out);
   riis_valve *valve = NULL;
   int64_t n = 0;
@@ -49,7 +49,7 @@ static void expect_template(const char *kind) {
   }
   riis_valve_destroy(&valve);
   scratch_write_text("template.json", defaults);
-  RUN_FINE("--print-params", "--valve", kind, "--params", scratch_path("template.json"));
+  RUN_FINE("params", "--valve", kind, "--params", scratch_path("template.json"));
   assert_string_equal(program_out, defaults);
 }
 
@@ -58,7 +58,7 @@ static void test_template(void **state) {
   expect_template("mitral");
   assert_true(json_number(program_out, "ALPM_diameter") == 4);
   assert_true(json_number(program_out, "opening") == 1);
-  RUN_FINE("--print-params", "--valve", "mitral", "--opening", "0.5");
+  RUN_FINE("params", "--valve", "mitral", "--opening", "0.5");
   assert_true(json_number(program_out, "opening") == 0.5);
   expect_template("aortic");
   assert_true(json_number(program_out, "root_radius") == 1.29);
@@ -67,7 +67,7 @@ static void test_template(void **state) {
   assert_true(in_cusp(program_out, "left", "leaflet_angle") == 58.5);
   static char aortic[longest_output];
   strcpy(aortic, program_out);
-  RUN_FINE("--print-params");
+  RUN_FINE("params");
   assert_string_equal(program_out, aortic);
 }
 
@@ -75,7 +75,7 @@ static void test_json_forms(void **state) {
   (void)state;
   scratch_write_text("p.json",
                      "{\"root_radius\": 1.3, \"right\": {\"leaflet_angle\": 60}, \"left.leaflet_angle\": 59}");
-  RUN_FINE("--params", scratch_path("p.json"), "--print-params");
+  RUN_FINE("params", "--params", scratch_path("p.json"));
   assert_true(json_number(program_out, "root_radius") == 1.3);
   assert_true(in_cusp(program_out, "right", "leaflet_angle") == 60);
   assert_true(in_cusp(program_out, "left", "leaflet_angle") == 59);
@@ -90,7 +90,7 @@ static void test_json_order(void **state) {
                           "{\"right\": {\"translation\": [1, 2, 3]}, \"translation\": [7, 8, 9]}"};
   for (int i = 0; i < 3; ++i) {
     scratch_write_text("p.json", files[i]);
-    RUN_FINE("--params", scratch_path("p.json"), "--print-params");
+    RUN_FINE("params", "--params", scratch_path("p.json"));
     assert_true(first_in_cusp(program_out, "right", "translation") == 1);
     assert_true(first_in_cusp(program_out, "left", "translation") == 7);
     assert_true(first_in_cusp(program_out, "non_coronary", "translation") == 7);
@@ -101,11 +101,11 @@ static void test_json_order(void **state) {
 static void test_set_order(void **state) {
   (void)state;
   scratch_write_text("p.json", "{\"right.translation\": [1, 2, 3]}");
-  RUN_FINE("--set", "translation=4,5,6", "--params", scratch_path("p.json"), "--print-params");
+  RUN_FINE("params", "--set", "translation=4,5,6", "--params", scratch_path("p.json"));
   assert_true(first_in_cusp(program_out, "right", "translation") == 4);
-  RUN_FINE("--set", "right.translation=1,2,3", "--set", "translation=4,5,6", "--print-params");
+  RUN_FINE("params", "--set", "right.translation=1,2,3", "--set", "translation=4,5,6");
   assert_true(first_in_cusp(program_out, "right", "translation") == 4);
-  RUN_FINE("--set", "translation=4,5,6", "--set", "right.translation=1,2,3", "--print-params");
+  RUN_FINE("params", "--set", "translation=4,5,6", "--set", "right.translation=1,2,3");
   assert_true(first_in_cusp(program_out, "right", "translation") == 1);
   assert_true(first_in_cusp(program_out, "left", "translation") == 4);
 }
@@ -113,12 +113,12 @@ static void test_set_order(void **state) {
 /* The parameters reach the surface. */
 static void test_surface_changes(void **state) {
   (void)state;
-  RUN_FINE(scratch_path("in.vtu"), "--stats", "-");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--stats", "-");
   const double area = json_number(program_out, "area");
   scratch_write_text("p.json", "{\"right\": {\"leaflet_angle\": 55}}");
-  RUN_FINE(scratch_path("in.vtu"), "--params", scratch_path("p.json"), "--stats", "-");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--params", scratch_path("p.json"), "--stats", "-");
   const double from_file = json_number(program_out, "area");
-  RUN_FINE(scratch_path("in.vtu"), "--set", "right.leaflet_angle=55", "--stats", "-");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--set", "right.leaflet_angle=55", "--stats", "-");
   assert_true(json_number(program_out, "area") == from_file);
   assert_true(from_file < area - 0.01);
 }
@@ -156,11 +156,11 @@ static void test_json_refusals(void **state) {
   };
   for (size_t i = 0; i < sizeof files / sizeof files[0]; ++i) {
     scratch_write_text("p.json", files[i].json);
-    RUN_REFUSED(1, files[i].text, scratch_path("in.vtu"), "--params", scratch_path("p.json"));
+    RUN_REFUSED(1, files[i].text, "mark", scratch_path("in.vtu"), "--params", scratch_path("p.json"));
   }
-  RUN_REFUSED(1, "missing.json: cannot be read: No such file", scratch_path("in.vtu"), "--params",
+  RUN_REFUSED(1, "missing.json: cannot be read: No such file", "mark", scratch_path("in.vtu"), "--params",
               scratch_path("missing.json"));
-  RUN_REFUSED(1, ": cannot be read", scratch_path("in.vtu"), "--params", scratch_path("."));
+  RUN_REFUSED(1, ": cannot be read", "mark", scratch_path("in.vtu"), "--params", scratch_path("."));
 }
 
 /* A file that is nested deeply or has long strings is refused in one line, like any other. */
@@ -177,7 +177,7 @@ static void test_json_sizes(void **state) {
     for (int k = 0; k < n; ++k) end = stpcpy(end, closing[i]);
     strcpy(end, "}");
     scratch_write_text("p.json", text);
-    RUN_REFUSED(1, "p.json: is nested deeper", "--print-params", "--params", scratch_path("p.json"));
+    RUN_REFUSED(1, "p.json: is nested deeper", "params", "--params", scratch_path("p.json"));
   }
   /* A value, a name, and a string that does not end. */
   const char *before[] = {"{\"root_radius\": \"", "{\"", "{\"root_radius\": \""};
@@ -187,14 +187,14 @@ static void test_json_sizes(void **state) {
     memset(end, 'x', length);
     strcpy(end + length, after[i]);
     scratch_write_text("p.json", text);
-    RUN_REFUSED(1, "p.json: ", "--print-params", "--params", scratch_path("p.json"));
+    RUN_REFUSED(1, "p.json: ", "params", "--params", scratch_path("p.json"));
     assert_true(strlen(program_err) < 500);
   }
 }
 
 /* Every parameter has a line with its current value, unit, range and description. */
 static void expect_table(const char *kind) {
-  RUN_FINE("--describe-params", "--valve", kind);
+  RUN_FINE("params", "--describe", "--valve", kind);
   riis_valve *valve = NULL;
   int64_t n = 0, n_lines = 0;
   assert_int_equal(riis_valve_create(kind, &valve), RIIS_OK);
@@ -226,7 +226,7 @@ static void test_table(void **state) {
   (void)state;
   expect_table("aortic");
   expect_table("mitral");
-  RUN_FINE("--describe-params", "--set", "root_radius=1.3", "--set", "translation=1,2,3", "--opening", "0.5");
+  RUN_FINE("params", "--describe", "--set", "root_radius=1.3", "--set", "translation=1,2,3", "--opening", "0.5");
   assert_non_null(strstr(program_out, "root_radius"));
   assert_non_null(strstr(program_out, " 1.3 "));
   assert_non_null(strstr(program_out, " 1,2,3 "));
@@ -236,27 +236,27 @@ static void test_table(void **state) {
 /* A refusal of an unknown name suggests a near one. */
 static void test_near_names(void **state) {
   (void)state;
-  RUN_REFUSED(1, "'leaflet_angel' is not a parameter of the aortic valve; did you mean 'leaflet_angle'?",
-              "--print-params", "--set", "leaflet_angel=60");
-  RUN_REFUSED(1, "did you mean 'right.leaflet_angle'?", "--print-params", "--set", "right.leafletangle=60");
-  RUN_REFUSED(1, "did you mean 'AP_diameter'?", "--print-params", "--valve", "mitral", "--set", "ap_diameter=3");
-  RUN_REFUSED(1, "'colour' is not a parameter of the aortic valve; riis_valve_get_parameter", "--print-params", "--set",
+  RUN_REFUSED(1, "'leaflet_angel' is not a parameter of the aortic valve; did you mean 'leaflet_angle'?", "params",
+              "--set", "leaflet_angel=60");
+  RUN_REFUSED(1, "did you mean 'right.leaflet_angle'?", "params", "--set", "right.leafletangle=60");
+  RUN_REFUSED(1, "did you mean 'AP_diameter'?", "params", "--valve", "mitral", "--set", "ap_diameter=3");
+  RUN_REFUSED(1, "'colour' is not a parameter of the aortic valve; riis_valve_get_parameter", "params", "--set",
               "colour=3");
   scratch_write_text("p.json", "{\"rootradius\": 1}");
-  RUN_REFUSED(1, "did you mean 'root_radius'?", "--print-params", "--params", scratch_path("p.json"));
+  RUN_REFUSED(1, "did you mean 'root_radius'?", "params", "--params", scratch_path("p.json"));
 }
 
 static void test_set_refusals(void **state) {
   (void)state;
-  RUN_REFUSED(2, "--set: 'root_radius' is not NAME=VALUE", "--print-params", "--set", "root_radius");
-  RUN_REFUSED(2, "--set: '=3' is not NAME=VALUE", "--print-params", "--set", "=3");
-  RUN_REFUSED(2, "--set root_radius: '' is not a number", "--print-params", "--set", "root_radius=");
-  RUN_REFUSED(2, "--set root_radius: '1.3cm' is not a number", "--print-params", "--set", "root_radius=1.3cm");
-  RUN_REFUSED(2, "--set translation: '' is not a number", "--print-params", "--set", "translation=1,,3");
-  RUN_REFUSED(1, "root_diameter", "--print-params", "--set", "root_diameter=2");
-  RUN_REFUSED(1, "root_radius", "--print-params", "--set", "root_radius=1,2,3");
-  RUN_REFUSED(1, "root_radius", "--print-params", "--set", "root_radius=nan");
-  RUN_REFUSED(1, "right.leaflet_power", "--print-params", "--set", "right.leaflet_power=0.5");
+  RUN_REFUSED(2, "--set: 'root_radius' is not NAME=VALUE", "params", "--set", "root_radius");
+  RUN_REFUSED(2, "--set: '=3' is not NAME=VALUE", "params", "--set", "=3");
+  RUN_REFUSED(2, "--set root_radius: '' is not a number", "params", "--set", "root_radius=");
+  RUN_REFUSED(2, "--set root_radius: '1.3cm' is not a number", "params", "--set", "root_radius=1.3cm");
+  RUN_REFUSED(2, "--set translation: '' is not a number", "params", "--set", "translation=1,,3");
+  RUN_REFUSED(1, "root_diameter", "params", "--set", "root_diameter=2");
+  RUN_REFUSED(1, "root_radius", "params", "--set", "root_radius=1,2,3");
+  RUN_REFUSED(1, "root_radius", "params", "--set", "root_radius=nan");
+  RUN_REFUSED(1, "right.leaflet_power", "params", "--set", "right.leaflet_power=0.5");
 }
 
 int main(void) {

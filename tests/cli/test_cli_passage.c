@@ -66,35 +66,35 @@ static riis_passage passage_by_c(void) {
 static void test_open_valve(void **state) {
   (void)state;
   const riis_passage passage = passage_by_c();
-  RUN_FINE(scratch_path("box.vtu"), "--check-leaks", ENDS, "--stats", "-");
+  RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, "--stats", "-");
   assert_true(json_has_text(program_out, "state", "\"open\""));
   assert_true(json_number(program_out, "node_id") == (double)passage.node_id);
   assert_true(json_number(strstr(program_out, "passage"), "distance") == passage.distance);
   char typed[32] = {0};
   const char *const expected =
-      "riis-mark: the surface leaks: unmarked nodes join 0.01 0 -1.2 and 0 0.02 0.9; the passage is at ";
+      "riis: the surface leaks: unmarked nodes join 0.01 0 -1.2 and 0 0.02 0.9; the passage is at ";
   assert_int_equal(strncmp(program_leaks, expected, strlen(expected)), 0);
   expect_place(program_leaks + strlen(expected), passage.point, longest_edge, ", and --half-thickness ");
   assert_int_equal(sscanf(strstr(program_leaks, "--half-thickness ") + 17, "%31s", typed), 1);
   assert_true(strtod(typed, NULL) >= passage.distance && strtod(typed, NULL) < 1.2 * passage.distance);
-  RUN_FINE(scratch_path("box.vtu"), "--check-leaks", ENDS, "--half-thickness", typed);
+  RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, "--half-thickness", typed);
   assert_string_equal(program_leaks, "");
   assert_non_null(strstr(program_out, "\npassage   closed: at "));
 }
 
 static void test_closed_valve(void **state) {
   (void)state;
-  RUN_FINE(scratch_path("box.vtu"), "--check-leaks", ENDS, SEALED);
+  RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, SEALED);
   assert_string_equal(program_leaks, "");
   assert_non_null(strstr(program_out, "\npassage   closed: at "));
-  RUN_FINE(scratch_path("box.vtu"), SEALED);
+  RUN_FINE("mark", scratch_path("box.vtu"), SEALED);
   assert_null(strstr(program_out, "passage"));
 }
 
 /* An end that is nearer to the surface than the passage is wide. */
 static void test_end_is_the_narrowest_place(void **state) {
   (void)state;
-  RUN_FINE(scratch_path("box.vtu"), "--check-leaks", "0,0,-1.2", "0.5,0,-0.1");
+  RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", "0,0,-1.2", "0.5,0,-0.1");
   assert_non_null(strstr(program_leaks, "the passage is nowhere nearer to the surface than its end at "));
   assert_null(strstr(program_leaks, "--half-thickness"));
 }
@@ -102,16 +102,16 @@ static void test_end_is_the_narrowest_place(void **state) {
 static void test_what_is_refused(void **state) {
   (void)state;
   const char *box = scratch_path("box.vtu");
-#define REFUSED(text, ...) RUN_REFUSED(2, text, box, "--check-leaks", __VA_ARGS__)
-  REFUSED("--check-leaks: FROM, 9 0 0, is outside the mesh, which goes from -0.8 -0.8 -1.3 to 0.8 0.8 1", "9,0,0",
+#define REFUSED(text, ...) RUN_REFUSED(2, text, "check", "leaks", box, "--between", __VA_ARGS__)
+  REFUSED("--between: FROM, 9 0 0, is outside the mesh, which goes from -0.8 -0.8 -1.3 to 0.8 0.8 1", "9,0,0",
           "0,0,0.9");
-  REFUSED("--check-leaks: TO, 0 0 -1.4, is outside the mesh", "0,0,0.9", "0,0,-1.4");
-  REFUSED("--check-leaks: TO is node ", "0,0,0.9", "0,0,0", SEALED);
+  REFUSED("--between: TO, 0 0 -1.4, is outside the mesh", "0,0,0.9", "0,0,-1.4");
+  REFUSED("--between: TO is node ", "0,0,0.9", "0,0,0", SEALED);
   REFUSED(", in the band: its distance to the surface, ", "0,0,0.9", "0,0,0", SEALED);
-  REFUSED("--check-leaks", "0,0", "0,0,-1.4");
-  REFUSED("--check-leaks", "0,0,x", "0,0,-1.4");
-  RUN_REFUSED(2, "--check-leaks", box, "--check-leaks", "0,0,0.9");
-  RUN_REFUSED(2, "--check-leaks needs a MESH", "--surface-output", "out.vtp", "--check-leaks", ENDS);
+  REFUSED("--between", "0,0", "0,0,-1.4");
+  REFUSED("--between", "0,0,x", "0,0,-1.4");
+  RUN_REFUSED(2, "--between", "check", "leaks", box, "--between", "0,0,0.9");
+  RUN_REFUSED(2, "MESH is required", "check", "leaks");
 }
 
 /* Two pieces of mesh. A point between them is in the box, but far from every node. */
@@ -124,14 +124,14 @@ static void test_pieces(void **state) {
   scratch_write_text("one.stl",
                      "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
                      "endloop\nendfacet\nendsolid\n");
-  run_program(scratch_path("pieces.vtk"), "--surface", scratch_path("one.stl"), "--allow-none", "--check-leaks",
-              "0.1,0,0.6", "0,0,8.5", NULL);
+  run_program("check", "leaks", scratch_path("pieces.vtk"), "--surface", scratch_path("one.stl"), "--allow-none",
+              "--between", "0.1,0,0.6", "0,0,8.5", NULL);
   assert_int_equal(program_exit_code, 0);
   assert_non_null(strstr(program_err, "nothing to seal: the mesh itself does not join 0.1 0 0.6 and 0 0 8.5\n"));
   assert_non_null(strstr(program_out, "\npassage   none: the mesh itself does not join the two points\n"));
-  RUN_REFUSED(2, "--check-leaks: FROM, 0 0 4, is outside the mesh: the nearest node, 3, is 3 away",
-              scratch_path("pieces.vtk"), "--surface", scratch_path("one.stl"), "--allow-none", "--check-leaks",
-              "0,0,4", "0,0,8.5");
+  RUN_REFUSED(2, "--between: FROM, 0 0 4, is outside the mesh: the nearest node, 3, is 3 away", "check", "leaks",
+              scratch_path("pieces.vtk"), "--surface", scratch_path("one.stl"), "--allow-none", "--between", "0,0,4",
+              "0,0,8.5");
 }
 
 /* Two valves in a row: either one alone closes the way. */
@@ -140,28 +140,27 @@ static void test_cases(void **state) {
   scratch_write_text("one.json",
                      "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9],\n"
                      " \"valves\": [{\"valve\": \"aortic\"}]}\n");
-  RUN_FINE("--case", scratch_path("one.json"));
-  assert_non_null(strstr(program_leaks, "riis-mark: the surface leaks: unmarked nodes join"));
+  RUN_FINE("mark", "--case", scratch_path("one.json"));
+  assert_non_null(strstr(program_leaks, "riis: the surface leaks: unmarked nodes join"));
   assert_non_null(strstr(program_out, "\npassage   open: at "));
   scratch_write_text(
       "two.json",
       "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9],\n"
       " \"valves\": [{\"name\": \"open\", \"valve\": \"aortic\", \"translate\": [0, 0, 0.3]},\n"
       "  {\"name\": \"closed\", \"valve\": \"aortic\", \"parameters\": {\"leaflet_radius_in\": 0.02}}]}\n");
-  RUN_FINE("--case", scratch_path("two.json"));
+  RUN_FINE("mark", "--case", scratch_path("two.json"));
   assert_string_equal(program_leaks, "");
   assert_non_null(strstr(program_out, "\npassage   closed: at "));
-  RUN_REFUSED(2, "--check-leaks: FROM, 9 9 9, is outside the mesh", "--case", scratch_path("two.json"), "--check-leaks",
-              "9,9,9", "0,0,0.9");
   scratch_write_text("outside.json",
                      "{\"mesh\": \"box.vtu\", \"check_leaks\": [9,0,0, 0,0.02,0.9],\n"
                      " \"valves\": [{\"valve\": \"aortic\"}]}\n");
-  RUN_REFUSED(1, "outside.json: check_leaks: FROM, 9 0 0, is outside the mesh", "--case", scratch_path("outside.json"));
+  RUN_REFUSED(1, "outside.json: check_leaks: FROM, 9 0 0, is outside the mesh", "mark", "--case",
+              scratch_path("outside.json"));
   scratch_write_text("unequal.json",
                      "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9],\n"
                      " \"valves\": [{\"name\": \"a\", \"valve\": \"aortic\", \"half_thickness\": 0.2},\n"
                      "  {\"name\": \"b\", \"valve\": \"aortic\"}]}\n");
-  run_program("--case", scratch_path("unequal.json"), NULL);
+  run_program("mark", "--case", scratch_path("unequal.json"), NULL);
   assert_int_equal(program_exit_code, 1);
   assert_non_null(strstr(program_err, "the valves must have one half thickness; that of a is 0.2, that of b 0.1"));
 }
@@ -170,9 +169,11 @@ static void test_cases(void **state) {
 static void test_series(void **state) {
   (void)state;
   scratch_write_text("beat.csv", "0,0.5\n1,0\n2,1\n");
-  scratch_write_text("open.json", "{\"leaflet_radius_in\": 0.8}");
-  RUN_FINE(scratch_path("box.vtu"), "--check-leaks", ENDS, SEALED, "--params-open", scratch_path("open.json"),
-           "--cycle", scratch_path("beat.csv"), "--times", "0:2:0.5", "--series-table", scratch_path("table.csv"));
+  scratch_write_text("series.json",
+                     "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9], \"times\": \"0:2:0.5\",\n"
+                     " \"valves\": [{\"valve\": \"aortic\", \"parameters\": {\"leaflet_radius_in\": 0.02},\n"
+                     "  \"open_parameters\": {\"leaflet_radius_in\": 0.8}, \"opening\": {\"file\": \"beat.csv\"}}]}\n");
+  RUN_FINE("mark", "--case", scratch_path("series.json"), "--series-table", scratch_path("table.csv"));
   assert_string_equal(program_leaks, "");
   assert_non_null(strstr(program_out, "\npassage   closed: at "));
 }

@@ -18,16 +18,17 @@ static void test_without_display(void **state) {
   const char *before = getenv("DISPLAY");
   if (before) strncpy(display, before, sizeof display - 1);
   unsetenv("DISPLAY");
-  RUN_REFUSED(1, "DISPLAY is not set", scratch_path("in.vtu"), "--picture", scratch_path("none.png"));
+  RUN_REFUSED(1, "DISPLAY is not set", "mark", scratch_path("in.vtu"), "--picture", scratch_path("none.png"));
   assert_int_equal(scratch_exists("none.png"), 0);
   /* The refusal comes before any work: the mesh is also missing, but is not named. */
-  RUN_REFUSED(1, "DISPLAY is not set", scratch_path("missing.vtu"), "--picture", scratch_path("none.png"));
+  RUN_REFUSED(1, "DISPLAY is not set", "mark", scratch_path("missing.vtu"), "--picture", scratch_path("none.png"));
   setenv("DISPLAY", ":7654", 1);
-  RUN_REFUSED(1, "DISPLAY :7654 cannot be opened", scratch_path("in.vtu"), "--picture", scratch_path("none.png"));
+  RUN_REFUSED(1, "DISPLAY :7654 cannot be opened", "mark", scratch_path("in.vtu"), "--picture",
+              scratch_path("none.png"));
   assert_int_equal(scratch_exists("none.png"), 0);
   /* The marks are good, so the other requested files are there. */
-  RUN_REFUSED(1, "DISPLAY :7654 cannot be opened", scratch_path("in.vtu"), "--picture", scratch_path("none.png"),
-              "--output", scratch_path("out.vtu"), "--stats", scratch_path("stats.json"));
+  RUN_REFUSED(1, "DISPLAY :7654 cannot be opened", "mark", scratch_path("in.vtu"), "--picture",
+              scratch_path("none.png"), "--output", scratch_path("out.vtu"), "--stats", scratch_path("stats.json"));
   assert_true(scratch_exists("out.vtu"));
   char *json = scratch_read(scratch_path("stats.json"), NULL);
   assert_true(json_number(json, "n_nodes") == n_box);
@@ -50,21 +51,22 @@ static void expect_picture(const char *name) {
 
 static void test_pictures(void **state) {
   (void)state;
-  RUN_FINE(scratch_path("in.vtu"), "--half-thickness", "0.3", "--picture", scratch_path("1.png"), "--view", "top",
-           "--picture", scratch_path("2.png"), "--view", "side", "--picture", scratch_path("3.png"));
+  RUN_FINE("mark", scratch_path("in.vtu"), "--half-thickness", "0.3", "--picture", scratch_path("1.png"), "--view",
+           "top", "--picture", scratch_path("2.png"), "--view", "side", "--picture", scratch_path("3.png"));
   expect_picture("1.png");
   expect_picture("2.png");
   expect_picture("3.png");
   assert_non_null(strstr(program_out, "3.png"));
   /* The third picture had no --view, so its view is oblique. */
-  RUN_FINE("--half-thickness", "0.3", "--picture", scratch_path("4.png"), scratch_path("in.vtu"), "--view", "oblique");
+  RUN_FINE("mark", "--half-thickness", "0.3", "--picture", scratch_path("4.png"), scratch_path("in.vtu"), "--view",
+           "oblique");
   assert_true(scratch_is_same("3.png", "4.png"));
   assert_false(scratch_is_same("1.png", "2.png"));
   assert_false(scratch_is_same("1.png", "3.png"));
   assert_false(scratch_is_same("2.png", "3.png"));
   /* Marks with another name are drawn in the same way. */
-  RUN_FINE("--half-thickness", "0.3", "--picture", scratch_path("5.png"), scratch_path("in.vtu"), "--prefix", "left",
-           "--output", scratch_path("left.vtu"));
+  RUN_FINE("mark", "--half-thickness", "0.3", "--picture", scratch_path("5.png"), scratch_path("in.vtu"), "--prefix",
+           "left", "--output", scratch_path("left.vtu"));
   assert_true(scratch_is_same("3.png", "5.png"));
 }
 
@@ -74,7 +76,7 @@ static void expect_title(const char *title, const char *setting, const char *val
   riis_surface *surface = NULL;
   riis_vtk_picture_options options;
   static const char *const names[3] = {"right", "left", "non-coronary"};
-  RUN_FINE("--picture", scratch_path("by_program.png"), setting, value);
+  RUN_FINE("surface", "--picture", scratch_path("by_program.png"), setting, value);
   expect_fine(riis_valve_create("aortic", &valve));
   /* The title belongs to the value; the valve that is drawn has it too. */
   const char *const number = strchr(value, '=') + 1;
@@ -107,7 +109,8 @@ static void test_unit(void **state) {
   riis_surface *surface = NULL;
   riis_surface_options made;
   riis_vtk_picture_options options;
-  RUN_FINE("--valve", "mitral", "--opening", "0.5", "--unit", "mm", "--picture", scratch_path("by_program.png"));
+  RUN_FINE("surface", "--valve", "mitral", "--opening", "0.5", "--unit", "mm", "--picture",
+           scratch_path("by_program.png"));
   expect_fine(riis_surface_options_init(&made, sizeof made));
   made.scale = 10;
   made.half_thickness = 1;
@@ -155,12 +158,12 @@ static void test_case_titles(void **state) {
   riis_mesh *nodes = NULL;
   int64_t n = 0;
   const double *xyz = NULL;
-  RUN_FINE("--valve", "trileaflet", "--translate", "0,0,-0.5", "--surface-output", scratch_path("patient.vtp"));
+  RUN_FINE("surface", "--valve", "trileaflet", "--translate", "0,0,-0.5", "--output", scratch_path("patient.vtp"));
   scratch_write_text("two.json",
                      "{\"mesh\": \"in.vtu\", \"half_thickness\": 0.3, \"valves\": [\n"
                      "{\"name\": \"aortic\", \"valve\": \"aortic\", \"opening\": 0.5},\n"
                      "{\"name\": \"patient\", \"surface\": \"patient.vtp\"}]}\n");
-  RUN_FINE("--case", scratch_path("two.json"), "--picture", scratch_path("by_program.png"), "--surface-output",
+  RUN_FINE("mark", "--case", scratch_path("two.json"), "--picture", scratch_path("by_program.png"), "--surface-output",
            scratch_path("both.vtp"));
   assert_non_null(strstr(program_out, "\nvalve     aortic: opening 0.5, "));
   const char *const patient = strstr(program_out, "\nvalve     patient: ");

@@ -51,8 +51,8 @@ static void read_surface(void) {
 static void show(const char *file, double opening) {
   char text[32];
   snprintf(text, sizeof text, "%.17g", opening);
-  RUN_FINE(scratch_path("in.vtu"), "--valve", file, "--opening", text, "--surface-output", scratch_path("out.vtp"),
-           "--quiet");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", file, "--opening", text, "--surface-output",
+           scratch_path("out.vtp"), "--quiet");
   read_surface();
 }
 
@@ -237,8 +237,8 @@ static void test_file_is_c(void **state) {
     snprintf(text, sizeof text, "%g", 0.25 * i);
     expect_fine(riis_valve_set_scalar(valve, "opening", 0.25 * i));
     mark_by_c(valve, &options, RIIS_AUTO, RIIS_FAR_DISTANCE);
-    RUN_FINE(scratch_path("in.vtu"), "--valve", EXAMPLE_JSON, "--opening", text, "--half-thickness", "0.2", "--output",
-             scratch_path("out.vtu"), "--surface-output", scratch_path("out.vtp"), "--quiet");
+    RUN_FINE("mark", scratch_path("in.vtu"), "--valve", EXAMPLE_JSON, "--opening", text, "--half-thickness", "0.2",
+             "--output", scratch_path("out.vtu"), "--surface-output", scratch_path("out.vtp"), "--quiet");
     expect_marked_mesh();
     expect_surface_output();
   }

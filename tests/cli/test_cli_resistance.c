@@ -14,8 +14,8 @@ static void test_resistance(void **state) {
   (void)state;
   static double distance[n_box], resistance[n_box];
   const double R = 10, eps = 0.3, pi = acos(-1);
-  RUN_FINE(scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--resistance", "10", "--output",
-           scratch_path("out.vtu"));
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--resistance", "10",
+           "--output", scratch_path("out.vtu"));
   assert_int_equal(shim_read_array(scratch_path("out.vtu"), 'p', "riis_distance", NULL, NULL, NULL, distance), 1);
   assert_int_equal(shim_read_array(scratch_path("out.vtu"), 'p', "riis_K", NULL, NULL, NULL, resistance), 1);
   int n_resisting = 0;
@@ -31,23 +31,22 @@ static void test_resistance(void **state) {
 static void test_no_array_unless_asked(void **state) {
   (void)state;
   static double resistance[n_box];
-  RUN_FINE(scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--output",
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--output",
            scratch_path("plain.vtu"));
   assert_int_equal(shim_read_array(scratch_path("plain.vtu"), 'p', "riis_K", NULL, NULL, NULL, resistance), 0);
 }
 
 static void test_refusals(void **state) {
   (void)state;
-  RUN_REFUSED(2, "--resistance is -1", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "-1");
-  RUN_REFUSED(2, "--resistance is nan", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "nan");
-  RUN_REFUSED(2, "--resistance", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "ten");
-  RUN_REFUSED(2, "--resistance needs a MESH", "--valve", "aortic", "--resistance", "1", "--surface-output",
-              scratch_path("s.vtp"));
+  RUN_REFUSED(2, "--resistance is -1", "mark", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "-1");
+  RUN_REFUSED(2, "--resistance is nan", "mark", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "nan");
+  RUN_REFUSED(2, "--resistance", "mark", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "ten");
+  RUN_REFUSED(2, "--resistance is not an option", "surface", "--valve", "aortic", "--resistance", "1");
   /* The K of another valve is not replaced by chance. */
-  RUN_FINE(scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--resistance", "1", "--prefix", "a",
-           "--output", scratch_path("a.vtu"));
-  RUN_REFUSED(2, "a_marked", scratch_path("a.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--resistance", "1",
-              "--prefix", "a", "--output", scratch_path("b.vtu"));
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--resistance", "1",
+           "--prefix", "a", "--output", scratch_path("a.vtu"));
+  RUN_REFUSED(2, "a_marked", "mark", scratch_path("a.vtu"), "--valve", "aortic", "--half-thickness", "0.3",
+              "--resistance", "1", "--prefix", "a", "--output", scratch_path("b.vtu"));
 }
 
 int main(void) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * riis-mark --search: the search that runs, the marks, which are always the same, and the message about a search that may be
+ * riis --search: the search that runs, the marks, which are always the same, and the message about a search that may be
  * incomplete. */
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,8 +30,9 @@ static void test_marks_are_equal(void **state) {
   const char *ran[] = {"\"exhaustive\"", "\"exhaustive\"", "\"neighbor\""};
   for (int i = 0; i < 3; ++i) {
     for (int n_threads = 1; n_threads <= 2; ++n_threads) {
-      RUN_FINE(scratch_path("in.vtu"), "--half-thickness", "0.2", "--distance-limit", "0.3", "--search", searches[i],
-               "--threads", n_threads == 1 ? "1" : "2", "--output", scratch_path("out.vtu"), "--stats", "-");
+      RUN_FINE("mark", scratch_path("in.vtu"), "--half-thickness", "0.2", "--distance-limit", "0.3", "--search",
+               searches[i], "--threads", n_threads == 1 ? "1" : "2", "--output", scratch_path("out.vtu"), "--stats",
+               "-");
       expect_marked_mesh();
       assert_true(json_has_text(program_out, "search", ran[i]));
       assert_true(json_has_text(program_out, "complete", "true"));
@@ -62,8 +63,9 @@ static void test_distances(void **state) {
     riis_valve_destroy(&valve);
     const char *searches[] = {"auto", "neighbor"};
     for (int k = 0; k < 2; ++k) {
-      RUN_FINE(scratch_path("in.vtu"), "--half-thickness", "0.2", "--distance", methods[i], "--distance-tolerance",
-               "0.3", "--search", searches[k], "--output", scratch_path("out.vtu"), "--stats", "-");
+      RUN_FINE("mark", scratch_path("in.vtu"), "--half-thickness", "0.2", "--distance", methods[i],
+               "--distance-tolerance", "0.3", "--search", searches[k], "--output", scratch_path("out.vtu"), "--stats",
+               "-");
       expect_marked_mesh();
       assert_true(json_has_text(program_out, "complete", "true"));
     }
@@ -71,11 +73,11 @@ static void test_distances(void **state) {
     snprintf(text, sizeof text, "\"%s\"", methods[i]);
     assert_true(json_has_text(program_out, "distance", text));
     n_marked[i] = json_number(program_out, "n_marked");
-    RUN_FINE(scratch_path("in.vtu"), "--distance", methods[i]);
+    RUN_FINE("mark", scratch_path("in.vtu"), "--distance", methods[i]);
     snprintf(text, sizeof text, ", distances by %s\n", methods[i]);
     assert_non_null(strstr(program_out, text));
   }
-  RUN_FINE(scratch_path("in.vtu"), "--half-thickness", "0.2", "--stats", "-");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--half-thickness", "0.2", "--stats", "-");
   assert_true(json_has_text(program_out, "distance", "\"triangles\""));
   n_marked[0] = json_number(program_out, "n_marked");
   assert_true(n_marked[RIIS_MEASURE_SAMPLING] > 0 && n_marked[RIIS_MEASURE_SAMPLING] < n_marked[0]);
@@ -84,17 +86,17 @@ static void test_distances(void **state) {
 
 static void test_table(void **state) {
   (void)state;
-  RUN_FINE(scratch_path("in.vtu"), "--search", "neighbor", "--threads", "1");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--search", "neighbor", "--threads", "1");
   assert_non_null(strstr(program_out, "\nsearch    neighbor, 1 thread"));
   assert_non_null(strstr(program_out, ", adjacency 0."));
   assert_null(strstr(program_out, "\ncomplete"));
-  RUN_FINE(scratch_path("in.vtu"), "--threads", "1");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--threads", "1");
   assert_non_null(strstr(program_out, "\nsearch    exhaustive, 1 thread\n"));
 }
 
 static void expect_warning(void) {
   assert_int_equal(program_exit_code, 0);
-  assert_non_null(strstr(program_err, "riis-mark: the marks may be incomplete: --search paper"));
+  assert_non_null(strstr(program_err, "riis: the marks may be incomplete: --search paper"));
   assert_ptr_equal(strchr(program_err, '\n') + 1, program_err + strlen(program_err));
 }
 
@@ -102,19 +104,20 @@ static void expect_warning(void) {
 static void test_paper(void **state) {
   (void)state;
   mark_default_valve(0.3, RIIS_AUTO);
-  run_program(scratch_path("in.vtu"), "--half-thickness", "0.3", "--search", "paper", "--output",
+  run_program("mark", scratch_path("in.vtu"), "--half-thickness", "0.3", "--search", "paper", "--output",
               scratch_path("out.vtu"), NULL);
   expect_warning();
   assert_non_null(strstr(program_out, "\nsearch    paper, "));
   assert_non_null(strstr(program_out, "\ncomplete  unknown: "));
   expect_marked_mesh();
-  run_program(scratch_path("in.vtu"), "--half-thickness", "0.3", "--search", "paper", "--stats", "-", NULL);
+  run_program("mark", scratch_path("in.vtu"), "--half-thickness", "0.3", "--search", "paper", "--stats", "-", NULL);
   expect_warning();
   assert_true(json_has_text(program_out, "complete", "false"));
   assert_true(json_has_text(program_out, "search", "\"paper\""));
   assert_true(json_number(program_out, "n_unreached") == 0);
   assert_true(json_number(program_out, "n_marked") == (double)by_c.stats.n_marked);
-  run_program(scratch_path("in.vtu"), "--search", "paper", "--quiet", "--output", scratch_path("quiet.vtu"), NULL);
+  run_program("mark", scratch_path("in.vtu"), "--search", "paper", "--quiet", "--output", scratch_path("quiet.vtu"),
+              NULL);
   expect_warning();
   assert_string_equal(program_out, "");
 }
@@ -130,8 +133,8 @@ static void test_two_pieces(void **state) {
   const char *searches[] = {"exhaustive", "neighbor", "paper"};
   double n_marked[3];
   for (int i = 0; i < 3; ++i) {
-    run_program(scratch_path("in.vtu"), "--surface", scratch_path("pieces.stl"), "--half-thickness", "0.2", "--search",
-                searches[i], "--stats", "-", NULL);
+    run_program("mark", scratch_path("in.vtu"), "--surface", scratch_path("pieces.stl"), "--half-thickness", "0.2",
+                "--search", searches[i], "--stats", "-", NULL);
     assert_int_equal(program_exit_code, 0);
     n_marked[i] = json_number(program_out, "n_marked");
     assert_true(json_has_text(program_out, "complete", i == 2 ? "false" : "true"));
@@ -149,17 +152,17 @@ static void test_no_cells(void **state) {
   scratch_write_text("one.stl",
                      "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
                      "endloop\nendfacet\nendsolid\n");
-  RUN_WITHOUT_CELLS(scratch_path("points.vtk"), "--surface", scratch_path("one.stl"), "--search", "neighbor");
+  RUN_WITHOUT_CELLS("mark", scratch_path("points.vtk"), "--surface", scratch_path("one.stl"), "--search", "neighbor");
   assert_non_null(strstr(program_out, "2 nodes within the half thickness"));
   assert_non_null(strstr(program_out, ", 1 node not reached from a neighbour\n"));
-  RUN_WITHOUT_CELLS(scratch_path("points.vtk"), "--surface", scratch_path("one.stl"), "--search", "neighbor", "--stats",
-                    "-");
+  RUN_WITHOUT_CELLS("mark", scratch_path("points.vtk"), "--surface", scratch_path("one.stl"), "--search", "neighbor",
+                    "--stats", "-");
   assert_true(json_number(program_out, "n_marked") == 2);
   assert_true(json_number(program_out, "n_unreached") == 1);
-  run_program(scratch_path("points.vtk"), "--surface", scratch_path("one.stl"), "--search", "paper", "--stats", "-",
-              NULL);
+  run_program("mark", scratch_path("points.vtk"), "--surface", scratch_path("one.stl"), "--search", "paper", "--stats",
+              "-", NULL);
   assert_int_equal(program_exit_code, 0);
-  assert_non_null(strstr(program_err, "riis-mark: the marks may be incomplete: --search paper"));
+  assert_non_null(strstr(program_err, "riis: the marks may be incomplete: --search paper"));
   assert_non_null(strstr(program_err, " has no volume cells\n"));
   assert_true(json_number(program_out, "n_marked") == 1);
 }
@@ -170,13 +173,11 @@ static void test_refusals(void **state) {
   const char *searches[] = {"neighbor", "paper"};
   for (int i = 0; i < 2; ++i) {
     const char *mesh = scratch_path("missing.vtu");
-    RUN_REFUSED(2, "--search needs a MESH", "--surface-output", "a.vtp", "--search", searches[i]);
-    RUN_REFUSED(2, "--search has no effect with --print-params", "--print-params", "--search", searches[i]);
-    RUN_REFUSED(2, "--threads is -2; ", mesh, "--search", searches[i], "--threads", "-2");
-    RUN_REFUSED(2, "--distance-limit is 0.05; ", mesh, "--search", searches[i], "--distance-limit", "0.05");
-    RUN_REFUSED(1, "missing.vtu: cannot be read", mesh, "--search", searches[i]);
+    RUN_REFUSED(2, "--threads is -2; ", "mark", mesh, "--search", searches[i], "--threads", "-2");
+    RUN_REFUSED(2, "--distance-limit is 0.05; ", "mark", mesh, "--search", searches[i], "--distance-limit", "0.05");
+    RUN_REFUSED(1, "missing.vtu: cannot be read", "mark", mesh, "--search", searches[i]);
   }
-  RUN_REFUSED(2, "--search", scratch_path("in.vtu"), "--search", "neighbour");
+  RUN_REFUSED(2, "--search", "mark", scratch_path("in.vtu"), "--search", "neighbour");
 }
 
 static int destroy_all(void **state) {

@@ -53,8 +53,8 @@ static int64_t read_array(const char *path, const char *name, double *values) {
 
 /* A single run at the opening of a step. */
 static void run_single(int step) {
-  RUN_FINE(scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--resistance", "7", "--opening",
-           opening_texts[step], "--output", scratch_path("single.vtu"), "--quiet");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--resistance", "7",
+           "--opening", opening_texts[step], "--output", scratch_path("single.vtu"), "--quiet");
 }
 
 /* All arrays of a single run, with the same bits at the nodes of the part. */
@@ -98,9 +98,9 @@ static int64_t nodes_near_sweep(double *ids) {
 
 static void run_series(const char *output, const char *option, const char *value) {
   scratch_write_text("cycle.csv", cycle);
-  RUN_FINE(scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--resistance", "7", "--cycle",
-           scratch_path("cycle.csv"), "--times", "0:0.4:0.1", "--output", scratch_path(output), "--quiet", option,
-           value);
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--resistance", "7",
+           "--cycle", scratch_path("cycle.csv"), "--times", "0:0.4:0.1", "--output", scratch_path(output), "--quiet",
+           option, value);
 }
 
 static void test_files(void **state) {
@@ -240,9 +240,9 @@ static double opening_at(const char *line_of_time, const char *option, const cha
                          const char *interpolation) {
   double time = 0, opening = -1;
   scratch_write_text("cycle.csv", cycle);
-  RUN_FINE(scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle", scratch_path("cycle.csv"),
-           "--times", "0.05,0.45,0.55", "--series-table", scratch_path("o.csv"), "--quiet", option, value, more,
-           interpolation);
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
+           scratch_path("cycle.csv"), "--times", "0.05,0.45,0.55", "--series-table", scratch_path("o.csv"), "--quiet",
+           option, value, more, interpolation);
   char *text = scratch_read(scratch_path("o.csv"), NULL);
   const char *line = strstr(text, line_of_time);
   assert_non_null(line);
@@ -274,8 +274,9 @@ static void test_first_velocity(void **state) {
   (void)state;
   double time = -1, opening = -1, n_marked = 0, speed = 0;
   scratch_write_text("cycle.csv", cycle);
-  RUN_FINE(scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle", scratch_path("cycle.csv"),
-           "--period", "0.5", "--times", "0:0.4:0.1", "--series-table", scratch_path("v.csv"), "--quiet");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
+           scratch_path("cycle.csv"), "--period", "0.5", "--times", "0:0.4:0.1", "--series-table",
+           scratch_path("v.csv"), "--quiet");
   char *text = scratch_read(scratch_path("v.csv"), NULL);
   assert_int_equal(sscanf(strchr(text, '\n'), "\n%lf,%lf,%lf,%lf", &time, &opening, &n_marked, &speed), 4);
   /* From 0.5 to 0 in 0.1. */
@@ -319,7 +320,7 @@ static void test_triangulations(void **state) {
   static double ids[2][100000];
   for (int how = 0; how < 2; ++how) {
     run_series("t.pvd", "--triangulation", hows[how]);
-    RUN_FINE(scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
+    RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
              scratch_path("cycle.csv"), "--times", "0.05:0.2:0.05", "--surface-output", scratch_path("tri.pvd"),
              "--triangulation", hows[how], "--quiet");
     const int64_t n[2] = {read_triangles(step_path("tri", 0, "vtp"), corners[0]),
@@ -344,24 +345,24 @@ static void test_triangulations(void **state) {
 static void test_motion(void **state) {
   (void)state;
   static double marked[n_box], single[n_box], velocity[3 * n_box];
-  RUN_FINE("--valve", "mitral", "--surface-output", scratch_path("low.vtp"), "--quiet");
-  RUN_FINE("--valve", "mitral", "--translate", "0,0,0.5", "--surface-output", scratch_path("high.vtp"), "--quiet");
+  RUN_FINE("surface", "--valve", "mitral", "--output", scratch_path("low.vtp"), "--quiet");
+  RUN_FINE("surface", "--valve", "mitral", "--translate", "0,0,0.5", "--output", scratch_path("high.vtp"), "--quiet");
   scratch_write_text("move.pvd",
                      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\"><Collection>"
                      "<DataSet timestep=\"0\" file=\"low.vtp\"/><DataSet timestep=\"1\" file=\"high.vtp\"/>"
                      "</Collection></VTKFile>\n");
-  RUN_FINE(scratch_path("in.vtu"), "--surface", scratch_path("move.pvd"), "--half-thickness", "0.3", "--times",
+  RUN_FINE("mark", scratch_path("in.vtu"), "--surface", scratch_path("move.pvd"), "--half-thickness", "0.3", "--times",
            "0,0.5,1", "--output", scratch_path("mv.pvd"), "--all-cells", "--series-table", scratch_path("mv.csv"),
            "--quiet");
   /* A surface has no opening to tell. */
-  run_program(scratch_path("in.vtu"), "--surface", scratch_path("move.pvd"), "--half-thickness", "0.3", "--times",
-              "0,1", NULL);
+  run_program("mark", scratch_path("in.vtu"), "--surface", scratch_path("move.pvd"), "--half-thickness", "0.3",
+              "--times", "0,1", NULL);
   assert_int_equal(program_exit_code, 0);
   assert_null(strstr(program_out, "opening"));
   assert_non_null(strstr(program_out, "move.pvd: "));
   assert_non_null(strstr(program_out, " nodes marked, largest speed 0.5\n"));
-  RUN_FINE(scratch_path("in.vtu"), "--surface", scratch_path("move.pvd"), "--half-thickness", "0.3", "--time", "0.5",
-           "--output", scratch_path("at.vtu"), "--quiet");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--surface", scratch_path("move.pvd"), "--half-thickness", "0.3", "--time",
+           "0.5", "--output", scratch_path("at.vtu"), "--quiet");
   read_array(step_path("mv", 1, "vtu"), "riis_marked", marked);
   read_array(scratch_path("at.vtu"), "riis_marked", single);
   assert_memory_equal(marked, single, sizeof marked);

@@ -17,9 +17,9 @@
 
 static void write_cycle(const char *text) { scratch_write_text("cycle.csv", text); }
 
-#define REFUSED_SERIES(exit_code, text, ...)                                                                      \
-  RUN_REFUSED(exit_code, text, scratch_path("in.vtu"), "--valve", "mitral", "--cycle", scratch_path("cycle.csv"), \
-              "--output", scratch_path("s.pvd"), __VA_ARGS__)
+#define REFUSED_SERIES(exit_code, text, ...)                                                   \
+  RUN_REFUSED(exit_code, text, "mark", scratch_path("in.vtu"), "--valve", "mitral", "--cycle", \
+              scratch_path("cycle.csv"), "--output", scratch_path("s.pvd"), __VA_ARGS__)
 #define REFUSED_TIMES(text, times) REFUSED_SERIES(2, text, "--times", times)
 
 static void test_times(void **state) {
@@ -72,41 +72,42 @@ static void test_cycle_files(void **state) {
   REFUSED_SERIES(2, "--period: 0 is not above 0", "--times", "0:1:0.5", "--period", "0");
   /* Files of other programs: blanks, semicolons, line ends of Windows. */
   write_cycle("Zeit;Oeffnung\r\n0; 0\r\n+1;\t1\r\n");
-  RUN_FINE(scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle", scratch_path("cycle.csv"),
-           "--times", "0:1:0.5", "--series-table", scratch_path("t.csv"), "--quiet");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
+           scratch_path("cycle.csv"), "--times", "0:1:0.5", "--series-table", scratch_path("t.csv"), "--quiet");
 }
 
 static void test_options(void **state) {
   (void)state;
   const char *mesh = scratch_path("in.vtu"), *cycle = scratch_path("cycle.csv");
   write_cycle("0,0\n1,1\n");
-  RUN_REFUSED(2, "--movie needs --times", mesh, "--movie", "a.mp4");
-  RUN_REFUSED(2, "--series-table needs --times", mesh, "--series-table", "a.csv");
-  RUN_REFUSED(2, "--all-cells needs --times", mesh, "--all-cells");
-  RUN_REFUSED(2, "--cycle needs --times", mesh, "--cycle", cycle);
-  RUN_REFUSED(2, "--times needs --cycle", mesh, "--times", "0,1");
-  RUN_REFUSED(2, "--times needs a MESH", "--cycle", cycle, "--times", "0,1");
-  RUN_REFUSED(2, "--period needs a motion, --surface FILE.pvd, or --cycle", mesh, "--times", "0,1", "--period", "1");
-  RUN_REFUSED(2, "--frame-rate requires --movie", mesh, "--times", "0,1", "--frame-rate", "1");
-  RUN_REFUSED(2, "--opening has no effect with --times", mesh, "--cycle", cycle, "--times", "0,1", "--opening", "1");
-  RUN_REFUSED(2, "--set opening has no effect with --times", mesh, "--cycle", cycle, "--times", "0,1", "--set",
+  RUN_REFUSED(2, "--movie needs --times", "mark", mesh, "--movie", "a.mp4");
+  RUN_REFUSED(2, "--series-table needs --times", "mark", mesh, "--series-table", "a.csv");
+  RUN_REFUSED(2, "--all-cells needs --times", "mark", mesh, "--all-cells");
+  RUN_REFUSED(2, "--cycle needs --times", "mark", mesh, "--cycle", cycle);
+  RUN_REFUSED(2, "--times needs --cycle", "mark", mesh, "--times", "0,1");
+  RUN_REFUSED(2, "nothing to do: a MESH is needed", "mark", "--cycle", cycle, "--times", "0,1");
+  RUN_REFUSED(2, "--period needs a motion, --surface FILE.pvd, or --cycle", "mark", mesh, "--period", "1");
+  RUN_REFUSED(2, "--frame-rate requires --movie", "mark", mesh, "--times", "0,1", "--frame-rate", "1");
+  RUN_REFUSED(2, "--opening excludes --times", "mark", mesh, "--cycle", cycle, "--times", "0,1", "--opening", "1");
+  RUN_REFUSED(2, "--set opening has no effect with --times", "mark", mesh, "--cycle", cycle, "--times", "0,1", "--set",
               "opening=1");
-  RUN_REFUSED(2, "--steps has no effect with --times", mesh, "--cycle", cycle, "--times", "0,1", "--steps", "2");
-  RUN_REFUSED(2, "--stats has no effect with --times", mesh, "--cycle", cycle, "--times", "0,1", "--stats", "-");
-  RUN_REFUSED(2, "--search has no effect with --times", mesh, "--cycle", cycle, "--times", "0,1", "--search", "paper");
-  RUN_REFUSED(2, "--distance has no effect with --times", mesh, "--cycle", cycle, "--times", "0,1", "--distance",
+  RUN_REFUSED(2, "--steps excludes --times", "mark", mesh, "--cycle", cycle, "--times", "0,1", "--steps", "2");
+  RUN_REFUSED(2, "--stats excludes --times", "mark", mesh, "--cycle", cycle, "--times", "0,1", "--stats", "-");
+  RUN_REFUSED(2, "--search excludes --times", "mark", mesh, "--cycle", cycle, "--times", "0,1", "--search", "paper");
+  RUN_REFUSED(2, "--distance excludes --times", "mark", mesh, "--cycle", cycle, "--times", "0,1", "--distance",
               "sampling");
-  RUN_REFUSED(2, "--times has no effect with --surface a.stl: a motion is a .pvd file", mesh, "--times", "0,1",
+  RUN_REFUSED(2, "--times has no effect with --surface a.stl: a motion is a .pvd file", "mark", mesh, "--times", "0,1",
               "--surface", "a.stl");
-  RUN_REFUSED(2, "--cycle has no effect with --surface", mesh, "--times", "0,1", "--surface", "a.pvd", "--cycle",
-              cycle);
-  RUN_REFUSED(2, "--time has no effect with --times", mesh, "--times", "0,1", "--surface", "a.pvd", "--time", "0");
-  RUN_REFUSED(2, "must end in .pvd", mesh, "--cycle", cycle, "--times", "0,1", "--output", "a.vtu");
-  RUN_REFUSED(2, "must end in .pvd", mesh, "--cycle", cycle, "--times", "0,1", "--surface-output", "a.vtp");
-  RUN_REFUSED(2, "--output: a.pvd must end in .vtu", mesh, "--output", "a.pvd");
-  RUN_REFUSED(2, "--movie: a.avi must end in .mp4 or .gif", mesh, "--cycle", cycle, "--times", "0,1", "--movie",
+  RUN_REFUSED(2, "--cycle has no effect with --surface", "mark", mesh, "--times", "0,1", "--surface", "a.pvd",
+              "--cycle", cycle);
+  RUN_REFUSED(2, "--time excludes --times", "mark", mesh, "--times", "0,1", "--surface", "a.pvd", "--time", "0");
+  RUN_REFUSED(2, "must end in .pvd", "mark", mesh, "--cycle", cycle, "--times", "0,1", "--output", "a.vtu");
+  RUN_REFUSED(2, "must end in .pvd", "mark", mesh, "--cycle", cycle, "--times", "0,1", "--surface-output", "a.vtp");
+  RUN_REFUSED(2, "--output: a.pvd must end in .vtu", "mark", mesh, "--output", "a.pvd");
+  RUN_REFUSED(2, "--movie: a.avi must end in .mp4 or .gif", "mark", mesh, "--cycle", cycle, "--times", "0,1", "--movie",
               "a.avi");
-  RUN_REFUSED(2, "is also the file of --cycle", mesh, "--cycle", cycle, "--times", "0,1", "--series-table", cycle);
+  RUN_REFUSED(2, "is also the file of --cycle", "mark", mesh, "--cycle", cycle, "--times", "0,1", "--series-table",
+              cycle);
 }
 
 /* A valve that cannot open so far is refused before the mesh is read. */
@@ -117,7 +118,7 @@ static void test_valves(void **state) {
       "patch.json",
       "{\"curves\": {\"a\": [[0,0,0],[1,0,0]], \"b\": [[0,1,0],[1,1,0]], \"c\": [[0,0,0],[0,1,0]],"
       "\"d\": [[1,0,0],[1,1,0]]}, \"patches\": [{\"v0\": \"a\", \"v1\": \"b\", \"u0\": \"c\", \"u1\": \"d\"}]}");
-  RUN_REFUSED(1, "opening is 0.5, but the file has no \"open\" state", "missing.vtu", "--valve",
+  RUN_REFUSED(1, "opening is 0.5, but the file has no \"open\" state", "mark", "missing.vtu", "--valve",
               scratch_path("patch.json"), "--cycle", scratch_path("cycle.csv"), "--times", "0,1", "--output",
               scratch_path("s.pvd"));
 }
@@ -126,22 +127,22 @@ static void test_places(void **state) {
   (void)state;
   const char *mesh = scratch_path("in.vtu"), *cycle = scratch_path("cycle.csv");
   write_cycle("0,0\n1,1\n");
-  RUN_REFUSED(1, "the folder /nowhere does not exist", mesh, "--cycle", cycle, "--times", "0,1", "--output",
+  RUN_REFUSED(1, "the folder /nowhere does not exist", "mark", mesh, "--cycle", cycle, "--times", "0,1", "--output",
               "/nowhere/s.pvd");
-  RUN_REFUSED(1, "the folder /nowhere does not exist", mesh, "--cycle", cycle, "--times", "0,1", "--series-table",
-              "/nowhere/s.csv");
+  RUN_REFUSED(1, "the folder /nowhere does not exist", "mark", mesh, "--cycle", cycle, "--times", "0,1",
+              "--series-table", "/nowhere/s.csv");
   /* A file where the folder would be. */
   scratch_write_text("full", "text");
-  RUN_REFUSED(1, "full: the folder cannot be made", mesh, "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
-              cycle, "--times", "0,1", "--output", scratch_path("full.pvd"), "--quiet");
+  RUN_REFUSED(1, "full: the folder cannot be made", "mark", mesh, "--valve", "mitral", "--half-thickness", "0.3",
+              "--cycle", cycle, "--times", "0,1", "--output", scratch_path("full.pvd"), "--quiet");
   /* The input would be replaced by a step. */
   assert_int_equal(mkdir(scratch_path("in"), 0700), 0);
   assert_int_equal(symlink("../in.vtu", scratch_path("in/in_0000.vtu")), 0);
-  RUN_REFUSED(2, "holds the file of MESH", scratch_path("in/in_0000.vtu"), "--cycle", cycle, "--times", "0,1",
+  RUN_REFUSED(2, "holds the file of MESH", "mark", scratch_path("in/in_0000.vtu"), "--cycle", cycle, "--times", "0,1",
               "--output", scratch_path("in.pvd"));
   /* Arrays of the user's. */
-  RUN_FINE(mesh, "--valve", "mitral", "--half-thickness", "0.3", "--output", scratch_path("marked.vtu"));
-  RUN_REFUSED(2, "already has an array riis_marked", scratch_path("marked.vtu"), "--valve", "mitral",
+  RUN_FINE("mark", mesh, "--valve", "mitral", "--half-thickness", "0.3", "--output", scratch_path("marked.vtu"));
+  RUN_REFUSED(2, "already has an array riis_marked", "mark", scratch_path("marked.vtu"), "--valve", "mitral",
               "--half-thickness", "0.3", "--cycle", cycle, "--times", "0,1", "--output", scratch_path("s.pvd"));
   assert_false(scratch_exists("s.pvd"));
 }
@@ -153,7 +154,8 @@ static void test_no_ffmpeg(void **state) {
   write_cycle("0,0\n1,1\n");
   setenv("PATH", "/nowhere", 1);
   RUN_REFUSED(1, "--movie needs the program ffmpeg, which is not on the PATH; on Debian the package ffmpeg has it",
-              "missing.vtu", "--cycle", scratch_path("cycle.csv"), "--times", "0,1", "--movie", scratch_path("a.mp4"));
+              "mark", "missing.vtu", "--cycle", scratch_path("cycle.csv"), "--times", "0,1", "--movie",
+              scratch_path("a.mp4"));
   setenv("PATH", before, 1);
   free(before);
   assert_false(scratch_exists("a.mp4"));
@@ -163,14 +165,14 @@ static void test_no_ffmpeg(void **state) {
 static void test_none_marked(void **state) {
   (void)state;
   write_cycle("0,0\n1,1\n");
-  run_program(scratch_path("in.vtu"), "--valve", "mitral", "--translate", "50,0,0", "--half-thickness", "0.3",
+  run_program("mark", scratch_path("in.vtu"), "--valve", "mitral", "--translate", "50,0,0", "--half-thickness", "0.3",
               "--cycle", scratch_path("cycle.csv"), "--times", "0,1", "--output", scratch_path("none.pvd"), "--quiet",
               NULL);
   assert_int_equal(program_exit_code, 3);
   assert_non_null(strstr(program_err, "no node is marked"));
   assert_true(scratch_exists("none/none_0001.vtu"));
-  RUN_FINE(scratch_path("in.vtu"), "--valve", "mitral", "--translate", "50,0,0", "--half-thickness", "0.3", "--cycle",
-           scratch_path("cycle.csv"), "--times", "0,1", "--output", scratch_path("none.pvd"), "--quiet",
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--translate", "50,0,0", "--half-thickness", "0.3",
+           "--cycle", scratch_path("cycle.csv"), "--times", "0,1", "--output", scratch_path("none.pvd"), "--quiet",
            "--allow-none");
 }
 
@@ -179,12 +181,12 @@ static void test_announcement(void **state) {
   (void)state;
   struct stat status;
   write_cycle("0,0\n1,1\n");
-  run_program(scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
+  run_program("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
               scratch_path("cycle.csv"), "--times", "0:1:0.25", "--output", scratch_path("size.pvd"), "--all-cells",
               NULL);
   assert_int_equal(program_exit_code, 0);
   double announced = 0;
-  const char *found = strstr(program_err, "riis-mark: writing 5 files with 2,197 of 2,197 nodes, ");
+  const char *found = strstr(program_err, "riis: writing 5 files with 2,197 of 2,197 nodes, ");
   assert_non_null(found);
   assert_int_equal(sscanf(strstr(found, "nodes, "), "nodes, %lf MB in all", &announced), 1);
   double size = 0;
@@ -211,7 +213,7 @@ static int n_listed(const char *pvd) {
 static void interrupt_series(int signal_number) {
   static const char *const files[] = {"long/long_0000.vtu", "long/long_0001.vtu"};
   const pid_t process =
-      start_program(scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
+      start_program("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
                     scratch_path("cycle.csv"), "--times", "0:1:0.0005", "--output", scratch_path("long.pvd"),
                     "--series-table", scratch_path("long.csv"), "--quiet", NULL);
   for (int n_tries = 0; !scratch_exists(files[1]) && n_tries < 100000; ++n_tries) usleep(500);
@@ -224,8 +226,8 @@ static void interrupt_series(int signal_number) {
 static void test_killed(void **state) {
   (void)state;
   write_cycle("0,0\n1,1\n");
-  const pid_t process = start_program(scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
-                                      scratch_path("cycle.csv"), "--times", "0:1:0.0005", "--output",
+  const pid_t process = start_program("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3",
+                                      "--cycle", scratch_path("cycle.csv"), "--times", "0:1:0.0005", "--output",
                                       scratch_path("dead.pvd"), "--quiet", NULL);
   for (int n_tries = 0; !scratch_exists("dead/dead_0011.vtu") && n_tries < 100000; ++n_tries) usleep(500);
   const int is_stopped = ptrace(PTRACE_SEIZE, process, NULL, NULL) == 0;
@@ -257,7 +259,7 @@ static void test_interruption(void **state) {
     assert_int_equal(program_exit_code, 128 + signals[i]);
     const int n = n_listed("long.pvd");
     char said[64];
-    snprintf(said, sizeof said, "riis-mark: interrupted: %d of 2001 written\n", n);
+    snprintf(said, sizeof said, "riis: interrupted: %d of 2001 written\n", n);
     assert_string_equal(program_err, said);
     assert_true(n >= 2 && n < 2001);
     for (int step = 0; step <= n; ++step) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * riis-mark --states: free edges against the curves of the valves, areas and orifices against the surface's triangles. */
+ * riis --states: free edges against the curves of the valves, areas and orifices against the surface's triangles. */
 /* clang-format off: test_support.h checks statuses if riis.h came before */
 #include <riis/riis.h>
 
@@ -61,10 +61,10 @@ static double cell(int row, const char *name) {
   return 0;
 }
 
-#define RUN_STATES(...)                                            \
-  do {                                                             \
-    RUN_FINE("--states", scratch_path("states.csv"), __VA_ARGS__); \
-    read_table();                                                  \
+#define RUN_STATES(...)                                          \
+  do {                                                           \
+    RUN_FINE("states", scratch_path("states.csv"), __VA_ARGS__); \
+    read_table();                                                \
   } while (0)
 
 static void expect_said(const char *text) {
@@ -158,7 +158,7 @@ static void test_mitral(void **state) {
   enum { n_states = 5 };
   mitral_parameters parameters = mitral_defaults();
   riis_valve *valve = make_valve("mitral");
-  RUN_STATES("--valve", "mitral", "--state-count", "5");
+  RUN_STATES("--valve", "mitral", "--count", "5");
   assert_int_equal(table.n_rows, n_states);
   assert_int_equal(table.n_columns, 10);
   check_ratios();
@@ -200,7 +200,7 @@ static void test_stdout(void **state) {
   assert_string_equal(program_out, "");
   assert_int_equal(table.n_rows, 101);
   for (int i = 0; i <= 100; ++i) assert_true(cell(i, "opening") == i / 100.0);
-  RUN_FINE("--states", "-", "--valve", RIIS_EXAMPLES "/prosthesis.json");
+  RUN_FINE("states", "-", "--valve", RIIS_EXAMPLES "/prosthesis.json");
   char *text = scratch_read(scratch_path("states.csv"), NULL);
   assert_string_equal(program_out, text);
   free(text);
@@ -241,7 +241,7 @@ static void test_aortic(void **state) {
   CHECK_OK(riis_valve_set_scalar(open, "leaflet_radius_in", 1));
   CHECK_OK(riis_valve_set_open_state(valve, open));
   scratch_write_text("open.json", "{\"leaflet_radius_in\": 1}");
-  RUN_STATES("--params-open", scratch_path("open.json"), "--state-count", "3");
+  RUN_STATES("--params-open", scratch_path("open.json"), "--count", "3");
   assert_int_equal(table.n_rows, 3);
   assert_int_equal(table.n_columns, 14);
   check_ratios();
@@ -272,12 +272,12 @@ static void test_aortic(void **state) {
 static void test_frame_and_unit(void **state) {
   (void)state;
   scratch_write_text("open.json", "{\"leaflet_radius_in\": 1, \"translation\": [3, -2, 1]}");
-  RUN_STATES("--params-open", scratch_path("open.json"), "--set", "translation=3,-2,1", "--state-count", "3");
+  RUN_STATES("--params-open", scratch_path("open.json"), "--set", "translation=3,-2,1", "--count", "3");
   double edge[3], area[3], orifice[3];
   for (int i = 0; i < 3; ++i)
     edge[i] = cell(i, "left_edge"), area[i] = cell(i, "left_area"), orifice[i] = cell(i, "orifice_area");
   scratch_write_text("open.json", "{\"leaflet_radius_in\": 1}");
-  RUN_STATES("--params-open", scratch_path("open.json"), "--state-count", "3", "--unit", "mm");
+  RUN_STATES("--params-open", scratch_path("open.json"), "--count", "3", "--unit", "mm");
   for (int i = 0; i < 3; ++i) {
     CHECK_NEAR(cell(i, "left_edge"), 10 * edge[i], 1e-9);
     CHECK_NEAR(cell(i, "left_area"), 100 * area[i], 1e-9);
@@ -293,7 +293,7 @@ static void test_prosthesis(void **state) {
   (void)state;
   double closed[4][3] = {{0.6, -1.04, 1.2}, {0.45, -0.78, 1}, {0.3, -0.52, 0.8}, {0, 0, 0.8}};
   double opened[4][3] = {{0.6, -1.04, 1.2}, {0.87, -0.8, 1.2}, {1.05, -0.37, 1.2}, {1.05, 0, 1.2}};
-  RUN_STATES("--valve", RIIS_EXAMPLES "/prosthesis.json", "--state-count", "2");
+  RUN_STATES("--valve", RIIS_EXAMPLES "/prosthesis.json", "--count", "2");
   CHECK_NEAR(cell(0, "leaflet_0_edge"), 2 * cubic_length(closed), 3e-4);
   CHECK_NEAR(cell(1, "leaflet_0_edge"), 2 * cubic_length(opened), 3e-4);
   assert_true(has_column("leaflet_1_edge") && has_column("leaflet_2_area_ratio"));
@@ -364,28 +364,26 @@ static void test_refusals(void **state) {
   (void)state;
   char csv[256];
   snprintf(csv, sizeof csv, "%s", scratch_path("no.csv"));
-  RUN_REFUSED(2, "--state-count: 1 is not from 2 to 100001", "--states", csv, "--state-count", "1");
-  RUN_REFUSED(2, "--state-count: 0 is not from 2 to 100001", "--states", csv, "--state-count", "0");
-  RUN_REFUSED(2, "--state-count: 100002 is not from 2 to 100001", "--states", csv, "--state-count", "100002");
-  RUN_REFUSED(2, "--state-count: 'many' is not a whole number", "--states", csv, "--state-count", "many");
-  RUN_REFUSED(2, "--state-count requires --states", "--valve", "mitral", "--state-count", "5");
-  RUN_REFUSED(2, "--states: the value is empty", "--states", "");
-  RUN_REFUSED(2, "MESH has no effect with --states", scratch_path("in.vtu"), "--states", csv);
-  RUN_REFUSED(2, "--opening has no effect with --states", "--states", csv, "--opening", "0.5");
-  RUN_REFUSED(2, "--set opening has no effect with --states", "--states", csv, "--set", "opening=0.5");
-  RUN_REFUSED(2, "--rotate has no effect with --states", "--states", csv, "--rotate", "0,0,1,90");
-  RUN_REFUSED(2, "--threads has no effect with --states", "--states", csv, "--threads", "1");
-  RUN_REFUSED(2, "--case has no effect with --states", "--states", csv, "--case", "a.json");
-  RUN_REFUSED(2, "is also the file of --valve", "--states", scratch_path("flat.json"), "--valve",
+  RUN_REFUSED(2, "--count: 1 is not from 2 to 100001", "states", csv, "--count", "1");
+  RUN_REFUSED(2, "--count: 0 is not from 2 to 100001", "states", csv, "--count", "0");
+  RUN_REFUSED(2, "--count: 100002 is not from 2 to 100001", "states", csv, "--count", "100002");
+  RUN_REFUSED(2, "--count: 'many' is not a whole number", "states", csv, "--count", "many");
+  RUN_REFUSED(2, "OUT: the value is empty", "states", "");
+  RUN_REFUSED(2, "OUT is required", "states");
+  RUN_REFUSED(2, "in.vtu is one argument too many", "states", csv, scratch_path("in.vtu"));
+  RUN_REFUSED(2, "--set opening has no effect: the table has all openings", "states", csv, "--set", "opening=0.5");
+  const char *const others[] = {"--opening=0.5", "--rotate=0,0,1,90", "--threads=1", "--case=a.json",
+                                "--surface=a.vtp"};
+  for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i)
+    RUN_REFUSED(2, " is not an option", "states", csv, others[i]);
+  RUN_REFUSED(2, "is also the file of --valve", "states", scratch_path("flat.json"), "--valve",
               scratch_path("flat.json"));
-  RUN_REFUSED(2, "--print-params has no effect with --states", "--states", csv, "--print-params");
-  RUN_REFUSED(2, "--surface excludes --states", "--states", csv, "--surface", "a.vtp");
-  RUN_REFUSED(2, "is also the file of --params", "--states", scratch_path("open.json"), "--params",
+  RUN_REFUSED(2, "is also the file of --params", "states", scratch_path("open.json"), "--params",
               scratch_path("open.json"));
-  RUN_REFUSED(1, "no/states.csv: cannot be written: the folder", "--states", scratch_path("no/states.csv"));
-  RUN_REFUSED(1, "is a directory", "--states", scratch_path("."));
-  RUN_REFUSED(1, "times root_radius, which is 0.001", "--states", csv, "--set", "root_radius=0.001");
-  RUN_REFUSED(1, "is not a kind of valve", "--states", csv, "--valve", "tricuspid");
+  RUN_REFUSED(1, "no/states.csv: cannot be written: the folder", "states", scratch_path("no/states.csv"));
+  RUN_REFUSED(1, "is a directory", "states", scratch_path("."));
+  RUN_REFUSED(1, "times root_radius, which is 0.001", "states", csv, "--set", "root_radius=0.001");
+  RUN_REFUSED(1, "is not a kind of valve", "states", csv, "--valve", "tricuspid");
   assert_false(scratch_exists("no.csv"));
 }
 

@@ -18,10 +18,10 @@ static void test_steps(void **state) {
   (void)state;
   for (size_t i = 0; i < sizeof searches / sizeof searches[0]; ++i) {
     const char *const search = searches[i].option;
-    RUN_FINE(scratch_path("in.vtu"), "--valve", "mitral", "--opening", "0.99", "--search", search, "--output",
+    RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--opening", "0.99", "--search", search, "--output",
              scratch_path("without.vtu"), "--surface-output", scratch_path("without.vtp"), "--stats", "-");
     assert_null(strstr(program_out, "\"step\""));
-    RUN_FINE(scratch_path("in.vtu"), "--valve", "mitral", "--opening", "0.99", "--search", search, "--output",
+    RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--opening", "0.99", "--search", search, "--output",
              scratch_path("with.vtu"), "--surface-output", scratch_path("with.vtp"), "--steps", "5", "--stats", "-");
     assert_true(json_number(program_out, "n_steps") == 5);
     assert_true(json_number(program_out, "seconds_surface") > 0);
@@ -31,7 +31,7 @@ static void test_steps(void **state) {
     assert_true(scratch_is_same("with.vtu", "without.vtu"));
     assert_true(scratch_is_same("with.vtp", "without.vtp"));
   }
-  RUN_FINE(scratch_path("in.vtu"), "--valve", "mitral", "--steps", "1");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--steps", "1");
   assert_non_null(strstr(program_out, "\nstep      "));
   assert_non_null(strstr(program_out, "median of 1 step of 0.02 in opening, search clusters\n"));
 }
@@ -39,19 +39,17 @@ static void test_steps(void **state) {
 static void test_refusals(void **state) {
   (void)state;
   const char *mesh = scratch_path("in.vtu");
-  RUN_REFUSED(2, "--steps: 0 is not above 0", mesh, "--valve", "mitral", "--steps", "0");
-  RUN_REFUSED(2, "--steps: -3 is not above 0", mesh, "--valve", "mitral", "--steps", "-3");
-  RUN_REFUSED(2, "--steps", mesh, "--valve", "mitral", "--steps", "2.5");
-  RUN_REFUSED(2, "--steps needs a MESH", "--valve", "mitral", "--steps", "2", "--surface-output",
-              scratch_path("a.vtp"));
-  RUN_REFUSED(2, "--steps has no effect with --print-params", "--valve", "mitral", "--steps", "2", "--print-params");
-  RUN_REFUSED(2, "--surface excludes --steps", mesh, "--surface", scratch_path("a.vtp"), "--steps", "2");
+  RUN_REFUSED(2, "--steps: 0 is not above 0", "mark", mesh, "--valve", "mitral", "--steps", "0");
+  RUN_REFUSED(2, "--steps: -3 is not above 0", "mark", mesh, "--valve", "mitral", "--steps", "-3");
+  RUN_REFUSED(2, "--steps", "mark", mesh, "--valve", "mitral", "--steps", "2.5");
+  RUN_REFUSED(2, "--steps is not an option", "surface", "--valve", "mitral", "--steps", "2");
+  RUN_REFUSED(2, "--surface excludes --steps", "mark", mesh, "--surface", scratch_path("a.vtp"), "--steps", "2");
   /* This valve cannot move. */
   scratch_write_text(
       "patch.json",
       "{\"curves\": {\"a\": [[0,0,0],[1,0,0]], \"b\": [[0,1,0],[1,1,0]], \"c\": [[0,0,0],[0,1,0]],"
       "\"d\": [[1,0,0],[1,1,0]]}, \"patches\": [{\"v0\": \"a\", \"v1\": \"b\", \"u0\": \"c\", \"u1\": \"d\"}]}");
-  RUN_REFUSED(1, "opening is 0.02, but the patches valve has one state only", mesh, "--valve",
+  RUN_REFUSED(1, "opening is 0.02, but the patches valve has one state only", "mark", mesh, "--valve",
               scratch_path("patch.json"), "--steps", "2");
 }
 

@@ -31,10 +31,10 @@ static int make_files(void **state) {
     if (!shim_write_box(meshes[i], SHIM_RAW, 22, (double[3]){-1.7 * f, -1.6 * f, -1.3 * f},
                         (double[3]){1.5 * f, 1.6 * f, 0.4 * f}, 0))
       return -1;
-    run_program("--unit", units[i], "--surface-output", surfaces[i], "--quiet", NULL);
+    run_program("surface", "--unit", units[i], "--output", surfaces[i], "--quiet", NULL);
     if (program_exit_code != 0) return -1;
   }
-  run_program(meshes[1], "--stats", "-", NULL);
+  run_program("mark", meshes[1], "--stats", "-", NULL);
   n_wanted = (int)json_number(program_out, "n_marked");
   return n_wanted > 100 ? 0 : -1;
 }
@@ -49,17 +49,17 @@ static void expect_wanted_marks(void) {
 static void test_valves(void **state) {
   (void)state;
   for (int i = 0; i < n_units; ++i) {
-    run_program(meshes[i], "--unit", units[i], "--stats", "-", NULL);
+    run_program("mark", meshes[i], "--unit", units[i], "--stats", "-", NULL);
     expect_wanted_marks();
     assert_true(json_number(program_out, "half_thickness") == 0.1 * factors[i]);
-    run_program(meshes[i], "--unit", units[i], "--surface-unit", "cm", "--stats", "-", NULL);
+    run_program("mark", meshes[i], "--unit", units[i], "--surface-unit", "cm", "--stats", "-", NULL);
     expect_wanted_marks();
     char scale[32];
     snprintf(scale, sizeof scale, "%g", factors[i]);
-    run_program(meshes[i], "--scale", scale, "--stats", "-", NULL);
+    run_program("mark", meshes[i], "--scale", scale, "--stats", "-", NULL);
     expect_wanted_marks();
   }
-  run_program(meshes[0], "--unit", "m", "--half-thickness", "0.002", "--stats", "-", NULL);
+  run_program("mark", meshes[0], "--unit", "m", "--half-thickness", "0.002", "--stats", "-", NULL);
   assert_int_equal(program_exit_code, 0);
   assert_true(json_number(program_out, "half_thickness") == 0.002);
 }
@@ -68,8 +68,8 @@ static void test_surface_files(void **state) {
   (void)state;
   for (int i = 0; i < n_units; ++i) {
     for (int k = 0; k < n_units; ++k) {
-      run_program(meshes[i], "--unit", units[i], "--surface", surfaces[k], "--surface-unit", units[k], "--stats", "-",
-                  NULL);
+      run_program("mark", meshes[i], "--unit", units[i], "--surface", surfaces[k], "--surface-unit", units[k],
+                  "--stats", "-", NULL);
       expect_wanted_marks();
       assert_true(json_number(program_out, "half_thickness") == 0.1 * factors[i]);
     }
@@ -85,7 +85,8 @@ static void test_patches(void **state) {
       " \"d\": [[5,-5,-3], [5,5,-3]]}, \"patches\": [{\"v0\": \"a\", \"v1\": \"b\", \"u0\": \"c\", \"u1\": \"d\"}]}");
   double n_marked[n_units];
   for (int i = 0; i < n_units; ++i) {
-    RUN_FINE(meshes[i], "--valve", scratch_path("v.json"), "--unit", units[i], "--surface-unit", "mm", "--stats", "-");
+    RUN_FINE("mark", meshes[i], "--valve", scratch_path("v.json"), "--unit", units[i], "--surface-unit", "mm",
+             "--stats", "-");
     n_marked[i] = json_number(program_out, "n_marked");
     assert_true(json_number(program_out, "area") > 0.99 * factors[i] * factors[i] &&
                 json_number(program_out, "area") < 1.01 * factors[i] * factors[i]);
@@ -96,7 +97,7 @@ static void test_patches(void **state) {
 /* Checks that there is one line with this text, and this exit code. --quiet does not remove the line. */
 static void expect_warning(int exit_code, const char *text) {
   const char *end = strchr(program_err, '\n');
-  if (program_exit_code != exit_code || strncmp(program_err, "riis-mark: ", 11) != 0 || !end || end[1] ||
+  if (program_exit_code != exit_code || strncmp(program_err, "riis: ", 6) != 0 || !end || end[1] ||
       !strstr(program_err, text))
     fail_msg("exit code %d for %d, wanted \"%s\"\nstderr: %s", program_exit_code, exit_code, text, program_err);
 }
@@ -125,32 +126,32 @@ static void expect_cured(const char *mesh, const char *surface) {
   if (surface) arguments[n++] = "--surface";
   if (surface) arguments[n++] = surface;
   for (int i = 0; i < n_words; ++i) arguments[n++] = words[i];
-  run_program(mesh, arguments[0], arguments[1], arguments[2], arguments[3], arguments[4], arguments[5], arguments[6],
-              arguments[7], arguments[8], arguments[9], arguments[10], arguments[11], NULL);
+  run_program("mark", mesh, arguments[0], arguments[1], arguments[2], arguments[3], arguments[4], arguments[5],
+              arguments[6], arguments[7], arguments[8], arguments[9], arguments[10], arguments[11], NULL);
   expect_wanted_marks();
 }
 
 static void test_wrong_valve_units(void **state) {
   (void)state;
-  run_program(meshes[0], NULL);
+  run_program("mark", meshes[0], NULL);
   expect_warning(3, "no node is marked: the mesh looks as if it were in metres, the surface in centimetres");
   expect_warning(3, ": write --unit m\n");
   expect_cured(meshes[0], NULL);
-  run_program(meshes[0], "--quiet", "--stats", scratch_path("s.json"), NULL);
+  run_program("mark", meshes[0], "--quiet", "--stats", scratch_path("s.json"), NULL);
   expect_warning(3, ": write --unit m\n");
-  run_program(meshes[2], NULL);
+  run_program("mark", meshes[2], NULL);
   expect_warning(program_exit_code, "the mesh looks as if it were in millimetres, the surface in centimetres");
   expect_warning(program_exit_code, ": write --unit mm\n");
   expect_cured(meshes[2], NULL);
-  run_program(meshes[1], "--scale", "0.01", NULL);
+  run_program("mark", meshes[1], "--scale", "0.01", NULL);
   expect_warning(3, "the mesh looks as if it were in centimetres, as the surface is");
   expect_warning(3, ": write --unit cm in place of --scale 0.01\n");
   expect_cured(meshes[1], NULL);
-  run_program(meshes[0], "--unit", "mm", NULL);
+  run_program("mark", meshes[0], "--unit", "mm", NULL);
   expect_warning(3, ": write --unit m in place of --unit mm\n");
   expect_cured(meshes[0], NULL);
   /* One warning mends both a wrong unit and a wrong half thickness. */
-  run_program(meshes[0], "--half-thickness", "0.1", NULL);
+  run_program("mark", meshes[0], "--half-thickness", "0.1", NULL);
   expect_warning(3, ": write --unit m --half-thickness 0.001\n");
   expect_cured(meshes[0], NULL);
 }
@@ -167,19 +168,19 @@ static void test_coarse_or_other_unit(void **state) {
   (void)state;
   assert_int_equal(
       shim_write_box(scratch_path("large.vtu"), SHIM_RAW, 40, (double[3]){-9, -9, -9}, (double[3]){9, 9, 9}, 0), 1);
-  run_program(scratch_path("large.vtu"), NULL);
+  run_program("mark", scratch_path("large.vtu"), NULL);
   expect_warning(program_exit_code, "the mesh looks as if it were in millimetres, the surface in centimetres");
   expect_warning(program_exit_code, ": write --unit mm\n");
   expect_one_advice();
-  RUN_FINE(scratch_path("large.vtu"), "--unit", "mm");
-  run_program(scratch_path("large.vtu"), "--unit", "cm", NULL);
+  RUN_FINE("mark", scratch_path("large.vtu"), "--unit", "mm");
+  run_program("mark", scratch_path("large.vtu"), "--unit", "cm", NULL);
   expect_warning(program_exit_code, "the half thickness is 0.1, the median edge of the mesh 0.6");
   expect_warning(program_exit_code, ": write --half-thickness 0.6");
   expect_one_advice();
-  run_program(scratch_path("large.vtu"), "--scale", "1", NULL);
+  run_program("mark", scratch_path("large.vtu"), "--scale", "1", NULL);
   expect_warning(program_exit_code, ": write --half-thickness 0.6");
   /* The unit of a file is not known, so its default half thickness tells nothing. */
-  run_program(scratch_path("large.vtu"), "--surface", surfaces[2], NULL);
+  run_program("mark", scratch_path("large.vtu"), "--surface", surfaces[2], NULL);
   expect_warning(0, "both look as if they were in millimetres: write --unit mm --surface-unit mm\n");
 }
 
@@ -193,7 +194,7 @@ static void test_coarse_and_other_unit(void **state) {
                      1);
     char advice[64];
     snprintf(advice, sizeof advice, ": write --unit %s\n", units[i]);
-    run_program(scratch_path("coarse.vtu"), NULL);
+    run_program("mark", scratch_path("coarse.vtu"), NULL);
     expect_warning(program_exit_code, advice);
   }
 }
@@ -202,7 +203,7 @@ static void test_coarse_and_other_unit(void **state) {
 static void test_beside_the_mesh(void **state) {
   (void)state;
   for (int named = 0; named < 2; ++named) {
-    run_program(meshes[1], "--surface", surfaces[1], "--translate", "0,0,2.6", named ? "--unit" : NULL, "cm",
+    run_program("mark", meshes[1], "--surface", surfaces[1], "--translate", "0,0,2.6", named ? "--unit" : NULL, "cm",
                 "--surface-unit", "cm", NULL);
     assert_int_equal(program_exit_code, 3);
     assert_null(strstr(program_err, "looks as if"));
@@ -217,11 +218,11 @@ static void test_order_of_causes(void **state) {
                      "{\"mesh\": \"mm.vtu\", \"valves\": [\n"
                      "{\"name\": \"thick\", \"valve\": \"aortic\", \"scale\": 10, \"half_thickness\": 12},\n"
                      "{\"name\": \"small\", \"valve\": \"aortic\", \"half_thickness\": 0.1, \"scale\": 0.1}]}\n");
-  run_program("--case", scratch_path("two.json"), "--output", scratch_path("two.vtu"), "--quiet", NULL);
+  run_program("mark", "--case", scratch_path("two.json"), "--output", scratch_path("two.vtu"), "--quiet", NULL);
   const char *const second = strchr(program_err, '\n') + 1;
-  assert_int_equal(strncmp(program_err, "riis-mark: small: ", strlen("riis-mark: small: ")), 0);
+  assert_int_equal(strncmp(program_err, "riis: small: ", strlen("riis: small: ")), 0);
   assert_non_null(strstr(program_err, ": write --unit mm"));
-  assert_int_equal(strncmp(second, "riis-mark: thick: ", strlen("riis-mark: thick: ")), 0);
+  assert_int_equal(strncmp(second, "riis: thick: ", strlen("riis: thick: ")), 0);
   assert_non_null(strstr(second, ": the half thickness is 12, the largest side of the surface 27.8\n"));
   assert_null(strstr(second, "--half-thickness"));
   assert_null(strstr(program_leaks, "--half-thickness"));
@@ -229,42 +230,42 @@ static void test_order_of_causes(void **state) {
 
 static void test_wrong_file_units(void **state) {
   (void)state;
-  run_program(meshes[0], "--surface", surfaces[2], NULL);
+  run_program("mark", meshes[0], "--surface", surfaces[2], NULL);
   expect_warning(3, ": write --unit m --surface-unit mm\n");
   expect_cured(meshes[0], surfaces[2]);
-  run_program(meshes[2], "--surface", surfaces[0], NULL);
+  run_program("mark", meshes[2], "--surface", surfaces[0], NULL);
   expect_warning(program_exit_code, ": write --unit mm --surface-unit m\n");
   expect_cured(meshes[2], surfaces[0]);
-  run_program(meshes[0], "--surface", surfaces[2], "--unit", "m", "--surface-unit", "m", NULL);
+  run_program("mark", meshes[0], "--surface", surfaces[2], "--unit", "m", "--surface-unit", "m", NULL);
   expect_warning(3, ": write --unit m --surface-unit mm in place of --unit m --surface-unit m\n");
   expect_cured(meshes[0], surfaces[2]);
   /* Mesh and surface are in one unit, and the half thickness in another. */
-  run_program(meshes[2], "--surface", surfaces[2], NULL);
+  run_program("mark", meshes[2], "--surface", surfaces[2], NULL);
   expect_warning(0, "the median edge of the mesh ");
   expect_warning(0, "both look as if they were in millimetres: write --unit mm --surface-unit mm\n");
   expect_cured(meshes[2], surfaces[2]);
-  run_program(meshes[0], "--surface", surfaces[0], NULL);
+  run_program("mark", meshes[0], "--surface", surfaces[0], NULL);
   expect_warning(0, "all 10,648 nodes are marked: the half thickness is 0.1, the largest side of the surface 0.02");
   expect_warning(0, "both look as if they were in metres: write --unit m --surface-unit m\n");
   expect_cured(meshes[0], surfaces[0]);
   /* No two units differ by this factor. */
-  run_program(meshes[1], "--surface", surfaces[1], "--scale", "0.005", NULL);
+  run_program("mark", meshes[1], "--surface", surfaces[1], "--scale", "0.005", NULL);
   expect_warning(3, "different units");
   expect_warning(3, "write --scale 0.5 in place of --scale 0.005\n");
 }
 
 static void test_half_thickness(void **state) {
   (void)state;
-  run_program(meshes[0], "--scale", "0.01", "--half-thickness", "0.1", "--quiet", "--stats", scratch_path("s.json"),
-              NULL);
+  run_program("mark", meshes[0], "--scale", "0.01", "--half-thickness", "0.1", "--quiet", "--stats",
+              scratch_path("s.json"), NULL);
   expect_warning(0, "all 10,648 nodes are marked: the half thickness is 0.1, the largest side of the surface 0.02");
   expect_warning(0, ": write --half-thickness 0.001\n");
-  run_program(meshes[0], "--scale", "0.01", "--half-thickness", "0.001", "--stats", "-", NULL);
+  run_program("mark", meshes[0], "--scale", "0.01", "--half-thickness", "0.001", "--stats", "-", NULL);
   expect_wanted_marks();
-  run_program(meshes[1], "--half-thickness", "1", NULL);
+  run_program("mark", meshes[1], "--half-thickness", "1", NULL);
   expect_warning(0, "nodes are marked, which looks wrong: the half thickness is 1, the largest side of the surface 2.");
   expect_cured(meshes[1], NULL);
-  run_program(meshes[1], "--half-thickness", "0.001", NULL);
+  run_program("mark", meshes[1], "--half-thickness", "0.001", NULL);
   expect_warning(program_exit_code, "the half thickness is 0.001, the median edge of the mesh 0.1");
   expect_warning(program_exit_code, ": write --half-thickness 0.1\n");
   expect_cured(meshes[1], NULL);
@@ -273,36 +274,36 @@ static void test_half_thickness(void **state) {
   assert_int_equal(shim_write_box(scratch_path("coarse.vtu"), SHIM_RAW, 6, (double[3]){-far, -far, -far},
                                   (double[3]){far, far, far}, 0),
                    1);
-  run_program(scratch_path("coarse.vtu"), "--half-thickness", "0.08", NULL);
+  run_program("mark", scratch_path("coarse.vtu"), "--half-thickness", "0.08", NULL);
   expect_warning(program_exit_code, ", the median edge of the mesh 0.9");
   expect_warning(program_exit_code, ": the mesh is too coarse for this surface\n");
   assert_int_equal(shim_write_box(scratch_path("coarse.vtu"), SHIM_RAW, 12, (double[3]){-far, -far, -far},
                                   (double[3]){far, far, far}, 0),
                    1);
-  run_program(scratch_path("coarse.vtu"), "--half-thickness", "0.075", NULL);
+  run_program("mark", scratch_path("coarse.vtu"), "--half-thickness", "0.075", NULL);
   expect_warning(program_exit_code, ": write --half-thickness 0.4");
   /* The surface of this file has no valve's size in any unit. */
-  run_program(meshes[1], "--surface", surfaces[1], "--half-thickness", "7", NULL);
+  run_program("mark", meshes[1], "--surface", surfaces[1], "--half-thickness", "7", NULL);
   expect_warning(0, ": write --half-thickness 0.07\n");
 }
 
 /* If sizes explain nothing, the message gives the places. */
 static void test_places(void **state) {
   (void)state;
-  run_program(meshes[1], "--translate", "50,0,0", NULL);
+  run_program("mark", meshes[1], "--translate", "50,0,0", NULL);
   expect_warning(3,
                  "no node is marked: the mesh is in x -1.7 to 1.5, y -1.6 to 1.6, z -1.3 to 0.4, the surface in x 48.");
   expect_warning(3, "the half thickness is 0.1: see --translate, --rotate, --scale, --half-thickness\n");
   /* Only a corner of the valve is in the mesh. */
-  run_program(meshes[1], "--translate", "3,0,0", NULL);
+  run_program("mark", meshes[1], "--translate", "3,0,0", NULL);
   expect_warning(0, "only ");
   expect_warning(0, " of 10,648 nodes are marked: the mesh is in x");
-  RUN_FINE(meshes[1], "--translate", "50,0,0", "--allow-none", "--quiet", "--stats", scratch_path("s.json"));
+  RUN_FINE("mark", meshes[1], "--translate", "50,0,0", "--allow-none", "--quiet", "--stats", scratch_path("s.json"));
   /* A mesh of few nodes, all near the valve, needs no message. */
   scratch_write_text("few.vtk",
                      "# vtk DataFile Version 3.0\nfew\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
                      "1 0 -.3 1.01 0 -.3 1 .01 -.3 1 0 -.31\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n");
-  run_program(scratch_path("few.vtk"), "--half-thickness", "1", NULL);
+  run_program("mark", scratch_path("few.vtk"), "--half-thickness", "1", NULL);
   assert_int_equal(program_exit_code, 0);
 }
 

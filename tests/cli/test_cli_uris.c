@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * riis-mark --export-uris: the files, read back as svMultiPhysics reads them, against the library's own vertices at the openings
+ * riis --export-uris: the files, read back as svMultiPhysics reads them, against the library's own vertices at the openings
  * of the frames, and marked by the solver's rule. */
 /* clang-format off: test_support.h checks statuses if riis.h came before */
 #include <riis/riis.h>
@@ -16,7 +16,7 @@
 
 /* ---- The surface by the library's C interface ---- */
 
-/* Options of riis_surface_create and the words of riis-mark that stand for them. */
+/* Options of riis_surface_create and the words of riis that stand for them. */
 typedef struct {
   const char *words[6];
   double scale, half_thickness, turn[4], shift[3];
@@ -77,10 +77,10 @@ static double ramp(double s) { return s * s * s * (10 + s * (-15 + 6 * s)); }
 
 /* ---- Tests of the files ---- */
 
-#define EXPORT(folder, ...)                                                                \
-  do {                                                                                     \
-    RUN_FINE("--export-uris", scratch_path(folder), "--resistance", "12500", __VA_ARGS__); \
-    exported = uris_read(program_out);                                                     \
+#define EXPORT(folder, ...)                                                         \
+  do {                                                                              \
+    RUN_FINE("export", scratch_path(folder), "--resistance", "12500", __VA_ARGS__); \
+    exported = uris_read(program_out);                                              \
   } while (0)
 #define RAMPS "--time-step", "0.004", "--opening-seconds", "0.02", "--closing-seconds", "0.01"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * riis-mark --export-uris: the frames of cycles and of other valves, and what is refused. A refusal leaves no file. */
+ * riis FOLDER: the frames of cycles and of other valves, and what is refused. A refusal leaves no file. */
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 #include "uris_files.h"
 
 #define FOLDER scratch_path("uris")
-#define EXPORT "--export-uris", FOLDER, "--resistance", "1e4"
+#define EXPORT "export", FOLDER, "--resistance", "1e4"
 #define RAMPS "--opening-seconds", "0.02", "--closing-seconds", "0.01"
 
 static void expect_nothing_left(void) { assert_false(scratch_exists("uris")); }
@@ -38,36 +38,31 @@ static uris_valve take_export(void) {
 
 static void test_missing_options(void **state) {
   (void)state;
-  REFUSED(2, "--export-uris needs --time-step", EXPORT, RAMPS);
-  REFUSED(2, "--export-uris needs --resistance", "--export-uris", FOLDER, "--time-step", "0.001", RAMPS);
-  REFUSED(2, "--export-uris needs --opening-seconds and --closing-seconds, or --cycle", EXPORT, "--time-step", "0.001");
-  REFUSED(2, "--export-uris needs --opening-seconds", EXPORT, "--time-step", "0.001", "--closing-seconds", "1");
-  REFUSED(2, "--export-uris needs --closing-seconds", EXPORT, "--time-step", "0.001", "--opening-seconds", "1");
-  REFUSED(2, "--time-step needs --export-uris", "--surface-output", scratch_path("s.vtp"), "--time-step", "0.1");
-  REFUSED(2, "--largest-edge needs --export-uris", "--surface-output", scratch_path("s.vtp"), "--largest-edge", "0.1");
-  REFUSED(2, "--opening-span needs --cycle", EXPORT, "--time-step", "0.001", RAMPS, "--opening-span", "0:1");
-  REFUSED(2, "--closing-span needs --cycle", EXPORT, "--time-step", "0.001", RAMPS, "--closing-span", "0:1");
+  REFUSED(2, "--time-step is required", EXPORT, RAMPS);
+  REFUSED(2, "--resistance is required", "export", FOLDER, "--time-step", "0.001", RAMPS);
+  const char *const text = "riis export needs --opening-seconds and --closing-seconds, or --cycle";
+  REFUSED(2, text, EXPORT, "--time-step", "0.001");
+  REFUSED(2, text, EXPORT, "--time-step", "0.001", "--closing-seconds", "1");
+  REFUSED(2, text, EXPORT, "--time-step", "0.001", "--opening-seconds", "1");
+  REFUSED(2, "--opening-span requires --cycle", EXPORT, "--time-step", "0.001", RAMPS, "--opening-span", "0:1");
+  REFUSED(2, "--closing-span requires --cycle", EXPORT, "--time-step", "0.001", RAMPS, "--closing-span", "0:1");
+  REFUSED(2, "--period requires --cycle", EXPORT, "--time-step", "0.001", RAMPS, "--period", "1");
 }
 
 static void test_useless_options(void **state) {
   (void)state;
   scratch_write_text("c.csv", "0,0\n1,1\n2,0\n");
   const char *cycle = scratch_path("c.csv");
-  REFUSED(2, "--opening-seconds has no effect with --cycle", EXPORT, "--time-step", "0.1", "--cycle", cycle,
-          "--opening-seconds", "1");
-  REFUSED(2, "--closing-seconds has no effect with --cycle", EXPORT, "--time-step", "0.1", "--cycle", cycle,
-          "--closing-seconds", "1");
-  REFUSED(2, "MESH has no effect with --export-uris", "mesh.vtu", EXPORT, "--time-step", "0.001", RAMPS);
-  REFUSED(2, "--opening has no effect with --export-uris", EXPORT, "--time-step", "0.001", RAMPS, "--opening", "0.5");
-  REFUSED(2, "--set opening has no effect with --export-uris", EXPORT, "--time-step", "0.001", RAMPS, "--set",
+  REFUSED(2, "--opening-seconds excludes --cycle", EXPORT, "--time-step", "0.1", "--cycle", cycle, "--opening-seconds",
+          "1");
+  REFUSED(2, "--closing-seconds excludes --cycle", EXPORT, "--time-step", "0.1", "--cycle", cycle, "--closing-seconds",
+          "1");
+  REFUSED(2, "mesh.vtu is one argument too many", EXPORT, "mesh.vtu", "--time-step", "0.001", RAMPS);
+  REFUSED(2, "--set opening has no effect: the valve opens and closes", EXPORT, "--time-step", "0.001", RAMPS, "--set",
           "opening=0.5");
-  REFUSED(2, "--triangulation has no effect with --export-uris", EXPORT, "--time-step", "0.001", RAMPS,
-          "--triangulation", "adapted");
-  REFUSED(2, "--flip-normals has no effect with --export-uris", EXPORT, "--time-step", "0.001", RAMPS,
-          "--flip-normals");
-  REFUSED(2, "--surface excludes --export-uris", EXPORT, "--time-step", "0.001", RAMPS, "--surface", "s.vtp");
-  REFUSED(2, "--print-params has no effect with --export-uris", EXPORT, "--time-step", "0.001", RAMPS,
-          "--print-params");
+  const char *const others[] = {"--opening=0.5", "--triangulation=adapted", "--flip-normals", "--surface=s.vtp"};
+  for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i)
+    REFUSED(2, " is not an option", EXPORT, "--time-step", "0.001", RAMPS, others[i]);
 }
 
 static void test_numbers(void **state) {
@@ -128,24 +123,23 @@ static void test_folders(void **state) {
   char text[128];
   assert_int_equal(mkdir(scratch_path("full"), 0777), 0);
   scratch_write_text("full/mine.txt", "mine");
-  REFUSED(1, "full: the folder is not empty", "--export-uris", scratch_path("full"), "--resistance", "1", "--time-step",
+  REFUSED(1, "full: the folder is not empty", "export", scratch_path("full"), "--resistance", "1", "--time-step",
           "0.01", RAMPS);
   char *mine = scratch_read(scratch_path("full/mine.txt"), NULL);
   assert_string_equal(mine, "mine");
   free(mine);
   scratch_write_text("file", "a file");
-  REFUSED(1, "file: is a file, not a folder", "--export-uris", scratch_path("file"), "--resistance", "1", "--time-step",
+  REFUSED(1, "file: is a file, not a folder", "export", scratch_path("file"), "--resistance", "1", "--time-step",
           "0.01", RAMPS);
-  snprintf(text, sizeof text, "--export-uris: %s: the folder %s does not exist", scratch_path("no/uris"),
-           scratch_path("no"));
-  REFUSED(1, text, "--export-uris", scratch_path("no/uris"), "--resistance", "1", "--time-step", "0.01", RAMPS);
-  REFUSED(2, "has a blank, and svMultiPhysics reads no path with one", "--export-uris", "my folder", "--resistance",
-          "1", "--time-step", "0.01", RAMPS);
+  snprintf(text, sizeof text, "FOLDER: %s: the folder %s does not exist", scratch_path("no/uris"), scratch_path("no"));
+  REFUSED(1, text, "export", scratch_path("no/uris"), "--resistance", "1", "--time-step", "0.01", RAMPS);
+  REFUSED(2, "has a blank, and svMultiPhysics reads no path with one", "export", "my folder", "--resistance", "1",
+          "--time-step", "0.01", RAMPS);
   /* An empty folder is filled, and so is one that ends in a slash. */
   const int n_files = scratch_n_files();
   assert_int_equal(mkdir(FOLDER, 0777), 0);
   snprintf(text, sizeof text, "%s/", FOLDER);
-  RUN_FINE("--export-uris", text, "--resistance", "1", "--time-step", "0.01", RAMPS, "--valve", "mitral");
+  RUN_FINE("export", text, "--resistance", "1", "--time-step", "0.01", RAMPS, "--valve", "mitral");
   assert_null(strstr(program_out, "//"));
   uris_valve valve = take_export();
   uris_free(&valve);

@@ -83,8 +83,8 @@ static void mark_at(riis_valve *valve, double opening) {
 }
 
 static void run_at(const char *valve, const char *opening) {
-  RUN_FINE(scratch_path("in.vtu"), "--valve", valve, "--half-thickness", "0.2", "--opening", opening, "--output",
-           scratch_path("out.vtu"), "--surface-output", scratch_path("out.vtp"), "--stats", "-");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", valve, "--half-thickness", "0.2", "--opening", opening,
+           "--output", scratch_path("out.vtu"), "--surface-output", scratch_path("out.vtp"), "--stats", "-");
   expect_marked_mesh();
   expect_surface_output();
 }
@@ -99,7 +99,7 @@ static void test_marks(void **state) {
   assert_true(json_has_text(program_out, "valve", "\""));
   assert_non_null(strstr(program_out, "v.json\","));
   assert_true(json_number(program_out, "opening") == 0);
-  RUN_FINE(scratch_path("in.vtu"), "--valve", file);
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", file);
   assert_non_null(strstr(program_out, "v.json, opening 0: "));
   /* The file's ending may be in capitals. */
   char *text = scratch_read(file, NULL);
@@ -122,29 +122,29 @@ static void test_parameters(void **state) {
   (void)state;
   keep_path();
   write_flap(1, NULL, NULL);
-  RUN_FINE("--valve", file, "--print-params");
+  RUN_FINE("params", "--valve", file);
   assert_string_equal(program_out, "{\n  \"opening\": 0.0\n}\n");
   scratch_write_text("p.json", program_out);
-  RUN_FINE("--valve", file, "--print-params", "--params", scratch_path("p.json"), "--opening", "0.25");
+  RUN_FINE("params", "--valve", file, "--params", scratch_path("p.json"), "--opening", "0.25");
   assert_string_equal(program_out, "{\n  \"opening\": 0.25\n}\n");
   scratch_write_text("p.json", program_out);
   riis_valve *valve = flap_by_c(closed_control), *open = flap_by_c(open_control);
   expect_fine(riis_valve_set_open_state(valve, open));
   mark_at(valve, 0.25);
-  RUN_FINE(scratch_path("in.vtu"), "--valve", file, "--params", scratch_path("p.json"), "--half-thickness", "0.2",
-           "--output", scratch_path("out.vtu"));
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", file, "--params", scratch_path("p.json"), "--half-thickness",
+           "0.2", "--output", scratch_path("out.vtu"));
   expect_marked_mesh();
-  RUN_FINE(scratch_path("in.vtu"), "--valve", file, "--set", "opening=0.25", "--half-thickness", "0.2", "--output",
-           scratch_path("out.vtu"));
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", file, "--set", "opening=0.25", "--half-thickness", "0.2",
+           "--output", scratch_path("out.vtu"));
   expect_marked_mesh();
   riis_valve_destroy(&valve);
   riis_valve_destroy(&open);
-  RUN_REFUSED(1, "'root_radius' is not a parameter", "--valve", file, "--print-params", "--set", "root_radius=1");
-  RUN_REFUSED(2, "--params-open has no effect with --valve", scratch_path("in.vtu"), "--valve", file, "--opening", "1",
-              "--params-open", scratch_path("p.json"));
+  RUN_REFUSED(1, "'root_radius' is not a parameter", "params", "--valve", file, "--set", "root_radius=1");
+  RUN_REFUSED(2, "--params-open has no effect with --valve", "mark", scratch_path("in.vtu"), "--valve", file,
+              "--opening", "1", "--params-open", scratch_path("p.json"));
   write_flap(0, NULL, NULL);
-  RUN_REFUSED(1, "v.json: opening is 0.5, but the file has no \"open\" state", scratch_path("in.vtu"), "--valve", file,
-              "--opening", "0.5");
+  RUN_REFUSED(1, "v.json: opening is 0.5, but the file has no \"open\" state", "mark", scratch_path("in.vtu"),
+              "--valve", file, "--opening", "0.5");
 }
 
 static void test_bad_files(void **state) {
@@ -173,14 +173,14 @@ static void test_bad_files(void **state) {
   };
   for (size_t i = 0; i < sizeof files / sizeof files[0]; ++i) {
     scratch_write_text("v.json", files[i].json);
-    RUN_REFUSED(1, files[i].text, scratch_path("in.vtu"), "--valve", scratch_path("v.json"));
+    RUN_REFUSED(1, files[i].text, "mark", scratch_path("in.vtu"), "--valve", scratch_path("v.json"));
   }
   /* Only making the surface shows this fault. */
   scratch_write_text("v.json",
                      "{\"curves\": {\"p\": [[0,0,0]]}, \"patches\": [{\"v0\": \"p\", \"v1\": \"p\", \"u0\": \"p\", "
                      "\"u1\": \"-p\"}]}");
-  RUN_REFUSED(1, "v.json: the valve has no area", scratch_path("in.vtu"), "--valve", scratch_path("v.json"));
-  RUN_REFUSED(1, "missing.json: cannot be read: No such file", scratch_path("in.vtu"), "--valve",
+  RUN_REFUSED(1, "v.json: the valve has no area", "mark", scratch_path("in.vtu"), "--valve", scratch_path("v.json"));
+  RUN_REFUSED(1, "missing.json: cannot be read: No such file", "mark", scratch_path("in.vtu"), "--valve",
               scratch_path("missing.json"));
 }
 
@@ -235,14 +235,14 @@ static void test_changed_files(void **state) {
   };
   for (size_t i = 0; i < sizeof changes / sizeof changes[0]; ++i) {
     write_flap(changes[i].can_open, changes[i].found, changes[i].replacement);
-    RUN_REFUSED(1, changes[i].text, scratch_path("in.vtu"), "--valve", scratch_path("v.json"));
+    RUN_REFUSED(1, changes[i].text, "mark", scratch_path("in.vtu"), "--valve", scratch_path("v.json"));
   }
   /* A curve without length becomes a side that opens, and the other way round. */
   write_flap(1, "[[1, 0.5, -1]]", "[[1, 0.5, -1], [1, 0.5, -1]]");
-  RUN_FINE(scratch_path("in.vtu"), "--valve", scratch_path("v.json"), "--opening", "1");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", scratch_path("v.json"), "--opening", "1");
   /* No input is replaced. */
-  RUN_REFUSED(2, "is also the file of --valve", scratch_path("in.vtu"), "--valve", scratch_path("v.json"), "--stats",
-              scratch_path("v.json"));
+  RUN_REFUSED(2, "is also the file of --valve", "mark", scratch_path("in.vtu"), "--valve", scratch_path("v.json"),
+              "--stats", scratch_path("v.json"));
 }
 
 static int make_patches_box(void **state) {

@@ -29,20 +29,21 @@ static void test_same_file_twice(void **state) {
   const char *mesh = scratch_path("in.vtu"), *params = scratch_path("v.json"), *out = scratch_path("z.vtu");
   char *before = scratch_read(mesh, &size[0]);
   scratch_write_text("v.json", "{\"root_radius\": 1.3}");
-  RUN_REFUSED(2, "--stats: ", mesh, "--stats", mesh, "--quiet");
+  RUN_REFUSED(2, "--stats: ", "mark", mesh, "--stats", mesh, "--quiet");
   assert_non_null(strstr(program_err, "is also the file of MESH"));
-  RUN_REFUSED(2, "is also the file of --params", mesh, "--params", params, "--stats", params);
-  RUN_REFUSED(2, "is also the file of --surface", mesh, "--surface", "s.stl", "--stats", "s.stl");
-  RUN_REFUSED(2, "is also the file of --surface", mesh, "--surface", "s.vtu", "--output", "s.vtu");
-  RUN_REFUSED(2, "is also the file of --output", mesh, "--output", out, "--stats", out);
-  RUN_REFUSED(2, "is also the file of --picture", mesh, "--picture", "a.png", "--picture", "./a.png");
-  RUN_REFUSED(2, "is also the file of --surface-output", mesh, "--surface-output", "a.vtp", "--stats", "a.vtp");
+  RUN_REFUSED(2, "is also the file of --params", "mark", mesh, "--params", params, "--stats", params);
+  RUN_REFUSED(2, "is also the file of --surface", "mark", mesh, "--surface", "s.stl", "--stats", "s.stl");
+  RUN_REFUSED(2, "is also the file of --surface", "mark", mesh, "--surface", "s.vtu", "--output", "s.vtu");
+  RUN_REFUSED(2, "is also the file of --output", "mark", mesh, "--output", out, "--stats", out);
+  RUN_REFUSED(2, "is also the file of --picture", "mark", mesh, "--picture", "a.png", "--picture", "./a.png");
+  RUN_REFUSED(2, "is also the file of --surface-output", "mark", mesh, "--surface-output", "a.vtp", "--stats", "a.vtp");
   /* The file has another name here. */
   assert_int_equal(symlink("in.vtu", scratch_path("link.vtu")), 0);
   assert_int_equal(link(params, scratch_path("hard.json")), 0);
-  RUN_REFUSED(2, "is also the file of MESH", mesh, "--stats", scratch_path("link.vtu"));
-  RUN_REFUSED(2, "is also the file of MESH", mesh, "--stats", scratch_path("./in.vtu"));
-  RUN_REFUSED(2, "is also the file of --params", mesh, "--params", params, "--stats", scratch_path("hard.json"));
+  RUN_REFUSED(2, "is also the file of MESH", "mark", mesh, "--stats", scratch_path("link.vtu"));
+  RUN_REFUSED(2, "is also the file of MESH", "mark", mesh, "--stats", scratch_path("./in.vtu"));
+  RUN_REFUSED(2, "is also the file of --params", "mark", mesh, "--params", params, "--stats",
+              scratch_path("hard.json"));
   expect_text("v.json", "{\"root_radius\": 1.3}");
   char *after = scratch_read(mesh, &size[1]);
   assert_int_equal(size[0], size[1]);
@@ -71,24 +72,25 @@ static void test_in_place(void **state) {
   assert_int_equal(symlink(".", scratch_path("folder")), 0);
   for (int i = 0; i < 4; ++i) {
     for (int k = 0; k < 4; ++k)
-      RUN_REFUSED(2, "is also the file of MESH", scratch_path(names[i]), "--output", scratch_path(names[k]));
-    RUN_REFUSED(2, "is also the file of MESH", scratch_path("in.vtu"), "--stats", scratch_path(names[i]), "--quiet");
+      RUN_REFUSED(2, "is also the file of MESH", "mark", scratch_path(names[i]), "--output", scratch_path(names[k]));
+    RUN_REFUSED(2, "is also the file of MESH", "mark", scratch_path("in.vtu"), "--stats", scratch_path(names[i]),
+                "--quiet");
   }
   expect_kept("in.vtu", "kept.vtu");
-  RUN_FINE("--surface-output", scratch_path("place.vtp"));
+  RUN_FINE("surface", "--output", scratch_path("place.vtp"));
   copy_file("place.vtp", "kept.vtp");
-  RUN_REFUSED(2, "place.vtp is also the file of --surface", "--surface", scratch_path("place.vtp"), "--scale", "2",
-              "--surface-output", scratch_path("place.vtp"));
+  RUN_REFUSED(2, "place.vtp is also the file of --surface", "surface", "--surface", scratch_path("place.vtp"),
+              "--scale", "2", "--output", scratch_path("place.vtp"));
   assert_int_equal(link(scratch_path("place.vtp"), scratch_path("other.vtp")), 0);
-  RUN_REFUSED(2, "other.vtp is also the file of --surface", "--surface", scratch_path("place.vtp"), "--surface-output",
-              scratch_path("other.vtp"));
+  RUN_REFUSED(2, "other.vtp is also the file of --surface", "surface", "--surface", scratch_path("place.vtp"),
+              "--output", scratch_path("other.vtp"));
   expect_kept("place.vtp", "kept.vtp");
 }
 
 /* A motion is its list and the frames that it lists. No output replaces either, nor does a step of a series. */
 static void test_motion_in_place(void **state) {
   (void)state;
-  RUN_FINE("--valve", "mitral", "--surface-output", scratch_path("a.vtp"), "--quiet");
+  RUN_FINE("surface", "--valve", "mitral", "--output", scratch_path("a.vtp"), "--quiet");
   assert_int_equal(mkdir(scratch_path("beat"), 0700), 0);
   assert_int_equal(mkdir(scratch_path("out"), 0700), 0);
   copy_file("a.vtp", "beat/beat_0001.vtp");
@@ -101,36 +103,36 @@ static void test_motion_in_place(void **state) {
   char mesh[256];
   snprintf(mesh, sizeof mesh, "%s", scratch_path("in.vtu"));
 #define MOTION "--surface", scratch_path("beat.pvd"), "--half-thickness", "0.3"
-  RUN_REFUSED(2, "beat.pvd is also the file of --surface", mesh, MOTION, "--times", "0,1", "--surface-output",
+  RUN_REFUSED(2, "beat.pvd is also the file of --surface", "mark", mesh, MOTION, "--times", "0,1", "--surface-output",
               scratch_path("beat.pvd"));
-  RUN_REFUSED(2, "is also the file of --surface", mesh, MOTION, "--times", "0,1", "--output",
+  RUN_REFUSED(2, "is also the file of --surface", "mark", mesh, MOTION, "--times", "0,1", "--output",
               scratch_path("./beat/../beat.pvd"));
   assert_int_equal(symlink("beat", scratch_path("alias")), 0);
-  RUN_REFUSED(2, "--output: the folder of its files, ", mesh, MOTION, "--times", "0,1", "--output",
+  RUN_REFUSED(2, "--output: the folder of its files, ", "mark", mesh, MOTION, "--times", "0,1", "--output",
               scratch_path("alias.pvd"));
-  RUN_REFUSED(2, "is a frame of --surface", MOTION, "--time", "0.5", "--surface-output",
+  RUN_REFUSED(2, "is a frame of --surface", "surface", MOTION, "--time", "0.5", "--output",
               scratch_path("beat/other.vtp"));
-  RUN_REFUSED(2, "is also the file of --surface", mesh, MOTION, "--times", "0,1", "--series-table",
+  RUN_REFUSED(2, "is also the file of --surface", "mark", mesh, MOTION, "--times", "0,1", "--series-table",
               scratch_path("beat.pvd"));
-  RUN_REFUSED(2, "is a frame of --surface", mesh, MOTION, "--times", "0,1", "--series-table",
+  RUN_REFUSED(2, "is a frame of --surface", "mark", mesh, MOTION, "--times", "0,1", "--series-table",
               scratch_path("beat/other.vtp"));
   /* A step that would go through a link to an input, and an input that is a link to a step. */
   assert_int_equal(symlink("../beat/other.vtp", scratch_path("out/out_0001.vtp")), 0);
-  RUN_REFUSED(2, "holds the file of --surface", mesh, MOTION, "--times", "0,1", "--surface-output",
+  RUN_REFUSED(2, "holds the file of --surface", "mark", mesh, MOTION, "--times", "0,1", "--surface-output",
               scratch_path("out.pvd"));
   assert_int_equal(unlink(scratch_path("out/out_0001.vtp")), 0);
   copy_file("in.vtu", "out/out_0000.vtu");
   assert_int_equal(symlink("out/out_0000.vtu", scratch_path("mesh.vtu")), 0);
-  RUN_REFUSED(2, "holds the file of MESH", scratch_path("mesh.vtu"), MOTION, "--times", "0,1", "--output",
+  RUN_REFUSED(2, "holds the file of MESH", "mark", scratch_path("mesh.vtu"), MOTION, "--times", "0,1", "--output",
               scratch_path("out.pvd"));
   /* A case has other inputs. */
   scratch_write_text("case.json",
                      "{\"mesh\": \"in.vtu\", \"times\": [0, 1], \"half_thickness\": 0.3,\n"
                      " \"valves\": [{\"surface\": \"beat.pvd\"}]}\n");
 #define CASE "--case", scratch_path("case.json")
-  RUN_REFUSED(2, "beat.pvd is also the file of --case", CASE, "--surface-output", scratch_path("beat.pvd"));
-  RUN_REFUSED(2, "is also the file of --case", CASE, "--series-table", scratch_path("case.json"));
-  RUN_REFUSED(2, "holds the file of --case", CASE, "--output", scratch_path("alias.pvd"));
+  RUN_REFUSED(2, "beat.pvd is also the file of --case", "mark", CASE, "--surface-output", scratch_path("beat.pvd"));
+  RUN_REFUSED(2, "is also the file of --case", "mark", CASE, "--series-table", scratch_path("case.json"));
+  RUN_REFUSED(2, "holds the file of --case", "mark", CASE, "--output", scratch_path("alias.pvd"));
   expect_kept("beat.pvd", "kept.pvd");
   expect_kept("beat/other.vtp", "a.vtp");
   expect_kept("beat/beat_0001.vtp", "a.vtp");
@@ -139,8 +141,8 @@ static void test_motion_in_place(void **state) {
 
 /* Waits until the run holds its locks: it then waits for a reader of its stats, a pipe. */
 static pid_t start_held_run(const char *output) {
-  const pid_t process = start_program(scratch_path("in.vtu"), "--output", output, "--stats", scratch_path("pipe"),
-                                      "--half-thickness", "0.6", "--quiet", NULL);
+  const pid_t process = start_program("mark", scratch_path("in.vtu"), "--output", output, "--stats",
+                                      scratch_path("pipe"), "--half-thickness", "0.6", "--quiet", NULL);
   for (int n_tries = 0; !scratch_exists(".riis-held.vtu.lock") && n_tries < 100000; ++n_tries) usleep(500);
   assert_true(scratch_exists(".riis-held.vtu.lock"));
   return process;
@@ -149,12 +151,12 @@ static pid_t start_held_run(const char *output) {
 /* The runner of programs keeps one run's streams, so the second one runs by a shell. */
 static void expect_locked(const char *mesh, const char *option, const char *output) {
   char command[1024];
-  snprintf(command, sizeof command, "%s %s %s %s --quiet 2>%s", RIIS_PROGRAM, mesh, option, scratch_path(output),
+  snprintf(command, sizeof command, "%s mark %s %s %s --quiet 2>%s", RIIS_PROGRAM, mesh, option, scratch_path(output),
            scratch_path("second.txt"));
   const int status = system(command);
   assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 1);
   char *text = scratch_read(scratch_path("second.txt"), NULL);
-  if (!strstr(text, ".vtu: another run of riis-mark is writing it, and holds ")) fail_msg("%s", text);
+  if (!strstr(text, ".vtu: another run of riis is writing it, and holds ")) fail_msg("%s", text);
   free(text);
 }
 
@@ -175,7 +177,7 @@ static void test_second_run(void **state) {
   finish_program(first);
   assert_int_equal(program_exit_code, 128 + SIGKILL);
   assert_true(scratch_exists(".riis-held.vtu.lock"));
-  RUN_FINE(mesh, "--output", held, "--half-thickness", "0.6", "--quiet");
+  RUN_FINE("mark", mesh, "--output", held, "--half-thickness", "0.6", "--quiet");
   assert_false(scratch_exists(".riis-held.vtu.lock"));
   /* Ctrl-C also removes the lock. */
   const pid_t interrupted = start_held_run(held);
@@ -190,14 +192,14 @@ static void test_stats_places(void **state) {
   scratch_write_text("s.json", "before");
   assert_int_equal(symlink("s.json", scratch_path("s_link.json")), 0);
   const int n_files = scratch_n_files();
-  RUN_FINE(scratch_path("in.vtu"), "--stats", scratch_path("s_link.json"), "--quiet");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--stats", scratch_path("s_link.json"), "--quiet");
   struct stat status;
   assert_int_equal(lstat(scratch_path("s_link.json"), &status), 0);
   assert_true(S_ISLNK(status.st_mode));
   char *json = scratch_read(scratch_path("s.json"), NULL);
   assert_true(json_number(json, "n_nodes") == n_box);
   free(json);
-  RUN_FINE(scratch_path("in.vtu"), "--stats", "/dev/null", "--quiet");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--stats", "/dev/null", "--quiet");
   assert_int_equal(scratch_n_files(), n_files);
 }
 
@@ -212,12 +214,13 @@ static void test_closed_folder(void **state) {
   scratch_write_text("closed/a.json", "before");
   assert_int_equal(symlink("closed/a.json", scratch_path("open.json")), 0);
   assert_int_equal(chmod(scratch_path("closed"), 0500), 0);
-  RUN_REFUSED(1, "a.vtu: cannot be written: the folder", mesh, "--output", scratch_path("closed/a.vtu"));
-  RUN_REFUSED(1, "a.json: cannot be written: the folder", mesh, "--stats", scratch_path("closed/a.json"));
-  RUN_REFUSED(1, "open.json: cannot be written: the folder", mesh, "--stats", scratch_path("open.json"));
+  RUN_REFUSED(1, "a.vtu: cannot be written: the folder", "mark", mesh, "--output", scratch_path("closed/a.vtu"));
+  RUN_REFUSED(1, "a.json: cannot be written: the folder", "mark", mesh, "--stats", scratch_path("closed/a.json"));
+  RUN_REFUSED(1, "open.json: cannot be written: the folder", "mark", mesh, "--stats", scratch_path("open.json"));
   assert_int_equal(chmod(scratch_path("closed"), 0700), 0);
   assert_int_equal(chmod(scratch_path("closed/a.json"), 0400), 0);
-  RUN_REFUSED(1, "a.json: cannot be written: Permission denied", mesh, "--stats", scratch_path("closed/a.json"));
+  RUN_REFUSED(1, "a.json: cannot be written: Permission denied", "mark", mesh, "--stats",
+              scratch_path("closed/a.json"));
   expect_text("closed/a.vtu", "before");
   expect_text("closed/a.json", "before");
 }
@@ -233,13 +236,13 @@ static void test_limited_size(void **state) {
   small = before;
   small.rlim_cur = 512;
   assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
-  run_program(scratch_path("in.vtu"), "--output", scratch_path("limit.vtu"), "--quiet", NULL);
+  run_program("mark", scratch_path("in.vtu"), "--output", scratch_path("limit.vtu"), "--quiet", NULL);
   setrlimit(RLIMIT_FSIZE, &before);
   expect_run_refused(1, "limit.vtu: ", __FILE__, __LINE__);
   small.rlim_cur = 200;
   assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
-  run_program(scratch_path("in.vtu"), "--stats", scratch_path("limit.json"), "--quiet", "--half-thickness", "0.5",
-              NULL); /* nothing leaks here: a warning would go to a stderr with the same limit */
+  run_program("mark", scratch_path("in.vtu"), "--stats", scratch_path("limit.json"), "--quiet", "--half-thickness",
+              "0.5", NULL); /* nothing leaks here: a warning would go to a stderr with the same limit */
   setrlimit(RLIMIT_FSIZE, &before);
   expect_run_refused(1, "limit.json: cannot be written: File too large", __FILE__, __LINE__);
   expect_text("limit.vtu", "before");
@@ -252,8 +255,8 @@ static void run_and_interrupt(int signal_number) {
   unlink(scratch_path("marked.vtu"));
   unlink(scratch_path("late.json"));
   const int n_files = scratch_n_files();
-  const pid_t process = start_program(scratch_path("large.vtu"), "--output", scratch_path("marked.vtu"), "--stats",
-                                      scratch_path("late.json"), NULL);
+  const pid_t process = start_program("mark", scratch_path("large.vtu"), "--output", scratch_path("marked.vtu"),
+                                      "--stats", scratch_path("late.json"), NULL);
   /* Both outputs have a lock before they are written. */
   for (int n_tries = 0; scratch_n_files() <= n_files + 2 && n_tries < 100000; ++n_tries) usleep(500);
   kill(process, signal_number);

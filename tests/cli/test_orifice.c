@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The orifice as riis-mark --states measures it, against closed forms, and against points that are counted. */
+ * The orifice as riis --states measures it, against closed forms, and against points that are counted. */
 #include "orifice_shim.h"
 #include "test_support.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Reads what riis-mark --export-uris wrote as svMultiPhysics reads it, and marks by its rule. Nothing here calls the library.
+ * Reads what riis --export-uris wrote as svMultiPhysics reads it, and marks by its rule. Nothing here calls the library.
  * Functions fail the test if a file is not as the solver expects it. */
 #ifndef RIIS_TESTS_URIS_FILES_H
 #define RIIS_TESTS_URIS_FILES_H

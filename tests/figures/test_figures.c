@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * The page of figures: every figure is there with a caption. Every picture is a PNG of the size that the page gives, with more
- * than one colour. Tables of states hold the numbers of riis-mark. Nothing is fetched from elsewhere. */
+ * than one colour. Tables of states hold the numbers of riis. Nothing is fetched from elsewhere. */
 #include <math.h>
 #include <riis/riis.h>
 #include <stdint.h>
@@ -51,8 +51,8 @@ static const char *table_path(const char *kind) {
 static int measure_states(void) {
   for (int i = 0; i < n_kinds; ++i) {
     char arguments[1024];
-    snprintf(arguments, sizeof arguments, "--quiet --valve %s --state-count %d --states %s", kinds[i], n_openings[i],
-             table_path(kinds[i]));
+    snprintf(arguments, sizeof arguments, "states %s --quiet --valve %s --count %d", table_path(kinds[i]), kinds[i],
+             n_openings[i]);
     if (run(RIIS_PROGRAM, arguments) != 0) return -1;
   }
   return 0;
@@ -167,7 +167,7 @@ static const char *section_of(int number, const char **end) {
   return section;
 }
 
-/* Reads the column of a table of riis-mark. Returns the number of lines, 0 if there is no such column. */
+/* Reads the column of a table of riis. Returns the number of lines, 0 if there is no such column. */
 static int read_column(const char *kind, const char *name, double *values) {
   char *csv = scratch_read(table_path(kind), NULL), *rest = NULL;
   int column = -1, n = 0;
