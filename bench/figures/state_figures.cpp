@@ -263,7 +263,7 @@ std::string table_of(const StateTable &table, const Subject &subject) {
 }
 
 std::string command_of(const StateTable &table) {
-  return "<code>riis-mark --valve " + table.kind + " --states " + table.kind + ".csv --state-count " +
+  return "<code>riis states " + table.kind + ".csv --valve " + table.kind + " --count " +
          std::to_string(table.openings.size()) + "</code>";
 }
 
@@ -306,8 +306,8 @@ Figure states_figure(const StateTable &table) {
 }
 
 std::string how_to_show_states(const std::string &kind) {
-  return "The states of the " + kind + " valve: <code>riis-mark --valve " + kind + " --states " + kind +
-         ".csv --state-count 5</code>, then give riis-figures the file.";
+  return "The states of the " + kind + " valve: <code>riis states " + kind + ".csv --valve " + kind +
+         " --count 5</code>, then give riis-figures the file.";
 }
 
 }  // namespace riis::figures

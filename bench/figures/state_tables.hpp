@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a file KIND.csv that `riis-mark --valve KIND --states` wrote. Out: its numbers.
+// In: a file KIND.csv that `riis states KIND.csv --valve KIND` wrote. Out: its numbers.
 #pragma once
 
 #include <string>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run uris: reads exports of riis-mark back and marks the nodes of a cylinder by the rule of svMultiPhysics: the distance is
+// ./run uris: reads exports back and marks the nodes of a cylinder by the rule of svMultiPhysics: the distance is
 // that to the nearest middle of a triangle. Compares with the library's distances to the same triangles, and prints rows of the
 // table of docs/export.md.
 //   argv[1]   the kind of the valve
 //   argv[2]   thousands of nodes
-//   argv[3..] what riis-mark --export-uris printed
+//   argv[3..] what riis export printed
 #include <vtkCell.h>
 #include <vtkNew.h>
 #include <vtkUnstructuredGrid.h>

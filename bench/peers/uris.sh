@@ -11,7 +11,7 @@ uris_edges=(none 0.1 0.05 0.035 0.025 0.02 0.015)
 export_of_size() {
   local folder=$build/uris/$1_$2 size=()
   [[ $2 == none ]] || size=(--largest-edge "$2")
-  "$build/bin/riis-mark" --export-uris "$folder" --valve "$1" --resistance 1e4 --time-step 0.005 \
+  "$build/bin/riis" export "$folder" --valve "$1" --resistance 1e4 --time-step 0.005 \
     --opening-seconds 0.01 --closing-seconds 0.01 "${size[@]}" >"$folder.xml"
 }
 
@@ -20,8 +20,8 @@ uris() {
   (($# == 0)) || { echo "./run uris: '$*' is not a word that it takes" >&2; exit 2; }
   install_missing
   step "configure" cmake --preset default
-  step "build riis-mark, its tests and the reader" cmake --build --preset default --parallel "$n_jobs" \
-    --target riis-mark test_cli_uris test_cli_uris_refusals riis_bench_uris
+  step "build the program, its tests and the reader" cmake --build --preset default --parallel "$n_jobs" \
+    --target riis_program test_cli_uris test_cli_uris_refusals riis_bench_uris
   rm -rf "$build/uris"
   mkdir -p "$build/uris"
   for kind in aortic trileaflet mitral bileaflet; do

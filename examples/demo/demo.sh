@@ -1,15 +1,15 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# The steps of ./run demo, which reads this file: compile riis-mark, mesh, mark and draw, time, tell. They use its $build, $logs,
+# The steps of ./run demo, which reads this file: compile the program, mesh, mark and draw, time, tell. They use its $build, $logs,
 # $n_jobs, $demo_packages, install_missing and step.
 
-# build_demo: compiles riis-mark. A folder that is configured for the tests keeps its configuration, so that ./run test does not
+# build_demo: compiles the program. A folder that is configured for the tests keeps its configuration, so that ./run test does not
 # start again.
 build_demo() {
   local less=(-D RIIS_WITH_FORTRAN=OFF -D RIIS_BUILD_TESTS=OFF)
   ! grep -qs '^RIIS_BUILD_TESTS:BOOL=ON' "$build/CMakeCache.txt" || less=()
   cmake --preset test "${less[@]}" &&
-    cmake --build --preset test --parallel "$n_jobs" --target riis-mark
+    cmake --build --preset test --parallel "$n_jobs" --target riis_program
 }
 
 # demo_mesh NAME: makes the mesh of examples/demo/NAME.geo, unless it is there. examples/demo/fill.geo says why the surface goes
@@ -54,14 +54,15 @@ of_each_valve() {
 # demo_states VALVE: marks and draws it at each opening into out/VALVE_OPENING*, and writes the stats to build/demo. Looks for
 # ways through the closed valve.
 demo_states() {
-  local opening name check
+  local opening name
   for opening in "${demo_openings[@]}"; do
-    name=$1_$opening check=()
-    [[ $opening != 0 ]] || check=(--check-leaks "${demo_from[$1]}" "${demo_to[$1]}")
-    "$build/bin/riis-mark" "$build/demo/${demo_mesh_of[$1]}.vtk" --valve "${demo_kind[$1]}" --opening "$opening" "${check[@]}" \
+    name=$1_$opening
+    "$build/bin/riis" mark "$build/demo/${demo_mesh_of[$1]}.vtk" --valve "${demo_kind[$1]}" --opening "$opening" \
       --output "out/$name.vtu" --surface-output "out/${name}_surface.vtp" --stats "$build/demo/$name.json" \
       --picture "out/${name}_side.png" --view side --picture "out/${name}_top.png" --view top || return
   done
+  "$build/bin/riis" check leaks "$build/demo/${demo_mesh_of[$1]}.vtk" --valve "${demo_kind[$1]}" --opening 0 \
+    --between "${demo_from[$1]}" "${demo_to[$1]}" --stats "$build/demo/$1_seal.json"
 }
 
 # demo_openings_picture: puts the marked cells of all states into one picture: a row for each valve and view, a column for each
@@ -89,11 +90,11 @@ demo_pictures() {
 
 # demo_beat VALVE: one heartbeat as a movie of 24 frames, with its first picture, the moving surface and the orifice over time.
 demo_beat() {
-  "$build/bin/riis-mark" "$build/demo/${demo_mesh_of[$1]}.vtk" --valve "${demo_kind[$1]}" \
+  "$build/bin/riis" mark "$build/demo/${demo_mesh_of[$1]}.vtk" --valve "${demo_kind[$1]}" \
     --cycle "examples/demo/$1_cycle.csv" --period 0.72 --interpolation cubic --times 0:0.69:0.03 \
     --surface-output "out/$1_beating.pvd" --movie "out/$1_beating.mp4" --frame-rate 12 \
     --picture "out/$1_beating.png" --series-table "out/$1_beating.csv" &&
-    "$build/bin/riis-mark" --valve "${demo_kind[$1]}" --states "out/$1_states.csv" --state-count 21 &&
+    "$build/bin/riis" states "out/$1_states.csv" --valve "${demo_kind[$1]}" --count 21 &&
     orifice_over_time "$1" >"out/$1_orifice.csv"
 }
 
@@ -117,7 +118,7 @@ of_beat() {
     END { print best }' "out/$1_beating.csv"
 }
 
-# number_of NAME KEY: prints a number of riis-mark's stats, with commas between thousands.
+# number_of NAME KEY: prints a number of the program's stats, with commas between thousands.
 number_of() { sed -n -E 's/^ *"'"$2"'": ([^,]*),?$/\1/p' "$build/demo/$1.json" | thousands; }
 
 # thousands: puts commas between the thousands of the number that it reads.
@@ -141,7 +142,7 @@ demo_row() {
 }
 
 # demo_seal VALVE: prints whether unmarked nodes lead through the closed valve, or around it.
-demo_seal() { printf '  %-13s %s, by --check-leaks' "$1 valve" "$(number_of "$1_0" state | tr -d '"')"; }
+demo_seal() { printf '  %-13s %s, by riis check leaks' "$1 valve" "$(number_of "$1_seal" state | tr -d '"')"; }
 
 # demo_beat_line VALVE: prints what its heartbeat did.
 demo_beat_line() {
@@ -157,7 +158,7 @@ demo_story() {
   cat <<TEXT
 
 gmsh has made meshes that the valves fill: an aortic root of $(number_of aortic_0 n_nodes) nodes, and a tube of
-$(number_of mitral_0 n_nodes) nodes along the mitral annulus. riis-mark has marked the nodes within $(number_of aortic_0 half_thickness) cm
+$(number_of mitral_0 n_nodes) nodes along the mitral annulus. riis has marked the nodes within $(number_of aortic_0 half_thickness) cm
 of a leaflet. A flow solver resists the flow at these nodes.
 
 $(printf '  %-27s' ''; printf ' %7s' closed "${demo_openings[@]:1:3}" open)
@@ -189,11 +190,11 @@ TEXT
 demo() {
   packages=("${demo_packages[@]}")
   install_missing
-  step "compile riis-mark, mesh an aortic root and a mitral tube meanwhile" demo_parts
+  step "compile the program, mesh an aortic root and a mitral tube meanwhile" demo_parts
   # Pictures are drawn through X. A temporary virtual screen draws the same ones everywhere.
   step "mark and draw both valves at five openings" xvfb-run -a -s "-screen 0 1600x1200x24" ./run demo-pictures
   step "move both valves through a heartbeat, for movies" xvfb-run -a -s "-screen 0 1600x1200x24" ./run demo-beats
-  step "time the steps of a moving valve" "$build/bin/riis-mark" "$build/demo/mitral_tube.vtk" --valve mitral \
+  step "time the steps of a moving valve" "$build/bin/riis" mark "$build/demo/mitral_tube.vtk" --valve mitral \
     --opening 0 --threads 1 --steps 200 --stats "$build/demo/mitral_steps.json"
   demo_story
 }

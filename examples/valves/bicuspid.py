@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes bicuspid.json: an aortic valve with two cusps instead of three, for riis-mark --valve bicuspid.json.
+"""Writes bicuspid.json: an aortic valve with two cusps instead of three, for riis mark --valve bicuspid.json.
 
 Two equal cusps without a raphe (type 0 of Sievers and Schmidtke, J. Thorac. Cardiovasc. Surg. 133, 2007) hang in a root
 of constant radius. Their free edges close along the line between the commissures and open to a fish's mouth. Lengths

@@ -150,7 +150,7 @@ def _constant_of(match: re.Match[str]) -> str:
 
 
 _CHANGES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
-    (r"riis_valve_get_parameter and riis-mark --print-params list them", "Valve.parameters lists them"),
+    (r"riis_valve_get_parameter and riis params list them", "Valve.parameters lists them"),
     (rf"\boptions\.(fields|{'|'.join(WORDS)})( is | = )(\d+)", _word_of),
     (rf"\bRIIS_(FIELD|INTERPOLATION|PHASE|RIM|{'|'.join(WORDS).upper()})_([A-Z0-9_]+|\*)(?:, \d+)?", _constant_of),
     (r"\briis_[a-z_]+", lambda match: _NAMES.get(match[0], match[0])),

@@ -83,7 +83,7 @@ class FitResult:
         return "\n".join(lines)
 
     def write(self, path: str | os.PathLike[str]) -> str:
-        """Writes the parameters to a file for riis-mark --params, and returns the options with the file and the placement."""
+        """Writes the parameters to a file for riis mark --params, and returns the options with the file and the placement."""
         if not _is_its_parameters(self.valve):
             raise InvalidArgumentError(
                 "valve: has patches or an open state of its own, which a file of parameters does not hold; write those with "

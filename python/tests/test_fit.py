@@ -141,11 +141,11 @@ def test_the_placement_may_be_undetermined():
     assert "undetermined in the placement: translation" in found.report()
 
 
-def riis_mark():
-    for path in [os.environ.get("RIIS_MARK"), ROOT / "build/bin/riis-mark"]:
+def program_riis():
+    for path in [os.environ.get("RIIS_PROGRAM"), ROOT / "build/bin/riis"]:
         if path and os.access(path, os.X_OK):
             return path
-    pytest.skip("riis-mark is not built; ./run demo builds it")
+    pytest.skip("the program riis is not built; ./run demo builds it")
 
 
 CUBE = """# vtk DataFile Version 3.0
@@ -165,7 +165,7 @@ CELL_TYPES 1
 def test_riis_mark_makes_the_fitted_surface(kind, tmp_path):
     """The file and the options give the program the same surface, to the last digits."""
     pyvista = pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
-    program = riis_mark()
+    program = program_riis()
     placement = {**fit_table.PLACEMENT, "scale": 1.1}
     points = fit_table.cloud(kind, 300, 0.02, placement=placement)
     start = riis.Valve(kind, **fit_table.VALVES[kind])
@@ -173,7 +173,7 @@ def test_riis_mark_makes_the_fitted_surface(kind, tmp_path):
                      placement=["rotation", "translation", "scale"], n_starts=1)
     options = shlex.split(found.write(tmp_path / "a valve.json"))
     (tmp_path / "cube.vtk").write_text(CUBE)
-    command = [program, tmp_path / "cube.vtk", *options, "--surface-output", tmp_path / "valve.vtp", "--allow-none"]
+    command = [program, "mark", tmp_path / "cube.vtk", *options, "--surface-output", tmp_path / "valve.vtp", "--allow-none"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     made, known = pyvista.read(tmp_path / "valve.vtp"), riis.Surface(found.valve, **found.placement)

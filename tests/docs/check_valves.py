@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks examples/valves: the script writes the file of the bicuspid valve, and the table of the README there is what
-riis-mark measures.
+the program measures.
 
-    check_valves.py EXAMPLES_VALVES RIIS_MARK
+    check_valves.py EXAMPLES_VALVES PROGRAM
 """
 import csv
 import io
@@ -20,7 +20,7 @@ VALVES = {
 
 def measured(program, folder, arguments):
     """Returns the least free edge over its closed length, and the last orifice."""
-    run = subprocess.run([program, *arguments, "--states", "-"], cwd=folder, capture_output=True, text=True, check=True)
+    run = subprocess.run([program, "states", "-", *arguments], cwd=folder, capture_output=True, text=True, check=True)
     rows = list(csv.DictReader(io.StringIO(run.stdout)))
     assert len(rows) == 101, len(rows)
     edges = [float(value) for row in rows for name, value in row.items() if name.endswith("_edge_ratio")]
@@ -41,7 +41,7 @@ def main():
             continue
         for what, told, value in zip(("free edge", "orifice"), row.groups(), measured(program, folder, arguments)):
             if abs(float(told) - value) > 0.0051:
-                faults.append(f"{name}: README.md says {what} {told}, riis-mark measures {value:.4f}")
+                faults.append(f"{name}: README.md says {what} {told}, riis measures {value:.4f}")
     for fault in faults:
         print(fault)
     return 1 if faults else 0

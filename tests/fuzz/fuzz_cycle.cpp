@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis-mark's tables of times and openings: each input is refused with an exit status and a message, or its keys make a law
+// The program's tables of times and openings: each input is refused with an exit status and a message, or its keys make a law
 // whose opening lies from 0 to 1 at every time.
 #include <cstddef>
 #include <cstdint>

@@ -57,7 +57,7 @@ check_example() { # name, program
 }
 
 # The prosthesis from its file must mark as many nodes at each opening as the example.
-check_prosthesis_file() { # riis-mark
+check_prosthesis_file() { # the program
   local opening
   awk 'BEGIN {
     n = 27; n_nodes = n * n * n
@@ -214,8 +214,8 @@ check_prefix() { # prefix, all|few: the examples
     check_plugin "$1"
   fi
   if has program; then
-    quietly env -u LD_LIBRARY_PATH "$(find "$1" -name riis-mark)" --help
-    check_prosthesis_file "$(find "$1" -name riis-mark)"
+    quietly env -u LD_LIBRARY_PATH "$(find "$1" -name riis -type f)" --help
+    check_prosthesis_file "$(find "$1" -name riis -type f)"
   fi
 }
 

@@ -44,7 +44,7 @@ bool say(const Valve &valve, const Surface &surface, int n_threads) {
                                    : Message("leaflets ", one, " and ", other, " go through each other");
   log_message(RIIS_LOG_WARNING, who.text(), " at opening ", valve.opening(), ": ", n, n == 1 ? " pair" : " pairs",
               " of triangles, up to ", rounded(view(pairs.depth)[deepest], digits), " deep, at (", at(0), ", ", at(1),
-              ", ", at(2), "); riis_find_crossings lists them, riis-mark --check-crossing looks at all openings");
+              ", ", at(2), "); riis_find_crossings lists them, riis check crossings looks at all openings");
   return true;
 }
 

@@ -36,7 +36,7 @@ std::string_view nearest_parameter(const ValveKind &kind, std::string_view name)
   const bool is_near = !nearest.empty();
   fail(RIIS_INVALID_PARAMETER, "'", shown(name), "' is not a parameter of the ", kind.name, " valve; ",
        is_near ? "did you mean '" : "", shown(nearest), is_near ? "'? " : "",
-       "riis_valve_get_parameter and riis-mark --print-params list them");
+       "riis_valve_get_parameter and riis params list them");
 }
 
 // Returns whether the spec's name is a leaflet's name, a dot, and the given name.
