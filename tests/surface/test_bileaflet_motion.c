@@ -91,10 +91,12 @@ static void vertices_and_closest_points_turn_exactly(void **state) {
     assert_int_equal(found.n, n_points);
     for (int64_t i = 0; i < n_points; ++i) {
       if (found.leaflet_id[i] == RIIS_LEAFLET_HOUSING) continue;
-      /* Leaflets that are equally near give a mean: test_ties. */
-      if (tied_velocity_at(&c, velocity, xyz + 3 * i, found.distance[i], half_thickness).n_leaflets > 1) continue;
+      /* Leaflets that are equally near give a mean: test_ties. Rounding decides ties that are not clear. */
+      const tied_velocity tied = tied_velocity_at(&c, velocity, xyz + 3 * i, found.distance[i], half_thickness);
+      if (tied.n_leaflets > 1 || !tied.is_clear) continue;
       chord_velocity(&of, found.leaflet_id[i], fields.point + 3 * i, now, before, seconds, expected);
-      CHECK_AT_MOST(distance(expected, fields.velocity + 3 * i), 10 * rounding);
+      /* Equally near patches of one leaflet give a mean, too. Beside a seam their closest points lie apart. */
+      CHECK_AT_MOST(distance(tied.n_places > 1 ? tied.mean : expected, fields.velocity + 3 * i), 10 * rounding);
     }
     free_owned_after(owned_before);
   }
