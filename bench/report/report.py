@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Makes docs/performance.md from the JSON in out/bench and the prose in performance.template.md.
+"""Makes docs/performance.md and out/bench/details.md from the JSON in out/bench and the prose in *.template.md.
 
-Every number of the page is computed here from the JSON. A ratio is always of two times of the same run."""
+Every number of the pages is computed here from the JSON. A ratio is always of two times of the same run."""
 
 import argparse
 import json
@@ -589,7 +589,7 @@ def write_figures(data, folder):
 
 
 def values_of_page(data, plots):
-    """Every value by the name that performance.template.md has for it; empty where nothing was measured."""
+    """Every value by the name that the templates have for it; empty where nothing was measured."""
     return {
         "machine": data.machine and {"machine_table": machine_table(data)},
         "searches": searches_values(data, plots),
@@ -603,15 +603,20 @@ def values_of_page(data, plots):
     }
 
 
-def template():
-    with open(os.path.join(HERE, "performance.template.md"), encoding="utf-8") as file:
-        return Template(file.read())
+def template(*names):
+    """The prose of these pages, one after the other."""
+    texts = []
+    for name in names:
+        with open(os.path.join(HERE, f"{name}.template.md"), encoding="utf-8") as file:
+            texts.append(file.read())
+    return Template("\n".join(texts))
 
 
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", default=os.path.join("out", "bench"), help="the folder of the JSON (%(default)s)")
     parser.add_argument("--page", default=os.path.join("docs", "performance.md"), help="the page to write (%(default)s)")
+    parser.add_argument("--details", help="the page of all other measurements to write (details.md beside the JSON)")
     parser.add_argument("--print", choices=("search", "marking", "roofline", "peers"), help="print that section in place of writing the page")
     parser.add_argument("--figures", metavar="FOLDER", help="only draw the plots of the figures' page there, with plots.json for it")
     options = parser.parse_args(arguments)
@@ -621,12 +626,14 @@ def main(arguments):
         return 0
     if options.print:
         part = {"search": "searches"}.get(options.print, options.print)
-        print(template().fill(values_of_page(data, {}), only=part))
+        print(template("performance", "details").fill(values_of_page(data, {}), only=part))
         return 0
-    text = template().fill(values_of_page(data, images_for_page(data, os.path.dirname(options.page) or ".")))
-    with open(options.page, "w", encoding="utf-8") as file:
-        file.write(text)
-    print(f"==> left: {options.page}")
+    values = values_of_page(data, images_for_page(data, os.path.dirname(options.page) or "."))
+    for name, path in ("performance", options.page), ("details", options.details or os.path.join(options.data, "details.md")):
+        os.makedirs(os.path.dirname(path) or ".", exist_ok=True)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(template(name).fill(values))
+        print(f"==> left: {path}")
     return 0
 
 
