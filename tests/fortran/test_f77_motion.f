@@ -102,8 +102,9 @@ C     To the end at once, and from a state that went through a file.
       CALL RIISF_OPENING_SWITCH_ADVANCE(0.04D0, 0.08D0, 0D0, 0D0,
      &  -1D0, 0D0, 1D0, 0D0, 0D0, S, PHASE, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'filter_time is -1')
+      PHASE = 5
       CALL RIISF_OPENING_SWITCH_ADVANCE(0.04D0, 0.08D0, 0D0, 0D0,
-     &  0D0, 0D0, 1D0, 0D0, 0D0, S, 5, STAT)
+     &  0D0, 0D0, 1D0, 0D0, 0D0, S, PHASE, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'before.phase is 5')
       CALL RIISF_OPENING_SWITCH_ADVANCE(0.04D0, 0.08D0, 0D0, 0D0,
      &  0D0, 0D0, 0.1D0, 0D0, 0D0, S, PHASE, STAT)
@@ -369,7 +370,7 @@ C     As many vertices at any opening, or not.
       SUBROUTINE FIXED
       INCLUDE 'riisf.h'
       INTEGER*8 SURF, VALVE
-      DOUBLE PRECISION AXIS(3), ZERO(3), XYZ(3,20000), A
+      DOUBLE PRECISION AXIS(3), ZERO(3), XYZ(3,20000), A(1)
       INTEGER STAT, N(2), K, J
       SAVE XYZ
       DATA SURF, VALVE /2*0/, AXIS /0D0, 0D0, 1D0/, ZERO /3*0D0/
@@ -380,7 +381,7 @@ C     As many vertices at any opening, or not.
       CALL OK(STAT)
       DO 20 K = RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED
         DO 10 J = 1, 2
-          A = 0.3D0 * J
+          A(1) = 0.3D0 * J
           CALL RIISF_VALVE_SET(VALVE, 'opening', 1, A, STAT)
           CALL OK(STAT)
           IF (J .EQ. 1) CALL RIISF_SURFACE_TRIANGULATE(SURF, VALVE,
@@ -393,7 +394,7 @@ C     As many vertices at any opening, or not.
         IF (K .EQ. RIIS_TRIANGULATION_FIXED .NEQV. N(1) .EQ. N(2))
      &    CALL FAILED('fixed triangles')
    20 CONTINUE
-      A = 3D0
+      A(1) = 3D0
       CALL RIISF_VALVE_SET(VALVE, 'surface_angle', 1, A, STAT)
       CALL OK(STAT)
       CALL RIISF_SURFACE_UPDATE(SURF, VALVE, STAT)
