@@ -71,9 +71,10 @@ static void test_marks(void **state) {
   static double by_motion[n_box], by_file[n_box];
   sheet_write("now.vtp", 0.25, NULL);
   RUN_FINE(scratch_path("in.vtu"), "--surface", scratch_path("sheet.pvd"), "--time", "2.25", "--half-thickness", "0.2",
-           "--leaflets", "connected", "--quiet", "--stats", scratch_path("stats.json"), "--output", scratch_path("out.vtu"));
-  RUN_FINE(scratch_path("in.vtu"), "--surface", scratch_path("now.vtp"), "--half-thickness", "0.2", "--quiet", "--output",
-           scratch_path("file.vtu"));
+           "--leaflets", "connected", "--quiet", "--stats", scratch_path("stats.json"), "--output",
+           scratch_path("out.vtu"));
+  RUN_FINE(scratch_path("in.vtu"), "--surface", scratch_path("now.vtp"), "--half-thickness", "0.2", "--quiet",
+           "--output", scratch_path("file.vtu"));
   assert_int_equal(shim_read_array(scratch_path("out.vtu"), 'p', "riis_distance", NULL, NULL, NULL, by_motion), 1);
   assert_int_equal(shim_read_array(scratch_path("file.vtu"), 'p', "riis_distance", NULL, NULL, NULL, by_file), 1);
   assert_memory_equal(by_motion, by_file, sizeof by_motion);
@@ -99,7 +100,8 @@ static void test_usage(void **state) {
   RUN_REFUSED(2, "it needs --time T", "--surface", motion, "--period", "1", "--surface-output", moved);
   RUN_REFUSED(2, "--time: 'soon' is not a number", "--surface", motion, "--time", "soon", "--surface-output", moved);
   RUN_REFUSED(2, "--time is nan; it must be finite", "--surface", motion, "--time", "nan", "--surface-output", moved);
-  RUN_REFUSED(2, "--time is 2e+30; it must be finite", "--surface", motion, "--time", "2e30", "--surface-output", moved);
+  RUN_REFUSED(2, "--time is 2e+30; it must be finite", "--surface", motion, "--time", "2e30", "--surface-output",
+              moved);
   RUN_REFUSED(2, "--period: 0 is not above 0", "--surface", motion, "--time", "0", "--period", "0", "--surface-output",
               moved);
   RUN_REFUSED(2, "--period: nan is not above 0", "--surface", motion, "--time", "0", "--period", "nan",

@@ -193,8 +193,9 @@ static void test_refusals(void **state) {
               "--params-open", file, "--opening", "0");
   RUN_REFUSED(1, "'left.leaflet_angle' is not a parameter of the mitral valve", mesh, "--valve", "mitral", "--set",
               "left.leaflet_angle=3");
-  RUN_REFUSED(1, "is not a kind of valve; there are: aortic, bileaflet, mitral, trileaflet, and files of patches, FILE.json", mesh,
-              "--valve", "tricuspid");
+  RUN_REFUSED(
+      1, "is not a kind of valve; there are: aortic, bileaflet, mitral, trileaflet, and files of patches, FILE.json",
+      mesh, "--valve", "tricuspid");
   /* No input is replaced. */
   RUN_REFUSED(2, "is also the file of --params-open", mesh, "--params-open", file, "--opening", "0", "--stats", file);
 }
@@ -210,8 +211,8 @@ static int destroy_all(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_mitral),        cmocka_unit_test(test_bileaflet), cmocka_unit_test(test_own_open_states),
-      cmocka_unit_test(test_aortic),        cmocka_unit_test(test_between),   cmocka_unit_test(test_mitral_states),
+      cmocka_unit_test(test_mitral),   cmocka_unit_test(test_bileaflet), cmocka_unit_test(test_own_open_states),
+      cmocka_unit_test(test_aortic),   cmocka_unit_test(test_between),   cmocka_unit_test(test_mitral_states),
       cmocka_unit_test(test_refusals),
   };
   return cmocka_run_group_tests(tests, make_mitral_box, destroy_all);

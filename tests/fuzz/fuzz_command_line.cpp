@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "expect.hpp"
 #include "program/command_line.hpp"
 #include "program/handles.hpp"
 #include "program/parameters.hpp"
 #include "program/refusal.hpp"
-#include "expect.hpp"
 
 namespace {
 

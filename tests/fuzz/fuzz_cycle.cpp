@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "expect.hpp"
 #include "program/cycle_file.hpp"
 #include "program/opening_law.hpp"
 #include "program/refusal.hpp"
-#include "expect.hpp"
 #include "scratch_file.hpp"
 
 namespace {

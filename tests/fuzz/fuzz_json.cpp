@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <functional>
 
+#include "expect.hpp"
 #include "program/case_opening.hpp"
 #include "program/json_file.hpp"
 #include "program/parameters.hpp"
 #include "program/refusal.hpp"
 #include "program/valve_file.hpp"
-#include "expect.hpp"
 #include "scratch_file.hpp"
 
 namespace {
@@ -47,7 +47,8 @@ void read_parameters(const char *kind) {
   if (!is_taken([&] { riis::program::set_from_json_file(valve.get(), file().path()); })) return;
   const std::string printed = riis::program::json_template(valve.get());
   file().hold(reinterpret_cast<const std::uint8_t *>(printed.data()), printed.size());
-  EXPECT(is_taken([&] { riis::program::set_from_json_file(twin.get(), file().path()); }), "printed parameters are refused");
+  EXPECT(is_taken([&] { riis::program::set_from_json_file(twin.get(), file().path()); }),
+         "printed parameters are refused");
   EXPECT(riis::program::json_template(twin.get()) == printed, "printed parameters read back as others");
 }
 

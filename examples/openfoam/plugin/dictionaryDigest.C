@@ -9,7 +9,6 @@
 
 Foam::SHA1Digest Foam::dictionary::digest() const {
   OStringStream text;
-  for (const entry &one : *this)
-    text << one;
+  for (const entry &one : *this) text << one;
   return SHA1(text.str()).digest();
 }
