@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // riis-mark's JSON files: each input is read as a valve of patches, as parameters of either kind of valve, and as the opening of
-// a valve in a case. It is refused with an exit status and a message, or it is a valve or a law. The valve's parameters, printed and read back, must be unchanged.
+// a valve in a case. It is refused with an exit status and a message, or it is a valve or a law. The valve's parameters, printed
+// and read back, must be unchanged.
 #include <cstddef>
 #include <cstdint>
 #include <functional>
