@@ -11,8 +11,8 @@ if(RIIS_WARNINGS_AS_ERRORS)
   target_compile_options(riis_compile INTERFACE -Werror)
 endif()
 if(RIIS_SANITIZE)
-  # -fno-sanitize-recover: an undefined operation fails the test it happens in. -g1: reports name files and lines. More would double
-  # the time that gcc needs for the kernels.
+  # -fno-sanitize-recover: an undefined operation fails the test it happens in. -g1: reports name files and lines. More would
+  # double the time that gcc needs for the kernels.
   target_compile_options(riis_compile INTERFACE -fsanitize=${RIIS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
   target_link_options(riis_compile INTERFACE -fsanitize=${RIIS_SANITIZE})
   # The address sanitizer sees what this check of the size of an object sees. The kernels compile a third faster without it.

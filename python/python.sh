@@ -12,7 +12,7 @@ python_build_tools=("scikit-build-core>=0.11,<2" nanobind==2.15.0 "numpy>=1.24,<
 python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3" "pyvista>=0.44,<1" "scipy>=1.10,<2"
   "imageio>=2.28,<3" "imageio-ffmpeg>=0.5,<1" "matplotlib>=3.7,<4" "nbclient>=0.8,<1" "nbconvert>=7,<8" "ipykernel>=6,<8")
 
-python_folder=build-python
+python_folder="build-python"
 
 # python_tools: makes the environment that builds.
 python_tools() {
@@ -121,7 +121,6 @@ python_package() {
       ;;
   esac
   interpreter=$(python_of_packages)
-  # shellcheck disable=SC2034 # install_missing reads it
   packages=("${python_packages[@]}")
   install_missing
   step "build tools from PyPI" python_tools "$interpreter"

@@ -130,9 +130,9 @@ vtkSmartPointer<vtkPolyData> Picture::lines(const std::vector<Points> &lines, in
   return data;
 }
 
-void Picture::add_tubes(vtkPolyData *data, Colour colour, double width) {
+void Picture::add_tubes(vtkPolyData *lines, Colour colour, double width) {
   vtkNew<vtkTubeFilter> tubes;
-  tubes->SetInputData(data);
+  tubes->SetInputData(lines);
   tubes->SetRadius(0.5 * width * pixel_);
   tubes->SetNumberOfSides(12);
   tubes->CappingOn();

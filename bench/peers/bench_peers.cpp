@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench peers: gives the same nodes and triangles to others (CGAL, VTK, OpenVDB), on one thread. First their marks are compared with
-// those of a loop over all triangles, then their times are taken in turns. Fails if the library or CGAL does not mark the loop's
-// nodes.
+// ./run bench peers: gives the same nodes and triangles to others (CGAL, VTK, OpenVDB), on one thread. First their marks are
+// compared with those of a loop over all triangles, then their times are taken in turns. Fails if the library or CGAL does not
+// mark the loop's nodes.
 //   argv[1]  a file for the results as JSON
 //   argv[2]  thousands of nodes; 100 if left out
 //   argv[3]  a folder that gets nodes, triangles and distances as raw binary numbers, for peers.py

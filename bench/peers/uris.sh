@@ -1,8 +1,8 @@
-# shellcheck shell=bash disable=SC2154
+# shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
 # ./run uris: exports each kind of valve for svMultiPhysics with triangles of several sizes, reads the files back, and prints how
-# far marks by the middles of triangles are off. run reads this file, which uses its $build,
-# $n_jobs, install_missing, step and say.
+# far marks by the middles of triangles are off. run reads this file, which uses its $build, $n_jobs, install_missing, step and
+# say.
 
 # Largest edges, cm. The half thickness is 0.1. "none" leaves the triangles as the library cuts them.
 uris_edges=(none 0.1 0.05 0.035 0.025 0.02 0.015)
@@ -31,11 +31,10 @@ uris() {
   done
   say "read the files back as the solver does, and compare with the library's vertices"
   ctest --preset default --tests-regex '^test_cli_uris'
-  cat <<'TEXT'
-
-| valve | largest edge, cm | triangles | longest edge | marked | lost | sum of delta too small by | largest excess | outside the box |
-|---|---|---|---|---|---|---|---|---|
-TEXT
+  printf '\n|'
+  printf ' %s |' valve 'largest edge, cm' triangles 'longest edge' marked lost 'sum of delta too small by' \
+    'largest excess' 'outside the box'
+  printf '\n|---|---|---|---|---|---|---|---|---|\n'
   for kind in aortic trileaflet mitral bileaflet; do
     blocks=()
     for edge in "${uris_edges[@]}"; do blocks+=("$build/uris/${kind}_$edge.xml"); done

@@ -66,7 +66,10 @@ def _filled(parts, scopes):
 def wrapped(text):
     """Paragraphs and list items wrapped as all pages are, tables and the like as they are, one empty line between."""
     blocks = [block.strip("\n") for block in re.split(r"\n(?:[ \t]*\n)+", text)]
-    return "\n\n".join(block if block.startswith(("|", "#", "!", "<!--")) else _wrapped_block(block) for block in blocks if block) + "\n"
+    return (
+        "\n\n".join(block if block.startswith(("|", "#", "!", "<!--")) else _wrapped_block(block) for block in blocks if block)
+        + "\n"
+    )
 
 
 def _wrapped_block(block):
@@ -135,8 +138,8 @@ class figure:
 
     @staticmethod
     def lines(panels, across, up, path, ticks=None, limit=None):
-        """panels: title and lines, each a label, points and a style; a line has the same colour in all panels. ticks: those across,
-        in place of powers of ten. limit: (at, text), what lies beyond is shaded and has that text in it."""
+        """panels: title and lines, each a label, points and a style; a line has the same colour in all panels. ticks: those
+        across, in place of powers of ten. limit: (at, text), what lies beyond is shaded and has that text in it."""
         pyplot = figure._pyplot()
         if not pyplot:
             return False

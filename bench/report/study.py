@@ -57,7 +57,9 @@ def caches():
     try:
         for index in sorted(os.listdir(folder)):
             if index.startswith("index"):
-                level, kind, size = (open(f"{folder}/{index}/{name}", encoding="ascii").read().strip() for name in ("level", "type", "size"))
+                level, kind, size = (
+                    open(f"{folder}/{index}/{name}", encoding="ascii").read().strip() for name in ("level", "type", "size")
+                )
                 if kind != "Instruction":
                     found.append(f"L{level} {size}")
     except OSError:
@@ -192,14 +194,18 @@ class Study:
 
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("what", choices=("short", "full", "search", "marking", "roofline", "accuracy", "peers", "compare", "baseline", "figures"))
+    parser.add_argument(
+        "what", choices=("short", "full", "search", "marking", "roofline", "accuracy", "peers", "compare", "baseline", "figures")
+    )
     parser.add_argument("file", nargs="?", help="the file of compare or baseline")
     parser.add_argument("--factor", default="1.3", help="compare fails if something is slower by more than this (%(default)s)")
     parser.add_argument("--build", default="build")
     parser.add_argument("--out", default=os.path.join("out", "bench"))
     options = parser.parse_args(arguments)
     words = {"short": "", "compare": "--compare"}.get(options.what, options.what)
-    command = "./run figures --measure" if options.what == "figures" else " ".join(filter(None, ["./run bench", words, options.file]))
+    command = (
+        "./run figures --measure" if options.what == "figures" else " ".join(filter(None, ["./run bench", words, options.file]))
+    )
     study = Study(options.build, options.out, command)
     if options.what == "figures":
         study.missing_for_figures()

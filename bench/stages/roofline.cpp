@@ -19,12 +19,12 @@
 #include <vector>
 
 #include "api/handles.hpp"
-#include "shared/cylinder.hpp"
 #include "kernels/count.hpp"
 #include "kernels/table.hpp"
 #include "marking/cluster_search.hpp"
 #include "marking/put_in_order.hpp"
 #include "peak.hpp"
+#include "shared/cylinder.hpp"
 #include "shared/time_steps.hpp"
 
 namespace riis {

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "shared/cylinder.hpp"
 #include "plain_adjacency.hpp"
+#include "shared/cylinder.hpp"
 
 namespace bench {
 namespace {

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "k_jump.hpp"
 #include "shared/contest.hpp"
 #include "shared/cylinder.hpp"
 #include "shared/handles.hpp"
-#include "k_jump.hpp"
 
 namespace {
 

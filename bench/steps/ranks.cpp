@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench ranks: the cost of a time step on each rank of a partitioned mesh, for the table of docs/solvers.md. METIS cuts a mesh
-// of a million nodes into 2 to 64 parts. A rank's step runs alone here, on one thread, part by part. The marks of all parts
+// ./run bench ranks: the cost of a time step on each rank of a partitioned mesh, for the table of docs/solvers.md. METIS cuts a
+// mesh of a million nodes into 2 to 64 parts. A rank's step runs alone here, on one thread, part by part. The marks of all parts
 // together must be those of the whole mesh, bit for bit; otherwise the program ends with status 1.
 //   argv[1]  thousands of nodes instead of a million, for a quick look
 #include <metis.h>

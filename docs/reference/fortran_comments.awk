@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# awk -f fortran_comments.awk c.tag SOURCE.f90: the Fortran sources as FORD reads them, from how they are written for their readers.
-# A text after its name, !<, becomes !!. In riis_c, which says only what differs from riis.h, every name gets a link to what riis.h
-# says: where that is, Doxygen's c.tag tells.
+# awk -f fortran_comments.awk c.tag SOURCE.f90: the Fortran sources as FORD reads them, from how they are written for their
+# readers. A text after its name, !<, becomes !!. In riis_c, which says only what differs from riis.h, every name gets a link to
+# what riis.h says: where that is, Doxygen's c.tag tells.
 FILENAME ~ /\.tag$/ {
   tag = $0
   gsub(/^ *<[a-z]*>|<\/[a-z]*> *$/, "", tag)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Doxygen's filter for the C headers, which are written for readers of the headers: plain comments become Doxygen's.
-#   comment before a declaration -> /**;  after a field or value -> /**<;  banner of a section -> a group;  the first -> the file's
+#   comment before a declaration -> /**;  after a field or value -> /**<;  banner of a section -> a group;
+#   the first -> the file's
 #   "  name  text" in a function's comment -> @param;  "Errors: " -> a paragraph;  other indented lines -> verbatim
 function verbatim(on) {
   if (on != in_verbatim) print(on ? " * @verbatim" : "@endverbatim")

@@ -98,7 +98,8 @@ saturne_install_riis() {
     cmake --build "$1/riis" --parallel "$(nproc)" && cmake --install "$1/riis"
 }
 
-# code_saturne_example [--short]: the command of ./run, with its $build, $packages, install_missing, version_on_offer, say and step.
+# code_saturne_example [--short]: the command of ./run, with its $build, $packages, install_missing, version_on_offer, say and
+# step.
 code_saturne_example() {
   local folder=$build/code_saturne parts=(closed open beat) python
   case $* in

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface of a cylinder that the default mitral valve fits, closed, open and in between: from 0.3 cm below its open leaflets to
-// 0.3 cm above its closed annulus, in centimetres. fill.geo fills it with about 100,000 nodes.
+// The surface of a cylinder that the default mitral valve fits, closed, open and in between: from 0.3 cm below its open leaflets
+// to 0.3 cm above its closed annulus, in centimetres. fill.geo fills it with about 100,000 nodes.
 // For gmsh: gmsh -2 -format msh2 -o SURFACE.msh mitral_cylinder.geo
 SetFactory("OpenCASCADE");
 h = 0.0745;

@@ -13,7 +13,6 @@ fenicsx() {
   local here=$PWD/examples/fenicsx work=$PWD/build-python/fenicsx out=$PWD/out/fenicsx python fenicsx_log
   (($# == 0)) || { echo "./run fenicsx: '$*' is not a word that it takes" >&2; exit 2; }
   fenicsx_is_there || return 0
-  # shellcheck disable=SC2034 # install_missing reads it
   packages=("${fenicsx_packages[@]}")
   install_missing
   step "install the Python package beside the distribution's dolfinx" fenicsx_environment "$work"

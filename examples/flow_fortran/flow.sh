@@ -5,7 +5,7 @@
 
 # Packages of Debian 12 or 13 that ./run flow needs, without recommends.
 flow_packages=(gcc g++ gfortran cmake make libembree-dev libtbb-dev libopenmpi-dev libhypre-dev python3-matplotlib ffmpeg)
-flow_build=build-flow
+flow_build="build-flow"
 
 # flow_compile: installs the library and its Fortran modules to a folder, and compiles the solver as a user's own project.
 flow_compile() {

@@ -41,8 +41,9 @@ def marks(serial, *others):
     centres = foam.global_field(serial, "0", "C")
     times = foam.times(serial)
     require(len(times) > 3, f"{serial} has written more than three steps, not {times}")
-    print(f"An opening valve in {len(centres):,} cells, every step written. Cells are compared with those of 1 rank by their global ids."
-          "\nTimes are medians of a step: that of the library on the slowest rank, and the processor time of a whole step of a rank.")
+    print(f"An opening valve in {len(centres):,} cells, every step written. Cells are compared with those of 1 rank by their"
+          " global ids.\nTimes are medians of a step: that of the library on the slowest rank, and the processor time of a"
+          " whole step of a rank.")
     print(f"  {'ranks':>5} {'steps':>5} {'marked':>13} {'library':>9} {'step':>7} {'same marks':>10} {'centres with':>13}"
           f" {'K with':>10} {'these with':>13} {'largest':>10}")
     print(f"  {'':>5} {'':>5} {'':>13} {'':>9} {'':>7} {'':>10} {'other bits':>13} {'other bits':>10} {'equal centres':>13}"
@@ -66,8 +67,9 @@ def marks(serial, *others):
                     largest = max(largest, float(numpy.abs(here - there).max() / here.max()))
         require(min(counts) > 100 and max(counts) != min(counts), f"the valve moves through cells: {counts} are marked")
         library, whole = numpy.median(foam.steps(case)[1:, 4:6], axis=0)
-        print(f"  {n_ranks:>5} {len(times):>5} {min(counts):>6,}-{max(counts):<6,} {1e3 * library:>6.2f} ms {1e3 * whole:>4.0f} ms"
-              f" {'yes' if same else 'no':>10} {moved.sum():>13,} {different:>10,} {unexplained:>13,} {largest:>10.1e}")
+        print(f"  {n_ranks:>5} {len(times):>5} {min(counts):>6,}-{max(counts):<6,} {1e3 * library:>6.2f} ms"
+              f" {1e3 * whole:>4.0f} ms {'yes' if same else 'no':>10} {moved.sum():>13,} {different:>10,} {unexplained:>13,}"
+              f" {largest:>10.1e}")
         require(same, f"{case} marks the cells that {serial} marks")
         require(unexplained == 0, f"cells whose centres have the same bits have the same K, not {unexplained} others")
         require(largest < 1e-9, f"K differs by at most 1e-9 of its largest value, not {largest:.1e}")
@@ -116,8 +118,8 @@ def drops(cases):
     cases = pathlib.Path(cases)
     closed, flow = drop(cases / "closed")
     flat, size = flat_drop(cases / "closed", flow)
-    print(f"A steady flow of {flow * 1e6:.2f} ml/s from rest, 0.1 m/s at the inlet. The closed leaflets have {size * 1e4:.3f} cm2."
-          "\nDrop in Pa between sections below and above the valve:")
+    print(f"A steady flow of {flow * 1e6:.2f} ml/s from rest, 0.1 m/s at the inlet. The closed leaflets have"
+          f" {size * 1e4:.3f} cm2.\nDrop in Pa between sections below and above the valve:")
     print(f"  {'':<34} {'1st step':>10} {'2nd step':>10} {'last step':>10} {'of riis':>9}")
     last = {}
     for name, text in (("closed", "closed valve, riis"), ("powerLaw", "OpenFOAM's powerLaw porosity"),
@@ -225,8 +227,8 @@ def nan(pressure, owner):
     values = b"nonuniform List<scalar> %d(" % count + struct.pack("<d", float("nan")) * count + b")"
     old = b"internalField uniform 0;"
     require(data.count(old) == 1, f"{pressure} has the line '{old.decode()}' once")
-    pathlib.Path(pressure).write_bytes(
-        data.replace(b"format ascii;", b'format binary; arch "LSB;label=32;scalar=64";').replace(old, b"internalField " + values + b";"))
+    binary = data.replace(b"format ascii;", b'format binary; arch "LSB;label=32;scalar=64";')
+    pathlib.Path(pressure).write_bytes(binary.replace(old, b"internalField " + values + b";"))
 
 
 def pictures(case, still, out):

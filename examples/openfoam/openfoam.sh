@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# The steps of ./run openfoam, which reads this file: fetch OpenFOAM's headers, compile the plug-in, mesh, run, check, draw. They use
-# its $build, $n_jobs, $packages, install_missing, is_on_offer, python_of_packages, say and step.
+# The steps of ./run openfoam, which reads this file: fetch OpenFOAM's headers, compile the plug-in, mesh, run, check, draw. They
+# use its $build, $n_jobs, $packages, install_missing, is_on_offer, python_of_packages, say and step.
 
 openfoam_packages=(openfoam mpi-default-bin openmpi-bin gcc g++ cmake make ninja-build libembree-dev libtbb-dev gmsh
   bzip2 xz-utils python3-numpy python3-matplotlib)
@@ -87,8 +87,8 @@ openfoam_has_source() {
   fi
 }
 
-# openfoam_source VERSION FOLDER: the system's own apt entries, as entries for sources in a private folder. The system's lists stay.
-# --tar-only: the headers are all in the original archive, so Debian's own files are not needed.
+# openfoam_source VERSION FOLDER: the system's own apt entries, as entries for sources in a private folder. The system's lists
+# stay. --tar-only: the headers are all in the original archive, so Debian's own files are not needed.
 openfoam_source() {
   local folder=$2 file apt_options part
   mkdir -p "$folder/apt/parts" "$folder/apt/lists/partial" "$folder/apt/cache/archives/partial"
@@ -98,8 +98,8 @@ openfoam_source() {
   done
   cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null |
     sed -nE 's/^[[:space:]]*deb(-src)?[[:space:]]/deb-src /p' | sort -u >"$folder/apt/parts/lines.list" || true
-  apt_options=(-o Dir::Etc::sourcelist=/dev/null -o "Dir::Etc::sourceparts=$folder/apt/parts" -o "Dir::State::lists=$folder/apt/lists"
-    -o "Dir::Cache=$folder/apt/cache" -o APT::Sandbox::User=)
+  apt_options=(-o Dir::Etc::sourcelist=/dev/null -o "Dir::Etc::sourceparts=$folder/apt/parts"
+    -o "Dir::State::lists=$folder/apt/lists" -o "Dir::Cache=$folder/apt/cache" -o APT::Sandbox::User=)
   apt-get "${apt_options[@]}" update &&
     (cd "$folder" && apt-get "${apt_options[@]}" source --download-only --tar-only "openfoam=$1") &&
     tar -xf "$folder"/openfoam_*.orig.tar.* -C "$folder" --strip-components=1 --wildcards \
@@ -149,8 +149,8 @@ openfoam_function_object() { "${of_with[@]}" postProcess -case "$of_work/mesh-$o
 # openfoam_mesh SIZE: OpenFOAM's mesh with edges of SIZE centimetres, in mesh-SIZE.
 openfoam_mesh() {
   local folder=$of_work/mesh-$1
-  [[ ! -e $folder/complete || $openfoam_here/root.geo -nt $folder/complete || examples/demo/aortic_root.geo -nt $folder/complete ]] ||
-    return 0
+  [[ ! -e $folder/complete || $openfoam_here/root.geo -nt $folder/complete ||
+    examples/demo/aortic_root.geo -nt $folder/complete ]] || return 0
   rm -rf "$folder"
   cp -r "$openfoam_here/case" "$folder" &&
     gmsh -3 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -setnumber size "$1" -format msh22 -o "$folder/root.msh" \
@@ -223,9 +223,10 @@ openfoam_marks() {
 
 # of_constant_flow NAME OPENING [SIZE]: a given velocity at the inlet, and a valve that does not move.
 of_constant_flow() {
+  local free_outlet='outlet { type zeroGradient; }' fixed_outlet='outlet { type fixedValue; value uniform 0; }'
   of_case "$1" "${3:-}" &&
-    of_set "$1" 0/U boundaryField '{ inlet { type fixedValue; value uniform (0 0 0.1); } outlet { type zeroGradient; } wall { type noSlip; } }' &&
-    of_set "$1" 0/p boundaryField '{ inlet { type zeroGradient; } outlet { type fixedValue; value uniform 0; } wall { type zeroGradient; } }' &&
+    of_set "$1" 0/U boundaryField "{ inlet { type fixedValue; value uniform (0 0 0.1); } $free_outlet wall { type noSlip; } }" &&
+    of_set "$1" 0/p boundaryField "{ inlet { type zeroGradient; } $fixed_outlet wall { type zeroGradient; } }" &&
     of_set "$1" system/controlDict endTime 0.01 deltaT 1e-3 writeInterval 10 &&
     of_set "$1" system/fvOptions aorticValve/opening "{ law constant; opening $2; }" aorticValve/velocity no
 }
@@ -256,8 +257,8 @@ openfoam_beat() {
     of_set "$1" system/fvOptions aorticValve/velocity "$2" && of_run "$1" 2
 }
 
-# Two written times after a restart while the valve closes. For comparison the flow goes on from the same heartbeat without a valve,
-# and is restarted at the same time.
+# Two written times after a restart while the valve closes. For comparison the flow goes on from the same heartbeat without a
+# valve, and is restarted at the same time.
 openfoam_restart() {
   local before=0.16 time=0.2 end=0.24
   of_copy beat beat-restart && of_go_on beat-restart "$time" "$end" &&
@@ -319,27 +320,27 @@ of_height() {
 
 openfoam_refusals() {
   local dict=system/fvOptions
-  of_bad unknown-valve && of_set unknown-valve $dict aorticValve/valve/kind tricuspid &&
+  of_bad unknown-valve && of_set unknown-valve "$dict" aorticValve/valve/kind tricuspid &&
     of_refused "an unknown valve" unknown-valve "RIIS_INVALID_PARAMETER: 'tricuspid' is not a kind of valve" &&
-    of_bad unknown-parameter && of_set unknown-parameter $dict aorticValve/valve/leaflet_hight 1 &&
+    of_bad unknown-parameter && of_set unknown-parameter "$dict" aorticValve/valve/leaflet_hight 1 &&
     of_refused "an unknown parameter" unknown-parameter "'leaflet_hight' is not a parameter of the trileaflet valve" &&
     of_bad no-resistance && foamDictionary "$of_cases/no-resistance/$dict" -entry aorticValve/resistance -remove >/dev/null &&
     of_refused "a missing key" no-resistance "Entry 'resistance' not found in dictionary" &&
-    of_bad unknown-key && of_set unknown-key $dict aorticValve/opening/closesBelow 0 &&
+    of_bad unknown-key && of_set unknown-key "$dict" aorticValve/opening/closesBelow 0 &&
     of_refused "an unknown key" unknown-key "unknown key 'closesBelow'" &&
-    of_bad unknown-law && of_set unknown-law $dict aorticValve/opening/law swich &&
+    of_bad unknown-law && of_set unknown-law "$dict" aorticValve/opening/law swich &&
     of_refused "an unknown law" unknown-law "law is 'swich', and must be constant, times, table or switch" &&
-    of_bad wrong-unit && of_set wrong-unit $dict aorticValve/halfThickness '[0 2 0 0 0 0 0] 1e-3' &&
+    of_bad wrong-unit && of_set wrong-unit "$dict" aorticValve/halfThickness '[0 2 0 0 0 0 0] 1e-3' &&
     of_refused "a half thickness in m2" wrong-unit 'The dimensions [0 2 0 0 0 0 0] provided do not match' &&
-    of_bad no-half-thickness && of_set no-half-thickness $dict aorticValve/halfThickness 0 &&
+    of_bad no-half-thickness && of_set no-half-thickness "$dict" aorticValve/halfThickness 0 &&
     of_refused "a half thickness of 0" no-half-thickness 'options.half_thickness is 0; it must be' &&
-    of_bad outside && of_set outside $dict aorticValve/placement '{ scale 0.01; translation (0 0 1); }' &&
+    of_bad outside && of_set outside "$dict" aorticValve/placement '{ scale 0.01; translation (0 0 1); }' &&
     of_refused "a valve outside the mesh" outside 'at time 0.001: no cell centre lies within the half thickness' &&
-    of_bad no-patch && of_set no-patch $dict aorticValve/opening/flowPatch aorta &&
+    of_bad no-patch && of_set no-patch "$dict" aorticValve/opening/flowPatch aorta &&
     of_refused "an unknown patch" no-patch "flowPatch is 'aorta', and the mesh has no such patch" &&
     of_bad not-a-number && of_check nan "$of_cases/not-a-number/0/p" "$of_cases/not-a-number/constant/polyMesh/owner" &&
     of_refused "a pressure that is NaN" not-a-number 'at time 0.001: RIIS_INVALID_ARGUMENT: pressure_difference' &&
-    of_bad no-library && of_set no-library $dict aorticValve/libs '("libnoValve.so")' &&
+    of_bad no-library && of_set no-library "$dict" aorticValve/libs '("libnoValve.so")' &&
     of_refused "a library that is not in the path" no-library 'Unknown fvOption type riisValve' &&
     of_bad other-state && of_height other-state 1.123456789012 &&
     of_run other-state 1 && mv "$of_cases/other-state/0.002" "$of_cases/other-state/0.02" &&

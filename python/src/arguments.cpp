@@ -58,7 +58,8 @@ std::int64_t integer(nb::handle value, const char *name) {
 std::int32_t integer32(nb::handle value, const char *name) {
   const std::int64_t found = integer(value, name);
   using Limits = std::numeric_limits<std::int32_t>;
-  if (found < Limits::min() || found > Limits::max()) refuse_value(name, "is ", found, ", which is no integer of 32 bits");
+  if (found < Limits::min() || found > Limits::max())
+    refuse_value(name, "is ", found, ", which is no integer of 32 bits");
   return static_cast<std::int32_t>(found);
 }
 

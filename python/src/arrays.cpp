@@ -98,7 +98,8 @@ void Array::refuse_entries(nb::handle object, const char *wanted, const Parts &.
   refuse_type(name_, text);
 }
 
-Array::Array(nb::handle object, const char *name, Access access, const char *wanted) : name_(name), access_(access), view_{} {
+Array::Array(nb::handle object, const char *name, Access access, const char *wanted)
+    : name_(name), access_(access), view_{} {
   refuse_mask(object, name);
   if (!PyObject_CheckBuffer(object.ptr()))
     refuse_entries(object, wanted, "must be a numpy array of ", wanted, ", not ", name_of_type(object));
@@ -163,7 +164,8 @@ Points points_of(nb::handle xyz, const char *name) {
   points.n = array.size(0);
   points.stride = stride_of_points(array);
   const std::int64_t step = array.stride(1);
-  if (!is_whole(step)) refuse_value(name, "its coordinates are ", step, " bytes apart, which are no whole doubles; copy the array");
+  if (!is_whole(step))
+    refuse_value(name, "its coordinates are ", step, " bytes apart, which are no whole doubles; copy the array");
   points.x = array.data<double>();
   points.y = moved(points.x, step);
   points.z = moved(points.x, 2 * step);
@@ -182,7 +184,8 @@ Points points_of(nb::handle xyz, nb::handle y, nb::handle z) {
     array.expect_shape({i == 0 ? -1 : points.n});
     const std::int64_t stride = stride_of_points(array);
     if (i > 0 && stride != points.stride)
-      refuse_value(names[i], "its stride is ", stride, " doubles, that of x is ", points.stride, "; they must be equal");
+      refuse_value(names[i], "its stride is ", stride, " doubles, that of x is ", points.stride,
+                   "; they must be equal");
     points.n = array.size(0);
     points.stride = stride;
     *to[i] = array.data<double>();

@@ -26,7 +26,9 @@ class Array {
   // An array of 32 or 64 bit integers.
   static Array of_integers(nb::handle object, const char *name);
 
-  Array(Array &&other) noexcept : name_(other.name_), access_(other.access_), view_(other.view_) { other.view_.obj = nullptr; }
+  Array(Array &&other) noexcept : name_(other.name_), access_(other.access_), view_(other.view_) {
+    other.view_.obj = nullptr;
+  }
   Array &operator=(Array &&other) noexcept {
     std::swap(name_, other.name_);
     std::swap(access_, other.access_);

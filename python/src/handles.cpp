@@ -33,8 +33,10 @@ int fork_number() noexcept { return n_forks; }
 void check_surfaces_allowed(const char *name) {
   if (registered != 0) raise_status(RIIS_OUT_OF_MEMORY, "fork() is not watched, because memory ran out");
   if (was_inside_at_fork())
-    raise_status(RIIS_UNAVAILABLE, text_of(name, ": this process was forked while another thread was inside riis, so it makes no "
-                                                 "surface"));
+    raise_status(RIIS_UNAVAILABLE,
+                 text_of(name,
+                         ": this process was forked while another thread was inside riis, so it makes no "
+                         "surface"));
 }
 
 void Usage::check(const char *name) {

@@ -178,7 +178,8 @@ struct Handle {
 template <class Type>
 void refuse_pickle(nb::class_<Type> &type, const char *instead) {
   type.def(
-      "__reduce__", [instead](const Type &) { refuse_type(Type::python_name, "is neither pickled nor copied; ", instead); },
+      "__reduce__",
+      [instead](const Type &) { refuse_type(Type::python_name, "is neither pickled nor copied; ", instead); },
       nb::sig("def __reduce__(self) -> typing.NoReturn"));
 }
 
@@ -190,7 +191,8 @@ void add_closing(nb::class_<Type> &type) {
           "Frees the memory now, or with the last array that shows it. Any later use of the object raises an error.")
       .def_prop_ro(
           "closed", [](const Type &self) { return self.usage.is_closed; }, "True after close().")
-      .def("__enter__", [](nb::handle self) { return nb::borrow(self); }, nb::sig("def __enter__(self) -> typing.Self"))
+      .def(
+          "__enter__", [](nb::handle self) { return nb::borrow(self); }, nb::sig("def __enter__(self) -> typing.Self"))
       .def(
           "__exit__", [](Type &self, nb::handle, nb::handle, nb::handle) { self.close(Type::python_name); },
           nb::arg("type").none(), nb::arg("value").none(), nb::arg("traceback").none(),

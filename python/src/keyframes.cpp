@@ -5,8 +5,8 @@
 namespace riis_python {
 namespace {
 
-void create(Keyframes *self, nb::handle time, nb::handle vertices, nb::handle faces, nb::handle leaflet_id, nb::handle period,
-            nb::handle interpolation, nb::handle index_base) {
+void create(Keyframes *self, nb::handle time, nb::handle vertices, nb::handle faces, nb::handle leaflet_id,
+            nb::handle period, nb::handle interpolation, nb::handle index_base) {
   const Array times = Array::of<double>(time, "time");
   times.expect({-1});
   const Array frames = Array::of<double>(vertices, "vertices");
@@ -37,7 +37,8 @@ std::int32_t interpolation_of(nb::handle value) {
 }
 
 void add_keyframes(nb::module_ &module) {
-  nb::class_<Keyframes> keyframes(module, "Keyframes", R"(A surface that moves by frames: the same faces, other places of the vertices.
+  nb::class_<Keyframes> keyframes(module, "Keyframes",
+                                  R"(A surface that moves by frames: the same faces, other places of the vertices.
 
 time           (n_keys,) float64, strictly ascending
 vertices       (n_keys, n_vertices, 3) float64: frame after frame
@@ -47,13 +48,14 @@ period         > 0: the motion repeats. 0: the first frame counts before its tim
 interpolation  'linear' or 'cubic', of each coordinate
 
 Arrays are copied.)");
-  keyframes.def("__init__", &create, nb::arg("time").none(), nb::arg("vertices").none(), nb::arg("faces").none(), nb::kw_only(),
-                nb::arg("leaflet_id").none() = nb::none(), nb::arg("period").none() = 0.0, nb::arg("interpolation").none() = "linear",
-                nb::arg("index_base").none() = 0,
-                nb::sig("def __init__(self, time: numpy.typing.NDArray[numpy.float64], vertices: "
-                        "numpy.typing.NDArray[numpy.float64], faces: numpy.typing.NDArray[numpy.integer], *, leaflet_id: "
-                        "numpy.typing.NDArray[numpy.int32] | None = None, period: float = 0.0, interpolation: "
-                        "typing.Literal['linear', 'cubic'] = 'linear', index_base: int = 0) -> None"));
+  keyframes.def(
+      "__init__", &create, nb::arg("time").none(), nb::arg("vertices").none(), nb::arg("faces").none(), nb::kw_only(),
+      nb::arg("leaflet_id").none() = nb::none(), nb::arg("period").none() = 0.0,
+      nb::arg("interpolation").none() = "linear", nb::arg("index_base").none() = 0,
+      nb::sig("def __init__(self, time: numpy.typing.NDArray[numpy.float64], vertices: "
+              "numpy.typing.NDArray[numpy.float64], faces: numpy.typing.NDArray[numpy.integer], *, leaflet_id: "
+              "numpy.typing.NDArray[numpy.int32] | None = None, period: float = 0.0, interpolation: "
+              "typing.Literal['linear', 'cubic'] = 'linear', index_base: int = 0) -> None"));
   refuse_pickle(keyframes, "keep the arrays, and make the keyframes from them");
   add_closing(keyframes);
 }

@@ -53,14 +53,17 @@ release() {
   fi
 }
 release accepted '' 's/^$//'
-release accepted '' 's/^int32_t riis_destroy.*;$/&\nint32_t riis_added(int32_t n);/; s/^int32_t riis_destroy.*\}$/&\nint32_t riis_added(int32_t n) { return n; }/'
+release accepted '' 's/^int32_t riis_destroy.*;$/&\nint32_t riis_added(int32_t n);/
+  s/^int32_t riis_destroy.*\}$/&\nint32_t riis_added(int32_t n) { return n; }/'
 release accepted '' 's/^  int32_t reserved;/&\n  double appended;/'
 release accepted '' 's/^  int32_t reserved;/&\n  double appended, another;\n  const char *third;/'
 release refused "riis_options" 's/^  double limit;/&\n  double inserted;/'
 release refused "riis_options" 's/^  double limit;/&\n  double inserted;/; s/^  int32_t reserved;/&\n  double appended;/'
 release refused "riis_options" 's/^  double limit;//'
 release refused "riis_options" 's/^  double limit;/  int64_t limit;/'
-release refused "riis_options" 's/^  int32_t n_threads;/  int32_t place;/; s/^  int32_t reserved;/  int32_t n_threads;/; s/ place;/ reserved;/'
+release refused "riis_options" 's/^  int32_t n_threads;/  int32_t place;/
+  s/^  int32_t reserved;/  int32_t n_threads;/
+  s/ place;/ reserved;/'
 release refused "riis_options" 's/^  int32_t reserved;//; s/^  int32_t n_threads;/  int64_t n_threads;/'
 release refused "RIIS_SECOND" 's/RIIS_SECOND = 1/RIIS_SECOND = 2/'
 release refused "RIIS_SECOND" 's/, RIIS_SECOND = 1//'

@@ -111,8 +111,8 @@ check_keyring() {
   [[ -r $keyring ]] || give_up "no keyring $keyring to check Debian with (package debian-archive-keyring)"
   # Debian's keyring also comes with each suite's key in a separate file.
   [[ $keyring != "$debian_keyring" ]] || compgen -G "/usr/share/keyrings/debian-archive-$suite-stable.*" >/dev/null ||
-    give_up "the package debian-archive-keyring is too old to know Debian's suite $suite: upgrade it (apt-get install --only-upgrade" \
-      "debian-archive-keyring)"
+    give_up "the package debian-archive-keyring is too old to know Debian's suite $suite: upgrade it" \
+      "(apt-get install --only-upgrade debian-archive-keyring)"
 }
 
 make_root() {
@@ -131,7 +131,8 @@ make_root() {
   if ! in_namespace env "PATH=$PATH:/usr/sbin:/sbin" "${variables[@]}" debootstrap "${options[@]}" "$suite" "$root.part" \
     ${mirror:+"$mirror"} >"$log" 2>&1 </dev/null; then
     tail -n 20 "$log" >&2
-    ! grep -q 'unknown key' "$log" || give_up "$keyring does not have the key that $suite is signed with: upgrade debian-archive-keyring"
+    ! grep -q 'unknown key' "$log" ||
+      give_up "$keyring does not have the key that $suite is signed with: upgrade debian-archive-keyring"
     grep -q '^I: ' "$log" || give_up "unshare or debootstrap could not start; in a container they need the right to mount"
     give_up "debootstrap failed: $log"
   fi
@@ -167,7 +168,8 @@ copy_tree() {
     others=$(git ls-files --others --exclude-standard | tr '\n' ' ')
     [[ ! $others ]] || say "not tracked by git, not copied: $others"
   else
-    while IFS= read -r -d '' file; do files+=("$file"); done < <(find . -mindepth 1 -maxdepth 1 ! -name 'build*' ! -name out -print0)
+    while IFS= read -r -d '' file; do files+=("$file"); done \
+      < <(find . -mindepth 1 -maxdepth 1 ! -name 'build*' ! -name out -print0)
   fi
   ((${#files[@]})) || give_up "no files to copy from $PWD"
   remove "$fresh"

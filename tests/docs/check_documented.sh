@@ -25,7 +25,10 @@ names() {
       gsub(/const |\[[0-9]*\]|;/, ""); gsub(/[*,]/, " ")
       for (i = 2; i <= NF; ++i) print struct "." $i
     }
-    { line = $0; while (match(line, /RIIS_[A-Z_0-9]+ = /)) { print substr(line, RSTART, RLENGTH - 3); line = substr(line, RSTART + RLENGTH) } }
+    {
+      for (line = $0; match(line, /RIIS_[A-Z_0-9]+ = /); line = substr(line, RSTART + RLENGTH))
+        print substr(line, RSTART, RLENGTH - 3)
+    }
   ' | sort -u
 }
 

@@ -29,7 +29,8 @@ if [ -n "$undocumented" ]; then
 fi
 
 # Undefined symbols are the procedures that are really called: __module_MOD_name, or name_ for an external subroutine.
-called=$(nm -u "$@" | sed -n -E 's/^ *U (__riis(_[a-z]+)?_MOD_)?([a-z0-9_]+)$/\3/p' | sed -E 's/^(riisf_[a-z0-9_]+)_$/\1/' | sort -u)
+called=$(nm -u "$@" | sed -n -E 's/^ *U (__riis(_[a-z]+)?_MOD_)?([a-z0-9_]+)$/\3/p' |
+  sed -E 's/^(riisf_[a-z0-9_]+)_$/\1/' | sort -u)
 uncalled=$(comm -23 <(printf '%s\n' "$documented" "$named" | sort -u) <(echo "$called"))
 if [ -n "$uncalled" ]; then
   echo "not called by the Fortran tests:" "$uncalled" >&2

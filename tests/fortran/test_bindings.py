@@ -165,8 +165,11 @@ class Fields(Planted):
             self.refuses(f"{HEADER}:{line}: riis_csr: ", "lanted", "is not understood")
 
     def test_a_new_struct(self):
-        self.plant(HEADER, "/* Options of a marking. */", "typedef struct riis_planted {\n  int32_t a, b; /* text */\n} riis_planted;\n"
-                                                       "/* Options of a marking. */")
+        self.plant(
+            HEADER,
+            "/* Options of a marking. */",
+            "typedef struct riis_planted {\n  int32_t a, b; /* text */\n} riis_planted;\n" "/* Options of a marking. */",
+        )
         self.writes()
         self.assertIn("  type, bind(c) :: riis_planted\n    integer(c_int32_t) :: a, b\n  end type riis_planted\n",
                       self.text(MODULE))
@@ -364,8 +367,11 @@ class Words(Planted):
                          "riis_valve_set: ", "'const double *values': 'required', or 'optional'")
         self.refused("  kind          -", "  kind          scalar",
                      "TABLE: riis_valve_create: 'scalar' does not suit 'const char *kind'")
-        self.refused("  parameter_id  -", "  parameter_id  optional",
-                     "TABLE: riis_valve_get_parameter: 'optional' does not suit 'int64_t parameter_id': nothing but '-' and a text")
+        self.refused(
+            "  parameter_id  -",
+            "  parameter_id  optional",
+            "TABLE: riis_valve_get_parameter: 'optional' does not suit 'int64_t parameter_id': nothing but '-' and a text",
+        )
         self.refused("  rotation_angle  -", "  rotation_angle  (3)",
                      "TABLE: riis_surface_options: 'double rotation_angle' points to no")
         self.refused("  user_data  -  what", "  user_data  scalar  what", "TABLE: riis_log_function: only a text is wanted")
@@ -377,7 +383,9 @@ class Words(Planted):
 
     def test_types_that_share_a_line(self):
         self.plant_function("const int64_t **planted, const int32_t **other")
-        line = self.plant(TABLE, "riis_valve_get\n", "riis_valve_planted\n  planted, other  optional (n_values)\n\nriis_valve_get\n")
+        line = self.plant(
+            TABLE, "riis_valve_get\n", "riis_valve_planted\n  planted, other  optional (n_values)\n\nriis_valve_get\n"
+        )
         self.refuses(f"{TABLE}:{line + 1}: riis_valve_planted: planted, other are of several types, "
                      "so each needs a line of its own")
 

@@ -12,8 +12,8 @@ for header in "$@"; do
   echo 'int main(void) { return riis_last_error()[0]; }' >>"$work/alone.c"
   cp "$work/alone.c" "$work/alone.cpp"
   for optimise in -O0 -O2; do
-    [[ $header == *.hpp ]] || "$cc" -std=c99 -pedantic -Wall -Wextra -Wstrict-prototypes -Wconversion -Werror "$optimise" -I"$include" \
-      -c "$work/alone.c" -o "$work/alone.o"
+    [[ $header == *.hpp ]] || "$cc" -std=c99 -pedantic -Wall -Wextra -Wstrict-prototypes -Wconversion -Werror "$optimise" \
+      -I"$include" -c "$work/alone.c" -o "$work/alone.o"
     "$cxx" -std=c++17 -pedantic -Wall -Wextra -Wconversion -Werror "$optimise" -I"$include" \
       -c "$work/alone.cpp" -o "$work/alone.o"
   done

@@ -173,8 +173,8 @@ static int marks_wrong(const riis_surface *surface, riis_mesh *mesh, const riis_
   return wrong;
 }
 
-/* The thread sanitizer's view of OpenMP misses where a team inside another team has ended: a stack that is used again afterwards looks
- * like a race. */
+/* The thread sanitizer's view of OpenMP misses where a team inside another team has ended: a stack that is used again afterwards
+ * looks like a race. */
 #if defined(__has_feature)
 #if __has_feature(thread_sanitizer)
 #define RIIS_TEST_MOST_NESTED 1

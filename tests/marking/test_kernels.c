@@ -555,7 +555,8 @@ static void corners_are_bounded_and_framed(void **state) {
   }
 }
 
-/* Triangles with heights around the least: a triangle without area never passes, and one with a hundred times as much always does. */
+/* Triangles with heights around the least: a triangle without area never passes, and one with a hundred times as much always
+ * does. */
 static void triangles_without_area_are_noticed(void **state) {
   (void)state;
   for (int set = 0; set < n_kernel_sets; ++set) {

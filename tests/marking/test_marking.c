@@ -220,7 +220,8 @@ static void coordinates_may_move_and_results_are_reused(void **state) {
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
   assert_true(llabs(marked_in(result).n - n_before) <= 2); /* z + 10 - 10 rounds */
-  /* Spoilt behind the handle's back: refused by name if it is asked, and the result keeps what it had. Clusters have what they were told. */
+  /* Spoilt behind the handle's back: refused by name if it is asked, and the result keeps what it had. Clusters have what they
+   * were told. */
   const found_nodes kept = marked_in(result);
   const int64_t spoilt = kept.node_id[kept.n / 2];
   char text[64];

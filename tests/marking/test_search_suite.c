@@ -180,7 +180,8 @@ static void compare_with_brute_force(const riis_surface *surface, const test_mes
   const int64_t stride = n_wanted < nodes->n ? nodes->n / n_wanted : 1, first = random_integer(0, stride - 1);
   int64_t pairs = 0, within = 0, undecided = 0, bad_distances = 0, bad_marks = 0;
   double largest = 0;
-#pragma omp parallel for num_threads(2) schedule(dynamic, 64) reduction(+ : pairs, within, undecided, bad_distances, bad_marks) reduction(max : largest)
+#pragma omp parallel for num_threads(2) schedule(dynamic, 64) reduction(max : largest) \
+    reduction(+ : pairs, within, undecided, bad_distances, bad_marks)
   for (int64_t i = first; i < nodes->n; i += stride) {
     if (mask && !mask[i]) { /* must be left out, wherever it is */
       bad_marks += mark[i] != 0 || distance[i] != 1e30;

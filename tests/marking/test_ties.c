@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Velocities where several leaflets, or patches of one, are equally near. They are the means that a loop over all triangles
- * gives, with the same bits by any search. K and K u of symmetric meshes stay when the mesh moves by rounding or is cut. Nodes without
- * ties have the velocity of their closest triangle. */
+ * gives, with the same bits by any search. K and K u of symmetric meshes stay when the mesh moves by rounding or is cut. Nodes
+ * without ties have the velocity of their closest triangle. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -52,12 +52,14 @@ ends 0 "" of_refused "an unknown key" bad "unknown key 'closesBelow'"
 grep -qx "  an unknown key  *refused: unknown key 'closesBelow'" "$of_out/refusals.txt" ||
   problem "the refusal is not in refusals.txt"
 solver_ends=0
-ends 1 "an unknown key: it was not refused, and the solver ran to its end" of_refused "an unknown key" bad "unknown key 'closesBelow'"
+ends 1 "an unknown key: it was not refused, and the solver ran to its end" \
+  of_refused "an unknown key" bad "unknown key 'closesBelow'"
 solver_ends=1 solver_says='Segmentation fault'
 ends 1 "an unknown key: the solver ended, but its log lacks the words 'unknown key 'closesBelow'': $of_cases/bad/log.pimpleFoam" \
   of_refused "an unknown key" bad "unknown key 'closesBelow'"
 solver_says="unknown key 'closesBelow'" solver_leaves=0.002
-ends 1 "an unknown key: the solver ended, but it had written $of_cases/bad/0.002" of_refused "an unknown key" bad "unknown key 'closesBelow'"
+ends 1 "an unknown key: the solver ended, but it had written $of_cases/bad/0.002" \
+  of_refused "an unknown key" bad "unknown key 'closesBelow'"
 (($(wc -l <"$of_out/refusals.txt") == 1)) || problem "refusals.txt has what was not refused: $(<"$of_out/refusals.txt")"
 
 # A program that fails is shown by the end of its log.

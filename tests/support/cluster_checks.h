@@ -18,8 +18,8 @@ static inline int is_refused(riis_status status, int32_t instructions) {
 static int32_t most_threads; /* that ran in any of these */
 static int64_t most_within;
 
-/* Marks with all instructions that there are and 1 to so many threads; expected_search is the search that must run. If fresh, each
- * marking has a fresh mesh. */
+/* Marks with all instructions that there are and 1 to so many threads; expected_search is the search that must run. If fresh,
+ * each marking has a fresh mesh. */
 static inline void check_with(const riis_surface *surface, riis_mesh *mesh, riis_mark_options options, int max_threads,
                               int32_t expected_search) {
   const int owned_before = n_owned();

@@ -97,8 +97,8 @@ riis_status triangulate_deviating(const char *kind, double deviation, double max
 int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t n_points, const double *points,
                                 double limit);
 
-/* The kernels that are compiled for each instruction set (kernels/kernels.hpp): 0 baseline, 1 AVX2, 2 AVX-512; and 3, the baseline of
- * processors without any of these, which is there on others. */
+/* The kernels that are compiled for each instruction set (kernels/kernels.hpp): 0 baseline, 1 AVX2, 2 AVX-512; and 3, the
+ * baseline of processors without any of these, which is there on others. */
 enum { baseline_set = 0, portable_set = 3, n_kernel_sets = 4 };
 int kernels_there(int set);
 /* Whether this build's flags leave the baseline without instructions that round a product and a sum once. */
@@ -130,8 +130,8 @@ void kernels_find_sides(int set, const double *points, const double *on, const d
 /* Measures n triangles, up to 8: measures(6, n) has the normal, twice the area, and the products of the edges at the first and at
  * the second corner. */
 void kernels_measure_triangles(int set, const double *vertices, const int64_t *vertex_id, int32_t n, double *measures);
-/* Places n points (3, n) by two maps, each given by the columns of its matrix and an offset (3, 4), with a scale before the second
- * offset. */
+/* Places n points (3, n) by two maps, each given by the columns of its matrix and an offset (3, 4), with a scale before the
+ * second offset. */
 void kernels_place_points(int set, const double *first, const double *second, double scale, int64_t n,
                           const double *points, double *placed);
 /* Returns 0 if one of n triangles, up to 8, may have no area, or none after its corners move by up to an eighth of `shift`. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The penetration depth and the common segment of two triangles in 113 bits. The depth is the distance from the origin to the hull
- * of the nine differences of corners, by trying a plane through each three of them. The segment has the two farthest of the points
- * where an edge goes through the other triangle. The library instead compares overlaps along normals, and clips. */
+ * The penetration depth and the common segment of two triangles in 113 bits. The depth is the distance from the origin to the
+ * hull of the nine differences of corners, by trying a plane through each three of them. The segment has the two farthest of the
+ * points where an edge goes through the other triangle. The library instead compares overlaps along normals, and clips. */
 #ifndef RIIS_TEST_PENETRATION_ORACLE_H
 #define RIIS_TEST_PENETRATION_ORACLE_H
 

@@ -268,8 +268,8 @@ static void a_ring_is_the_housing(void **state) {
   }
 }
 
-/* Arcs are cubic curves, and so not quite round: a surface whose tolerance is as small as that deviation is refused, and the bound
- * of others has it. */
+/* Arcs are cubic curves, and so not quite round: a surface whose tolerance is as small as that deviation is refused, and the
+ * bound of others has it. */
 static void the_bound_counts_that_arcs_are_cubics(void **state) {
   (void)state;
   riis_valve *valve = new_valve("bileaflet");

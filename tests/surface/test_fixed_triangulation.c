@@ -83,8 +83,8 @@ static void check_same_topology(const topology *a, const topology *b) {
   assert_memory_equal(a->patch_id, b->patch_id, n * sizeof *a->patch_id);
 }
 
-/* 101 openings that the lines were chosen at or not: the same triangles, within the bound, at most half as many again as the largest
- * number of the adapted ones. */
+/* 101 openings that the lines were chosen at or not: the same triangles, within the bound, at most half as many again as the
+ * largest number of the adapted ones. */
 static void check_triangles_stay(riis_valve *valve, const char *name) {
   const riis_surface_options options = fixed_options();
   set_opening(valve, 0.5);

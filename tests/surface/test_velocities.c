@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Velocities of valves that open, at vertices and inside triangles, against the smooth motion; and the bound on their errors for any
- * motion. */
+ * Velocities of valves that open, at vertices and inside triangles, against the smooth motion; and the bound on their errors for
+ * any motion. */
 #include <riis/riis.h>
 
 #include "test_support.h"

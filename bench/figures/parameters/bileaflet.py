@@ -3,7 +3,7 @@
 
 import math
 
-from sheet import BLUE, DARK, GREEN, GREY, PALE, VERMILION, Sheet, distance, plain
+from sheet import BLUE, DARK, GREEN, GREY, VERMILION, Sheet, plain
 
 POSITIVE, NEGATIVE, HOUSING = BLUE, VERMILION, GREEN
 AXIS = (0, (8, 3, 2, 3))

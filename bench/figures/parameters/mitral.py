@@ -234,7 +234,6 @@ def draw_unrolled(sheet, valve):
     panel = sheet.panel((0.15, 0.55), (14.7, 3.05), title, (-4.45, -2.5), 0.905)
     whole = bezier.length(valve.annulus)
     begin = valve.share(valve.commissure)
-    width = valve.share(valve.triangle) - begin
     for turned in (1, -1):
         outline(panel, valve, whole, turned)
     # Lines from the annulus, at a share of its length, to a point of a free edge.
@@ -279,7 +278,8 @@ def outline(panel, valve, whole, turned):
 
 def draw(mitral):
     sheet = Sheet("Parameters of the mitral valve", mitral["parameters"], (15, 13.7))
-    text = "Defaults. u: share of the annulus' length, counter-clockwise from the posterior point; u_pm = 1/2 − anterior_ratio / 2."
+    text = "Defaults. u: share of the annulus' length, counter-clockwise from the posterior point; "
+    text += "u_pm = 1/2 − anterior_ratio / 2."
     sheet.text(0.30, 1 - 0.27 / 13.7, text, va="center")
     closed, half_open, opened = (Valve(state) for state in mitral["states"])
     draw_annulus(sheet, opened)

@@ -1,0 +1,86 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# check_lint_judged.sh SOURCE_FOLDER SCRATCH_FOLDER
+# Each part of lint.sh must accept a small project, and refuse a fault that is planted there.
+set -euo pipefail
+lint=$(readlink -f "$(dirname "$0")")/lint.sh
+sources=$(readlink -f "$1") scratch=$2
+
+# A project of one file of each language. Long lines that are allowed are there too.
+plant() {
+  local long
+  rm -rf "$scratch"
+  mkdir -p "$scratch/src" "$scratch/build-lint"
+  cd "$scratch"
+  cp "$sources/.clang-format" "$sources/.clang-tidy" .
+  printf -v long '%0150d' 0
+  printf '#include <string>\n\nstd::string twice(const std::string &text) { return text + text; }\n' >src/twice.cpp
+  printf '[{"directory": "%s",\n  "command": "c++ -std=c++17 -c src/twice.cpp",\n  "file": "%s/src/twice.cpp"\n}]\n' \
+    "$PWD" "$PWD" >build-lint/compile_commands.json
+  # shellcheck disable=SC2016 # the planted scripts' own variables
+  printf '#!/bin/bash\n# shellcheck source=steps.sh\n. steps.sh\nstep "$1"\n' >run
+  # shellcheck disable=SC2016
+  printf '# shellcheck shell=bash\nstep() { printf "%%s\\n" "$1"; }\n' >steps.sh
+  printf 'import sys\n\nprint(sys.argv)\n' >tool.py
+  printf 'C     %066d\n' 0 >fixed.f
+  # shellcheck disable=SC2016 # marks of a document's block
+  printf '| %s |\n\n<!-- %s -->\n\n- [link](%s)\n\n```text\n%s\n```\n\n    %s\n' "$long" "$long" "$long" "$long" "$long" >page.md
+}
+
+accepts() {
+  "$lint" . "$1" || { echo "$1: refused" >&2; exit 1; }
+}
+
+# refuses PART MESSAGE: the part must fail with this message. The project is then planted anew.
+refuses() {
+  local said
+  if said=$("$lint" . "$1" 2>&1); then
+    echo "$1: not refused: $2" >&2
+    exit 1
+  fi
+  [[ $said == *"$2"* ]] || { echo "$1: '$said' lacks '$2'" >&2; exit 1; }
+  plant
+}
+
+# A program that is missing is named, and so is its package.
+mkdir -p "$scratch"
+other_version=$(
+  # shellcheck disable=SC2317 # lint.sh calls it
+  clang-format-14() { echo "version 13.0"; }
+  export -f clang-format-14
+  "$lint" "$sources" tools 2>&1
+) && { echo "tools: another version was not refused" >&2; exit 1; }
+[[ $other_version == *"as Debian 12's package clang-format-14 has it: version 13.0"* ]] || {
+  echo "tools: '$other_version' does not name package and version" >&2
+  exit 1
+}
+"$lint" "$sources" tools
+
+plant
+for part in format shell columns python tidy; do accepts "$part"; done
+echo 'int  f( ){return 0;}' >>src/twice.cpp
+refuses format 'src/twice.cpp:4:'
+# shellcheck disable=SC2016
+echo 'echo $1' >>run
+refuses shell SC2086
+# shellcheck disable=SC2016
+echo 'step $1' >>steps.sh
+refuses shell SC2086
+echo '# shellcheck shell=bash' >alone.sh
+refuses shell "alone.sh has no #!, and run does not read it"
+printf '# %0129d\n' 0 >>run
+refuses columns 'run:5: 131 columns; at most 130'
+printf '// %0128d\n' 0 >>src/twice.cpp
+refuses columns 'src/twice.cpp:4: 131 columns; at most 130'
+printf 'C     %067d\n' 0 >>fixed.f
+refuses columns 'fixed.f:2: 73 columns; at most 72'
+printf '\n%0101d\n' 0 >>page.md
+refuses columns 'page.md:13: 101 columns; at most 100'
+# shellcheck disable=SC2016
+printf '\n```sh\n%0131d\n```\n' 0 >>page.md
+refuses columns 'page.md:14: 131 columns; at most 130'
+echo 'import os' >>tool.py
+refuses python "'os' imported but unused"
+printf '\nstd::string lost(std::string text) {\n  std::string kept = std::move(text);\n  return kept + text;\n}\n' >>src/twice.cpp
+refuses tidy bugprone-use-after-move
+rm -rf "$scratch"

@@ -1,0 +1,113 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# lint.sh SOURCE_FOLDER PART...
+# Checks the style of all files that git tracks, or of all files if the folder is no work tree. The parts:
+#   format   clang-format 14 lays out C and C++ so; the public headers are laid out by hand
+#   shell    shellcheck has nothing to say; a script without #! is read by another one
+#   columns  no line is too long (check_columns.py)
+#   python   pyflakes has nothing to say
+#   tidy     clang-tidy 14 has nothing to say (.clang-tidy) of the files of build-lint/compile_commands.json
+#   tools    the other parts' programs are there; status 77 if one is missing or of another version
+# shellcheck disable=SC2317 # the parts are called by their names
+set -euo pipefail
+here=$(dirname "$(readlink -f "$0")")
+cd "$1"
+shift
+python=python3
+[[ ! -x /usr/bin/python3 ]] || python=/usr/bin/python3 # Debian's own has the packages
+
+# needs PACKAGE VERSION COMMAND...: the command must print the version.
+needs() {
+  local package=$1 version=$2 said
+  shift 2
+  said=$("$@" 2>&1) || said="there is no $1"
+  [[ $said == *"$version"* ]] || {
+    printf "%s is needed, version %s, as Debian 12's package %s has it: %s\n" "$1" "$version" "$package" "${said%%$'\n'*}" >&2
+    exit 77
+  }
+}
+
+tools() {
+  needs clang-format-14 'version 14.' clang-format-14 --version
+  needs clang-tidy-14 'version 14.' clang-tidy-14 --version
+  needs shellcheck 'version: 0.9.' shellcheck --version
+  needs python3-pyflakes '2.5.' "$python" -m pyflakes --version
+}
+
+files=()
+while IFS= read -r -d '' file; do
+  [[ ! -f $file || -L $file ]] || files+=("$file")
+done < <(if [[ -e .git ]]; then git ls-files -z; else
+  find . \( -path './build*' -o -path ./out \) -prune -o -type f -printf '%P\0'; fi)
+
+# ending REGEX: sets found to the files with such a name.
+ending() {
+  local file
+  found=()
+  for file in "${files[@]}"; do
+    [[ ! $file =~ $1 ]] || found+=("$file")
+  done
+}
+
+format() {
+  local file laid_out=()
+  ending '\.(c|h|cpp|hpp|C|H)$'
+  for file in "${found[@]}"; do
+    [[ $file == include/riis/*.h || $file == */riisf.h ]] || laid_out+=("$file") # riisf.h is Fortran
+  done
+  found=("${laid_out[@]}")
+  clang-format-14 --dry-run -Werror "${found[@]}"
+}
+
+shell() {
+  local file first scripts=() status=0
+  for file in "${files[@]}"; do
+    first=
+    IFS= read -r -n 40 first <"$file" 2>/dev/null || true
+    if [[ $first =~ ^\#!.*[/\ ](ba|da)?sh$ ]]; then
+      scripts+=("$file")
+    elif [[ $file == *.sh ]] && ! grep -qsF -- "shellcheck source=$file" run; then
+      echo "$file has no #!, and run does not read it" >&2
+      status=1
+    fi
+  done
+  # The scripts that run reads are judged with it, because they use its variables.
+  [[ ! -e run ]] || shellcheck --check-sourced -x -P . run || status=1
+  shellcheck -x -P . "${scripts[@]}" || status=1
+  found=("${scripts[@]}")
+  return "$status"
+}
+
+columns() {
+  found=("${files[@]}")
+  "$python" -B "$here/check_columns.py" "${files[@]}"
+}
+
+python() {
+  ending '\.py$'
+  "$python" -m pyflakes "${found[@]}"
+}
+
+tidy() {
+  local status=0 said
+  mapfile -t found < <(sed -nE 's/^ *"file": "(.*)",?$/\1/p' build-lint/compile_commands.json | sort -u)
+  # A batch of files of a unity build includes them, so they count as headers.
+  said=$(printf '%s\0' "${found[@]}" |
+    xargs -0 -P "$(nproc)" -n 1 clang-tidy-14 -p build-lint --quiet --header-filter="^$PWD/(src|include)/" 2>/dev/null) ||
+    status=$?
+  [[ ! $said ]] || awk '!seen[$0]++' <<<"$said" >&2
+  return "$status"
+}
+
+failed=0
+for part; do
+  start=$SECONDS found=()
+  if "$part"; then
+    [[ $part == tools ]] || ((${#found[@]})) || { echo "$part: there are no files" >&2; exit 1; }
+    [[ $part == tools ]] || echo "$part: fine, ${#found[@]} files, $((SECONDS - start)) s"
+  else
+    echo "$part: faults, see above" >&2
+    failed=1
+  fi
+done
+exit $failed
