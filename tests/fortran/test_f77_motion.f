@@ -106,6 +106,7 @@ C     To the end at once, and from a state that went through a file.
       CALL RIISF_OPENING_SWITCH_ADVANCE(0.04D0, 0.08D0, 0D0, 0D0,
      &  0D0, 0D0, 1D0, 0D0, 0D0, S, PHASE, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'before.phase is 5')
+      PHASE = ALLPHA
       CALL RIISF_OPENING_SWITCH_ADVANCE(0.04D0, 0.08D0, 0D0, 0D0,
      &  0D0, 0D0, 0.1D0, 0D0, 0D0, S, PHASE, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'time is 0.1')
