@@ -19,7 +19,6 @@
 #include "riis_vtk/picture_options.hpp"
 #include "riis_vtk/picture_scene.hpp"
 #include "riis_vtk/picture_texts.hpp"
-#include "riis_vtk/text.hpp"
 #include "riis_vtk/vtk_errors.hpp"
 
 namespace riis::vtk {
@@ -63,8 +62,8 @@ Bounds bounds_of(const double *lower, const double *upper) {
     bounds[k] = {lower[k], upper[k]};
     if (std::isfinite(lower[k]) && std::isfinite(upper[k]) && lower[k] <= upper[k]) continue;
     const std::string place = "[" + std::to_string(k) + "]";
-    fail(RIIS_INVALID_ARGUMENT, "lower" + place + " is " + shortest(lower[k]) + ", upper" + place + " is " +
-                                    shortest(upper[k]) + "; they must be finite and ascend");
+    fail(RIIS_INVALID_ARGUMENT, "lower" + place + " is " + joined(lower[k]) + ", upper" + place + " is " +
+                                    joined(upper[k]) + "; they must be finite and ascend");
   }
   return bounds;
 }

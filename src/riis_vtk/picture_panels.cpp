@@ -26,7 +26,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
-#include "riis_vtk/array_names.hpp"
+#include "riis_vtk/files.hpp"
 #include "riis_vtk/drawing.hpp"
 #include "riis_vtk/picture_cut.hpp"
 #include "riis_vtk/picture_faces.hpp"

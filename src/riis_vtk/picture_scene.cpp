@@ -11,9 +11,9 @@
 #include <vtkUnstructuredGrid.h>
 
 #include "common/array_view.hpp"
-#include "riis_vtk/array_names.hpp"
+#include "riis_vtk/files.hpp"
 #include "riis_vtk/mesh.hpp"
-#include "riis_vtk/surface_polydata.hpp"
+#include "riis_vtk/surfaces.hpp"
 #include "riis_vtk/vtk_errors.hpp"
 
 namespace riis::vtk {
