@@ -16,7 +16,7 @@
 #include "figures/shapes.hpp"
 #include "figures/state_figures.hpp"
 #include "figures/text.hpp"
-#include "riis_vtk/display.hpp"
+#include "riis_vtk/drawing.hpp"
 #include "riis_vtk/vtk_errors.hpp"
 
 namespace {

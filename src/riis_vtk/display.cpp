@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "riis_vtk/display.hpp"
-
-#include <X11/Xlib.h>
-
+// Opens the X display. This file is apart from drawing.cpp, since X11's headers make macros of names in VTK's headers.
 #include <chrono>
 #include <cstdlib>
-#include <string>
 #include <thread>
 
+#include "riis_vtk/drawing.hpp"
 #include "riis_vtk/vtk_errors.hpp"
+
+#include <X11/Xlib.h>
 
 namespace riis::vtk {
 namespace {
@@ -28,15 +27,15 @@ Display *open_display() {
 
 HeldDisplay::HeldDisplay() {
   const char *name = std::getenv("DISPLAY");
-  if (!name || !*name) fail(RIIS_UNAVAILABLE, std::string("a picture needs an X display: DISPLAY is not set") + advice);
+  if (!name || !*name) fail(RIIS_UNAVAILABLE, joined("a picture needs an X display: DISPLAY is not set", advice));
   display_ = open_display();
   if (!display_) {
-    fail(RIIS_UNAVAILABLE, std::string("a picture needs an X display: DISPLAY ") + name + " cannot be opened" + advice);
+    fail(RIIS_UNAVAILABLE, joined("a picture needs an X display: DISPLAY ", name, " cannot be opened", advice));
   }
   int opcode = 0, event = 0, error = 0;
   if (!XQueryExtension(display_, "GLX", &opcode, &event, &error)) {
     XCloseDisplay(display_);
-    fail(RIIS_UNAVAILABLE, std::string("a picture needs OpenGL: DISPLAY ") + name + " has no GLX extension" + advice);
+    fail(RIIS_UNAVAILABLE, joined("a picture needs OpenGL: DISPLAY ", name, " has no GLX extension", advice));
   }
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps of drawing that pictures and the paper's figures have in common.
+// Pictures and the paper's figures have the X display and these steps of drawing in common.
 #pragma once
 
 #include <vtkSmartPointer.h>
 
+struct _XDisplay;
 class vtkActor;
 class vtkPolyData;
 class vtkRenderWindow;
@@ -12,6 +13,20 @@ class vtkTextProperty;
 class vtkUnsignedCharArray;
 
 namespace riis::vtk {
+
+// A connection to the X display that VTK would open, held while VTK draws. VTK 9.1 renders only through X and GLX, and aborts the
+// process where it finds neither. A server without clients resets itself and refuses connections meanwhile.
+class HeldDisplay {
+ public:
+  // Fails with RIIS_UNAVAILABLE unless the display is there and has GLX.
+  HeldDisplay();
+  ~HeldDisplay();
+  HeldDisplay(const HeldDisplay &) = delete;
+  HeldDisplay &operator=(const HeldDisplay &) = delete;
+
+ private:
+  _XDisplay *display_;
+};
 
 // Blue, orange, bluish green, reddish purple, vermilion, sky blue: told apart with any colour vision (Okabe, Ito 2008).
 inline constexpr unsigned char distinct_colours[][3] = {{0, 114, 178},   {230, 159, 0}, {0, 158, 115},

@@ -13,8 +13,8 @@
 #include <fstream>
 #include <system_error>
 
-#include "riis_vtk/text.hpp"
-#include "riis_vtk/vtk_errors.hpp"
+#include <vtkAbstractArray.h>
+#include <vtkFieldData.h>
 
 namespace riis::vtk {
 namespace {
@@ -60,24 +60,7 @@ int synchronise(const std::string &path) {
   return error;
 }
 
-}  // namespace
-
-std::string ending_of(const std::string &path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  if (!ending.empty()) ending.erase(0, 1);
-  return lower_case(ending);
-}
-
-std::int64_t check_readable(const std::string &path) {
-  struct stat status;
-  if (stat(path.c_str(), &status) != 0) fail_file(path, "cannot be read: " + system_text(errno));
-  if (S_ISDIR(status.st_mode)) fail_file(path, "is a directory");
-  if (!S_ISREG(status.st_mode)) fail_file(path, "is not a regular file");
-  if (access(path.c_str(), R_OK) != 0) fail_file(path, "cannot be read: " + system_text(errno));
-  if (status.st_size == 0) fail_file(path, "is empty");
-  return status.st_size;
-}
-
+// Returns the last bytes of a file, at most n_bytes.
 std::string tail_of(const std::string &path, std::int64_t n_bytes) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   const std::int64_t size = file ? static_cast<std::int64_t>(file.tellg()) : 0;
@@ -87,12 +70,63 @@ std::string tail_of(const std::string &path, std::int64_t n_bytes) {
   return tail;
 }
 
+}  // namespace
+
+std::string list_of_arrays(vtkFieldData *data) {
+  std::string list;
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i) {
+    const char *name = data->GetAbstractArray(i)->GetName();
+    list += (list.empty() ? "; there are: " : ", ") + std::string(name ? name : "one without a name");
+  }
+  return list.empty() ? "; there is none" : list;
+}
+
+bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char &c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower;
+}
+
+std::string_view take_line(std::string_view &text) {
+  const std::size_t length = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, length);
+  text.remove_prefix(std::min(length + 1, text.size()));
+  return line;
+}
+
+std::string_view take_word(std::string_view &text) {
+  const auto begin = std::find_if_not(text.begin(), text.end(), is_blank);
+  const auto end = std::find_if(begin, text.end(), is_blank);
+  const std::string_view word =
+      text.substr(static_cast<std::size_t>(begin - text.begin()), static_cast<std::size_t>(end - begin));
+  text.remove_prefix(static_cast<std::size_t>(end - text.begin()));
+  return word;
+}
+
+std::string ending_of(const std::string &path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  if (!ending.empty()) ending.erase(0, 1);
+  return lower_case(ending);
+}
+
+std::int64_t check_readable(const std::string &path) {
+  struct stat status;
+  if (stat(path.c_str(), &status) != 0) fail_file(path, "cannot be read: ", system_text(errno));
+  if (S_ISDIR(status.st_mode)) fail_file(path, "is a directory");
+  if (!S_ISREG(status.st_mode)) fail_file(path, "is not a regular file");
+  if (access(path.c_str(), R_OK) != 0) fail_file(path, "cannot be read: ", system_text(errno));
+  if (status.st_size == 0) fail_file(path, "is empty");
+  return status.st_size;
+}
+
 MappedFile::MappedFile(const std::string &path, std::int64_t size) : size_(static_cast<std::size_t>(size)) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   bytes_ = file < 0 ? MAP_FAILED : mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, file, 0);
   const int error = errno;
   if (file >= 0) close(file);
-  if (bytes_ == MAP_FAILED) fail_file(path, "cannot be read: " + system_text(error));
+  if (bytes_ == MAP_FAILED) fail_file(path, "cannot be read: ", system_text(error));
 }
 
 MappedFile::~MappedFile() { munmap(bytes_, size_); }
@@ -103,13 +137,13 @@ ReplacingFile::ReplacingFile(const std::string &path) : path_(path) {
   if (exists) {
     if (S_ISDIR(status.st_mode)) fail_file(path, "is a directory");
     if (!S_ISREG(status.st_mode)) fail_file(path, "is not a regular file");
-    if (access(path.c_str(), W_OK) != 0) fail_file(path, "cannot be written: " + system_text(errno));
+    if (access(path.c_str(), W_OK) != 0) fail_file(path, "cannot be written: ", system_text(errno));
   }
   try {
     place_ = resolved(path);
     temporary_ = create_beside(place_, exists ? &status : nullptr);
   } catch (const std::system_error &error) {
-    fail_file(path, "cannot be written: " + system_text(error.code().value()));
+    fail_file(path, "cannot be written: ", system_text(error.code().value()));
   }
 }
 
@@ -120,16 +154,16 @@ ReplacingFile::~ReplacingFile() {
 void ReplacingFile::write(const unsigned char *bytes, std::int64_t n_bytes) {
   std::ofstream file(temporary_, std::ios::binary);
   file.write(reinterpret_cast<const char *>(bytes), n_bytes);
-  if (!file.flush()) fail_file(path_, "cannot be written: " + system_text(errno));
+  if (!file.flush()) fail_file(path_, "cannot be written: ", system_text(errno));
 }
 
 void ReplacingFile::commit(const std::string &closing) {
-  if (const int error = synchronise(temporary_)) fail_file(path_, "cannot be written: " + system_text(error));
+  if (const int error = synchronise(temporary_)) fail_file(path_, "cannot be written: ", system_text(error));
   if (tail_of(temporary_, 64).find(closing) == std::string::npos) {
     fail_file(path_, "could not be written completely (is the disk full?)");
   }
   if (std::rename(temporary_.c_str(), place_.c_str()) != 0) {
-    fail_file(path_, "cannot be written: " + system_text(errno));
+    fail_file(path_, "cannot be written: ", system_text(errno));
   }
   temporary_.clear();
 }

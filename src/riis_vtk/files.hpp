@@ -1,21 +1,73 @@
 // SPDX-License-Identifier: Apache-2.0
-// Endings of files, checks that a file can be read and is complete, and writing beside the final place. VTK does the rest.
+// Files are checked, read as bytes, lines and words, and written beside the final place. VTK does the rest. The names of the
+// arrays in files are also here.
 #pragma once
 
-#include <cstdint>
-#include <string>
+#include <charconv>
 #include <string_view>
 
+#include <vtkErrorCode.h>
+#include <vtkNew.h>
+#include <vtkType.h>
+
+#include "riis_vtk/vtk_errors.hpp"
+
+class vtkDataObject;
+class vtkFieldData;
+
 namespace riis::vtk {
+
+// The names of the arrays in files. riis_vtk.h promises them.
+inline constexpr const char *marked_array = "riis_marked";
+inline constexpr const char *distance_array = "riis_distance";
+inline constexpr const char *leaflet_array = "riis_leaflet";
+inline constexpr const char *patch_array = "riis_patch";
+inline constexpr const char *triangle_array = "riis_triangle";
+inline constexpr const char *uv_array = "riis_uv";
+inline constexpr const char *velocity_array = "riis_velocity";
+inline constexpr const char *node_id_array = "riis_node_id";
+inline constexpr const char *cell_id_array = "riis_cell_id";
+// The field array in which VTK's filters put times.
+inline constexpr const char *time_array = "TimeValue";
+// The default of the prefix that set_marks puts before _marked, _distance and _leaflet.
+inline constexpr const char *default_prefix = "riis";
+
+// Returns an array of that name and size, without values.
+template <class Array>
+vtkSmartPointer<Array> named_array(const std::string &name, vtkIdType n_tuples, int n_components = 1) {
+  const auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name.c_str());
+  array->SetNumberOfComponents(n_components);
+  array->SetNumberOfTuples(n_tuples);
+  return array;
+}
+
+// Returns "; there are: a, b", for messages about an array that is missing.
+std::string list_of_arrays(vtkFieldData *data);
+
+// Lines and words of the files that are scanned before VTK sees them. Only ASCII counts, whatever the locale.
+bool is_blank(char c);
+
+std::string lower_case(std::string_view text);
+
+// Removes the first line from the text and returns it without its line feed.
+std::string_view take_line(std::string_view &text);
+
+// Removes the first word and the blanks before it. Returns the word, or "" if there is none.
+std::string_view take_word(std::string_view &text);
+
+// Reads the whole text as a number. Returns false if it is no number of that type.
+template <class Number>
+bool read_number(std::string_view text, Number &number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
 
 // Returns the path's ending in lower case without the dot, or "" if it has none.
 std::string ending_of(const std::string &path);
 
 // Returns the file's size. Fails unless the path is a regular, readable, non-empty file: VTK's own messages do not say why.
 std::int64_t check_readable(const std::string &path);
-
-// Returns the last bytes of a file, at most n_bytes.
-std::string tail_of(const std::string &path, std::int64_t n_bytes);
 
 // A file's bytes, readable while this object lives.
 class MappedFile {
@@ -56,5 +108,27 @@ class ReplacingFile {
   std::string place_;  // with links resolved: a link stays, and the file that it points to is replaced or made
   std::string temporary_;
 };
+
+// Writes a data set to a VTK XML file that is complete or not there. Its data is raw and appended, which is as fast as the disk
+// and keeps every bit of every double. Block sizes have 64 bits, since VTK's default ends at 4 GiB.
+template <class Writer>
+void write_xml(const std::string &path, const std::string &ending, vtkDataObject *data, const CaughtOutput &caught) {
+  if (ending_of(path) != ending) fail_file(path, "the file's ending must be .", ending);
+  ReplacingFile file(path);
+  vtkNew<Writer> writer;
+  writer->SetFileName(file.temporary().c_str());
+  writer->SetInputData(data);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToNone();
+  writer->SetHeaderTypeToUInt64();
+  const bool written = writer->Write() != 0;
+  if (writer->GetErrorCode() != vtkErrorCode::NoError) {
+    fail_file(path, "cannot be written: ", vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
+  }
+  caught.check(path);
+  if (!written) fail_file(path, "cannot be written");
+  file.commit("</VTKFile>");
+}
 
 }  // namespace riis::vtk

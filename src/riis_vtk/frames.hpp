@@ -4,12 +4,8 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
-#include <string>
-#include <vector>
 
-#include "riis_vtk/faces.hpp"
-#include "riis_vtk/vtk_errors.hpp"
+#include "riis_vtk/surfaces.hpp"
 
 namespace riis::vtk {
 
@@ -21,12 +17,6 @@ struct Frames {
   Faces faces;                // with the vertices of the first frame
   std::vector<double> times;  // (n_keys)
   std::vector<double> xyz;    // (3, n_vertices, n_keys)
-};
-
-// The cell array that gives the faces' leaflet ids. It must be there if it is required.
-struct LeafletArray {
-  std::string name;
-  bool is_required;
 };
 
 // Reads a file for each time. Fails for a file with other cells than the first one's, and for coordinates that are not finite.

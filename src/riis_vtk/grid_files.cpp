@@ -5,7 +5,6 @@
 #include <array>
 #include <exception>
 #include <optional>
-#include <vector>
 
 #include <vtkCell.h>
 #include <vtkCellArray.h>
@@ -30,10 +29,6 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include "common/array_view.hpp"
-#include "riis_vtk/files.hpp"
-#include "riis_vtk/legacy_scan.hpp"
-#include "riis_vtk/xml_scan.hpp"
-#include "riis_vtk/xml_sizes.hpp"
 
 namespace riis::vtk {
 namespace {
@@ -43,8 +38,8 @@ void check_array_lengths(const std::string &path, vtkFieldData *data, const char
     const vtkAbstractArray *array = data->GetAbstractArray(i);
     if (array->GetNumberOfTuples() != n) {
       const char *name = const_cast<vtkAbstractArray *>(array)->GetName();
-      fail_file(path, std::string(kind) + " array " + (name ? name : "without a name") + " has " +
-                          std::to_string(array->GetNumberOfTuples()) + " values for " + std::to_string(n));
+      fail_file(path, kind, " array ", name ? name : "without a name", " has ", array->GetNumberOfTuples(),
+                " values for ", n);
     }
   }
 }
@@ -62,8 +57,7 @@ void check_offsets(const std::string &path, vtkCellArray *cells) {
 
 void check_point_id(const std::string &path, vtkIdType cell_id, vtkIdType point_id, vtkIdType n_points) {
   if (point_id < 0 || point_id >= n_points) {
-    fail_file(path, "cell " + std::to_string(cell_id) + " names point " + std::to_string(point_id) + " of " +
-                        std::to_string(n_points));
+    fail_file(path, "cell ", cell_id, " names point ", point_id, " of ", n_points);
   }
 }
 
@@ -84,8 +78,7 @@ void check_faces(const std::string &path, vtkCellArray *faces, vtkIdType first_i
   check_point_ids(path, faces, first_id, n_points);
   for (vtkIdType i = 0; i < faces->GetNumberOfCells(); ++i) {
     if (faces->GetCellSize(i) < 3) {
-      fail_file(path, "cell " + std::to_string(first_id + i) + " is a face with " +
-                          std::to_string(faces->GetCellSize(i)) + " points");
+      fail_file(path, "cell ", first_id + i, " is a face with ", faces->GetCellSize(i), " points");
     }
   }
 }
@@ -108,17 +101,15 @@ void check_cell_sizes(const std::string &path, vtkUnstructuredGrid *grid) {
     const int type = grid->GetCellType(cell_id);
     const int n_expected = points_of_type[static_cast<std::size_t>(type)];
     const vtkIdType n = grid->GetCells()->GetCellSize(cell_id);
-    if (n_expected < 0)
-      fail_file(path, "cell " + std::to_string(cell_id) + " has the unknown type " + std::to_string(type));
+    if (n_expected < 0) fail_file(path, "cell ", cell_id, " has the unknown type ", type);
     if (n_expected > 0 && n != n_expected) {
-      fail_file(path, "cell " + std::to_string(cell_id) + " is a " + vtkCellTypes::GetClassNameFromTypeId(type) +
-                          " with " + std::to_string(n) + " points");
+      fail_file(path, "cell ", cell_id, " is a ", vtkCellTypes::GetClassNameFromTypeId(type), " with ", n, " points");
     }
   }
 }
 
 [[noreturn]] void fail_faces(const std::string &path, vtkIdType cell) {
-  fail_file(path, "cell " + std::to_string(cell) + " has broken polyhedron faces");
+  fail_file(path, "cell ", cell, " has broken polyhedron faces");
 }
 
 // Checks a polyhedron's faces. The array has, from the cell's location on, the number of faces, then each face's size and points.
@@ -143,7 +134,7 @@ void check_polyhedra(const std::string &path, vtkUnstructuredGrid *grid) {
     vtkIdTypeArray *faces = grid->GetFaces();
     vtkIdTypeArray *locations = grid->GetFaceLocations();
     if (!faces || !locations || locations->GetNumberOfValues() <= cell_id) {
-      fail_file(path, "cell " + std::to_string(cell_id) + " is a polyhedron without faces");
+      fail_file(path, "cell ", cell_id, " is a polyhedron without faces");
     }
     check_polyhedron(path, cell_id, locations->GetValue(cell_id), faces, grid->GetNumberOfPoints());
   }
@@ -330,12 +321,12 @@ class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
     vtkXMLDataElement *element = FindDataArrayWithName(cells, name);
     const auto created = vtkSmartPointer<vtkAbstractArray>::Take(element ? CreateArray(element) : nullptr);
     vtkDataArray *array = vtkDataArray::SafeDownCast(created);
-    if (!array || array->GetNumberOfComponents() != 1) fail_file(path(), std::string("has polyhedra without ") + name);
+    if (!array || array->GetNumberOfComponents() != 1) fail_file(path(), "has polyhedra without ", name);
     check_held(element, n, array);
     array->SetNumberOfTuples(n);
     if (n > 0 && !ReadArrayValues(element, 0, array, 0, n)) {
       steps().rethrow();
-      fail_file(path(), std::string("is damaged: array ") + name + " cannot be read");
+      fail_file(path(), "is damaged: array ", name, " cannot be read");
     }
     Ids ids(static_cast<std::size_t>(n));
     for (vtkIdType i = 0; i < n; ++i) view(ids)[i] = id_at(array, i);
@@ -345,7 +336,7 @@ class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
   Ids offsets_in(vtkXMLDataElement *cells, const char *name, vtkIdType n) {
     Ids ends = ids_in(cells, name, n);
     if (!std::is_sorted(ends.begin(), ends.end()) || (n > 0 && ends.front() < 0))
-      fail_file(path(), std::string("has broken ") + name);
+      fail_file(path(), "has broken ", name);
     return ends;
   }
 };
@@ -392,8 +383,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_legacy(const std::string &path, const 
   vtkSmartPointer<vtkUnstructuredGrid> grid = reader->GetOutput();
   if (!grid) fail_file(path, "could not be read");
   if (grid->GetNumberOfCells() != n_cells) {
-    fail_file(path, "gives " + std::to_string(grid->GetNumberOfCells()) + " of the " + std::to_string(n_cells) +
-                        " cells that it promises");
+    fail_file(path, "gives ", grid->GetNumberOfCells(), " of the ", n_cells, " cells that it promises");
   }
   return grid;
 }
@@ -420,8 +410,8 @@ vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const Caught
   vtkSmartPointer<vtkPolyData> data = read_xml<WatchedReader<vtkXMLPolyDataReader>, vtkPolyData>(path, caught);
   check_data_set(path, data);
   if (data->GetNumberOfVerts() > 0 || data->GetNumberOfLines() > 0) {
-    fail_file(path, "holds " + std::to_string(data->GetNumberOfVerts()) + " vertices and " +
-                        std::to_string(data->GetNumberOfLines()) + " lines; a surface has faces only");
+    fail_file(path, "holds ", data->GetNumberOfVerts(), " vertices and ", data->GetNumberOfLines(),
+              " lines; a surface has faces only");
   }
   check_faces(path, data->GetPolys(), 0, data->GetNumberOfPoints());
   check_faces(path, data->GetStrips(), data->GetNumberOfPolys(), data->GetNumberOfPoints());

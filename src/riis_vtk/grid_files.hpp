@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: a path. Out: a VTK data set that has the sizes that the file promised and whose cells name only points that exist. VTK
-// reads on after many errors and returns the part that it has. Here a file is whole or an error.
+// reads on after many errors and returns the part that it has. Here a file is whole or an error. The scans below find most errors
+// before VTK sees the file.
 #pragma once
 
-#include <string>
+#include <map>
+#include <vector>
 
-#include <vtkSmartPointer.h>
+#include "riis_vtk/files.hpp"
 
-#include "riis_vtk/vtk_errors.hpp"
-
+class vtkAbstractArray;
 class vtkPolyData;
 class vtkUnstructuredGrid;
+class vtkXMLDataElement;
+class vtkXMLDataParser;
 
 namespace riis::vtk {
 
@@ -19,5 +22,57 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const Ca
 
 // Reads polydata with at least one point from a .vtp (XML) file. The cells are polygons and strips only.
 vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const CaughtOutput &caught);
+
+// Returns the number of cells of a legacy .vtk file. Fails for a file that is not an unstructured grid or not complete. VTK's
+// legacy reader believes every count, takes a short file for a smaller one, and ends the process on some files. So the sections
+// are walked here before VTK sees them.
+std::int64_t check_legacy(const std::string &path);
+
+// Fails for a file of another kind than a VTK XML file of the wanted type, and for a file that is cut off. VTK's parser stops at
+// appended data without looking for the end of the file. It crashes on a field array whose type it does not know. Sizes are for
+// XmlSizes. wanted_type is the type attribute of the file, such as "PolyData".
+void check_xml(const std::string &path, const std::string &wanted_type);
+
+// In: a VTK XML file, and VTK's tree of its elements. Out: nothing, or an error where the file claims more than it holds. VTK
+// believes each number of points, cells, values, bytes and blocks: it takes memory for all that is claimed before it reads.
+class XmlSizes {
+ public:
+  explicit XmlSizes(const std::string &path);
+
+  // Fails unless the arrays of all pieces, and those of the field, hold as many values as are promised. The parser must have
+  // read the elements.
+  void check_pieces(vtkXMLDataParser *parser);
+  // Fails unless the file holds n values for an element, of the size that the array's values have. It also fails if a block of
+  // binary data claims to be larger than the file.
+  void check_values(vtkXMLDataParser *parser, vtkXMLDataElement *element, std::int64_t n, vtkAbstractArray *array);
+
+ private:
+  // The data of an element: text in the file from begin to end, or bytes.
+  struct Place {
+    enum Form { ascii, base64, raw } form;
+    std::size_t begin, end;
+  };
+
+  template <class... Parts>
+  [[noreturn]] void refuse(vtkXMLDataElement *element, const Parts &...parts) const;
+  Place place_of(vtkXMLDataParser *parser, vtkXMLDataElement *element) const;
+  std::vector<std::uint64_t> words(const Place &place, int size, bool is_big, std::uint64_t n) const;
+  std::uint64_t n_bytes_in(vtkXMLDataParser *parser, vtkXMLDataElement *element, const Place &place) const;
+  void check_bits(vtkXMLDataParser *parser, vtkXMLDataElement *element, std::int64_t n, std::uint64_t n_bits);
+  void check_array(vtkXMLDataParser *parser, vtkXMLDataElement *element, std::int64_t n);
+  void check_piece(vtkXMLDataParser *parser, vtkXMLDataElement *piece);
+  void check_cells(vtkXMLDataParser *parser, vtkXMLDataElement *cells, std::int64_t n);
+  std::int64_t count(vtkXMLDataElement *element, const char *attribute) const;
+
+  const std::string &path_;
+  MappedFile file_;
+  std::string_view bytes_;
+  // What each element that was looked at holds: bytes, or numbers of a text.
+  struct Held {
+    std::uint64_t n = 0;
+    bool is_text = false;
+  };
+  std::map<vtkXMLDataElement *, Held> held_;
+};
 
 }  // namespace riis::vtk

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "riis_vtk/legacy_scan.hpp"
-
+// Walks the sections of a legacy .vtk file before VTK reads it, and counts its cells.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
+#include <initializer_list>
 #include <limits>
-#include <map>
-#include <string_view>
 
 #include <vtkCellType.h>
 #include <vtkInformationDoubleKey.h>
@@ -18,46 +15,31 @@
 #include <vtkInformationStringVectorKey.h>
 
 #include "common/array_view.hpp"
-#include "riis_vtk/files.hpp"
-#include "riis_vtk/text.hpp"
-#include "riis_vtk/vtk_errors.hpp"
+#include "riis_vtk/grid_files.hpp"
 
 namespace riis::vtk {
 namespace {
 
 // Returns the bytes of one value in a binary file, 0 for types of varying size, or -1 for an unknown type.
-int size_of_type(const std::string &type) {
-  static const std::map<std::string, int> sizes = {{"char", 1},
-                                                   {"signed_char", 1},
-                                                   {"unsigned_char", 1},
-                                                   {"short", 2},
-                                                   {"unsigned_short", 2},
-                                                   {"int", 4},
-                                                   {"unsigned_int", 4},
-                                                   {"long", 8},
-                                                   {"unsigned_long", 8},
-                                                   {"long_long", 8},
-                                                   {"unsigned_long_long", 8},
-                                                   {"vtktypeint64", 8},
-                                                   {"vtktypeuint64", 8},
-                                                   {"vtkidtype", 4},
-                                                   {"float", 4},
-                                                   {"double", 8},
-                                                   {"string", 0},
-                                                   {"utf8_string", 0}};
-  const auto found = sizes.find(type);
-  return found == sizes.end() ? -1 : found->second;
+int size_of_type(std::string_view type) {
+  using Names = std::initializer_list<std::string_view>;
+  const auto is_in = [&](Names names) { return std::find(names.begin(), names.end(), type) != names.end(); };
+  if (is_in({"int", "unsigned_int", "vtkidtype", "float"})) return 4;
+  if (is_in({"double", "vtktypeint64", "vtktypeuint64", "long", "unsigned_long", "long_long", "unsigned_long_long"}))
+    return 8;
+  if (is_in({"char", "signed_char", "unsigned_char"})) return 1;
+  if (is_in({"short", "unsigned_short"})) return 2;
+  return is_in({"string", "utf8_string"}) ? 0 : -1;
 }
 
 // Tells whether VTK takes the whole word for a number of the type. VTK reads by streams, which refuse infinite and too large
 // numbers, and take too small ones.
 bool is_number(std::string_view word, const std::string &type) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-  const char *const first = word.data(), *const last = first + word.size();
   if (type == "float" || type == "double") {
     double value = 0;
-    const auto [end, error] = std::from_chars(first, last, value);
-    if (end != last) return false;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (end != word.data() + word.size()) return false;
     if (error == std::errc::result_out_of_range)
       return word.find_first_of("eE") < word.find('-', 1) && word.find('-', 1) < word.size();
     return error == std::errc() && std::isfinite(value) &&
@@ -68,13 +50,18 @@ bool is_number(std::string_view word, const std::string &type) {
   const int n_bits = type == "short" || type == "unsigned_short" ? 16 : size_of_type(type) == 8 ? 64 : 32;
   if (is_unsigned && size_of_type(type) > 1) {
     std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(first, last, value);
-    return error == std::errc() && end == last && (n_bits == 64 || value >> n_bits == 0);
+    return read_number(word, value) && (n_bits == 64 || value >> n_bits == 0);
   }
   std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(first, last, value);
   const std::int64_t most = std::numeric_limits<std::int64_t>::max() >> (64 - n_bits);
-  return error == std::errc() && end == last && value <= most && value >= -most - 1;
+  return read_number(word, value) && value <= most && value >= -most - 1;
+}
+
+// Returns the number that big-endian bytes are.
+std::uint64_t big_endian(std::string_view bytes) {
+  std::uint64_t bits = 0;
+  for (const char byte : bytes) bits = bits << 8 | static_cast<unsigned char>(byte);
+  return bits;
 }
 
 bool begins_with(std::string_view text, std::string_view what) { return text.substr(0, what.size()) == what; }
@@ -92,18 +79,14 @@ class Numbers {
       std::from_chars(word.data() + (word[0] == '+'), word.data() + word.size(), n);
       return n;
     }
-    std::uint64_t bits = 0;
-    for (int i = 0; i < size_; ++i) bits = bits << 8 | static_cast<unsigned char>(view(rest_)[i]);
+    const std::uint64_t bits = big_endian(rest_.substr(0, static_cast<std::size_t>(size_)));
     rest_.remove_prefix(static_cast<std::size_t>(size_));
     return size_ == 4 ? static_cast<std::int32_t>(bits) : static_cast<std::int64_t>(bits);
   }
 
   void skip(std::int64_t n) {
-    if (size_ == 0) {
-      for (std::int64_t i = 0; i < n; ++i) take_word(rest_);
-    } else {
-      rest_.remove_prefix(static_cast<std::size_t>(n * size_));
-    }
+    if (size_ != 0) return rest_.remove_prefix(static_cast<std::size_t>(n * size_));
+    for (std::int64_t i = 0; i < n; ++i) take_word(rest_);
   }
 
  private:
@@ -121,16 +104,18 @@ class Scan {
     for (std::string keyword = word(); !keyword.empty(); keyword = word()) section(keyword);
     // The format has no end mark: a file cut after its points would pass for a grid without cells.
     if (n_cells_ < 0) refuse("holds no cells (is it truncated?)");
-    if (n_types_ != n_cells_) {
-      refuse("has " + std::to_string(std::max<std::int64_t>(n_types_, 0)) + " types for " + std::to_string(n_cells_) +
-             " cells" + (n_types_ < 0 ? " (is it truncated?)" : ""));
-    }
+    if (n_types_ != n_cells_)
+      refuse("has ", std::max<std::int64_t>(n_types_, 0), " types for ", n_cells_, " cells",
+             n_types_ < 0 ? " (is it truncated?)" : "");
     if (has_polyhedra()) check_polyhedra();
     return n_cells_;
   }
 
  private:
-  [[noreturn]] void refuse(const std::string &reason) const { fail_file(path_, reason); }
+  template <class... Parts>
+  [[noreturn]] void refuse(const Parts &...parts) const {
+    fail_file(path_, parts...);
+  }
   [[noreturn]] void refuse_end() const { refuse("is truncated"); }
 
   std::string_view line() { return take_line(rest_); }
@@ -139,9 +124,7 @@ class Scan {
   std::string_view word_as_it_is() {
     constexpr std::size_t longest = 255;
     const std::string_view text = take_word(rest_);
-    if (text.size() > longest) {
-      refuse("has a word of " + std::to_string(text.size()) + " characters, more than " + std::to_string(longest));
-    }
+    if (text.size() > longest) refuse("has a word of ", text.size(), " characters, more than ", longest);
     return text;
   }
 
@@ -158,16 +141,14 @@ class Scan {
 
   std::int64_t number_of(std::string_view text) const {
     std::int64_t n = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
-    if (error != std::errc() || end != text.data() + text.size())
-      refuse("has '" + std::string(text) + "' for a number");
+    if (!read_number(text, n)) refuse("has '", text, "' for a number");
     return n;
   }
 
   // Returns a count. Each counted thing takes at least a bit of the file, so a count beyond the file's number of bits is wrong.
   std::int64_t count() {
     const std::int64_t n = number_of(next());
-    if (n < 0) refuse("has the count " + std::to_string(n));
+    if (n < 0) refuse("has the count ", n);
     if (n > n_bits_left()) refuse_end();
     return n;
   }
@@ -182,7 +163,7 @@ class Scan {
     while (!version.empty() && is_blank(version.back())) version.pop_back();
     // VTK takes a version that it cannot read for an old one.
     const std::size_t dot = version.find('.');
-    if (dot == std::string::npos) refuse("has the version '" + version.substr(0, 40) + "'");
+    if (dot == std::string::npos) refuse("has the version '", version.substr(0, 40), "'");
     version_ = number_of(version.substr(0, dot));
     number_of(version.substr(dot + 1));
     line();
@@ -191,7 +172,7 @@ class Scan {
     binary_ = encoding == "binary";
     if (next() != "dataset") refuse("holds no data set");
     const std::string kind = next();
-    if (kind != "unstructured_grid") refuse("holds " + kind + ", not unstructured_grid");
+    if (kind != "unstructured_grid") refuse("holds ", kind, ", not unstructured_grid");
   }
 
   void skip_bytes(std::int64_t n) {
@@ -209,47 +190,32 @@ class Scan {
   }
 
   void check_number(std::string_view word, const std::string &type) const {
-    if (!is_number(word, type)) refuse("has '" + std::string(word.substr(0, 40)) + "' for a number of type " + type);
+    if (!is_number(word, type)) refuse("has '", word.substr(0, 40), "' for a number of type ", type);
   }
 
   // Skips a string in a binary file. The upper two bits of its first byte tell how many bytes hold its length.
   void skip_binary_string() {
-    if (rest_.empty()) refuse_end();
-    const auto first = static_cast<unsigned char>(rest_[0]);
-    const int n_length_bytes = 8 >> (first >> 6);
-    std::int64_t length = first & 63;
-    for (int i = 1; i < n_length_bytes; ++i) {
-      if (i >= static_cast<int>(rest_.size())) refuse_end();
-      length = length << 8 | static_cast<unsigned char>(view(rest_)[i]);
-    }
+    const int n_length_bytes = 8 >> (static_cast<unsigned char>(rest_[0]) >> 6);
+    const std::uint64_t word = big_endian(rest_.substr(0, static_cast<std::size_t>(n_length_bytes)));
     skip_bytes(n_length_bytes);
-    skip_bytes(length);
+    skip_bytes(static_cast<std::int64_t>(word & ((std::uint64_t{1} << (8 * n_length_bytes - 2)) - 1)));
   }
 
   void skip_strings(std::int64_t n) {
     for (std::int64_t i = 0; i < n; ++i) {
-      if (binary_) {
-        skip_binary_string();
-      } else {
-        if (rest_.empty()) refuse_end();
-        line();
-      }
+      if (rest_.empty()) refuse_end();
+      binary_ ? skip_binary_string() : static_cast<void>(line());
     }
   }
 
   // Skips n values that begin on the next line. n must not be larger than the number of bits left.
   void skip_values(std::int64_t n, const std::string &type) {
     line();
+    if (type == "bit") return binary_ ? skip_bytes((n + 7) / 8) : skip_words(n, "int");
     const int size = size_of_type(type);
-    if (type == "bit") {
-      binary_ ? skip_bytes((n + 7) / 8) : skip_words(n, "int");
-    } else if (size < 0) {
-      refuse("has values of the unknown type " + type);
-    } else if (size == 0) {
-      skip_strings(n);
-    } else {
-      binary_ ? skip_bytes(n * size) : skip_words(n, type);
-    }
+    if (size < 0) refuse("has values of the unknown type ", type);
+    if (size == 0) return skip_strings(n);
+    binary_ ? skip_bytes(n * size) : skip_words(n, type);
   }
 
   // Skips an array: n tuples of a width that the file gives, and the METADATA that VTK's writer may put behind them.
@@ -296,18 +262,16 @@ class Scan {
         key = vtkInformationKeyLookup::Find(name, std::string(take_word(text)));
         ++n_found;
       } else if (key) {
-        if (keyword != "DATA")
-          refuse("has metadata with '" + std::string(keyword.substr(0, 40)) + "' in the place of DATA");
+        if (keyword != "DATA") refuse("has metadata with '", keyword.substr(0, 40), "' in the place of DATA");
         skip_data(key, text);
         key = nullptr;
       } else if (const std::string lower = lower_case(keyword);
                  begins_with(lower, "information") || begins_with(lower, "component_names")) {
         // VTK would start the block again there.
-        refuse("has metadata with '" + std::string(keyword.substr(0, 40)) + "' behind INFORMATION");
+        refuse("has metadata with '", keyword.substr(0, 40), "' behind INFORMATION");
       }
     }
-    if (n_found != n_keys || key)
-      refuse("has INFORMATION of " + std::to_string(n_keys) + " keys and gives " + std::to_string(n_found));
+    if (n_found != n_keys || key) refuse("has INFORMATION of ", n_keys, " keys and gives ", n_found);
   }
 
   // Skips the values of a key that VTK knows: a string, a number, or a count and so many strings or numbers.
@@ -317,7 +281,7 @@ class Scan {
     const bool are_reals = vtkInformationDoubleVectorKey::SafeDownCast(key) != nullptr;
     const bool are_many = are_texts || are_reals || vtkInformationIntegerVectorKey::SafeDownCast(key);
     const std::int64_t n = are_many ? number_of(take_word(text)) : 1;
-    if (n < 0 || n > n_bits_left()) refuse("has metadata with the count " + std::to_string(n));
+    if (n < 0 || n > n_bits_left()) refuse("has metadata with the count ", n);
     for (std::int64_t i = 0; i < n; ++i) {
       if (are_texts)
         line();
@@ -345,7 +309,7 @@ class Scan {
     } else if (keyword == "metadata") {
       skip_metadata(0);
     } else if (!attribute(keyword)) {
-      refuse("has the unknown keyword '" + keyword.substr(0, 40) + "'");
+      refuse("has the unknown keyword '", keyword.substr(0, 40), "'");
     }
   }
 
@@ -389,12 +353,11 @@ class Scan {
     std::int64_t n_left = n_values;
     for (std::int64_t i = 0; i < n_cells; ++i) {
       const std::int64_t n_corners = binary_ ? binary_int() : number_of(next());
-      if (n_corners < 0 || n_corners >= n_left)
-        refuse("cell " + std::to_string(i) + " has " + std::to_string(n_corners) + " points, more than CELLS has");
+      if (n_corners < 0 || n_corners >= n_left) refuse("cell ", i, " has ", n_corners, " points, more than CELLS has");
       n_left -= 1 + n_corners;
       binary_ ? skip_bytes(4 * n_corners) : skip_words(n_corners, "int");
     }
-    if (n_left != 0) refuse("has CELLS with " + std::to_string(n_left) + " numbers too many");
+    if (n_left != 0) refuse("has CELLS with ", n_left, " numbers too many");
   }
 
   // Returns the values of an array whose type was the last word read. They begin on the next line.
@@ -406,7 +369,7 @@ class Scan {
 
   Numbers numbers(std::string_view values, const std::string &type) const {
     const int size = size_of_type(type);
-    if (size < 4 || type == "float" || type == "double") refuse("has polyhedra, and cells of type " + type);
+    if (size < 4 || type == "float" || type == "double") refuse("has polyhedra, and cells of type ", type);
     return {values, binary_ ? size : 0};
   }
 
@@ -443,7 +406,7 @@ class Scan {
 
   // Checks the n numbers of a polyhedron: the number of its faces, then for each face the number of its points and the points.
   void check_polyhedron(std::int64_t cell, std::int64_t n, Numbers &corners) const {
-    const auto broken = [&] { refuse("cell " + std::to_string(cell) + " has broken polyhedron faces"); };
+    const auto broken = [&] { refuse("cell ", cell, " has broken polyhedron faces"); };
     if (n < 1) broken();
     std::int64_t n_left = n - 1;
     const std::int64_t n_faces = corners.next();
@@ -454,9 +417,7 @@ class Scan {
       n_left -= n_points;
       for (std::int64_t i = 0; i < n_points; ++i) {
         const std::int64_t point = corners.next();
-        if (point < 0 || point >= n_points_)
-          refuse("cell " + std::to_string(cell) + " names point " + std::to_string(point) + " of " +
-                 std::to_string(n_points_));
+        if (point < 0 || point >= n_points_) refuse("cell ", cell, " names point ", point, " of ", n_points_);
       }
     }
     if (n_faces < 0 || n_left != 0) broken();
@@ -464,10 +425,9 @@ class Scan {
 
   std::int32_t binary_int() {
     if (rest_.size() < 4) refuse_end();
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(rest_[i]);
+    const auto value = static_cast<std::int32_t>(big_endian(rest_.substr(0, 4)));
     rest_.remove_prefix(4);
-    return static_cast<std::int32_t>(value);
+    return value;
   }
 
   // Skips an array of POINT_DATA or CELL_DATA. Returns false if the keyword does not begin one.
@@ -507,7 +467,7 @@ class Scan {
     std::int64_t width = 1;
     if (after != "lookup_table") {
       width = number_of(after);
-      if (width < 1 || width > n_bits_left()) refuse("has SCALARS of " + after + " components");
+      if (width < 1 || width > n_bits_left()) refuse("has SCALARS of ", after, " components");
       after = next();
     }
     if (after != "lookup_table") refuse("has SCALARS without LOOKUP_TABLE");

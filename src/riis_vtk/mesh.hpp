@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The content of the opaque mesh handle.
+// The opaque mesh handle holds a grid. In: a grid whose cells have been checked. Out: the edges of its cells, their typical
+// length, and its linear volume cells as plain arrays for riis_adjacency_create_from_cells.
 #pragma once
 
 #include <riis/riis_vtk.h>
+
+#include <cstdint>
+#include <vector>
 
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
@@ -10,3 +14,38 @@
 struct riis_vtk_mesh {
   vtkSmartPointer<vtkUnstructuredGrid> grid;  // its points are a vtkDoubleArray
 };
+
+namespace riis::vtk {
+
+struct VolumeCounts {
+  std::int64_t n_volumes = 0;
+  std::int64_t n_linear = 0;   // of these, the cells that volume_cells_of returns
+  std::int64_t n_unknown = 0;  // of these, the cells whose edges are not known
+};
+VolumeCounts count_volumes(vtkUnstructuredGrid *grid);
+
+struct VolumeCells {
+  std::vector<std::int64_t> node_ids;
+  std::vector<std::int64_t> offsets = {0};  // one more than cells
+};
+
+// Returns tetrahedra, pyramids, wedges and hexahedra, and voxels as hexahedra. Other cells are left out.
+VolumeCells volume_cells_of(vtkUnstructuredGrid *grid);
+
+// Edges of cells of volume, as pairs of nodes. An edge of several cells is listed several times.
+struct VolumeEdges {
+  std::vector<std::int64_t> node_ids;  // (2, n)
+  std::int64_t n_cells_left_out = 0;   // cells of volume whose edges are not known
+};
+VolumeEdges volume_edges_of(vtkUnstructuredGrid *grid);
+
+// Returns the edges that are longer than a length and whose bounding box meets the box from lower to upper. The grid's points are
+// xyz(3, n).
+VolumeEdges long_edges_of(vtkUnstructuredGrid *grid, const double *xyz, double longer_than, const double *lower,
+                          const double *upper);
+
+// Returns the median length of the edges of faces and volumes, or 0 if none is known. An edge counts once for each of its cells.
+// At most 20,000 cells are used, evenly spaced in their order.
+double median_edge_of(vtkUnstructuredGrid *grid);
+
+}  // namespace riis::vtk

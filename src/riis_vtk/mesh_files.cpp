@@ -6,24 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <string>
 
 #include <vtkDoubleArray.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkTypeInt32Array.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include "common/array_view.hpp"
-#include "riis_vtk/array_names.hpp"
-#include "riis_vtk/edge_length.hpp"
-#include "riis_vtk/files.hpp"
 #include "riis_vtk/grid_files.hpp"
 #include "riis_vtk/mesh.hpp"
-#include "riis_vtk/point_arrays.hpp"
-#include "riis_vtk/text.hpp"
-#include "riis_vtk/volume_cells.hpp"
-#include "riis_vtk/vtk_errors.hpp"
-#include "riis_vtk/xml_writing.hpp"
 
 namespace riis::vtk {
 namespace {
@@ -83,11 +76,120 @@ riis_adjacency *adjacency_of(vtkUnstructuredGrid *grid, std::int32_t n_threads) 
 
 void check_length(double longer_than) {
   if (longer_than >= 0 && std::isfinite(longer_than)) return;
-  fail(RIIS_INVALID_ARGUMENT, "longer_than is " + shortest(longer_than) + "; it must be finite and at least 0");
+  refuse_argument("longer_than is ", longer_than, "; it must be finite and at least 0");
 }
 
 const double *points_of(vtkUnstructuredGrid *grid) {
   return vtkDoubleArray::SafeDownCast(grid->GetPoints()->GetData())->GetPointer(0);
+}
+
+// The functions from here on make point arrays of a grid, by the names that riis_vtk.h promises. The values are the result of a
+// marking, or the caller's numbers.
+
+void check_are_of_mesh(const riis_marks *marks, vtkIdType n_nodes) {
+  riis_mark_stats stats{};
+  check_core(riis_marks_get_stats(marks, &stats, sizeof stats));
+  if (stats.n_nodes != n_nodes) {
+    refuse_argument("marks are of a mesh with ", stats.n_nodes, " nodes, this mesh has ", n_nodes);
+  }
+}
+
+// Refuses a name that some file format or some reader does not take.
+void check_name(const char *argument, const std::string &name) {
+  constexpr std::size_t longest = 64;
+  const auto is_good = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
+           c == '.';
+  };
+  if (name.empty() || name.size() > longest || !std::all_of(name.begin(), name.end(), is_good)) {
+    refuse_argument(argument, " is \"", name.substr(0, longest), "\"; it must be 1 to ", longest,
+                    " letters, digits, _, - and .");
+  }
+}
+
+// The nodes within the limit of a marking.
+struct Within {
+  std::int64_t n = 0;
+  const std::int64_t *node_id = nullptr;
+};
+
+// Adds an array that has the values of the nodes within the limit, and `elsewhere` for the others.
+template <class Array, class Value>
+void add_field(vtkUnstructuredGrid *grid, const std::string &name, const Within &within, int n_components,
+               const Value *values, Value elsewhere) {
+  if (!values && within.n > 0) refuse_argument("marks lack the field of ", name);
+  const auto array = named_array<Array>(name, grid->GetNumberOfPoints(), n_components);
+  Value *const to = array->GetPointer(0);
+  std::fill_n(to, n_components * grid->GetNumberOfPoints(), elsewhere);
+  for (std::int64_t i = 0; i < within.n; ++i)
+    std::copy_n(values + n_components * i, n_components, to + n_components * within.node_id[i]);
+  grid->GetPointData()->AddArray(array);
+}
+
+void check_fields(std::int32_t fields) {
+  constexpr std::int32_t all = 2 * RIIS_FIELD_PATCH - 1;
+  if (fields >= 0 && fields <= all) return;
+  refuse_argument("fields is ", fields, "; it must be a sum of RIIS_FIELD_*");
+}
+
+// prefix_marked, prefix_distance, prefix_leaflet.
+void set_marks(vtkUnstructuredGrid *grid, const riis_marks *marks, double far_distance, const std::string &prefix) {
+  check_name("prefix", prefix);
+  const vtkIdType n = grid->GetNumberOfPoints();
+  check_are_of_mesh(marks, n);
+  const auto marked = named_array<vtkUnsignedCharArray>(prefix + "_marked", n);
+  const auto distance = named_array<vtkDoubleArray>(prefix + "_distance", n);
+  const auto leaflet = named_array<vtkTypeInt32Array>(prefix + "_leaflet", n);
+  riis_dense_arrays to;
+  check_core(riis_dense_arrays_init(&to, sizeof to));
+  to.n_nodes = n;
+  to.far_distance = far_distance;
+  to.mark = marked->GetPointer(0);
+  to.distance = distance->GetPointer(0);
+  to.leaflet_id = leaflet->GetPointer(0);
+  check_core(riis_marks_get_dense(marks, &to));
+  for (vtkDataArray *array : {static_cast<vtkDataArray *>(marked), static_cast<vtkDataArray *>(distance),
+                              static_cast<vtkDataArray *>(leaflet)}) {
+    grid->GetPointData()->AddArray(array);
+  }
+}
+
+// values is (n_components, n_nodes).
+void set_point_array(vtkUnstructuredGrid *grid, const std::string &name, std::int64_t n_nodes,
+                     std::int64_t n_components, const double *values) {
+  check_name("name", name);
+  const vtkIdType n = grid->GetNumberOfPoints();
+  if (n_nodes != n) refuse_argument("n_nodes is ", n_nodes, "; the mesh has ", n, " nodes");
+  if (n_components < 1 || n_components > 9)
+    refuse_argument("n_components is ", n_components, "; it must be from 1 to 9");
+  const auto array = named_array<vtkDoubleArray>(name, n, static_cast<int>(n_components));
+  std::copy_n(values, n * n_components, array->GetPointer(0));
+  grid->GetPointData()->AddArray(array);
+}
+
+// An array for each of the fields, such as prefix_normal.
+void set_fields(vtkUnstructuredGrid *grid, const riis_marks *marks, std::int32_t fields, const std::string &prefix) {
+  check_name("prefix", prefix);
+  check_fields(fields);
+  check_are_of_mesh(marks, grid->GetNumberOfPoints());
+  riis_mark_list of{};
+  check_core(riis_marks_get_list(marks, RIIS_LIST_WITHIN_LIMIT, &of, sizeof of));
+  const Within within{of.n_nodes, of.node_id};
+  const auto add_doubles = [&](std::int32_t field, const char *name, int n_components, const double *values) {
+    if (fields & field) add_field<vtkDoubleArray>(grid, prefix + name, within, n_components, values, 0.0);
+  };
+  const auto add_integers = [&](std::int32_t field, const char *name, const std::int32_t *values,
+                                std::int32_t elsewhere) {
+    if (fields & field) add_field<vtkTypeInt32Array>(grid, prefix + name, within, 1, values, elsewhere);
+  };
+  add_doubles(RIIS_FIELD_POINT, "_point", 3, of.point);
+  add_doubles(RIIS_FIELD_NORMAL, "_normal", 3, of.normal);
+  add_doubles(RIIS_FIELD_BARYCENTRIC, "_barycentric", 3, of.barycentric);
+  add_integers(RIIS_FIELD_SIDE, "_side", of.side, 0);
+  add_integers(RIIS_FIELD_RIM, "_rim", of.rim, 0);
+  add_doubles(RIIS_FIELD_UV, "_uv", 2, of.uv);
+  add_doubles(RIIS_FIELD_VELOCITY, "_velocity", 3, of.velocity);
+  add_integers(RIIS_FIELD_PATCH, "_patch", of.patch_id, -1);
 }
 
 }  // namespace

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parts of a volume mesh of riis_vtk.h: the cells around some of its nodes, as a mesh of their own.
-#include <riis/riis_vtk.h>
-
 #include <algorithm>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -13,18 +9,15 @@
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkStringArray.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
 
 #include "common/array_view.hpp"
-#include "riis_vtk/array_names.hpp"
+#include "riis_vtk/files.hpp"
 #include "riis_vtk/mesh.hpp"
-#include "riis_vtk/vtk_errors.hpp"
 
 namespace riis::vtk {
 namespace {
@@ -33,13 +26,12 @@ using Chosen = std::vector<std::uint8_t>;
 
 Chosen chosen_nodes(vtkUnstructuredGrid *grid, std::int64_t n_ids, const std::int64_t *node_ids) {
   const vtkIdType n_nodes = grid->GetNumberOfPoints();
-  if (n_ids < 0) fail(RIIS_INVALID_ARGUMENT, "n_ids is " + std::to_string(n_ids));
+  if (n_ids < 0) refuse_argument("n_ids is ", n_ids);
   if (n_ids > 0) require(node_ids, "node_ids");
   Chosen chosen(static_cast<std::size_t>(n_nodes));
   for (std::int64_t i = 0; i < n_ids; ++i) {
     if (node_ids[i] < 0 || node_ids[i] >= n_nodes) {
-      fail(RIIS_INVALID_ARGUMENT, "node_ids[" + std::to_string(i) + "] is " + std::to_string(node_ids[i]) +
-                                      "; the mesh has " + std::to_string(n_nodes) + " nodes");
+      refuse_argument("node_ids[", i, "] is ", node_ids[i], "; the mesh has ", n_nodes, " nodes");
     }
     view(chosen)[node_ids[i]] = 1;
   }
@@ -74,9 +66,7 @@ void copy_data(vtkDataSetAttributes *from, const std::vector<vtkIdType> &ids, co
   to->CopyAllOn();
   to->CopyAllocate(from, n);
   for (vtkIdType i = 0; i < n; ++i) to->CopyData(from, view(ids)[i], i);
-  vtkNew<vtkTypeInt64Array> array;
-  array->SetName(id_array);
-  array->SetNumberOfTuples(n);
+  const auto array = named_array<vtkTypeInt64Array>(id_array, n);
   std::copy(ids.begin(), ids.end(), array->GetPointer(0));
   to->AddArray(array);
 }

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motion of riis_vtk.h: reads the frames of a surface from files into arrays for the core's keyframes.
+// Motion of riis_vtk.h: reads the frames of a surface from files into arrays for the core's keyframes. ParaView's collections of
+// files in time are read here.
 #include <riis/riis_vtk.h>
 
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <filesystem>
 #include <memory>
+#include <optional>
+
+#include <vtkObjectFactory.h>
+#include <vtkXMLParser.h>
 
 #include "common/array_view.hpp"
-#include "common/message.hpp"
-#include "riis_vtk/array_names.hpp"
-#include "riis_vtk/collection.hpp"
 #include "riis_vtk/frames.hpp"
-#include "riis_vtk/pieces.hpp"
-#include "riis_vtk/surface_data.hpp"
-#include "riis_vtk/vtk_errors.hpp"
+#include "riis_vtk/grid_files.hpp"
 
 struct riis_vtk_motion {
   riis::vtk::Frames frames;
@@ -22,13 +26,101 @@ struct riis_vtk_motion {
 namespace riis::vtk {
 namespace {
 
-template <class... Parts>
-[[noreturn]] void refuse_argument(const Parts &...parts) {
-  fail(RIIS_INVALID_ARGUMENT, Message(parts...).text());
+// A DataSet element as it stands in the file.
+struct NamedDataSet {
+  std::optional<std::string> file, timestep;
+};
+
+// Collects the elements /VTKFile/Collection/DataSet. It builds no tree, whose destruction would recurse as deep as a hostile
+// file nests.
+class CollectionParser : public vtkXMLParser {
+ public:
+  static CollectionParser *New();
+  vtkTypeMacro(CollectionParser, vtkXMLParser);
+
+  std::vector<NamedDataSet> data_sets;
+  std::exception_ptr failure;  // in one of the functions below, whose caller is in C
+
+ protected:
+  void StartElement(const char *name, const char **attributes) override {
+    constexpr const char *way[] = {"VTKFile", "Collection", "DataSet"};
+    if (depth_ == n_right_ && depth_ < 3 && std::strcmp(name, way[depth_]) == 0) {
+      if (++n_right_ == 3) keep(attributes);
+    }
+    ++depth_;
+  }
+  void EndElement(const char *) override {
+    --depth_;
+    if (n_right_ > depth_) n_right_ = depth_;
+  }
+
+ private:
+  void keep(const char **attributes) noexcept {
+    try {
+      NamedDataSet data_set;
+      for (; attributes[0] && attributes[1]; attributes += 2) {
+        if (std::strcmp(attributes[0], "file") == 0) data_set.file = attributes[1];
+        if (std::strcmp(attributes[0], "timestep") == 0) data_set.timestep = attributes[1];
+      }
+      data_sets.push_back(std::move(data_set));
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  }
+
+  std::int64_t depth_ = 0, n_right_ = 0;  // of the open elements, the outermost that are on the way
+};
+vtkStandardNewMacro(CollectionParser);
+
+double time_of(const std::string &path, const std::string &which, const std::string &timestep) {
+  std::string_view text = timestep;
+  text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  double time = 0;
+  if (!read_number(text, time) || !is_time(time))
+    fail_file(path, which, " has the timestep '", timestep.substr(0, 40), "', which is no number from -1e30 to 1e30");
+  return time;
 }
 
-LeafletArray leaflet_array_of(const char *leaflets) {
-  return leaflets ? LeafletArray{leaflets, true} : LeafletArray{leaflet_array, false};
+std::vector<NamedDataSet> data_sets_of(const std::string &path, const CaughtOutput &caught) {
+  check_xml(path, "Collection");
+  vtkNew<CollectionParser> parser;
+  parser->SetFileName(path.c_str());
+  const bool parsed = parser->Parse() != 0;
+  if (parser->failure) std::rethrow_exception(parser->failure);
+  caught.check(path);
+  if (!parsed) fail_file(path, "cannot be parsed");
+  return std::move(parser->data_sets);
+}
+
+// The files and their times.
+struct Collection {
+  std::vector<std::string> paths;  // those of relative files begin with the collection's folder
+  std::vector<double> times;       // finite and strictly ascending
+};
+
+// Reads a .pvd file, ParaView's collection of files in time. Fails for a file that is no collection, names no files, or whose
+// timesteps are no ascending numbers.
+Collection read_collection(const std::string &path, const CaughtOutput &caught) {
+  if (ending_of(path) != "pvd") fail_file(path, "a collection of files in time must be a .pvd file");
+  const std::vector<NamedDataSet> data_sets = data_sets_of(path, caught);
+  if (data_sets.empty()) fail_file(path, "names no files: it has no DataSet in a Collection");
+  if (view(data_sets).size() > most_frames)
+    fail_file(path, "names ", view(data_sets).size(), " files, more than ", most_frames);
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  Collection collection;
+  for (const NamedDataSet &data_set : data_sets) {
+    const std::string which = "DataSet " + std::to_string(collection.paths.size());
+    if (!data_set.file || data_set.file->empty()) fail_file(path, which, " names no file");
+    if (!data_set.timestep) fail_file(path, which, " has no timestep");
+    const double time = time_of(path, which, *data_set.timestep);
+    if (!collection.times.empty() && !(time > collection.times.back()))
+      fail_file(path, which, " has the timestep ", time, ", which is not above that of the DataSet before, ",
+                collection.times.back());
+    collection.times.push_back(time);
+    collection.paths.push_back((folder / *data_set.file).string());
+  }
+  return collection;
 }
 
 std::vector<double> checked_times(const char *count, std::int64_t n, const double *times) {
@@ -63,7 +155,7 @@ RIIS_API riis_status riis_vtk_motion_read_pvd(const char *path, const char *leaf
     require(path, "path");
     require(motion, "motion");
     Collection collection = naming(path, [&] { return read_collection(path, caught); });
-    Frames frames = frames_of_files(collection.paths, std::move(collection.times), leaflet_array_of(leaflets), caught);
+    Frames frames = frames_of_files(collection.paths, std::move(collection.times), LeafletArray(leaflets), caught);
     *motion = motion_of(std::move(frames), std::move(collection.paths));
   });
 }
@@ -77,7 +169,7 @@ RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *con
     std::vector<std::string> files;
     for (std::int64_t i = 0; i < n_files; ++i)
       files.push_back(require(paths[i], ("paths[" + std::to_string(i) + "]").c_str()));
-    Frames frames = frames_of_files(files, std::move(checked), leaflet_array_of(leaflets), caught);
+    Frames frames = frames_of_files(files, std::move(checked), LeafletArray(leaflets), caught);
     *motion = motion_of(std::move(frames), std::move(files));
   });
 }
@@ -93,8 +185,7 @@ RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const 
     const std::vector<double> given = in_file ? std::vector<double>{} : checked_times("n_times", n_times, times);
     *motion = naming(path, [&] {
       return motion_of(
-          frames_of_displacements(path, prefix, in_file ? nullptr : &given, leaflet_array_of(leaflets), caught),
-          {path});
+          frames_of_displacements(path, prefix, in_file ? nullptr : &given, LeafletArray(leaflets), caught), {path});
     });
   });
 }

@@ -1,31 +1,102 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of riis_vtk.h: a surface and a marked mesh, seen by one camera, to .png files.
+// Pictures of riis_vtk.h: a surface and a marked mesh, seen by one camera, to .png files. The caller's picture options may be of
+// any release. They become those of this release, checked: a failure names the field and its value.
 #include <riis/riis_vtk.h>
 
 #include <cmath>
 #include <cstring>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include <vtkRenderWindow.h>
 #include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
 
-#include "riis_vtk/display.hpp"
 #include "riis_vtk/drawing.hpp"
 #include "riis_vtk/files.hpp"
 #include "riis_vtk/mesh.hpp"
-#include "riis_vtk/picture_options.hpp"
 #include "riis_vtk/picture_scene.hpp"
-#include "riis_vtk/picture_texts.hpp"
-#include "riis_vtk/text.hpp"
-#include "riis_vtk/vtk_errors.hpp"
 
 namespace riis::vtk {
 namespace {
 
+constexpr std::int64_t first_size = 72;  // the struct's size in the first release that had it
+constexpr std::int64_t size_here = sizeof(riis_vtk_picture_options);
+
+template <class... Parts>
+[[noreturn]] void refuse_option(const Parts &...parts) {
+  refuse_argument("options->", parts...);
+}
+
+void check_pixels(const char *name, std::int32_t n) {
+  if (n < 64 || n > 8192) refuse_option(name, " is ", n, ", not 64 to 8192");
+}
+
+void check_names(const riis_vtk_picture_options &options) {
+  const std::string n = "n_leaflet_names is " + std::to_string(options.n_leaflet_names);
+  if (options.n_leaflet_names < 0) refuse_option(n);
+  if (options.n_leaflet_names > 0 && !options.leaflet_names) refuse_option(n, ", options->leaflet_names is NULL");
+  for (std::int64_t i = 0; i < options.n_leaflet_names; ++i) {
+    if (!options.leaflet_names[i]) refuse_option("leaflet_names[", i, "] is NULL");
+  }
+}
+
+void check_edges(const riis_vtk_picture_options &options, const riis_vtk_mesh *mesh) {
+  const std::string n = "n_leaking_edges is " + std::to_string(options.n_leaking_edges);
+  if (options.n_leaking_edges < 0) refuse_option(n);
+  if (options.n_leaking_edges == 0) return;
+  if (!options.leaking_edges) refuse_option(n, ", options->leaking_edges is NULL");
+  if (!mesh) refuse_option(n, ", and mesh is NULL");
+  const std::int64_t n_nodes = mesh->grid->GetNumberOfPoints();
+  for (std::int64_t i = 0; i / 2 < options.n_leaking_edges; ++i) {
+    const std::int64_t node = options.leaking_edges[i];
+    if (node < 0 || node >= n_nodes) {
+      refuse_option("leaking_edges[", i, "] is ", node, "; the mesh has ", n_nodes, " nodes");
+    }
+  }
+}
+
+// Fails unless a release had a struct of this size.
+void check_picture_options_size(std::int64_t size) { check_struct_size(size, first_size, size_here, "options"); }
+
+const riis_vtk_picture_options &default_picture_options() {
+  static const riis_vtk_picture_options defaults = {
+      size_here, nullptr, nullptr, 0, nullptr, 0, nullptr, RIIS_VTK_VIEW_OBLIQUE, 1600, 800, 0};
+  return defaults;
+}
+
+// Returns the options with defaults for the fields that an older caller lacks, or all defaults if options is NULL.
+riis_vtk_picture_options completed_picture_options(const riis_vtk_picture_options *options) {
+  riis_vtk_picture_options whole = default_picture_options();
+  if (options) {
+    check_picture_options_size(options->struct_size);
+    std::memcpy(&whole, options, static_cast<std::size_t>(options->struct_size));
+    whole.struct_size = size_here;
+  }
+  return whole;
+}
+
+// argument is the caller's name for the value.
+void check_view(std::int32_t view, const char *argument) {
+  if (view < RIIS_VTK_VIEW_SIDE || view > RIIS_VTK_VIEW_OBLIQUE) {
+    refuse_argument(argument, " is ", view, ", not a RIIS_VTK_VIEW_*");
+  }
+}
+
+// Checks all fields but the view. The mesh may be NULL.
+void check_picture_options(const riis_vtk_picture_options &options, const riis_vtk_mesh *mesh) {
+  check_pixels("width", options.width);
+  check_pixels("height", options.height);
+  check_names(options);
+  if (options.reserved != 0) refuse_option("reserved is ", options.reserved, ", not 0");
+  check_edges(options, mesh);
+}
+
+void check_png(const std::string &path) {
+  if (ending_of(path) != "png") fail_file(path, "the file's ending must be .png");
+}
+
+// Writes what the window last rendered. Fails if VTK reported an error.
 void write_png(vtkRenderWindow *window, const std::string &path, const CaughtOutput &caught) {
+  caught.check(path);
   ReplacingFile file(path);
   const vtkSmartPointer<vtkUnsignedCharArray> bytes = encoded_png(window);
   caught.check(path);
@@ -41,20 +112,14 @@ struct Shot {
 
 void draw(const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_vtk_picture_options &options,
           const std::vector<Shot> &shots, const CaughtOutput &caught) {
-  for (const Shot &shot : shots) {
-    if (ending_of(shot.path) != "png") fail_file(shot.path, "the file's ending must be .png");
-  }
+  for (const Shot &shot : shots) check_png(shot.path);
   check_picture_options(options, mesh);
   if (mesh) check_has_marks(mesh);
   if (shots.empty()) return;
   const HeldDisplay display;
   Scene scene(mesh ? mesh->grid : nullptr, options);
-  scene.show(surface, title_of(options), {options.n_leaking_edges, options.leaking_edges});
-  for (const Shot &shot : shots) {
-    vtkRenderWindow *window = scene.render(shot.view, std::nullopt);
-    caught.check(shot.path);
-    write_png(window, shot.path, caught);
-  }
+  scene.show(surface, options.title, {options.n_leaking_edges, options.leaking_edges});
+  for (const Shot &shot : shots) write_png(scene.render(shot.view, std::nullopt), shot.path, caught);
 }
 
 Bounds bounds_of(const double *lower, const double *upper) {
@@ -63,8 +128,8 @@ Bounds bounds_of(const double *lower, const double *upper) {
     bounds[k] = {lower[k], upper[k]};
     if (std::isfinite(lower[k]) && std::isfinite(upper[k]) && lower[k] <= upper[k]) continue;
     const std::string place = "[" + std::to_string(k) + "]";
-    fail(RIIS_INVALID_ARGUMENT, "lower" + place + " is " + shortest(lower[k]) + ", upper" + place + " is " +
-                                    shortest(upper[k]) + "; they must be finite and ascend");
+    refuse_argument("lower", place, " is ", lower[k], ", upper", place, " is ", upper[k],
+                    "; they must be finite and ascend");
   }
   return bounds;
 }
@@ -109,7 +174,7 @@ RIIS_API riis_status riis_vtk_draw_views(const riis_surface *surface, const riis
                                          const char *const *paths) {
   return guarded([&](const CaughtOutput &caught) {
     require(surface, "surface");
-    if (n_views < 0) fail(RIIS_INVALID_ARGUMENT, "n_views is " + std::to_string(n_views));
+    if (n_views < 0) refuse_argument("n_views is ", n_views);
     if (n_views > 0) {
       require(views, "views");
       require(paths, "paths");
@@ -144,12 +209,10 @@ RIIS_API riis_status riis_vtk_film_draw(riis_vtk_film *film, const riis_surface 
   return guarded([&](const CaughtOutput &caught) {
     require(film, "film");
     require(surface, "surface");
-    if (ending_of(require(path, "path")) != "png") fail_file(path, "the file's ending must be .png");
+    check_png(require(path, "path"));
     if (film->mesh.grid) check_has_marks(&film->mesh);
-    film->scene.show(surface, title ? drawable(title) : "Surface", {});
-    vtkRenderWindow *window = film->scene.render(film->view, film->bounds);
-    caught.check(path);
-    write_png(window, path, caught);
+    film->scene.show(surface, title, {});
+    write_png(film->scene.render(film->view, film->bounds), path, caught);
   });
 }
 

@@ -3,7 +3,6 @@
 #include "riis_vtk/picture_faces.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include <vtkCell.h>
 #include <vtkCellArray.h>

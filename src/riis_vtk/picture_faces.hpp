@@ -6,7 +6,6 @@
 #include <vtkType.h>
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

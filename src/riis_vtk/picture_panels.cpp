@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <vector>
 
 #include <vtkActor.h>
 #include <vtkCellArray.h>
@@ -15,20 +14,16 @@
 #include <vtkIdList.h>
 #include <vtkLightKit.h>
 #include <vtkMath.h>
-#include <vtkNew.h>
-#include <vtkPlane.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
-#include "riis_vtk/array_names.hpp"
 #include "riis_vtk/drawing.hpp"
-#include "riis_vtk/picture_cut.hpp"
+#include "riis_vtk/files.hpp"
 #include "riis_vtk/picture_faces.hpp"
 
 namespace riis::vtk {

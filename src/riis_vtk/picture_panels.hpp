@@ -2,19 +2,13 @@
 // In: a surface's triangles, a marked mesh. Out: the two panels of a picture, made once for all views.
 #pragma once
 
-#include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
-#include <vtkType.h>
-
-#include <cstdint>
-#include <memory>
 #include <set>
+
+#include <vtkRenderer.h>
 
 #include "riis_vtk/picture_view.hpp"
 
 class vtkActor;
-class vtkPolyData;
-
 class vtkUnstructuredGrid;
 
 namespace riis::vtk {

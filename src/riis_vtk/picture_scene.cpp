@@ -1,23 +1,214 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "riis_vtk/picture_scene.hpp"
 
-#include <array>
+#include <algorithm>
+#include <cmath>
+#include <locale>
+#include <sstream>
 
+#include <vtkActor2D.h>
 #include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkCoordinate.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkPolyDataMapper2D.h>
+#include <vtkProperty2D.h>
 #include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkUnstructuredGrid.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+#include <vtkTextRenderer.h>
 
 #include "common/array_view.hpp"
-#include "riis_vtk/array_names.hpp"
+#include "riis_vtk/drawing.hpp"
 #include "riis_vtk/mesh.hpp"
-#include "riis_vtk/surface_polydata.hpp"
-#include "riis_vtk/vtk_errors.hpp"
+#include "riis_vtk/surfaces.hpp"
 
 namespace riis::vtk {
 namespace {
+
+constexpr int least_letter = 6;
+constexpr int least_height_with_texts = 120;
+
+// Returns the number with commas between thousands.
+std::string grouped(vtkIdType n) {
+  std::string digits = std::to_string(n);
+  for (std::size_t i = digits.size(); i > 3;) digits.insert(i -= 3, ",");
+  return digits;
+}
+
+// Returns texts such as "1 edge" and "1,200 edges".
+std::string counted(vtkIdType n, const std::string &singular) {
+  return grouped(n) + " " + singular + (n == 1 ? "" : "s");
+}
+
+// Returns the largest 1, 2 or 5 times a power of ten that is not above the limit.
+double round_length(double limit) {
+  const double power = std::pow(10, std::floor(std::log10(limit)));
+  for (const double digit : {5.0, 2.0}) {
+    if (digit * power <= limit) return digit * power;
+  }
+  return power;
+}
+
+// Returns the part of a text that VTK can draw in one line. VTK knows letters other than ASCII only as UTF-8.
+std::string drawable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text;
+}
+
+int width_of(const std::string &text, int letter) {
+  if (text.empty()) return 0;
+  vtkNew<vtkTextProperty> property;
+  set_font(property, letter);
+  int box[4] = {0, -1, 0, -1};
+  vtkTextRenderer::GetInstance()->GetBoundingBox(property, text, box, 72);
+  return box[1] - box[0] + 1;
+}
+
+void add_text(vtkRenderer *renderer, const std::string &text, double x, double y, int letter, const Colour &colour) {
+  vtkNew<vtkTextActor> actor;
+  actor->SetInput(text.c_str());
+  actor->GetPositionCoordinate()->SetCoordinateSystemToViewport();
+  actor->SetPosition(x, y);
+  set_font(actor->GetTextProperty(), letter);
+  actor->GetTextProperty()->SetColor(colour[0], colour[1], colour[2]);
+  renderer->AddViewProp(actor);
+}
+
+// Uses smaller letters for a text that is too long. A text that is too long even with the smallest letters loses its end.
+void add_fitting_text(vtkRenderer *renderer, std::string text, double x, double y, double width, int letter) {
+  while (letter > least_letter && width_of(text, letter) > width) --letter;
+  if (width_of(text, letter) > width) {
+    while (!text.empty() && width_of(text + "...", letter) > width) text.pop_back();
+    text += "...";
+  }
+  add_text(renderer, text, x, y, letter, grey);
+}
+
+struct Line {
+  double from[2], to[2];
+};
+
+void add_lines(vtkRenderer *renderer, const std::vector<Line> &lines, double width) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  for (const Line &line : lines) {
+    const vtkIdType ends[2] = {points->InsertNextPoint(line.from[0], line.from[1], 0),
+                               points->InsertNextPoint(line.to[0], line.to[1], 0)};
+    cells->InsertNextCell(2, ends);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetLines(cells);
+  vtkNew<vtkCoordinate> pixels;
+  pixels->SetCoordinateSystemToViewport();
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputData(data);
+  mapper->SetTransformCoordinate(pixels);
+  vtkNew<vtkActor2D> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(grey[0], grey[1], grey[2]);
+  actor->GetProperty()->SetLineWidth(static_cast<float>(width));
+  renderer->AddViewProp(actor);
+}
+
+// Adds a bar of a round length, with the length and its unit beside it.
+void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double y, const Sight &sight,
+                   const std::string &unit, bool has_plural) {
+  const double pixels_per_length = layout.panel_height() / (2 * sight.shown[1].half());
+  const double length = round_length(0.3 * layout.panel_width() / pixels_per_length);
+  const double end = x + length * pixels_per_length, middle = y + 0.35 * layout.letter(), tick = 0.3 * layout.letter();
+  add_lines(renderer,
+            {{{x, middle}, {end, middle}},
+             {{x, middle - tick}, {x, middle + tick}},
+             {{end, middle - tick}, {end, middle + tick}}},
+            layout.line_width());
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << length << " " << unit << (length == 1 || !has_plural ? "" : "s");
+  const double after = end + 0.6 * layout.letter();
+  const double right = layout.panel_left(layout.n_panels() - 1) + layout.panel_width();
+  add_fitting_text(renderer, text.str(), after, y, right - after, layout.letter());
+}
+
+// Adds the directions of x, y and z, each as long as the view shows it. An axis that points at the eye is named at the middle.
+void add_axes(vtkRenderer *renderer, const Layout &layout, double x, double y, double length, const View &view) {
+  const char *const names[3] = {"x", "y", "z"};
+  std::vector<Line> lines;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double dx = view.right()[k], dy = view.up()[k], part = std::hypot(dx, dy);
+    const double half = 0.3 * layout.letter();
+    if (part < 0.05) {
+      add_text(renderer, names[k], x - 3 * half, y - 3 * half, layout.letter(), grey);
+      continue;
+    }
+    const double tip[2] = {x + length * dx, y + length * dy};
+    lines.push_back({{x, y}, {tip[0], tip[1]}});
+    const double beyond = (length * part + 2 * half) / part;
+    add_text(renderer, names[k], x + beyond * dx - half, y + beyond * dy - half, layout.letter(), grey);
+  }
+  add_lines(renderer, lines, layout.line_width());
+}
+
+void add_caption(vtkRenderer *renderer, const Layout &layout, int panel, const std::vector<std::string> &lines) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    add_fitting_text(renderer, lines[i], layout.panel_left(panel) + layout.margin(),
+                     layout.caption_line(static_cast<int>(i)), layout.panel_width() - 2 * layout.margin(),
+                     layout.letter());
+  }
+}
+
+// Adds the key from `left` to the panel's right end, in one line or more. Dots stand for the entries that do not fit.
+void add_key(vtkRenderer *renderer, const Layout &layout, int panel, double left, int n_lines,
+             const std::vector<KeyEntry> &key) {
+  const double right = layout.panel_left(panel) + layout.panel_width() - layout.margin(), gap = 1.5 * layout.letter();
+  const std::string dots = "...";
+  const double width_of_dots = width_of(dots, layout.letter());
+  double x = left;
+  int line = 0;
+  for (std::size_t i = 0; i < key.size(); ++i) {
+    const double width = width_of(key[i].text, layout.letter());
+    const auto fits = [&] {
+      const bool is_followed = line + 1 == n_lines && i + 1 < key.size();
+      return x + width + (is_followed ? gap + width_of_dots : 0) <= right;
+    };
+    if (!fits() && line + 1 < n_lines) {
+      x = left;
+      ++line;
+    }
+    if (!fits()) {
+      add_text(renderer, dots, x, layout.key_line(line), layout.letter(), key[i].colour);
+      return;
+    }
+    add_text(renderer, key[i].text, x, layout.key_line(line), layout.letter(), key[i].colour);
+    x += width + gap;
+  }
+}
+
+// Draws all texts of a picture behind its panels. unit follows the number at the scale bar. It gets an s unless the number is 1,
+// or the unit has no plural, as a symbol.
+vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &panels,
+                                              const View &view, const Sight &sight, const std::string &unit,
+                                              bool has_plural) {
+  const auto renderer = vtkSmartPointer<vtkRenderer>::New();
+  renderer->SetBackground(1, 1, 1);
+  if (!layout.has_texts()) return renderer;
+  const double axis = 1.3 * layout.letter();
+  add_axes(renderer, layout, layout.margin() + axis, 0.5 * layout.bottom(), axis, view);
+  const double first_key = layout.margin() + 4.5 * axis;
+  const int last = layout.n_panels() - 1;
+  for (int panel = 0; panel <= last; ++panel) {
+    const PanelTexts &texts = panels[static_cast<std::size_t>(panel)];
+    add_caption(renderer, layout, panel, texts.caption);
+    const double left = panel == 0 ? first_key : layout.panel_left(panel) + layout.margin();
+    add_key(renderer, layout, panel, left, panel == last ? 1 : 2, texts.key);
+    if (panel == last) add_scale_bar(renderer, layout, left, layout.key_line(1), sight, unit, has_plural);
+  }
+  return renderer;
+}
 
 // The texts of a picture that do not change with its view.
 std::vector<PanelTexts> texts_of(const std::string &title, const std::vector<std::string> &names,
@@ -44,14 +235,27 @@ std::vector<PanelTexts> texts_of(const std::string &title, const std::vector<std
 
 }  // namespace
 
-std::string title_of(const riis_vtk_picture_options &options) {
-  return options.title ? drawable(options.title) : "Surface";
+Layout::Layout(int width, int height, int n_panels)
+    : width_(width),
+      height_(height),
+      n_panels_(n_panels),
+      letter_(std::max(8, std::min(height / 36, width / n_panels / 32))) {
+  if (height < least_height_with_texts) return;
+  top_ = (1.6 * n_panels + 0.6) * letter_;
+  bottom_ = 3.8 * letter_;
 }
+
+std::array<double, 4> Layout::viewport(int panel) const {
+  const double n = n_panels_;
+  return {panel / n, bottom_ / height_, (panel + 1) / n, 1 - top_ / height_};
+}
+
+double Layout::line_width() const { return std::max(1.0, height_ / 500.0); }
 
 void check_has_marks(const riis_vtk_mesh *mesh) {
   for (const char *name : {marked_array, distance_array, leaflet_array}) {
     if (!mesh->grid->GetPointData()->GetArray(name)) {
-      fail(RIIS_INVALID_ARGUMENT, "mesh has no marks: call riis_vtk_mesh_set_marks before riis_vtk_draw");
+      refuse_argument("mesh has no marks: call riis_vtk_mesh_set_marks before riis_vtk_draw");
     }
   }
 }
@@ -74,11 +278,11 @@ Scene::Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options)
 
 Scene::~Scene() = default;
 
-void Scene::show(const riis_surface *surface, const std::string &title, const Leaks &leaks) {
+void Scene::show(const riis_surface *surface, const char *title, const Leaks &leaks) {
   triangles_ = polydata_of(surface);
   surface_.show(triangles_);
   if (marks_) marks_->show(grid_, leaks.n_edges, leaks.edges);
-  texts_ = texts_of(title, leaflet_names_, surface_, triangles_->GetNumberOfCells(),
+  texts_ = texts_of(title ? drawable(title) : "Surface", leaflet_names_, surface_, triangles_->GetNumberOfCells(),
                     marks_ ? &marks_->counts() : nullptr, leaks);
 }
 

@@ -1,38 +1,61 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window of a picture, with its panels. It shows one surface and the marks of one grid after the other, and each from any
-// side.
+// The window of a picture has panels, and bands above and below them with captions, the key of colours, axes and a scale bar. It
+// shows one surface and the marks of one grid after the other, and each from any side.
 #pragma once
 
 #include <riis/riis_vtk.h>
 
-#include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include <vtkNew.h>
-#include <vtkSmartPointer.h>
 
 #include "riis_vtk/picture_panels.hpp"
-#include "riis_vtk/picture_texts.hpp"
-#include "riis_vtk/picture_view.hpp"
 
 class vtkCamera;
-class vtkPolyData;
 class vtkRenderWindow;
-class vtkRenderer;
-class vtkUnstructuredGrid;
 
 namespace riis::vtk {
+
+// The places of a picture's parts, in pixels from the lower left corner. A picture too low for bands has neither bands nor texts.
+class Layout {
+ public:
+  Layout(int width, int height, int n_panels);
+  bool has_texts() const { return top_ > 0; }
+  int n_panels() const { return n_panels_; }
+  int letter() const { return letter_; }  // the height of the texts' font
+  int margin() const { return letter_; }
+  double panel_left(int panel) const { return width_ * static_cast<double>(panel) / n_panels_; }
+  double panel_width() const { return width_ / static_cast<double>(n_panels_); }
+  double panel_height() const { return height_ - top_ - bottom_; }
+  // The lower end of a line of text. The caption's lines count from the top, the key's lines from the panels downwards.
+  double caption_line(int line) const { return height_ - 1.6 * letter_ * (line + 1); }
+  double key_line(int line) const { return bottom_ - 1.6 * letter_ * (line + 1); }
+  double bottom() const { return bottom_; }
+  // Left, lower, right and upper end, each from 0 to 1 across the picture.
+  std::array<double, 4> viewport(int panel) const;
+  double line_width() const;
+
+ private:
+  int width_, height_, n_panels_, letter_;
+  double top_ = 0, bottom_ = 0;
+};
+
+struct KeyEntry {
+  std::string text;
+  Colour colour;
+};
+
+struct PanelTexts {
+  std::vector<std::string> caption;  // lines
+  std::vector<KeyEntry> key;         // as many as fit
+};
 
 // Edges to draw red. NULL: no word of leaks.
 struct Leaks {
   std::int64_t n_edges = 0;
   const std::int64_t *edges = nullptr;
 };
-
-// "Surface" if the options have no title.
-std::string title_of(const riis_vtk_picture_options &options);
 
 // Fails unless the mesh has the arrays of riis_vtk_mesh_set_marks.
 void check_has_marks(const riis_vtk_mesh *mesh);
@@ -42,8 +65,8 @@ class Scene {
   // grid NULL: the surface alone.
   Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options);
   ~Scene();
-  // Shows the surface, and the marks that the grid has now.
-  void show(const riis_surface *surface, const std::string &title, const Leaks &leaks);
+  // Shows the surface, and the marks that the grid has now. title NULL: "Surface".
+  void show(const riis_surface *surface, const char *title, const Leaks &leaks);
   // The box that the camera sees, or nothing for the surface.
   vtkRenderWindow *render(std::int32_t view, const std::optional<Bounds> &seen);
 

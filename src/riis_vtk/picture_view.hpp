@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: the direction of view and the extents of the surface and the mesh. Out: the space in sight, for the camera, the cut and the
-// scale bar.
+// scale bar; and planes and dashed lines that show that a mesh goes on beyond the panel.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <vector>
+
+#include <vtkPlane.h>
+#include <vtkSmartPointer.h>
 
 class vtkCamera;
 class vtkPointSet;
+class vtkPolyData;
 
 namespace riis::vtk {
 
@@ -17,7 +22,6 @@ struct Extent {
   double lower, upper;
   double middle() const { return 0.5 * lower + 0.5 * upper; }
   double half() const { return 0.5 * upper - 0.5 * lower; }
-  bool contains(const Extent &other) const { return lower <= other.lower && other.upper <= upper; }
   bool meets(const Extent &other) const { return lower <= other.upper && other.lower <= upper; }
 };
 
@@ -55,5 +59,11 @@ struct Sight {
 Sight sight_of(const Extents &surface, const Extents *mesh, double aspect);
 
 void aim_camera(vtkCamera *camera, const View &view, const Sight &sight);
+
+// Returns planes for the mapper of the mesh. There are none if the whole mesh is in sight.
+std::vector<vtkSmartPointer<vtkPlane>> cutting_planes(const View &view, const Sight &sight);
+
+// Returns dashed lines where the planes cut the boundary. They are nearer to the eye than everything else.
+vtkSmartPointer<vtkPolyData> dashes_where_cut(const View &view, const Sight &sight, vtkPolyData *boundary);
 
 }  // namespace riis::vtk

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "riis_vtk/volume_cells.hpp"
-
+// Knows the edges of all types of cells, and lists edges and cells of volume.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include <vtkCell.h>
 #include <vtkCellArray.h>
@@ -14,15 +15,16 @@
 #include <vtkHigherOrderTetra.h>
 #include <vtkHigherOrderWedge.h>
 #include <vtkIdList.h>
-#include <vtkSmartPointer.h>
-#include <vtkUnstructuredGrid.h>
+#include <vtkMath.h>
+#include <vtkNew.h>
 
 #include "common/array_view.hpp"
+#include "riis_vtk/mesh.hpp"
 
 namespace riis::vtk {
 namespace {
 
-using Edge = CellEdges::Edge;
+using Edge = std::array<vtkIdType, 2>;
 
 bool is_linear_volume(int type) {
   return type == VTK_TETRA || type == VTK_PYRAMID || type == VTK_WEDGE || type == VTK_HEXAHEDRON || type == VTK_VOXEL;
@@ -206,49 +208,93 @@ bool is_long_and_near(const double *a, const double *b, double least_square, con
   return true;
 }
 
+// The edges of cells with straight sides are their sides. A cell of higher order has the edges of the linear cells that its nodes
+// cut it into. A face without a node in its middle has edges between the middles of neighbouring sides.
+class CellEdges {
+ public:
+  explicit CellEdges(vtkUnstructuredGrid *grid) : grid_(grid), degrees_(grid->GetCellData()->GetHigherOrderDegrees()) {
+    if (degrees_ && degrees_->GetNumberOfComponents() != 3) degrees_ = nullptr;
+  }
+
+  // Tells whether the cell is one of volume. Others bound volumes, or stand alone.
+  bool is_volume(vtkIdType cell) const { return known_shape(grid_->GetCellType(cell)).dimension == 3; }
+
+  // Calls visit with both nodes of each edge of a face or a volume. Returns false if the edges are not known.
+  template <class Visit>
+  bool for_each(vtkIdType cell, const Visit &visit) {
+    const vtkIdType *ids = nullptr;
+    const std::vector<Edge> &edges = pairs_of(cell, ids);
+    for (const auto &[a, b] : edges) visit(ids ? ids[a] : a, ids ? ids[b] : b);
+    return !edges.empty();
+  }
+
+ private:
+  // Returns each edge once, as a pair of positions in the list of nodes ids. If ids stays NULL the pairs are nodes.
+  const std::vector<Edge> &pairs_of(vtkIdType cell, const vtkIdType *&ids) {
+    const int type = grid_->GetCellType(cell);
+    if (type == VTK_POLYHEDRON) {
+      list_polyhedron(cell);
+      return edges_;
+    }
+    vtkIdType n = 0;
+    grid_->GetCells()->GetCellAtId(cell, n, ids);
+    return is_lattice(type) ? lattice_of(type, cell, n) : known_shape(type).edges;
+  }
+
+  // A polyhedron's stream of faces has the number of faces, then each face's size and nodes.
+  void list_polyhedron(vtkIdType cell) {
+    edges_.clear();
+    grid_->GetFaceStream(cell, faces_);
+    vtkIdType at = 0;
+    for (vtkIdType n_left = faces_->GetId(at++); n_left > 0; --n_left) {
+      const vtkIdType n = faces_->GetId(at++);
+      for (vtkIdType k = 0; k < n; ++k)
+        edges_.push_back(edge_between(faces_->GetId(at + k), faces_->GetId(at + (k + 1) % n)));
+      at += n;
+    }
+    sort_edges(edges_);
+  }
+
+  const std::vector<Edge> &lattice_of(int type, vtkIdType cell, vtkIdType n_nodes) {
+    static const std::vector<Edge> none;
+    double degrees[3];
+    if (degrees_) degrees_->GetTuple(cell, degrees);
+    Orders orders;
+    if (!find_orders(type, n_nodes, degrees_ ? degrees : nullptr, orders)) return none;
+    std::vector<Edge> &edges = lattices_[{type, orders[0], orders[1], orders[2]}];
+    if (edges.empty()) edges = lattice_edges(type, orders);
+    return edges;
+  }
+
+  vtkUnstructuredGrid *grid_;
+  vtkDataArray *degrees_;  // of cells of higher order; may be NULL
+  vtkNew<vtkIdList> faces_;
+  std::vector<Edge> edges_;                                   // of a polyhedron
+  std::map<std::array<int, 4>, std::vector<Edge>> lattices_;  // by the type and the three orders
+};
+
+double distance_between(vtkUnstructuredGrid *grid, vtkIdType a, vtkIdType b) {
+  double p[3], q[3];
+  grid->GetPoint(a, p);
+  grid->GetPoint(b, q);
+  return std::sqrt(vtkMath::Distance2BetweenPoints(p, q));
+}
+
+// Lists the edges of volumes for which is_wanted(a, b) is true.
+template <class IsWanted>
+VolumeEdges edges_where(vtkUnstructuredGrid *grid, const IsWanted &is_wanted) {
+  VolumeEdges made;
+  CellEdges edges(grid);
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
+    if (!edges.is_volume(cell)) continue;
+    made.n_cells_left_out += !edges.for_each(cell, [&](vtkIdType a, vtkIdType b) {
+      if (is_wanted(a, b)) made.node_ids.insert(made.node_ids.end(), {a, b});
+    });
+  }
+  return made;
+}
+
 }  // namespace
-
-CellEdges::CellEdges(vtkUnstructuredGrid *grid) : grid_(grid), degrees_(grid->GetCellData()->GetHigherOrderDegrees()) {
-  if (degrees_ && degrees_->GetNumberOfComponents() != 3) degrees_ = nullptr;
-}
-
-bool CellEdges::is_volume(vtkIdType cell) const { return known_shape(grid_->GetCellType(cell)).dimension == 3; }
-
-const std::vector<Edge> &CellEdges::pairs_of(vtkIdType cell, const vtkIdType *&ids) {
-  const int type = grid_->GetCellType(cell);
-  if (type == VTK_POLYHEDRON) {
-    list_polyhedron(cell);
-    return edges_;
-  }
-  vtkIdType n = 0;
-  grid_->GetCells()->GetCellAtId(cell, n, ids);
-  return is_lattice(type) ? lattice_of(type, cell, n) : known_shape(type).edges;
-}
-
-// A polyhedron's stream of faces has the number of faces, then each face's size and nodes.
-void CellEdges::list_polyhedron(vtkIdType cell) {
-  edges_.clear();
-  grid_->GetFaceStream(cell, faces_);
-  vtkIdType at = 0;
-  for (vtkIdType n_left = faces_->GetId(at++); n_left > 0; --n_left) {
-    const vtkIdType n = faces_->GetId(at++);
-    for (vtkIdType k = 0; k < n; ++k)
-      edges_.push_back(edge_between(faces_->GetId(at + k), faces_->GetId(at + (k + 1) % n)));
-    at += n;
-  }
-  sort_edges(edges_);
-}
-
-const std::vector<Edge> &CellEdges::lattice_of(int type, vtkIdType cell, vtkIdType n_nodes) {
-  static const std::vector<Edge> none;
-  double degrees[3];
-  if (degrees_) degrees_->GetTuple(cell, degrees);
-  Orders orders;
-  if (!find_orders(type, n_nodes, degrees_ ? degrees : nullptr, orders)) return none;
-  std::vector<Edge> &edges = lattices_[{type, orders[0], orders[1], orders[2]}];
-  if (edges.empty()) edges = lattice_edges(type, orders);
-  return edges;
-}
 
 VolumeCounts count_volumes(vtkUnstructuredGrid *grid) {
   VolumeCounts counts;
@@ -292,24 +338,6 @@ VolumeCells volume_cells_of(vtkUnstructuredGrid *grid) {
   return cells;
 }
 
-namespace {
-
-// Lists the edges of volumes for which is_wanted(a, b) is true.
-template <class IsWanted>
-VolumeEdges edges_where(vtkUnstructuredGrid *grid, const IsWanted &is_wanted) {
-  VolumeEdges made;
-  CellEdges edges(grid);
-  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
-    if (!edges.is_volume(cell)) continue;
-    made.n_cells_left_out += !edges.for_each(cell, [&](vtkIdType a, vtkIdType b) {
-      if (is_wanted(a, b)) made.node_ids.insert(made.node_ids.end(), {a, b});
-    });
-  }
-  return made;
-}
-
-}  // namespace
-
 VolumeEdges volume_edges_of(vtkUnstructuredGrid *grid) {
   return edges_where(grid, [](vtkIdType, vtkIdType) { return true; });
 }
@@ -320,6 +348,24 @@ VolumeEdges long_edges_of(vtkUnstructuredGrid *grid, const double *xyz, double l
   return edges_where(grid, [&](vtkIdType a, vtkIdType b) {
     return is_long_and_near(xyz + 3 * a, xyz + 3 * b, least_square, lower, upper);
   });
+}
+
+double median_edge_of(vtkUnstructuredGrid *grid) {
+  constexpr vtkIdType most_cells = 20'000;
+  const vtkIdType n_cells = grid->GetNumberOfCells(), n_asked = std::min(n_cells, most_cells);
+  CellEdges edges(grid);
+  std::vector<double> lengths;
+  for (vtkIdType i = 0; i < n_asked; ++i) {
+    const vtkIdType cell_id = n_cells / n_asked * i + n_cells % n_asked * i / n_asked;
+    edges.for_each(cell_id, [&](vtkIdType a, vtkIdType b) {
+      const double length = distance_between(grid, a, b);
+      if (length > 0 && std::isfinite(length)) lengths.push_back(length);
+    });
+  }
+  if (lengths.empty()) return 0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
 }
 
 }  // namespace riis::vtk

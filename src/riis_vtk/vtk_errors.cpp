@@ -3,7 +3,6 @@
 
 #include <cstdio>
 #include <exception>
-#include <new>
 #include <utility>
 
 #include <vtkLogger.h>
@@ -52,9 +51,9 @@ struct OutOfMemory {
 
 void fail(riis_status status, std::string text) { throw Failure{status, printable(std::move(text))}; }
 
-void fail_file(const std::string &path, const std::string &reason) {
+void fail_reason(const std::string &path, const std::string &reason) {
   const bool fits = path.size() <= longest_path;
-  fail(RIIS_FILE_ERROR, (fits ? path : "..." + path.substr(path.size() - longest_path)) + ": " + reason);
+  fail(RIIS_FILE_ERROR, joined(fits ? path : "..." + path.substr(path.size() - longest_path), ": ", reason));
 }
 
 void fail_memory(const std::string &path) {
@@ -72,10 +71,9 @@ void check_core(riis_status status) {
 
 void check_struct_size(std::int64_t size, std::int64_t first_size, std::int64_t size_here, const char *name) {
   if (size >= first_size && size <= size_here && size % 8 == 0) return;
-  fail(RIIS_INVALID_STRUCT_SIZE, std::string("the struct size of ") + name + " is " + std::to_string(size) + "; riis " +
-                                     riis_version_string() + " knows " + std::to_string(first_size) + " to " +
-                                     std::to_string(size_here) +
-                                     ": use its init function, and a header no newer than the library");
+  fail(RIIS_INVALID_STRUCT_SIZE,
+       joined("the struct size of ", name, " is ", size, "; riis ", riis_version_string(), " knows ", first_size,
+              " to ", size_here, ": use its init function, and a header no newer than the library"));
 }
 
 class CaughtOutput::Window : public vtkOutputWindow {
@@ -112,10 +110,8 @@ CaughtOutput::~CaughtOutput() {
   vtkOutputWindow::SetInstance(caller_window_);
 }
 
-std::string CaughtOutput::first_error() const { return message_of(window_->first_error); }
-
 void CaughtOutput::check(const std::string &path) const {
-  if (!window_->first_error.empty()) fail_file(path, first_error());
+  if (!window_->first_error.empty()) fail_file(path, message_of(window_->first_error));
 }
 
 riis_status record_current_exception() noexcept {

@@ -3,16 +3,18 @@
 // error. While a body runs, VTK's messages are caught instead of printed.
 #pragma once
 
+#include <locale.h>
 #include <riis/riis.h>
 
+#include <charconv>
 #include <cstdint>
 #include <new>
 #include <string>
+#include <type_traits>
 
 #include <vtkSmartPointer.h>
 
 #include "common/float_environment.hpp"
-#include "riis_vtk/numeric_locale.hpp"
 
 class vtkOutputWindow;
 
@@ -24,8 +26,36 @@ struct Failure {
 };
 
 [[noreturn]] void fail(riis_status status, std::string text);
+
+// Returns words and numbers as one text. A real number has the shortest text that stands for it, such as "nan" and "0.1".
+template <class... Parts>
+std::string joined(const Parts &...parts) {
+  std::string text;
+  const auto add = [&](const auto &part) {
+    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(part)>>) {
+      char digits[32];
+      text.append(digits, std::to_chars(digits, digits + sizeof digits, part).ptr);
+    } else {
+      text += part;
+    }
+  };
+  (add(parts), ...);
+  return text;
+}
+
+// Throws RIIS_INVALID_ARGUMENT. The message is made of the parts.
+template <class... Parts>
+[[noreturn]] void refuse_argument(const Parts &...parts) {
+  fail(RIIS_INVALID_ARGUMENT, joined(parts...));
+}
+
 // Throws a RIIS_FILE_ERROR with the message "PATH: reason". A path too long for the message loses its beginning, not the reason.
-[[noreturn]] void fail_file(const std::string &path, const std::string &reason);
+[[noreturn]] void fail_reason(const std::string &path, const std::string &reason);
+template <class... Parts>
+[[noreturn]] void fail_file(const std::string &path, const Parts &...parts) {
+  fail_reason(path, joined(parts...));
+}
+
 // Throws RIIS_OUT_OF_MEMORY with the message "PATH: out of memory". It takes no memory itself.
 [[noreturn]] void fail_memory(const std::string &path);
 // Calls `work`, which reads or writes the file. If memory runs out, the error names the file.
@@ -45,7 +75,7 @@ void check_struct_size(std::int64_t size, std::int64_t first_size, std::int64_t 
 
 template <class T>
 T *require(T *pointer, const char *argument) {
-  if (!pointer) fail(RIIS_INVALID_ARGUMENT, std::string(argument) + " is NULL");
+  if (!pointer) refuse_argument(argument, " is NULL");
   return pointer;
 }
 
@@ -58,10 +88,8 @@ class CaughtOutput {
   CaughtOutput(const CaughtOutput &) = delete;
   CaughtOutput &operator=(const CaughtOutput &) = delete;
 
-  // Returns the first error since the scope began, in one line without VTK's source positions, or "" if there was none. The first
-  // error is the cause. Later ones come from VTK's layers above.
-  std::string first_error() const;
-  // Fails with RIIS_FILE_ERROR for the path if VTK reported an error.
+  // Fails with RIIS_FILE_ERROR for the path if VTK reported an error. The message is the first error since the scope began, in
+  // one line without VTK's source positions. The first error is the cause. Later ones come from VTK's layers above.
   void check(const std::string &path) const;
 
  private:
@@ -70,6 +98,29 @@ class CaughtOutput {
   vtkSmartPointer<vtkOutputWindow> caller_window_;
   int caller_displays_;
   int caller_log_level_;
+};
+
+// Decimal points while this object lives: under a caller's setlocale(LC_ALL, "de_DE.UTF-8") VTK's readers would take "1.5" for 1.
+// Only this thread's locale changes. VTK's legacy reader also sets the process's locale to "C" and leaves it there, so the
+// caller's locale is put back.
+class NumericLocale {
+ public:
+  NumericLocale() : callers_(setlocale(LC_ALL, nullptr)), points_(newlocale(LC_NUMERIC_MASK, "C", nullptr)) {
+    if (!points_) throw std::bad_alloc();
+    threads_ = uselocale(points_);
+  }
+  ~NumericLocale() {
+    uselocale(threads_);
+    freelocale(points_);
+    if (callers_ != setlocale(LC_ALL, nullptr)) setlocale(LC_ALL, callers_.c_str());
+  }
+  NumericLocale(const NumericLocale &) = delete;
+  NumericLocale &operator=(const NumericLocale &) = delete;
+
+ private:
+  std::string callers_;  // the process's locale
+  locale_t points_;
+  locale_t threads_;
 };
 
 // Records the message of the exception that is being handled, and returns its status.
