@@ -78,7 +78,10 @@ def paper_rows(data, valve):
         for threads, exhaustive, neighbor in block["rows"]:
             runs = {
                 name: search(data, name, valve, size, threads)
-                for name in ("paper_exhaustive", "paper_neighbor", "exhaustive", "neighbor_warm", "neighbor_cold", "clusters", "all_distances", "paper")
+                for name in (
+                    "paper_exhaustive", "paper_neighbor", "exhaustive", "neighbor_warm", "neighbor_cold", "clusters",
+                    "all_distances", "paper",
+                )
             }
             if all(runs.values()):
                 yield block["nodes"], threads, exhaustive, neighbor, runs
@@ -127,8 +130,14 @@ def table_of_threads(data, valve):
         if threads == 1:
             first[nodes] = times
         elif nodes in first:
-            rows.append([grouped(runs["exhaustive"]["nodes"]), threads_text(data, threads)] + [number(one / t) for one, t in zip(first[nodes], times)])
-    heads = ["nodes", "threads", "paper: exhaustive", "paper: neighbour", "plain: exhaustive", "plain: neighbour", "exhaustive", "neighbour", "clusters"]
+            rows.append(
+                [grouped(runs["exhaustive"]["nodes"]), threads_text(data, threads)]
+                + [number(one / t) for one, t in zip(first[nodes], times)]
+            )
+    heads = [
+        "nodes", "threads", "paper: exhaustive", "paper: neighbour", "plain: exhaustive", "plain: neighbour", "exhaustive",
+        "neighbour", "clusters",
+    ]
     return table(heads, rows) if rows else ""
 
 
@@ -140,12 +149,16 @@ def table_of_other_searches(data):
             every, cold = runs["all_distances"]["ms"], runs["neighbor_cold"]["ms"]
             rows.append(
                 [
-                    valve, grouped(runs["exhaustive"]["nodes"]), threads_text(data, threads), grouped(1e3 * loop["all_nodes_s"]) if loop else "",
-                    number(every), number(cold), number(runs["neighbor_warm"]["ms"]), number(runs["paper"]["ms"]),
+                    valve, grouped(runs["exhaustive"]["nodes"]), threads_text(data, threads),
+                    grouped(1e3 * loop["all_nodes_s"]) if loop else "", number(every), number(cold),
+                    number(runs["neighbor_warm"]["ms"]), number(runs["paper"]["ms"]),
                     number(every / cold), number(runs["exhaustive"]["ms"] / runs["neighbor_warm"]["ms"]),
                 ]
             )  # fmt: skip
-    heads = ["valve", "nodes", "threads", "every triangle", "every distance", "neighbour, cold", "warm", "the paper's rule", "every distance / cold", "exhaustive / warm"]
+    heads = [
+        "valve", "nodes", "threads", "every triangle", "every distance", "neighbour, cold", "warm", "the paper's rule",
+        "every distance / cold", "exhaustive / warm",
+    ]
     return table(heads, rows)
 
 
@@ -158,7 +171,9 @@ def queried_values(data, valve):
         here, queried = runs["exhaustive"], runs["paper_neighbor"]
         sample = runs["paper_exhaustive"]
         marked = f"{100 * here['marked'] / here['nodes']:.1f} %"
-        rows.append([grouped(here["nodes"]), marked, f"{queried['nodes'] / queried['asked']:.1f}", f"{exhaustive / neighbor:.1f}"])
+        rows.append(
+            [grouped(here["nodes"]), marked, f"{queried['nodes'] / queried['asked']:.1f}", f"{exhaustive / neighbor:.1f}"]
+        )
     if not rows:
         return None
     heads = ["nodes", "marked", "nodes for each query", "paper's ratio"]
@@ -242,15 +257,21 @@ def table_of_queries(data):
     for valve in VALVES:
         for method, label in enumerate(METHODS):
             for tolerance in (50, 20, 10, 1):
-                on, off = (data.stages.get(f"distance_query/{valve}/method:{method}/tolerance:{tolerance}/on_surface:{k}") for k in (1, 0))
+                on, off = (
+                    data.stages.get(f"distance_query/{valve}/method:{method}/tolerance:{tolerance}/on_surface:{k}")
+                    for k in (1, 0)
+                )
                 if on and off:
                     rows.append(
                         [
-                            valve, label, f"{tolerance / 10:g} %", grouped(on["triangles"] or on["samples"]) if on["triangles"] or on["samples"] else "",
+                            valve, label, f"{tolerance / 10:g} %",
+                            grouped(on["triangles"] or on["samples"]) if on["triangles"] or on["samples"] else "",
                             number(1e3 * on["ms"]), number(1e3 * off["ms"]), f"{off['largest_error']:.2g}",
                         ]
                     )  # fmt: skip
-    return table(["valve", "method", "tolerance", "triangles or samples", "on the surface, µs", "in the box, µs", "largest error"], rows)
+    return table(
+        ["valve", "method", "tolerance", "triangles or samples", "on the surface, µs", "in the box, µs", "largest error"], rows
+    )
 
 
 # ----------------------------------------------------------------------------------------------------------------- marking
@@ -320,9 +341,17 @@ def marking_values(data):
     if not data.marking:
         return None
     counts = data.marking["counts"]
-    rows = [[name, f"{t['least_ms']:.3f}", f"{t['median_ms']:.3f}", str(t["turns"])] for name, t in sorted(data.marking["times"].items())]
+    rows = [
+        [name, f"{t['least_ms']:.3f}", f"{t['median_ms']:.3f}", str(t["turns"])]
+        for name, t in sorted(data.marking["times"].items())
+    ]
     bars = [
-        [bar["name"], f"{bar['value']:.2f}", f"{'<=' if bar['kind'] == 'at most' else '>='} {bar['bar']:g}", "met" if bar["met"] else "NOT met"]
+        [
+            bar["name"],
+            f"{bar['value']:.2f}",
+            f"{'<=' if bar['kind'] == 'at most' else '>='} {bar['bar']:g}",
+            "met" if bar["met"] else "NOT met",
+        ]
         for bar in data.marking["bars"]
     ]
     missed = [bar for bar in data.marking["bars"] if not bar["met"]]
@@ -342,7 +371,9 @@ def marking_values(data):
         "has_missed": bool(missed),
         "query_ns": f"{query_ns(data):.0f}",
         "floor": floor_values(data),
-        "missed": [{"name": bar["name"], "factor": f"{max(bar['value'] / bar['bar'], bar['bar'] / bar['value']):.2f}"} for bar in missed],
+        "missed": [
+            {"name": bar["name"], "factor": f"{max(bar['value'] / bar['bar'], bar['bar'] / bar['value']):.2f}"} for bar in missed
+        ],
     }
 
 
@@ -368,14 +399,22 @@ def table_of_stages(data, case):
     """A row for each stage, all per marked node, and their sum."""
     peak, marked, rows, sums = data.roofline["peak"], case["marked"], [], [0.0] * 4
     for stage, label, unit in STEP_STAGES:
-        values = [case["nanoseconds"][stage], case["operations"].get(stage, 0), case["bytes"][stage], peak_ns(peak, stage, unit, case)]
+        values = [
+            case["nanoseconds"][stage],
+            case["operations"].get(stage, 0),
+            case["bytes"][stage],
+            peak_ns(peak, stage, unit, case),
+        ]
         sums = [total + value for total, value in zip(sums, values)]
         rows.append((label, values))
     rows.append(("together", sums))
     return table(
         ["stage", "ns", "operations", "bytes", "ns at the peak", "of the peak"],
         [
-            [label, number(ns / marked), number(operations / marked) if operations else "", number(size / marked), number(at_peak / marked), f"{100 * at_peak / ns:.0f} %"]
+            [
+                label, number(ns / marked), number(operations / marked) if operations else "",
+                number(size / marked), number(at_peak / marked), f"{100 * at_peak / ns:.0f} %",
+            ]
             for label, (ns, operations, size, at_peak) in rows
         ],
     )  # fmt: skip
@@ -391,7 +430,8 @@ def roofline_values(data):
             {
                 "triangles": grouped(case["triangles"]), "groups": grouped(case["groups"]), "leaves": grouped(case["leaves"]),
                 "groups_a_leaf": number(case["near_groups"] / case["leaves"]),
-                "filtered": number(case["filtered_pairs"] / case["marked"]), "decided": number(case["decided_pairs"] / case["marked"]),
+                "filtered": number(case["filtered_pairs"] / case["marked"]),
+                "decided": number(case["decided_pairs"] / case["marked"]),
                 "whole_ns": number(case["nanoseconds"]["whole"] / case["marked"]), "roofline_table": table_of_stages(data, case),
             }
         )  # fmt: skip
@@ -426,10 +466,14 @@ def peers_table(data, valve):
                 [
                     name, "yes" if is_bounded else "no", grouped(marks["marked"]),
                     str(marks["different"]) + (f" ({reasons})" if reasons else ""), f"{marks['largest_difference']:.1g}",
-                    number(t["least_ms"]), number(t["least_ms"] / by_clusters), "" if is_bounded else number(t["least_ms"] / every),
+                    number(t["least_ms"]), number(t["least_ms"] / by_clusters),
+                    "" if is_bounded else number(t["least_ms"] / every),
                 ]
             )  # fmt: skip
-    heads = ["what", "bounded", "marked", "marked differently", "distances differ by, cm", "least, ms", "/ clusters", "/ every distance"]
+    heads = [
+        "what", "bounded", "marked", "marked differently", "distances differ by, cm", "least, ms", "/ clusters",
+        "/ every distance",
+    ]
     return table(heads, rows)
 
 
@@ -444,7 +488,11 @@ def peers_values(data, plots):
         "run": data.run_values("peers"),
         "nodes": grouped(data.peers["aortic"]["nodes"]),
         "valves": [
-            {"Valve": valve.capitalize(), "triangles": grouped(data.peers[valve]["triangles"]), "peers_table": peers_table(data, valve)}
+            {
+                "Valve": valve.capitalize(),
+                "triangles": grouped(data.peers[valve]["triangles"]),
+                "peers_table": peers_table(data, valve),
+            }
             for valve in VALVES
         ],
         "peers_plot": plots.get("peers", ""),
@@ -471,7 +519,10 @@ def plot_searches(data, path):
             ("paper, exhaustive", [(nodes, exhaustive) for nodes, _, exhaustive, _, _ in rows], "--"),
             ("paper, neighbour", [(nodes, neighbor) for nodes, _, _, neighbor, _ in rows], "--"),
         ]
-        lines += [(label, [(runs["exhaustive"]["nodes"], ms_of(name, runs[name]) / 1e3) for *_, runs in rows], "-") for name, label in SEARCH_LINES]
+        lines += [
+            (label, [(runs["exhaustive"]["nodes"], ms_of(name, runs[name]) / 1e3) for *_, runs in rows], "-")
+            for name, label in SEARCH_LINES
+        ]
         panels.append((f"{valve} valve, 1 thread", lines))
     return bool(data.searches) and figure.lines(panels, "nodes", "seconds", path)
 
@@ -492,7 +543,11 @@ def plot_threads(data, path):
             for column, label in ((1, "paper, exhaustive"), (2, "paper, neighbour"))
         ]
         lines += [
-            (label, [(threads, ms_of(name, runs[1][name]) / ms_of(name, run[name])) for threads, run in sorted(runs.items())], "-")
+            (
+                label,
+                [(threads, ms_of(name, runs[1][name]) / ms_of(name, run[name])) for threads, run in sorted(runs.items())],
+                "-",
+            )
             for name, label in SEARCH_LINES
         ]
         lines.append(("as many times as threads", [(n, n) for n in ticks], "-"))
@@ -505,14 +560,20 @@ def plot_peers(data, path):
     """Milliseconds of each; False if it cannot be drawn."""
     panels = []
     for valve in VALVES:
-        bars = {name: t["least_ms"] for part in (data.peers, data.python_peers) if part for name, t in part[valve]["times"].items()}
+        bars = {
+            name: t["least_ms"] for part in (data.peers, data.python_peers) if part for name, t in part[valve]["times"].items()
+        }
         panels.append((f"{valve} valve", sorted(bars.items(), key=lambda item: -item[1])))
     return bool(data.peers) and figure.bars(panels, "milliseconds", path)
 
 
 PLOTS = (
     ("searches", plot_searches, "Seconds of a marking by nodes, the paper's and those here, on one thread"),
-    ("threads", plot_threads, "How many times faster than one thread, the paper's searches and those here; shaded: more threads than processors"),
+    (
+        "threads",
+        plot_threads,
+        "How many times faster than one thread, the paper's searches and those here; shaded: more threads than processors",
+    ),
     ("peers", plot_peers, "Milliseconds of each peer for the same nodes"),
 )
 
@@ -520,7 +581,9 @@ PLOTS = (
 def images_for_page(data, folder):
     """Draws what there is; the markdown of each by its name."""
     return {
-        name: f"![{title}](performance-{name}.png)\n" for name, plot, title in PLOTS if plot(data, os.path.join(folder, f"performance-{name}.png"))
+        name: f"![{title}](performance-{name}.png)\n"
+        for name, plot, title in PLOTS
+        if plot(data, os.path.join(folder, f"performance-{name}.png"))
     }
 
 
@@ -530,7 +593,11 @@ def measured_text(data, name):
     if not run:
         return ""
     machine = data.machine["machine"]
-    return f"Measured {run['date']} by <code>{run['command']}</code> on {machine['CPU']}, {plural(machine['processors'], 'processor')}, load before {run['load_before']:.1f}."
+    processors = plural(machine["processors"], "processor")
+    return (
+        f"Measured {run['date']} by <code>{run['command']}</code> on {machine['CPU']}, {processors}, "
+        f"load before {run['load_before']:.1f}."
+    )
 
 
 def plot_left_out(data, name, title):
@@ -547,7 +614,7 @@ def plot_left_out(data, name, title):
 
 
 def write_figures(data, folder):
-    """The plots for the page that riis-figures makes, and plots.json: its texts for them, and which plots are left out and why."""
+    """The plots for the page that riis-figures makes, and plots.json: its texts for them, and which are left out and why."""
     os.makedirs(folder, exist_ok=True)
     drawn = {name: title for name, plot, title in PLOTS if plot(data, os.path.join(folder, name + ".png"))}
     figures = []
@@ -558,12 +625,13 @@ def write_figures(data, folder):
                 "title": "Cost and scaling of a marking",
                 "columns": 1,
                 "panels": [{"png": "searches.png", "caption": drawn["searches"] + "."}, *threads],
-                "caption": "Dashed lines are the paper's own seconds, from its tables, on its machine. <i>Plain</i> lines are its two "
-                "algorithms, written plainly and run here; they compute the distance to every triangle. The others are this library's "
-                "searches: exhaustive, neighbour and clusters. All mark the same nodes. The tolerance is 5 %, the half thickness 0.1 cm. "
-                "A shaded part has more threads than processors here (oversubscribed), so no search can gain there. "
-                + measured_text(data, "searches"),
-                "paper": "tables <i>Scaling of mesh traversal functions</i> of the aortic and of the mitral valve (section 4.2.3).",
+                "caption": "Dashed lines are the paper's own seconds, from its tables, on its machine. <i>Plain</i> lines are "
+                "its two algorithms, written plainly and run here; they compute the distance to every triangle. The others are "
+                "this library's searches: exhaustive, neighbour and clusters. All mark the same nodes. The tolerance is 5 %, the "
+                "half thickness 0.1 cm. A shaded part has more threads than processors here (oversubscribed), so no search can "
+                "gain there. " + measured_text(data, "searches"),
+                "paper": "tables <i>Scaling of mesh traversal functions</i> of the aortic and of the mitral valve "
+                "(section 4.2.3).",
             }
         )
     if "peers" in drawn:
@@ -573,7 +641,8 @@ def write_figures(data, folder):
                 "columns": 1,
                 "panels": [{"png": "peers.png", "caption": drawn["peers"] + "."}],
                 "caption": f"{grouped(data.peers['aortic']['nodes'])} nodes, one thread, the same triangles. "
-                "docs/performance.md says which libraries answer only within the half thickness, and which nodes are marked differently. "
+                "docs/performance.md says which libraries answer only within the half thickness, and which nodes are marked "
+                "differently. "
                 + measured_text(data, "peers"),
                 "paper": "nothing: the paper compares only with itself.",
             }
@@ -617,8 +686,12 @@ def main(arguments):
     parser.add_argument("--data", default=os.path.join("out", "bench"), help="the folder of the JSON (%(default)s)")
     parser.add_argument("--page", default=os.path.join("docs", "performance.md"), help="the page to write (%(default)s)")
     parser.add_argument("--details", help="the page of all other measurements to write (details.md beside the JSON)")
-    parser.add_argument("--print", choices=("search", "marking", "roofline", "peers"), help="print that section in place of writing the page")
-    parser.add_argument("--figures", metavar="FOLDER", help="only draw the plots of the figures' page there, with plots.json for it")
+    parser.add_argument(
+        "--print", choices=("search", "marking", "roofline", "peers"), help="print that section in place of writing the page"
+    )
+    parser.add_argument(
+        "--figures", metavar="FOLDER", help="only draw the plots of the figures' page there, with plots.json for it"
+    )
     options = parser.parse_args(arguments)
     data = Data(options.data)
     if options.figures:

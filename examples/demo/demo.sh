@@ -38,7 +38,7 @@ demo_valves=(aortic mitral)
 declare -A demo_kind=([aortic]=trileaflet [mitral]=mitral) demo_mesh_of=([aortic]=aortic_root [mitral]=mitral_tube)
 demo_openings=(0 0.25 0.5 0.75 1)
 # Points upstream and downstream, or the other way round.
-declare -A demo_from=([aortic]=0,0,-1.6 [mitral]=0,0.2,-1.3) demo_to=([aortic]=0,0,1.1 [mitral]=0,0.2,2.1)
+declare -A demo_from=([aortic]="0,0,-1.6" [mitral]="0,0.2,-1.3") demo_to=([aortic]="0,0,1.1" [mitral]="0,0.2,2.1")
 
 # of_each_valve COMMAND: runs it for both valves at the same time.
 of_each_valve() {
@@ -68,14 +68,15 @@ demo_states() {
 # demo_openings_picture: puts the marked cells of all states into one picture: a row for each valve and view, a column for each
 # opening.
 demo_openings_picture() {
-  local valve view opening inputs=() parts='' tiles='' layout='' n=0
+  local valve view opening inputs=() parts='' tiles='' layout='' n=0 row
   for valve in "${demo_valves[@]}"; do
     for view in side top; do
       for opening in "${demo_openings[@]}"; do
         inputs+=(-i "out/${valve}_${opening}_$view.png")
         parts+="[$n]crop=iw/2:0.8*ih:iw/2:0.1*ih,scale=320:-1[t$n];"
         tiles+="[t$n]"
-        layout+="|$((n % 5 * 320))_$((n / 5 * 256))"
+        row=$((n / 5))
+        layout+="|$((n % 5 * 320))_$((row * 256))"
         n=$((n + 1))
       done
     done
@@ -158,8 +159,8 @@ demo_story() {
   cat <<TEXT
 
 gmsh has made meshes that the valves fill: an aortic root of $(number_of aortic_0 n_nodes) nodes, and a tube of
-$(number_of mitral_0 n_nodes) nodes along the mitral annulus. riis has marked the nodes within $(number_of aortic_0 half_thickness) cm
-of a leaflet. A flow solver resists the flow at these nodes.
+$(number_of mitral_0 n_nodes) nodes along the mitral annulus. riis has marked the nodes within
+$(number_of aortic_0 half_thickness) cm of a leaflet. A flow solver resists the flow at these nodes.
 
 $(printf '  %-27s' ''; printf ' %7s' closed "${demo_openings[@]:1:3}" open)
 $(demo_row aortic)

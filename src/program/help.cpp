@@ -21,7 +21,8 @@ const Footer footers[] = {
   riis mark mesh.vtu --surface patient.pvd --time 0.3 --period 0.8 --output marked.vtu
   riis mark mesh.vtu --valve mitral --cycle beat.csv --period 0.8 --times 0:0.8:0.01 --output beat.pvd --movie beat.mp4
   riis mark --case beating_valves.json --output beat.pvd --series-table beat.csv
-riis help explains: mesh, units, parameters, opening, patches, series, cases, motion, warnings, leaks, searches, distances, status.)"},
+riis help explains: mesh, units, parameters, opening, patches, series, cases, motion, warnings, leaks, searches,
+distances, status.)"},
     {"surface", R"(Examples:
   riis surface --valve mitral --opening 0.5 --output half_open.vtp --picture half_open.png --view top
   riis surface --surface patient.pvd --time 0.3 --output moved.vtp
@@ -62,29 +63,34 @@ struct Topic {
 // clang-format off
 const Topic topics[] = {
     {"mesh", "the marked mesh and its arrays",
-     R"(The marked mesh is a copy of the input. Its nodes keep the input's order. It has the point arrays riis_marked (UInt8: 0 or
+     R"(
+The marked mesh is a copy of the input. Its nodes keep the input's order. It has the point arrays riis_marked (UInt8: 0 or
 1), riis_distance (Float64) and riis_leaflet (Int32: -1 for none). --prefix NAME names them NAME_marked and so on, so a mesh
 can take the marks of several valves. Only --replace replaces arrays that the mesh already has.
 )"},
     {"units", "units of lengths, and the scale",
-     R"(Lengths are in the mesh's unit. --unit names that unit, and the scale follows from it. The parameters of the kinds of
+     R"(
+Lengths are in the mesh's unit. --unit names that unit, and the scale follows from it. The parameters of the kinds of
 valves are in centimetres. If a file holds the surface or the patches, --unit needs --surface-unit, the file's
 own unit. With --unit the half thickness is the paper's, 0.1 cm, unless --half-thickness says otherwise. Without --unit the
 program knows no units, and --scale is the factor from the surface's unit to the mesh's.
 )"},
     {"parameters", "names and files of parameters",
-     R"(A name with a cusp (right.leaflet_angle) is a parameter of that cusp. A name without a cusp (leaflet_angle) stands for all
+     R"(
+A name with a cusp (right.leaflet_angle) is a parameter of that cusp. A name without a cusp (leaflet_angle) stands for all
 cusps. A JSON file sets the names without a cusp first, whatever their order in the file. --set comes after the file, from
 left to right. --opening comes last, and excludes --set opening.
 )"},
     {"opening", "closed and open states",
-     R"(The parameters of a kind of valve make it closed and open. The mitral valve is open unless --opening says otherwise, the
+     R"(
+The parameters of a kind of valve make it closed and open. The mitral valve is open unless --opening says otherwise, the
 others are at 0. With --params-open, the other options make the closed state. The defaults with that file's
 parameters make the open state; an opening in that file does not matter. The paper's aortic valve, at opening 0 with the
 default parameters, is not closed: along its axis 19 % of a disc of radius 1.2 cm stay open. --valve trileaflet closes.
 )"},
     {"patches", "a file of curves for a valve of your own",
-     R"(--valve FILE.json is a valve from patches, by the curves that bound them:
+     R"(
+--valve FILE.json is a valve from patches, by the curves that bound them:
 {"curves":  {"hinge": [[0,0,0], [1,0,0]], "edge": [[0,1,0], [0.5,1,0.3], [1,1,0]],
              "left": [[0,0,0], [0,1,0]], "right": [[1,1,0], [1,0,0]]},
  "patches": [{"v0": "hinge", "v1": "edge", "u0": "left", "u1": "-right", "leaflet": 0}]}
@@ -93,7 +99,8 @@ way. v0 and v1 run from u0 to u1; u0 and u1 run from v0 to v1. "leaflet" is 0 if
 beside "patches" holds all curves at --opening 1; without it the valve stays at 0. Its only parameter is opening.
 )"},
     {"series", "many times: .pvd, movies, tables",
-     R"(--times marks the nodes at each time, and --cycle tells the opening: a line for each key, with a time and an opening from 0
+     R"(
+--times marks the nodes at each time, and --cycle tells the opening: a line for each key, with a time and an opening from 0
 to 1, ascending in time. The first line may name the columns. --output beat.pvd writes beat/beat_0000.vtu and so on, and
 beat.pvd, which ParaView plays. --surface-output does the same with the triangles. With --triangulation fixed all times have
 the same triangles, so that K does not jump with them.
@@ -108,7 +115,8 @@ surface and marks. --picture draws the first time. --movie draws all times by on
 check for leaks runs at the time when the valve is least open, and for --surface at the first time.
 )"},
     {"cases", "several valves in one mesh, from a file",
-     R"(--case FILE.json describes several valves, and takes the place of the options for surface, placement and marking:
+     R"(
+--case FILE.json describes several valves, and takes the place of the options for surface, placement and marking:
 {"mesh": "heart.vtu", "unit": "cm", "half_thickness": 0.1, "distance_limit": 0.2, "resistance": 1e4,
  "times": "0:0.8:0.01",
  "valves": [{"name": "mitral", "valve": "mitral", "opening": {"file": "beat.csv", "period": 0.8}},
@@ -127,13 +135,15 @@ Each of several valves has its own arrays, NAME_marked and so on; riis_K and rii
 Without times there is one mesh, --output marked.vtu.
 )"},
     {"motion", "a surface from a file that moves",
-     R"(--surface FILE.pvd is a ParaView collection of surface files, each with a time. All have the same points and faces, only the
+     R"(
+--surface FILE.pvd is a ParaView collection of surface files, each with a time. All have the same points and faces, only the
 points move. --time T takes them there, linearly between two files, and --times to each of its times. --surface-output then
 has the velocities of the points, riis_velocity, in the mesh's unit over the unit of T. Triangles of .stl files must keep
 their order.
 )"},
     {"warnings", "what they mean, and which comes first",
-     R"(A line on stderr tells what looks wrong and what to write instead. It comes if no node is marked, if all or hardly any nodes
+     R"(
+A line on stderr tells what looks wrong and what to write instead. It comes if no node is marked, if all or hardly any nodes
 are marked, and if the half thickness does not fit the surface or the edges of the mesh. --quiet does not silence it, because
 wrong marks look like right ones. --allow-none is for valves that are near no node at times.
 One thing may be the cause of all others, in this order: units, half thickness, places, leaks. Only the first cause comes with
@@ -142,16 +152,19 @@ With --strict the status is 4 if there was any warning, whatever its kind. Place
 there needs, and the unit of --unit.
 )"},
     {"leaks", "edges and passages through the band",
-     R"(The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats say how many
+     R"(
+The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats say how many
 edges leak, and which half thickness closes them. Edges of at most two half thicknesses do not leak. Leaks are unknown in a
 mesh without volume cells, and at cells whose edges are not known, such as convex point sets. Edges do not show gaps between
-leaflets, nor ways round the valve. riis check leaks MESH --between FROM TO does: two points, one on either side, each as X,Y,Z in the mesh.
+leaflets, nor ways round the valve. riis check leaks MESH --between FROM TO does: two points, one on either side, each as
+X,Y,Z in the mesh.
 The program says whether unmarked nodes join them, where the widest passage is, and which half thickness closes it. Take
 points farther from the valve than the passage is wide. A case has them as "check_leaks": [x,y,z, x,y,z]. All its valves
 count together, each where it is least open.
 )"},
     {"crossings", "leaflets that go through each other",
-     R"(riis check crossings looks at a valve's triangles at 101 openings from 0 to 1, and ends at the first one where two go through
+     R"(
+riis check crossings looks at a valve's triangles at 101 openings from 0 to 1, and ends at the first one where two go through
 each other. A line on stderr tells that opening, the number of pairs, the length of their intersections, and depth and place
 of the deepest. The depth is how far one of the triangles must move until both only touch. Up to 1e-6 half thicknesses count
 as touching. A valve that does not open, a surface from a file and a valve with --opening are looked at as they are. It needs
@@ -159,7 +172,8 @@ no MESH. riis mark looks at fewer: a valve whose shape is chosen by --set, --par
 openings 0, 0.5 and 1. Contacts of leaflets and of a housing with its hinges do not count then.
 )"},
     {"states", "what the table of riis states has",
-     R"(riis states measures the valve in its own frame at 101 openings, or as many as --count says, and takes no MESH. The table
+     R"(
+riis states measures the valve in its own frame at 101 openings, or as many as --count says, and takes no MESH. The table
 has a line for each opening: the length of each free edge, the area of each leaflet, both also as a share of their closed
 values, and the area of the orifice. The summary on stdout names the free edges that leave 10 % of their closed length. Free
 edges are the sides v = 1 of the patches on a leaflet's rim. The orifice is the part of a disc that the leaflets leave
@@ -168,7 +182,8 @@ take the inside of the free sides v = 0, such as the annulus. Columns that a val
 tolerance is 0.01 unless --tolerance says otherwise. A valve without an open state has one line, at opening 0.
 )"},
     {"export", "what riis export writes",
-     R"(riis export FOLDER writes what the solver's Add_URIS_mesh reads: for each leaflet NAME.vtu, NAME_open.dat and
+     R"(
+riis export FOLDER writes what the solver's Add_URIS_mesh reads: for each leaflet NAME.vtu, NAME_open.dat and
 NAME_close.dat. The same files of a face "box" widen the box in which the solver looks. normal.dat is the direction of flow.
 The folder must be new or empty. The block for the solver's input goes to stdout; it needs --resistance. The solver plays a
 frame in each of its time steps, so --time-step must be its own. The valve opens from 0 to 1 in --opening-seconds by a ramp
@@ -178,7 +193,8 @@ middles of triangles. With --largest-edge 0.15 half thicknesses its sum of K is 
 without area in some frame are left out, and a line on stderr says so.
 )"},
     {"searches", "how nodes are found",
-     R"(exhaustive  queries the distance of every node near the valve
+     R"(
+exhaustive  queries the distance of every node near the valve
 neighbor    walks from marked nodes to their neighbours and then proves that the rest is far
 clusters    takes nodes that are near each other together
 paper       the published search, for comparison: from one start, through marked nodes only
@@ -188,18 +204,21 @@ connected to its start, so it is never complete, and a line on stderr says so. N
 volume cell.
 )"},
     {"distances", "how distances are measured",
-     R"(--distance sampling takes the nearest of points on the valve's patches, as many as --distance-tolerance needs.
+     R"(
+--distance sampling takes the nearest of points on the valve's patches, as many as --distance-tolerance needs.
 --distance minimization takes Powell's method on every patch, which may miss the closest point. Both are the paper's, slow,
 and here for comparison.
 )"},
     {"running", "progress, Ctrl-C, locks",
-     R"(On a terminal, a line on stderr announces a stage that takes longer than a second, and counts the steps of a series, unless
+     R"(
+On a terminal, a line on stderr announces a stage that takes longer than a second, and counts the steps of a series, unless
 --quiet is given. While a file is written, the first Ctrl-C waits until the file is whole; the second does not wait.
 An empty file .riis-NAME.lock beside each output NAME keeps other runs from writing that output meanwhile. A run that is
 killed leaves the lock behind, and the next run takes it over.
 )"},
     {"status", "exit statuses",
-     R"(0  fine
+     R"(
+0  fine
 1  bad data: a file that cannot be read or written or holds what it should not, a valve's kind, a parameter's name or
    value (in a file or by --set), an output that another run is writing, no display for a picture, no ffmpeg for a movie,
    no memory
@@ -235,7 +254,7 @@ std::string text_of_topic(const std::string &name) {
   if (name.empty()) return list_of_topics();
   NearestName nearest(name);
   for (const Topic &topic : topics) {
-    if (name == topic.name) return topic.text;
+    if (name == topic.name) return topic.text + 1;  // behind its first line break
     nearest.consider(topic.name);
   }
   const std::string near(nearest.nearest());

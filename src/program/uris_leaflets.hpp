@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a valve and the openings of its frames. Out: leaflets whose nodes and triangles stay the same in all frames, and a face that
-// widens the box in which the solver looks.
+// In: a valve and the openings of its frames. Out: leaflets whose nodes and triangles stay the same in all frames, and a face
+// that widens the box in which the solver looks.
 #pragma once
 
 #include <array>

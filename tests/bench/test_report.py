@@ -71,8 +71,12 @@ FILES = {
         **dict.fromkeys(
             ("coarse", "fine"),
             {
-                "marked": 100, "triangles": 10, "groups": 4, "leaves": 8, "near_groups": 20, "filtered_pairs": 2750, "decided_pairs": 120,
-                "nanoseconds": {"update": 400, "regions": 200, "filter": 4000, "decide": 1000, "rest": 500, "order": 300, "sum": 6400, "whole": 6500},
+                "marked": 100, "triangles": 10, "groups": 4, "leaves": 8, "near_groups": 20,
+                "filtered_pairs": 2750, "decided_pairs": 120,
+                "nanoseconds": {
+                    "update": 400, "regions": 200, "filter": 4000, "decide": 1000, "rest": 500, "order": 300, "sum": 6400,
+                    "whole": 6500,
+                },
                 "operations": {"regions": 100, "filter": 40000, "decide": 5000},
                 "bytes": {"update": 1000, "regions": 500, "filter": 1000, "decide": 1000, "rest": 250, "order": 750},
             },
@@ -98,7 +102,9 @@ def stages():
         for valve in report.VALVES for method in range(3) for tolerance in (50, 20, 10, 1) for k in (0, 1)
     ]  # fmt: skip
     more = {"triangles": 2104, "samples": 0, "largest_error": 0.02}
-    return [{"name": name, "run_name": name, "run_type": "iteration", "real_time": 1.5, "time_unit": "us", **more} for name in times]
+    return [
+        {"name": name, "run_name": name, "run_type": "iteration", "real_time": 1.5, "time_unit": "us", **more} for name in times
+    ]
 
 
 def accuracy():
@@ -175,8 +181,8 @@ class Page(unittest.TestCase):
     def test_searches_beside_the_paper(self):
         text = self.page()
         # 307.133 s and 11.950 s are the paper's; 8 s / 50 ms, 8 s / 5 ms, 400 ms / 5 ms, 50 ms / 5 ms.
-        row = "| 1,006,781 | 1,000,000 | 1 | 307 | 11.9 | 25.7 | 8.00 | 0.400 | 20.0 | 50.0 | 40.0 | 5.00 | 160 | 1,600 | 80.0 | 10.0 |"
-        self.assertIn(row, text)
+        cells = "1,006,781 1,000,000 1 307 11.9 25.7 8.00 0.400 20.0 50.0 40.0 5.00 160 1,600 80.0 10.0".split()
+        self.assertIn(f"| {' | '.join(cells)} |", text)
         self.assertIn("every k-th node, k from 500 to 500 by size, and multiplied", " ".join(text.split()))
         self.assertNotIn("109,464", text)  # rows that were not measured are left out
         details = self.details()
@@ -212,7 +218,9 @@ class Page(unittest.TestCase):
         self.assertIn("| update of the surface | 4.00 |  | 10.0 | 2.00 | 50 % |", text)
         self.assertIn("| together | 64.0 | 451 | 45.0 | 30.0 | 47 % |", text)
         prose = " ".join(text.split())
-        self.assertIn("8 leaves are near some of them, each near 2.50. For each marked node the filter computes 27.5 distances", prose)
+        self.assertIn(
+            "8 leaves are near some of them, each near 2.50. For each marked node the filter computes 27.5 distances", prose
+        )
         self.assertIn("and 1.20 are decided. A step without clocks inside takes 65.0 ns of the thread", prose)
         self.assertIn("20.0 operations a nanosecond in single and 10.0 in double precision, on registers, and 5.00 bytes", prose)
 
@@ -253,7 +261,9 @@ class Page(unittest.TestCase):
             written = json.load(file)
         figures = written["figures"]
         self.assertEqual(written["left_out"], [])
-        self.assertEqual([[panel["png"] for panel in each["panels"]] for each in figures], [["searches.png", "threads.png"], ["peers.png"]])
+        self.assertEqual(
+            [[panel["png"] for panel in each["panels"]] for each in figures], [["searches.png", "threads.png"], ["peers.png"]]
+        )
         self.assertEqual(sorted(drawn), ["peers.png", "searches.png", "threads.png"])
         self.assertIn("2026-01-02 03:04 UTC by <code>./run bench</code> on A processor, 1 processor,", figures[0]["caption"])
 
@@ -355,7 +365,9 @@ class Text(unittest.TestCase):
             self.assertEqual(report_text.number(value), text)
 
     def test_template(self):
-        template = report_text.Template("{{#parts}}\n- {{name}}{{^is_last}},{{/is_last}}\n{{/parts}}\n\n{{^none}}no{{/none}} {{x}}\n")
+        template = report_text.Template(
+            "{{#parts}}\n- {{name}}{{^is_last}},{{/is_last}}\n{{/parts}}\n\n{{^none}}no{{/none}} {{x}}\n"
+        )
         parts = [{"name": "a", "is_last": False}, {"name": "b", "is_last": True}]
         self.assertEqual(template.fill({"parts": parts, "none": None, "x": 1}), "- a,\n- b\n\nno 1\n")
         self.assertEqual(template.fill({"parts": parts, "none": None, "x": 1}, only="parts"), "- a,\n- b\n")

@@ -84,8 +84,7 @@ static void numbers_are_those_of_the_c_interface(void **state) {
   expect_fine(find_crossings_in(surface, NULL, &by_c));
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);
-  run_program("check", "crossings", "--set", "right.rotation=0,0,60", "--opening", "0",
-              "--stats", "-", NULL);
+  run_program("check", "crossings", "--set", "right.rotation=0,0,60", "--opening", "0", "--stats", "-", NULL);
   expect_warning("riis: leaflets right and left cross at opening 0: ");
   assert_true(by_c.deepest_leaflet_id[0] == RIIS_LEAFLET_RIGHT && by_c.deepest_leaflet_id[1] == RIIS_LEAFLET_LEFT);
   const char *json = strstr(program_out, "\"crossings\"");

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "expect.hpp"
 #include "program/opening_law.hpp"
 #include "program/refusal.hpp"
-#include "expect.hpp"
 #include "scratch_file.hpp"
 
 namespace {

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program's JSON files: each input is read as a valve of patches, as parameters of either kind of valve, and as the opening of
-// a valve in a case. It is refused with an exit status and a message, or it is a valve or a law. The valve's parameters, printed and read back, must be unchanged.
+// The program's JSON files: each input is read as a valve of patches, as parameters of either kind of valve, and as the opening
+// of a valve in a case. It is refused with an exit status and a message, or it is a valve or a law. The valve's parameters,
+// printed and read back, must be unchanged.
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 
+#include "expect.hpp"
 #include "program/case_file.hpp"
 #include "program/json.hpp"
 #include "program/parameters.hpp"
 #include "program/refusal.hpp"
 #include "program/valve_file.hpp"
-#include "expect.hpp"
 #include "scratch_file.hpp"
 
 namespace {
@@ -47,7 +48,8 @@ void read_parameters(const char *kind) {
   if (!is_taken([&] { riis::program::set_from_json_file(valve.get(), file().path()); })) return;
   const std::string printed = riis::program::json_template(valve.get());
   file().hold(reinterpret_cast<const std::uint8_t *>(printed.data()), printed.size());
-  EXPECT(is_taken([&] { riis::program::set_from_json_file(twin.get(), file().path()); }), "printed parameters are refused");
+  EXPECT(is_taken([&] { riis::program::set_from_json_file(twin.get(), file().path()); }),
+         "printed parameters are refused");
   EXPECT(riis::program::json_template(twin.get()) == printed, "printed parameters read back as others");
 }
 

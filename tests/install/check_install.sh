@@ -71,7 +71,7 @@ check_prosthesis_file() { # the program
     for (i = 0; i < n_nodes; ++i) print 1
   }' >"$work/box.vtk"
   for opening in 0.0 0.5 1.0; do
-    "$1" "$work/box.vtk" --valve "$source/examples/prosthesis.json" --opening $opening --stats - |
+    "$1" mark "$work/box.vtk" --valve "$source/examples/prosthesis.json" --opening $opening --stats - |
       sed -n "s/.*\"n_marked\": \([0-9]*\).*/opening $opening, marked: \1/p"
   done >"$work/file.txt"
   grep '^opening' "$expected/prosthesis.txt" | diff - "$work/file.txt" || problem "prosthesis.json is not that of prosthesis.c"
