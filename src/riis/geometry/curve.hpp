@@ -14,6 +14,12 @@ namespace riis {
 // A share of a curve's length that is negligible.
 inline constexpr double negligible_share = 1e-14;
 
+// A point of a curve: the position of its piece, and the parameter there.
+struct PointOnPiece {
+  std::size_t piece;
+  double t;
+};
+
 // Every piece but the first begins at the end of the piece before, in the direction of that end. So the curve may change its
 // curvature there, but not its course. (A curve with corners is several curves, and its patch several patches.)
 class Curve {
@@ -50,11 +56,7 @@ class Curve {
   Curve through(Vec3 first, Vec3 last) const;
 
  private:
-  struct Place {
-    std::size_t piece;
-    double t;
-  };
-  Place place(double share) const;
+  PointOnPiece on_piece(double share) const;
 
   Vector<Bezier> pieces_;
   Vector<double> ends_;  // length from the start of the curve to the end of each piece

@@ -66,7 +66,7 @@ class Mesh {
   bool record_marking() const { return was_marked_.exchange(true, std::memory_order_relaxed); }
 
   // Returns the surfaces that the caller was warned about because their sizes do not fit this mesh.
-  Warned &warned() const { return warned_; }
+  WarnedSurfaces &warned_surfaces() const { return warned_surfaces_; }
 
  private:
   static std::vector<double> with_capacity(std::size_t n) {
@@ -86,7 +86,7 @@ class Mesh {
   mutable std::mutex clusters_mutex_;
   mutable Clusters clusters_;
   mutable std::atomic<bool> has_clusters_{false}, was_marked_{false};
-  mutable Warned warned_;
+  mutable WarnedSurfaces warned_surfaces_;
   mutable std::mutex edges_mutex_;
   mutable EdgeBlocks edges_;
   mutable std::atomic<bool> has_edges_{false};

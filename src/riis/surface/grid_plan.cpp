@@ -8,8 +8,8 @@
 #include <numeric>
 #include <utility>
 
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
+#include "common/array_view.hpp"
 #include "geometry/curve_points.hpp"
 #include "parallel/parallel_for.hpp"
 #include "surface/grids.hpp"
@@ -601,9 +601,9 @@ class PlannedGrids {
 
 }  // namespace
 
-Build::Build(const PatchSet &set) : patches_(set.patches), n_curves_(set.curves.size()) {}
+CurveNumbering::CurveNumbering(const PatchSet &set) : patches_(set.patches), n_curves_(set.curves.size()) {}
 
-bool Build::counts_as(const PatchSet &set) const {
+bool CurveNumbering::is_of(const PatchSet &set) const {
   const auto are_equal = [](const Side &a, const Side &b) { return a.curve == b.curve && a.reversed == b.reversed; };
   return set.curves.size() == n_curves_ && std::equal(patches_.begin(), patches_.end(), set.patches.begin(),
                                                       set.patches.end(), [&](const Patch &a, const Patch &b) {
@@ -612,7 +612,7 @@ bool Build::counts_as(const PatchSet &set) const {
                                                       });
 }
 
-PatchSet Build::counted(const PatchSet &set) const {
+PatchSet CurveNumbering::renumbered(const PatchSet &set) const {
   PatchSet made{Vector<Curve>(n_curves_, set.curves.front()), set.patches, set.seams, set.deviation};
   for (std::size_t i = 0; i < patches_.size(); ++i)
     for (const auto side : {&Patch::v0, &Patch::v1, &Patch::u0, &Patch::u1}) {

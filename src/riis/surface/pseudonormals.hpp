@@ -9,8 +9,8 @@
 #include <array>
 #include <cstdint>
 
-#include "common/array_view.hpp"
 #include "base/recycled.hpp"
+#include "common/array_view.hpp"
 #include "surface/triangle_set.hpp"
 
 namespace riis {
@@ -49,11 +49,11 @@ class Pseudonormals {
  private:
   // The vertex, edge or face that barycentric weights lie on. `corner` is the vertex, or the edge from there to the next.
   enum class Kind { face, edge, vertex };
-  struct Place {
+  struct Simplex {
     Kind kind;
     std::int64_t corner;
   };
-  static Place place_of(Vec3 barycentric);
+  static Simplex simplex_of(Vec3 barycentric);
 
   // The positions of an edge's ends.
   struct Ends {

@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
+#include "common/array_view.hpp"
 #include "parallel/parallel_for.hpp"
 #include "surface/grids.hpp"
 #include "surface/rims.hpp"
@@ -458,7 +458,8 @@ void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet 
 
 // Places the vertices of these grids under the triangles of a plan. Returns false if other triangles have an area here than in
 // the plan, or if some are missed.
-bool place(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids, TriangleSet &triangles) {
+bool place_by_plan(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
+                   TriangleSet &triangles) {
   const Connectivity &planned = how.plan->connectivity;
   Pieces pieces = make_pieces(set, how, grids);
   resize(triangles.xyz, 3 * pieces.n_vertices);
@@ -511,18 +512,18 @@ void keep(Vector<LevelledGrid> grids, const Triangulation &how, TriangleSet &tri
 // Makes triangles by a plan. Groups by place where other triangles have an area than in the plan.
 TriangleSet triangulate_by_plan(const PatchSet &set, const Triangulation &how, TriangleSet triangles) {
   check_precision(set, how.max_error);
-  // Only the states that share curves are counted anew.
-  std::optional<PatchSet> recounted;
-  if (!how.plan->build.counts_as(set)) recounted = how.plan->build.counted(set);
-  const PatchSet &counted = recounted ? *recounted : set;
-  Vector<LevelledGrid> grids = make_levelled_grids(counted, how, {});
+  // Only the states that share curves are renumbered.
+  std::optional<PatchSet> renumbered;
+  if (!how.plan->curves.is_of(set)) renumbered = how.plan->curves.renumbered(set);
+  const PatchSet &patches = renumbered ? *renumbered : set;
+  Vector<LevelledGrid> grids = make_levelled_grids(patches, how, {});
   for (std::size_t i = 0; i < grids.size(); ++i)
     if (!(grids[i].error_bound <= how.max_error))
       fail(RIIS_LIMIT_EXCEEDED, "patch ", set.patches[i].images.front().patch_id,
            " of the fixed triangulation may be off by ", grids[i].error_bound, " at this opening; it must be at most ",
            how.max_error, ", which is tolerance * half_thickness before scaling");
-  if (!place(counted, how, grids, triangles)) {
-    const Vector<std::size_t> vanished = build(counted, how, grids, triangles);
+  if (!place_by_plan(patches, how, grids, triangles)) {
+    const Vector<std::size_t> vanished = build(patches, how, grids, triangles);
     if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
     group_by_place(triangles, 0, static_cast<std::int32_t>(triangles.n_triangles()), triangles.grouping);
   }
@@ -556,7 +557,7 @@ bool is_within(const PatchSet &state, const TriangulationPlan &plan, double aske
   const double max_error = error_left(state, asked_error);
   const Placement in_place{1, no_rotation, {0, 0, 0}};
   const Vector<LevelledGrid> grids =
-      make_levelled_grids(plan.build.counted(state), {max_error, in_place, false, 1, nullptr, &plan}, {});
+      make_levelled_grids(plan.curves.renumbered(state), {max_error, in_place, false, 1, nullptr, &plan}, {});
   return std::all_of(grids.begin(), grids.end(),
                      [&](const LevelledGrid &grid) { return grid.error_bound <= max_error; });
 }
@@ -594,22 +595,22 @@ TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked
   // The rest is for openings between these.
   constexpr double share = 0.95;
   const double planned_error = share * max_error;
-  // Curves that are shared at one opening only are counted apart.
+  // Curves that are shared at one opening only have two numbers.
   const PatchSet &widest = *std::max_element(given.begin(), given.end(), [](const PatchSet &a, const PatchSet &b) {
     return a.curves.size() < b.curves.size();
   });
-  const Build counting(widest);
+  const CurveNumbering numbering(widest);
   Vector<PatchSet> states;
   for (const PatchSet &state : given) {
     check_same_build(widest, state);
-    states.push_back(counting.counted(state));
+    states.push_back(numbering.renumbered(state));
   }
   const PatchSet &middle = states[states.size() / 2];
   const Placement in_place{1, no_rotation, {0, 0, 0}};
   Vector<double> tightness(middle.curves.size(), 1);
   for (int attempt = 0;; ++attempt) {
     TriangulationPlan plan{
-        plan_grids(states, planned_error, planned_curve_share, tightness), counting, planned_error, {}, {}};
+        plan_grids(states, planned_error, planned_curve_share, tightness), numbering, planned_error, {}, {}};
     for (const PatchSet &state : states) raise_levels(state, planned_error, plan);
     const Triangulation how{max_error, in_place, false, n_threads, nullptr, &plan};
     TriangleSet triangles;

@@ -40,7 +40,7 @@ struct Connectivity {
 // A triangulation that stays the same while a valve opens: its grids, its quads' levels of subdivision, its triangles.
 struct TriangulationPlan {
   GridPlan grids;
-  Build build;                 // the curves that the grids count by
+  CurveNumbering curves;       // of the grids
   double max_error;            // that the lines and levels were chosen for
   Vector<Vector<int>> levels;  // of each patch's quads
   Connectivity connectivity;
