@@ -60,7 +60,7 @@ void pipeline_triangles(benchmark::State &state, const char *kind) {
   const Valve valve = moved_valve(kind);
   const riis::PatchSet patches = valve->valve.make_patches();
   const riis::Placement placement{1, riis::rotation_about({0, 0, 1}, 0), {0, 0, 0}};
-  for (auto _ : state) benchmark::DoNotOptimize(riis::triangulate(patches, {max_error, placement, false, 1}));
+  for (auto _ : state) benchmark::DoNotOptimize(riis::triangulate_adapted(patches, {max_error, placement, false, 1}));
   state.counters["triangles"] = n_triangles_of(surface_of(valve.get()).get());
 }
 

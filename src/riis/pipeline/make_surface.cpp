@@ -54,11 +54,11 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
     motion.emplace(Motion{*patches_before, moved->placement_before, moved->seconds});
   }
   // Curves become polylines, patches become quads, and quads become triangles.
-  TriangleSet triangles =
-      triangulate(patches,
-                  {accuracy.triangle_error / placement.scale, placement, request.flip_normals, request.n_threads,
-                   motion ? &*motion : nullptr, accuracy.fixed ? &accuracy.fixed->plan() : nullptr},
-                  surface.take_triangles());
+  const Triangulation how{accuracy.triangle_error / placement.scale, placement, request.flip_normals, request.n_threads,
+                          motion ? &*motion : nullptr};
+  TriangleSet triangles = accuracy.fixed
+                              ? triangulate_fixed(patches, how, accuracy.fixed->plan(), surface.take_triangles())
+                              : triangulate_adapted(patches, how, surface.take_triangles());
   if (triangles.n_triangles() == 0) fail(RIIS_INVALID_PARAMETER, "the valve has no area");
   const double seconds_triangles = stopwatch.lap();
   // Another method for distances is made before the surface, because it may be refused.
