@@ -147,11 +147,6 @@ inline void check_far_distance(const char *name, double far_distance, double dis
          distance_limit);
 }
 
-// By default a call takes one more thread for each such amount of work, half a millisecond or more. Waking and awaiting a
-// thread takes a hundredth of that on a quiet machine. On a busy one it takes as long as the system lets other work run.
-constexpr std::int64_t triangles_per_thread = 4096, points_per_thread = 2048;
-constexpr std::int64_t nodes_per_thread = 16384;  // of a mesh, its cells or faces
-
 inline void check_threads(std::int32_t n_threads, const char *name) {
   if (n_threads < 0 || n_threads > 1024)
     fail(RIIS_INVALID_ARGUMENT, name, " is ", n_threads, "; it must be from 1 to 1024, or 0 for the default");
@@ -160,11 +155,10 @@ inline void check_threads(std::int32_t n_threads, const char *name) {
          "; this process was forked after riis had used several threads, so it may use 1 only");
 }
 
-// Returns the number of threads that an option requests or, if it is 0, the number that n_items of work feed.
+// Checks the option too.
 inline Threads threads_for(std::int32_t n_threads, const char *name, std::int64_t n_items, std::int64_t per_thread) {
   check_threads(n_threads, name);
-  return n_threads > 0 ? Threads(n_threads)
-                       : Threads::by_default(n_items, per_thread, has_lost_threads() ? 1 : default_thread_count());
+  return threads_for(n_threads, n_items, per_thread);
 }
 
 }  // namespace riis
