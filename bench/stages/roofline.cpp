@@ -19,12 +19,12 @@
 #include <vector>
 
 #include "api/handles.hpp"
-#include "shared/cylinder.hpp"
 #include "kernels/count.hpp"
 #include "kernels/table.hpp"
 #include "marking/cluster_search.hpp"
 #include "marking/put_in_order.hpp"
 #include "peak.hpp"
+#include "shared/cylinder.hpp"
 #include "shared/time_steps.hpp"
 
 namespace riis {
@@ -284,7 +284,7 @@ class StagedSteps {
   }
 
  private:
-  const riis::Surface &content() const { return *steps_.surface()->surface; }
+  const riis::Surface &content() const { return riis::content_of(steps_.surface()); }
 
   void search(const riis::Kernels &kernels) {
     const riis::SearchRequest request{content(), mesh_, half_thickness, nullptr, 1, riis::best_instruction_set()};

@@ -10,7 +10,6 @@
 #include "api/structs.hpp"
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
-#include "base/ranges.hpp"
 #include "pipeline/updatable_surface.hpp"
 
 using riis::check_range;

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "base/errors.hpp"
-#include "base/ranges.hpp"
 
 namespace riis {
 namespace {

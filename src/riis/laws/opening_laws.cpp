@@ -10,7 +10,6 @@
 #include "base/constants.hpp"
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
-#include "base/ranges.hpp"
 
 namespace riis {
 namespace {

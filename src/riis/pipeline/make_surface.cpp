@@ -8,7 +8,7 @@
 
 #include "base/errors.hpp"
 #include "base/log.hpp"
-#include "distance/make_distance.hpp"
+#include "distance/patch_distance.hpp"
 #include "surface/triangulate.hpp"
 #include "surface/user_arrays.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "valve/bileaflet.hpp"
-
+// The bileaflet mechanical valve: two rigid flat leaflets, each of which turns about its hinge in a round housing
+// (docs/theory.md, "The bileaflet valve").
+// In: the parameters of two states, the opening. Out: patches of two leaflets and, on request, of the housing's wall.
 #include <riis/riis.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include "base/errors.hpp"
 #include "geometry/placement.hpp"
 #include "valve/patches.hpp"
+#include "valve/valve.hpp"
 
 namespace riis {
 namespace {
