@@ -7,9 +7,7 @@
 #include <utility>
 
 #include "base/errors.hpp"
-#include "common/array_view.hpp"
 #include "kernels/kernels.hpp"
-#include "parallel/parallel_for.hpp"
 #include "surface/grids.hpp"
 #include "surface/rims.hpp"
 
@@ -22,13 +20,6 @@ const Seam *seam_of(const PatchSet &set, std::size_t patch, std::size_t image) {
     if (seam.patch == patch && seam.image == image) return &seam;
   return nullptr;
 }
-
-// The vertices of a patch before any image is placed: those of the grid, then those of subdivided quads.
-struct PatchVertices {
-  Vector<Vec3> points;
-  Vector<double> uv;
-  Vector<Vec3> displacements;  // since an earlier state; empty without one
-};
 
 PatchVertices vertices_of(const PatchSet &set, std::size_t patch, const LevelledGrid &levelled, const Motion *moved) {
   const QuadGrid &grid = levelled.grid;
@@ -87,27 +78,6 @@ PlacedBy placed_by(const PatchImage &image, const Placement &placement) {
   put(placement.translation, by.translation);
   by.scale = placement.scale;
   return by;
-}
-
-void place_vertices_of(const Piece &piece, const PatchSet &set, const Triangulation &how, const PatchVertices &of_patch,
-                       TriangleSet &triangles) {
-  const auto points = view(of_patch.points);
-  const auto uv = view(of_patch.uv);
-  double *const xyz = triangles.xyz.data() + 3 * piece.first_vertex;
-  kernels(best_instruction_set())
-      .place_points(placed_by(*piece.image, how.placement), &of_patch.points.front().x, points.size(), xyz);
-  std::copy(of_patch.uv.begin(), of_patch.uv.end(), triangles.uv.begin() + 2 * piece.first_vertex);
-  if (piece.seam)
-    for (std::int64_t i = 0; i < points.size(); ++i)
-      if (piece.seam->has(uv[2 * i], uv[2 * i + 1]))
-        put_vector(xyz, i, place(how.placement, place(*piece.twin, points[i])));
-  if (!how.motion) return;
-  const std::ptrdiff_t image = piece.image - set.patches[piece.patch].images.data();
-  const PatchImage &before = how.motion->patches_before.patches[piece.patch].images[static_cast<std::size_t>(image)];
-  const ImageMotion motion(*piece.image, before, how.placement, *how.motion);
-  for (std::int64_t i = 0; i < points.size(); ++i)
-    put_vector(triangles.velocity.data() + 3 * piece.first_vertex, i,
-               motion.velocity(points[i], view(of_patch.displacements)[i]));
 }
 
 // Makes the triangles of a piece whose vertices have been placed.
@@ -252,32 +222,50 @@ double Pieces::error_bound() const {
   return (bound + set_.deviation) * how_.placement.scale;
 }
 
-void Pieces::place_vertices(const std::function<void(std::int64_t)> &work) {
+void Pieces::make_patch_vertices() {
   resize(triangles_.xyz, 3 * n_vertices_);
   resize(triangles_.uv, 2 * n_vertices_);
   resize(triangles_.velocity, how_.motion ? 3 * n_vertices_ : 0);
-  Vector<PatchVertices> of_patches(grids_.size());
+  of_patches_.resize(grids_.size());
   parallel_for(view(grids_).size(), how_.n_threads, [&](std::int64_t i, int) {
-    view(of_patches)[i] = vertices_of(set_, static_cast<std::size_t>(i), view(grids_)[i], how_.motion);
-  });
-  parallel_for(view(pieces_).size(), how_.n_threads, [&](std::int64_t i, int) {
-    const Piece &piece = view(pieces_)[i];
-    place_vertices_of(piece, set_, how_, of_patches[piece.patch], triangles_);
-    work(i);
+    view(of_patches_)[i] = vertices_of(set_, static_cast<std::size_t>(i), view(grids_)[i], how_.motion);
   });
 }
 
-Vector<std::size_t> Pieces::make_triangles(
-    const std::function<void(std::int64_t, const Vector<std::int32_t> &)> &work) {
+void Pieces::place_vertices_of(const Piece &piece) {
+  const PatchVertices &of_patch = of_patches_[piece.patch];
+  const auto points = view(of_patch.points);
+  const auto uv = view(of_patch.uv);
+  double *const xyz = triangles_.xyz.data() + 3 * piece.first_vertex;
+  kernels(best_instruction_set())
+      .place_points(placed_by(*piece.image, how_.placement), &of_patch.points.front().x, points.size(), xyz);
+  std::copy(of_patch.uv.begin(), of_patch.uv.end(), triangles_.uv.begin() + 2 * piece.first_vertex);
+  if (piece.seam)
+    for (std::int64_t i = 0; i < points.size(); ++i)
+      if (piece.seam->has(uv[2 * i], uv[2 * i + 1]))
+        put_vector(xyz, i, place(how_.placement, place(*piece.twin, points[i])));
+  if (!how_.motion) return;
+  const std::ptrdiff_t image = piece.image - set_.patches[piece.patch].images.data();
+  const PatchImage &before = how_.motion->patches_before.patches[piece.patch].images[static_cast<std::size_t>(image)];
+  const ImageMotion motion(*piece.image, before, how_.placement, *how_.motion);
+  for (std::int64_t i = 0; i < points.size(); ++i)
+    put_vector(triangles_.velocity.data() + 3 * piece.first_vertex, i,
+               motion.velocity(points[i], view(of_patch.displacements)[i]));
+}
+
+void Pieces::make_room_for_triangles() {
   triangles_.connectivity = 0;
   triangles_.n_zero_area = 0;
   triangles_.grouping.order.clear();
   triangles_.grouping.end.clear();
   resize_triangles(n_triangles_, triangles_);
-  place_vertices([&](std::int64_t i) {
-    Piece &piece = view(pieces_)[i];
-    work(i, PieceTriangles(piece, grids_[piece.patch], how_.flip_normals, triangles_).add());
-  });
+}
+
+Vector<std::int32_t> Pieces::add_triangles_of(Piece &piece) {
+  return PieceTriangles(piece, grids_[piece.patch], how_.flip_normals, triangles_).add();
+}
+
+Vector<std::size_t> Pieces::complete_triangles() {
   Vector<std::size_t> vanished = vanished_patches(pieces_);
   if (!vanished.empty()) return vanished;
   close_gaps(pieces_, triangles_);

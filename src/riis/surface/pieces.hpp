@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 
 #include "base/recycled.hpp"
 #include "common/array_view.hpp"
@@ -26,6 +25,13 @@ struct Piece {
   bool is_whole = true;          // false if the triangles kept do not stand for all triangles left out
 };
 
+// The vertices of a patch before any image is placed: those of the grid, then those of subdivided quads.
+struct PatchVertices {
+  Vector<Vec3> points;
+  Vector<double> uv;
+  Vector<Vec3> displacements;  // since an earlier state; empty without one
+};
+
 class Pieces {
  public:
   // Borrows its arguments. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles.
@@ -36,19 +42,38 @@ class Pieces {
   double error_bound() const;
 
   // Places the vertices of every piece, and then calls work(i) for piece i. Several threads call it at once.
-  void place_vertices(const std::function<void(std::int64_t)> &work);
+  template <class Work>
+  void place_vertices(const Work &work) {
+    make_patch_vertices();
+    parallel_for(view(pieces_).size(), how_.n_threads, [&](std::int64_t i, int) {
+      place_vertices_of(view(pieces_)[i]);
+      work(i);
+    });
+  }
 
   // Makes vertices and triangles, and calls work(i, first_of_quad) for piece i in the same way. The list has the position of each
-  // quad's first triangle, and the end of the last. Returns the patches of which triangles are missed; the triangles are complete
-  // if there are none. Their ids count the triangles without area too.
-  Vector<std::size_t> make_triangles(const std::function<void(std::int64_t, const Vector<std::int32_t> &)> &work);
+  // quad's first triangle, and the end of the last. The ids also count triangles without area. Returns the patches of which
+  // triangles are missed; the triangles are complete if there are none.
+  template <class Work>
+  Vector<std::size_t> make_triangles(const Work &work) {
+    make_room_for_triangles();
+    place_vertices([&](std::int64_t i) { work(i, add_triangles_of(view(pieces_)[i])); });
+    return complete_triangles();
+  }
 
  private:
+  void make_patch_vertices();
+  void place_vertices_of(const Piece &piece);
+  void make_room_for_triangles();
+  Vector<std::int32_t> add_triangles_of(Piece &piece);
+  Vector<std::size_t> complete_triangles();
+
   const PatchSet &set_;
   const Triangulation &how_;
   const Vector<LevelledGrid> &grids_;
   TriangleSet &triangles_;
   Vector<Piece> pieces_;
+  Vector<PatchVertices> of_patches_;
   std::int64_t n_triangles_ = 0, n_vertices_ = 0;  // at most
 };
 

@@ -3,7 +3,6 @@
 #include <numeric>
 #include <utility>
 
-#include "common/array_view.hpp"
 #include "parallel/parallel_for.hpp"
 #include "surface/grids.hpp"
 #include "surface/pieces.hpp"
