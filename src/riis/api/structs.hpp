@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structs that cross the interface with their size, so that a caller compiled against an older header keeps working. A field that
+// Structs cross the interface with their size, so that a caller compiled against an older header keeps working. A field that
 // the caller does not know takes its default on the way in and is not written on the way out.
 #pragma once
 
@@ -118,7 +118,7 @@ inline void check_threads(std::int32_t n_threads, const char *name) {
          "; this process was forked after riis had used several threads, so it may use 1 only");
 }
 
-// Checks the option too.
+// Checks an option, and returns the number of threads that it stands for.
 inline Threads threads_for(std::int32_t n_threads, const char *name, std::int64_t n_items, std::int64_t per_thread) {
   check_threads(n_threads, name);
   return threads_for(n_threads, n_items, per_thread);

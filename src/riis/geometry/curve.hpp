@@ -36,7 +36,7 @@ class Curve {
   // Returns the shares of the length at which one piece ends and the next begins, ascending.
   Vector<double> joints() const;
 
-  // The point at a share of the length, and the unit vector along the curve there; the vector is 0 if the curve has no
+  // The point at a share of the length, and the unit vector along the curve there. The vector is 0 if the curve has no
   // direction.
   struct Frame {
     Vec3 point, tangent;
@@ -95,8 +95,8 @@ struct Flattened {
 // or 1/2 (quadratic) of its flatness from its chord. Parts are halved by length; the paper (algorithm "Recursive de
 // Casteljau subdivision") halves the parameter. So shares of two curves either agree to the last bit or differ by at
 // least a part, and patches have no slivers between them. A shared middle point appears once. Fails with
-// RIIS_LIMIT_EXCEEDED for more than 2^20 parts. With a bend it also halves parts on which the velocity is estimated to be
-// off linear by more than max_bend.
+// RIIS_LIMIT_EXCEEDED for more than 2^20 parts. A bend also halves parts whose velocity it estimates to be off linear by more
+// than max_bend.
 Flattened flatten(const Curve &curve, double max_error, const VelocityBend *bend = nullptr, double max_bend = 0);
 
 }  // namespace riis

@@ -175,13 +175,13 @@ Polyline polyline_at(const Curve &curve, const Vector<double> &shares, double en
   return made;
 }
 
-// Positions, ascending, and for each step between two of them the number that times the square of a width bounds the error of a
-// segment of that width there, as a share of the allowed error.
+// Ascending positions, and a number for each step between two of them. The number times the square of a segment's width bounds
+// the segment's error there, as a share of the allowed error.
 struct Needs {
   Vector<double> at, need;
 };
 
-// Takes as few positions as keep the error of each segment at most `most` of the allowed one, from the first to the last.
+// Takes as few positions, from the first to the last, as keep the error of each segment at most `most` of the allowed one.
 Vector<double> segments(const Needs &needs, double most) {
   Vector<double> made{needs.at.front()};
   for (std::size_t i = 0; i < needs.need.size();) {
@@ -213,7 +213,7 @@ Vector<double> balanced_segments(const Needs &needs, double most) {
 
 // Errors of wide segments are bounded a little less closely than those of narrow ones, which the needs come from.
 constexpr double most_of_allowed = 0.9;
-// Needs are found on so many steps for each of the largest number of segments that a curve has, and on no more than the most.
+// The curve with most segments decides how many steps needs are found on: so many for each segment, within these limits.
 constexpr int steps_per_segment = 4;
 constexpr std::size_t least_steps = 64, most_steps = 4096;
 // One of so many states says how many steps each line needs. Then all states check the lines.

@@ -18,7 +18,8 @@ namespace riis {
 // Returns the unit normal of a triangle by the right-hand rule.
 Vec3 triangle_normal(const std::array<Vec3, 3> &corners);
 
-// Returns +1, -1 or 0: the side of the surface that a point is on, by the way to it from its closest point and the normal there.
+// Returns the side of the surface that a point is on: +1, -1 or 0. `way` leads to the point from its closest point, which has
+// this normal.
 inline int side_of(Vec3 way, Vec3 normal) {
   const double height = dot(way, normal);
   return (height > 0) - (height < 0);

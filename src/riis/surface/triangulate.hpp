@@ -22,8 +22,8 @@ struct LeftOut {
   bool other_was_kept;
 };
 
-// The triangles of a plan at one of the openings, for a set of its vertices. Two openings share them if the same triangles have
-// area.
+// The triangles of a plan at one of the openings, for a set of its vertices. Two openings share them if the same triangles
+// have area.
 struct Connectivity {
   std::vector<std::int64_t> vertex_id, triangle_id;
   std::vector<std::int32_t> leaflet_id, patch_id;
@@ -47,27 +47,27 @@ struct TriangulationPlan {
   Connectivity connectivity;
 };
 
-// Makes the plan for a valve's patches at many openings. Triangulation explains max_error, of which the plan keeps a small part
-// for openings between these. Fails as triangulate_fixed does.
+// Makes the plan for a valve's patches at many openings. max_error is that of a Triangulation, and the plan keeps a small part of
+// it for openings between these. Fails as triangulate_fixed does.
 TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double max_error, int n_threads);
 
 // Returns whether the plan's triangles are within max_error of a state.
 bool is_within(const PatchSet &state, const TriangulationPlan &plan, double max_error);
 
 struct Triangulation {
-  double max_error;  // of the distance between triangles and smooth surface, in the patches' units (before placement)
+  double
+      max_error;  // bounds the distance between triangles and smooth surface, in the patches' units (before placement)
   const Placement &placement;
   bool flip_normals;
   int n_threads;
   const Motion *motion = nullptr;  // gives the vertices velocities; the triangles are the same, bit for bit
 };
 
-// Both make triangles in the memory of triangles that are no longer wanted. They fail with RIIS_LIMIT_EXCEEDED for more than
-// max_triangles, and with RIIS_INVALID_PARAMETER for a patch without area.
-// The first makes grids as coarse as the state allows.
+// Makes triangles on grids as coarse as the state allows, in the memory of triangles that are no longer wanted. Fails with
+// RIIS_LIMIT_EXCEEDED for more than max_triangles, and with RIIS_INVALID_PARAMETER for a patch without area.
 TriangleSet triangulate_adapted(const PatchSet &set, const Triangulation &how, TriangleSet memory = {});
-// By a plan, triangles keep their ids if others lose their area. Also fails with RIIS_LIMIT_EXCEEDED if the plan is not within
-// max_error of this state.
+// Does the same by a plan: triangles keep their ids if others lose their area. Also fails with RIIS_LIMIT_EXCEEDED if the plan is
+// not within max_error of this state.
 TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &how, const TriangulationPlan &plan,
                               TriangleSet memory = {});
 

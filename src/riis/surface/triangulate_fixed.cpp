@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fixed triangulation: a plan of grids and triangles that is good at many openings, and the triangles by it at one of them.
+// The fixed triangulation: a plan of grids and triangles that is good at many openings, and its triangles at one of them.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -83,13 +83,13 @@ void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet 
   set.connectivity = number;
 }
 
-// Moves the vertices of these grids under the triangles of a plan. Returns false if other triangles have an area here than in the
-// plan, or if some are missed.
+// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if other triangles have an area here
+// than in the plan, or if some are missed.
 bool take_planned_triangles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                             const Connectivity &planned, TriangleSet &triangles) {
   Pieces pieces(set, how, grids, triangles);
-  // Images of a patch are congruent. So the areas of one image are enough, with a margin for rounding, if the others have the same
-  // triangles. An image with a seam has points of another.
+  // Images of a patch are congruent. So the areas of one image are enough, with a margin for rounding, if the others have the
+  // same triangles. An image with a seam has points of another.
   std::atomic<bool> all_have_area{true};
   pieces.place_vertices([&](std::int64_t i) {
     const Piece &piece = view(pieces.all())[i];
@@ -126,7 +126,7 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
            " of the fixed triangulation may be off by ", grids[i].error_bound, " at this opening; it must be at most ",
            how.max_error, ", which is tolerance * half_thickness before scaling");
   if (!take_planned_triangles(patches, how, grids, plan.connectivity, memory)) {
-    // Other triangles have an area than in the plan, and its groups do not fit them.
+    // Other triangles have an area here than in the plan, and the plan's groups do not fit them.
     Pieces pieces(patches, how, grids, memory);
     const Vector<std::size_t> vanished = make_triangles(pieces);
     if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
