@@ -25,7 +25,8 @@ class Places {
  public:
   Places(const PatchSet &patches, const SmoothSurface &smooth)
       : smooth_(smooth),
-        triangles_(triangulate(patches, {0.02 * half_thickness, {1, rotation_xyz({0, 0, 0}), {0, 0, 0}}, false, 1})) {
+        triangles_(
+            triangulate_adapted(patches, {0.02 * half_thickness, {1, rotation_xyz({0, 0, 0}), {0, 0, 0}}, false, 1})) {
     double sum = 0;
     for (std::int64_t i = 0; i < triangles_.n_triangles(); ++i) {
       const auto [a, b, c] = triangles_.corners(i);

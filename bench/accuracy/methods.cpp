@@ -67,8 +67,9 @@ riis_closest MeasuredSurface::closest(const double *point) const {
 }
 
 std::int64_t MeasuredSurface::size() const {
-  const PatchDistance *other = surface_->surface->other_distance();
-  if (!other) return surface_->surface->triangles().n_triangles();
+  const riis::Surface &surface = content_of(surface_.get());
+  const PatchDistance *other = surface.other_distance();
+  if (!other) return surface.triangles().n_triangles();
   if (const auto *samples = dynamic_cast<const SampleSet *>(other)) return samples->n_samples();
   return static_cast<std::int64_t>(other->patches().patches.size());
 }

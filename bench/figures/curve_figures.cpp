@@ -110,7 +110,7 @@ Model upper_half_patch() {
   model.patches.patches.at(0).images.resize(1);
   model.grids = make_grids(model.patches, coarse * half_thickness);
   model.triangles =
-      triangulate(model.patches, {coarse * half_thickness, {1, rotation_xyz({0, 0, 0}), {0, 0, 0}}, false, 1});
+      triangulate_adapted(model.patches, {coarse * half_thickness, {1, rotation_xyz({0, 0, 0}), {0, 0, 0}}, false, 1});
   return model;
 }
 

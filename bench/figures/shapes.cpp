@@ -55,7 +55,7 @@ Model make_model(const Valve &valve, double tolerance) {
   model.patches = valve.make_patches();
   const double max_error = tolerance * half_thickness;
   model.grids = make_grids(model.patches, max_error);
-  model.triangles = triangulate(model.patches, {max_error, {1, rotation_xyz({0, 0, 0}), {0, 0, 0}}, false, 1});
+  model.triangles = triangulate_adapted(model.patches, {max_error, {1, rotation_xyz({0, 0, 0}), {0, 0, 0}}, false, 1});
   return model;
 }
 

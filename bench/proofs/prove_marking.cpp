@@ -173,7 +173,7 @@ std::int64_t prove(const CylinderNodes &nodes, riis_mesh *mesh, StepOptions opti
   TimeSteps expected_steps(mesh, options);
   expected_steps.move_to(position);
   expected_steps.update();
-  const riis::TriangleSet &set = expected_steps.surface()->surface->triangles();
+  const riis::TriangleSet &set = riis::content_of(expected_steps.surface()).triangles();
   const Expected expected = by_brute_force(nodes, set, options.half_thickness);
   const Differences sample = compare_sample(nodes, set, options.half_thickness, expected);
   Differences sum;

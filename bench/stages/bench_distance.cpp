@@ -74,7 +74,7 @@ void distance_query(benchmark::State &state, const char *kind) {
   state.counters["largest_error"] = largest;
   state.counters["off_by_2%"] = n_off / static_cast<double>(n_points);
   state.counters["triangles"] = method == RIIS_MEASURE_TRIANGLES ? n_triangles_of(surface.get()) : 0;
-  const auto *samples = dynamic_cast<const riis::SampleSet *>(surface->surface->other_distance());
+  const auto *samples = dynamic_cast<const riis::SampleSet *>(riis::content_of(surface.get()).other_distance());
   state.counters["samples"] = samples ? static_cast<double>(samples->n_samples()) : 0;
 }
 

@@ -60,7 +60,7 @@ void pipeline_triangles(benchmark::State &state, const char *kind) {
   const Valve valve = moved_valve(kind);
   const riis::PatchSet patches = valve->valve.make_patches();
   const riis::Placement placement{1, riis::rotation_about({0, 0, 1}, 0), {0, 0, 0}};
-  for (auto _ : state) benchmark::DoNotOptimize(riis::triangulate(patches, {max_error, placement, false, 1}));
+  for (auto _ : state) benchmark::DoNotOptimize(riis::triangulate_adapted(patches, {max_error, placement, false, 1}));
   state.counters["triangles"] = n_triangles_of(surface_of(valve.get()).get());
 }
 
@@ -69,7 +69,7 @@ void pipeline_scene(benchmark::State &state, const char *kind) {
   const Surface surface = surface_of(moved_valve(kind).get());
   for (auto _ : state) {
     riis::TriangleScene scene;
-    scene.make(surface->surface->triangles(), 1);
+    scene.make(riis::content_of(surface.get()).triangles(), 1);
   }
   state.counters["triangles"] = n_triangles_of(surface.get());
 }
@@ -78,8 +78,8 @@ void pipeline_scene(benchmark::State &state, const char *kind) {
 void pipeline_scene_again(benchmark::State &state, const char *kind) {
   const Surface surface = surface_of(moved_valve(kind).get());
   riis::TriangleScene scene;
-  scene.make(surface->surface->triangles(), 1);
-  for (auto _ : state) scene.make(surface->surface->triangles(), 1);
+  scene.make(riis::content_of(surface.get()).triangles(), 1);
+  for (auto _ : state) scene.make(riis::content_of(surface.get()).triangles(), 1);
   state.counters["triangles"] = n_triangles_of(surface.get());
 }
 

@@ -165,7 +165,7 @@ void search_all_distances(benchmark::State &state) {
 void search_every_triangle(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const riis_surface *surface = valve_of(state).first();
-  const riis::TriangleSet &triangles = surface->surface->triangles();
+  const riis::TriangleSet &triangles = riis::content_of(surface).triangles();
   constexpr std::int64_t every = 50;
   const double *xyz = mesh.xyz().data();
   std::int64_t n_marked = 0, n_sample = 0;

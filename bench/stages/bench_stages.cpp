@@ -106,7 +106,7 @@ BENCHMARK(mark_exhaustive)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRe
 // ratio tells how many times faster the scene is. The sample is every 100th node.
 void brute_force_over_marking(benchmark::State &state) {
   const Surface surface = aortic_surface(0.05);
-  const riis::TriangleSet &triangles = surface->surface->triangles();
+  const riis::TriangleSet &triangles = riis::content_of(surface.get()).triangles();
   const double *xyz = nodes().data();
   const std::int64_t n_sample = n_nodes() / 100;
   riis_mesh *sampled = nullptr;

@@ -284,7 +284,7 @@ class StagedSteps {
   }
 
  private:
-  const riis::Surface &content() const { return *steps_.surface()->surface; }
+  const riis::Surface &content() const { return riis::content_of(steps_.surface()); }
 
   void search(const riis::Kernels &kernels) {
     const riis::SearchRequest request{content(), mesh_, half_thickness, nullptr, 1, riis::best_instruction_set()};

@@ -199,7 +199,8 @@ riis_status triangulate_deviating(const char *kind, double deviation, double max
     const Placement in_place{1, no_rotation, {0, 0, 0}};
     std::optional<TriangulationPlan> plan;
     if (is_fixed) plan = plan_triangulation({set}, max_error, 1);
-    const TriangleSet triangles = triangulate(set, {max_error, in_place, false, 1, nullptr, plan ? &*plan : nullptr});
+    const Triangulation how{max_error, in_place, false, 1};
+    const TriangleSet triangles = plan ? triangulate_fixed(set, how, *plan) : triangulate_adapted(set, how);
     *made = {triangles.n_triangles(), triangles.error_bound,
              PlacedPatches(set, max_error, in_place, false).largest_error(), !plan || is_within(set, *plan, max_error)};
   });

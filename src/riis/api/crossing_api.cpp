@@ -6,9 +6,8 @@
 
 #include "api/handles.hpp"
 #include "api/structs.hpp"
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
-#include "base/ranges.hpp"
+#include "common/array_view.hpp"
 #include "parallel/parallel_for.hpp"
 #include "surface/crossings.hpp"
 

@@ -6,9 +6,7 @@
 
 #include <atomic>
 #include <cstdint>
-#include <memory>
 #include <utility>
-#include <vector>
 
 #include "base/errors.hpp"
 #include "base/recycled.hpp"
@@ -17,8 +15,7 @@
 #include "marking/marks.hpp"
 #include "marking/mesh.hpp"
 #include "parallel/keeps_arenas.hpp"
-#include "pipeline/crossing_watch.hpp"
-#include "pipeline/fixed_triangulation.hpp"
+#include "pipeline/updatable_surface.hpp"
 #include "surface/crossings.hpp"
 #include "surface/keyframes.hpp"
 #include "valve/valve.hpp"
@@ -70,14 +67,8 @@ struct riis_valve : riis::Handle<riis::HandleKind::valve> {
 struct riis_surface : riis::Handle<riis::HandleKind::surface> {
   riis::KeepsArenas keeps_arenas;
   riis::KeepsMemory keeps_memory;
-  std::unique_ptr<riis::Surface> surface;
-  std::unique_ptr<riis::Surface> before;                  // the last content, kept to reuse its memory
-  riis_surface_options options;                           // completed by defaults
-  std::unique_ptr<const riis::FixedTriangulation> fixed;  // null without RIIS_TRIANGULATION_FIXED
-  double seconds_triangles, seconds_scene;
-  riis::UserFaces faces, faces_memory;            // of the last arrays; no faces after a valve or keyframes
-  std::vector<double> frame_xyz, frame_velocity;  // memory for updates from keyframes
-  riis::CrossingWatch crossing_watch;
+  riis::UpdatableSurface updatable;
+  riis_surface_options options;  // of the last update, completed by defaults
   // No earlier surface had this number. An address may be used again, so it does not identify a surface.
   const std::uint64_t number = next_number();
 
@@ -119,6 +110,8 @@ struct riis_crossings : riis::Handle<riis::HandleKind::crossings> {
 
 namespace riis {
 
-inline const Surface &content_of(const riis_surface *surface) { return *require_handle(surface, "surface")->surface; }
+inline const Surface &content_of(const riis_surface *surface) {
+  return require_handle(surface, "surface")->updatable.surface();
+}
 
 }  // namespace riis

@@ -5,8 +5,8 @@
 
 #include "api/handles.hpp"
 #include "api/structs.hpp"
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
+#include "common/array_view.hpp"
 #include "marking/leaks.hpp"
 #include "marking/mark_nodes.hpp"
 #include "marking/open_regions.hpp"
@@ -223,7 +223,7 @@ riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, 
     riis::mark_nodes(request, {whole.search, whole.fields, resistance ? &*resistance : nullptr}, marks->marks);
     riis::check_proportions(
         {mesh->mesh.nodes().n, mesh->mesh.bounds(), request.surface.scene().bounds(), request.surface.half_thickness()},
-        surface->number, mesh->mesh.warned());
+        surface->number, mesh->mesh.warned_surfaces());
   });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structs that cross the interface with their size, so that a caller compiled against an older header keeps working. A field that
+// Structs cross the interface with their size, so that a caller compiled against an older header keeps working. A field that
 // the caller does not know takes its default on the way in and is not written on the way out.
 #pragma once
 
@@ -17,87 +17,50 @@ namespace riis {
 const riis_points default_points{sizeof(riis_points), 0, nullptr, nullptr, nullptr, 1, 64, 0};
 
 // The struct's size in the first release that had it.
-template <class Struct>
-inline constexpr std::int64_t first_size = 0;
-template <>
-inline constexpr std::int64_t first_size<riis_points> = 56;
-template <>
-inline constexpr std::int64_t first_size<riis_patches> = 72;
-template <>
-inline constexpr std::int64_t first_size<riis_parameter> = 72;
-template <>
-inline constexpr std::int64_t first_size<riis_surface_options> = 120;
-template <>
-inline constexpr std::int64_t first_size<riis_surface_arrays> = 120;
-template <>
-inline constexpr std::int64_t first_size<riis_keyframe_arrays> = 56;
-template <>
-inline constexpr std::int64_t first_size<riis_surface_info> = 120;
-template <>
-inline constexpr std::int64_t first_size<riis_triangles> = 72;
-template <>
-inline constexpr std::int64_t first_size<riis_crossing_options> = 24;
-template <>
-inline constexpr std::int64_t first_size<riis_crossing_list> = 112;
-template <>
-inline constexpr std::int64_t first_size<riis_closest> = 96;
-template <>
-inline constexpr std::int64_t first_size<riis_closest_options> = 56;
-template <>
-inline constexpr std::int64_t first_size<riis_closest_arrays> = 64;
-template <>
-inline constexpr std::int64_t first_size<riis_csr> = 56;
-template <>
-inline constexpr std::int64_t first_size<riis_mesh_cells> = 56;
-template <>
-inline constexpr std::int64_t first_size<riis_mesh_faces> = 64;
-template <>
-inline constexpr std::int64_t first_size<riis_resistance> = 32;
-template <>
-inline constexpr std::int64_t first_size<riis_mark_options> = 48;
-template <>
-inline constexpr std::int64_t first_size<riis_mark_list> = 120;
-template <>
-inline constexpr std::int64_t first_size<riis_dense_arrays> = 56;
-template <>
-inline constexpr std::int64_t first_size<riis_mark_stats> = 64;
-template <>
-inline constexpr std::int64_t first_size<riis_resistance_arrays> = 64;
-template <>
-inline constexpr std::int64_t first_size<riis_flow_arrays> = 56;
-template <>
-inline constexpr std::int64_t first_size<riis_band_sums> = 48;
-template <>
-inline constexpr std::int64_t first_size<riis_band> = 48;
-template <>
-inline constexpr std::int64_t first_size<riis_leak_list> = 96;
-template <>
-inline constexpr std::int64_t first_size<riis_passage> = 56;
-template <>
-inline constexpr std::int64_t first_size<riis_passage_ends> = 40;
-template <>
-inline constexpr std::int64_t first_size<riis_opening_table> = 48;
-template <>
-inline constexpr std::int64_t first_size<riis_opening_times> = 64;
-template <>
-inline constexpr std::int64_t first_size<riis_opening_switch> = 56;
-template <>
-inline constexpr std::int64_t first_size<riis_opening_switch_state> = 72;
-template <>
-inline constexpr std::int64_t first_size<riis_opening_angle> = 56;
-template <>
-inline constexpr std::int64_t first_size<riis_opening_angle_state> = 64;
+constexpr std::int64_t first_size_of(const riis_points *) { return 56; }
+constexpr std::int64_t first_size_of(const riis_patches *) { return 72; }
+constexpr std::int64_t first_size_of(const riis_parameter *) { return 72; }
+constexpr std::int64_t first_size_of(const riis_surface_options *) { return 120; }
+constexpr std::int64_t first_size_of(const riis_surface_arrays *) { return 120; }
+constexpr std::int64_t first_size_of(const riis_keyframe_arrays *) { return 56; }
+constexpr std::int64_t first_size_of(const riis_surface_info *) { return 120; }
+constexpr std::int64_t first_size_of(const riis_triangles *) { return 72; }
+constexpr std::int64_t first_size_of(const riis_crossing_options *) { return 24; }
+constexpr std::int64_t first_size_of(const riis_crossing_list *) { return 112; }
+constexpr std::int64_t first_size_of(const riis_closest *) { return 96; }
+constexpr std::int64_t first_size_of(const riis_closest_options *) { return 56; }
+constexpr std::int64_t first_size_of(const riis_closest_arrays *) { return 64; }
+constexpr std::int64_t first_size_of(const riis_csr *) { return 56; }
+constexpr std::int64_t first_size_of(const riis_mesh_cells *) { return 56; }
+constexpr std::int64_t first_size_of(const riis_mesh_faces *) { return 64; }
+constexpr std::int64_t first_size_of(const riis_resistance *) { return 32; }
+constexpr std::int64_t first_size_of(const riis_mark_options *) { return 48; }
+constexpr std::int64_t first_size_of(const riis_mark_list *) { return 120; }
+constexpr std::int64_t first_size_of(const riis_dense_arrays *) { return 56; }
+constexpr std::int64_t first_size_of(const riis_mark_stats *) { return 64; }
+constexpr std::int64_t first_size_of(const riis_resistance_arrays *) { return 64; }
+constexpr std::int64_t first_size_of(const riis_flow_arrays *) { return 56; }
+constexpr std::int64_t first_size_of(const riis_band_sums *) { return 48; }
+constexpr std::int64_t first_size_of(const riis_band *) { return 48; }
+constexpr std::int64_t first_size_of(const riis_leak_list *) { return 96; }
+constexpr std::int64_t first_size_of(const riis_passage *) { return 56; }
+constexpr std::int64_t first_size_of(const riis_passage_ends *) { return 40; }
+constexpr std::int64_t first_size_of(const riis_opening_table *) { return 48; }
+constexpr std::int64_t first_size_of(const riis_opening_times *) { return 64; }
+constexpr std::int64_t first_size_of(const riis_opening_switch *) { return 56; }
+constexpr std::int64_t first_size_of(const riis_opening_switch_state *) { return 72; }
+constexpr std::int64_t first_size_of(const riis_opening_angle *) { return 56; }
+constexpr std::int64_t first_size_of(const riis_opening_angle_state *) { return 64; }
 
 // All sizes after the first are larger multiples of 8.
 template <class Struct>
 void check_struct_size(std::int64_t size, const char *name) {
   static_assert(std::is_trivially_copyable_v<Struct> && sizeof(Struct) % 8 == 0);
-  constexpr std::int64_t size_here = sizeof(Struct);
-  static_assert(first_size<Struct> <= size_here);
-  if (size < first_size<Struct> || size > size_here || size % 8 != 0)
+  constexpr std::int64_t size_here = sizeof(Struct), first_size = first_size_of(static_cast<Struct *>(nullptr));
+  static_assert(first_size <= size_here);
+  if (size < first_size || size > size_here || size % 8 != 0)
     fail(RIIS_INVALID_STRUCT_SIZE, "the struct size of ", name, " is ", size, "; riis ", riis_version_string(),
-         " knows ", first_size<Struct>, " to ", size_here,
-         ": use its init function, and a header no newer than the library");
+         " knows ", first_size, " to ", size_here, ": use its init function, and a header no newer than the library");
 }
 
 // Copies the first bytes of a struct: as many as check_struct_size accepted.
@@ -147,11 +110,6 @@ inline void check_far_distance(const char *name, double far_distance, double dis
          distance_limit);
 }
 
-// By default a call takes one more thread for each such amount of work, half a millisecond or more. Waking and awaiting a
-// thread takes a hundredth of that on a quiet machine. On a busy one it takes as long as the system lets other work run.
-constexpr std::int64_t triangles_per_thread = 4096, points_per_thread = 2048;
-constexpr std::int64_t nodes_per_thread = 16384;  // of a mesh, its cells or faces
-
 inline void check_threads(std::int32_t n_threads, const char *name) {
   if (n_threads < 0 || n_threads > 1024)
     fail(RIIS_INVALID_ARGUMENT, name, " is ", n_threads, "; it must be from 1 to 1024, or 0 for the default");
@@ -160,11 +118,10 @@ inline void check_threads(std::int32_t n_threads, const char *name) {
          "; this process was forked after riis had used several threads, so it may use 1 only");
 }
 
-// Returns the number of threads that an option requests or, if it is 0, the number that n_items of work feed.
+// Checks an option, and returns the number of threads that it stands for.
 inline Threads threads_for(std::int32_t n_threads, const char *name, std::int64_t n_items, std::int64_t per_thread) {
   check_threads(n_threads, name);
-  return n_threads > 0 ? Threads(n_threads)
-                       : Threads::by_default(n_items, per_thread, has_lost_threads() ? 1 : default_thread_count());
+  return threads_for(n_threads, n_items, per_thread);
 }
 
 }  // namespace riis

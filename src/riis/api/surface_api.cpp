@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_surface_*: argument checks around the pipeline (pipeline/make_surface.hpp).
+// riis_surface_*: argument checks around pipeline/updatable_surface.hpp.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,12 +8,9 @@
 
 #include "api/handles.hpp"
 #include "api/structs.hpp"
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
-#include "base/ranges.hpp"
-#include "parallel/parallel_for.hpp"
-#include "pipeline/make_surface.hpp"
+#include "pipeline/updatable_surface.hpp"
 
 using riis::check_range;
 using riis::guarded;
@@ -117,34 +114,9 @@ void check_precision(const riis_surface_options &options, const char *name, doub
                ", where coordinates round by more than a thousandth of ", name, " * half_thickness, ", wanted);
 }
 
-// The last content's size is the guide for options that leave the number open.
-int threads_for(const riis_surface &surface, const riis_surface_options &options) {
-  return riis::threads_for(options.n_threads, "options.n_threads",
-                           surface.surface ? surface.surface->triangles().n_triangles() : 0,
-                           riis::triangles_per_thread);
-}
-
-// A triangle takes some 300 bytes. Above this number the memory is worth more than the time to allocate it again.
-constexpr std::int64_t max_triangles_kept = 1'000'000;
-
-riis::SurfaceRequest request_of(const riis_surface &surface, const riis_surface_options &options) {
-  return {half_thickness_of(options), placement_of(options), options.flip_normals != 0, threads_for(surface, options)};
-}
-
-// Makes the new content aside and puts it in place at the end: a failure leaves the surface as it was.
-template <class Make>
-void fill(riis_surface &surface, const riis_surface_options &options, const Make &make) {
-  const riis::SurfaceRequest request = request_of(surface, options);
-  std::unique_ptr<riis::Surface> made = std::move(surface.before);
-  if (!made) made = std::make_unique<riis::Surface>();
-  const riis::SurfaceSeconds seconds = make(request, *made);
-  surface.before = std::exchange(surface.surface, std::move(made));
-  surface.options = options;
-  surface.seconds_triangles = seconds.triangles;
-  surface.seconds_scene = seconds.scene;
-  if (!surface.before) return;
-  surface.before->measure_by(nullptr, 0);
-  if (surface.before->triangles().n_triangles() > max_triangles_kept) surface.before.reset();
+// The surface decides how many threads 0 stands for.
+riis::SurfaceRequest request_of(const riis_surface_options &options) {
+  return {half_thickness_of(options), placement_of(options), options.flip_normals != 0, options.n_threads};
 }
 
 // The state before a moving update, and the arguments that it comes from.
@@ -170,24 +142,13 @@ void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_
   check_options(options);
   std::optional<riis::ValveMotion> valve_motion;
   if (motion) valve_motion.emplace(motion_of(*motion, options));
-  const double triangle_error = options.tolerance * half_thickness_of(options);
-  check_precision(options, "tolerance", triangle_error);
-  const bool is_fixed = options.triangulation == RIIS_TRIANGULATION_FIXED;
-  std::unique_ptr<const riis::FixedTriangulation> newly_fixed;
-  if (is_fixed && !surface.fixed)
-    newly_fixed = std::make_unique<riis::FixedTriangulation>(valve->valve, triangle_error / options.scale,
-                                                             threads_for(surface, options));
-  const riis::FixedTriangulation *fixed = newly_fixed ? newly_fixed.get() : surface.fixed.get();
-  const riis::ValveAccuracy accuracy{triangle_error, options.measure, distance_error_of(options),
-                                     is_fixed ? fixed : nullptr};
+  const riis::ValveAccuracy accuracy{options.tolerance * half_thickness_of(options), options.measure,
+                                     distance_error_of(options), options.triangulation == RIIS_TRIANGULATION_FIXED};
+  check_precision(options, "tolerance", accuracy.triangle_error);
   if (options.measure != RIIS_MEASURE_TRIANGLES) check_precision(options, "measure_tolerance", accuracy.distance_error);
-  fill(surface, options, [&](const riis::SurfaceRequest &request, riis::Surface &made) {
-    return riis::make_surface(valve->valve, valve_motion ? &*valve_motion : nullptr, request, accuracy, made);
-  });
-  surface.faces.leaflet_id.clear();
-  if (!is_fixed) surface.fixed.reset();
-  if (newly_fixed) surface.fixed = std::move(newly_fixed);
-  surface.crossing_watch.look(valve->valve, *surface.surface, threads_for(surface, options));
+  surface.updatable.update_from_valve(valve->valve, valve_motion ? &*valve_motion : nullptr, request_of(options),
+                                      accuracy);
+  surface.options = options;
 }
 
 // Checks all handles before the options. motion may be NULL.
@@ -204,8 +165,7 @@ riis_surface_arrays completed(const riis_surface_arrays *arrays) {
   return riis::completed(require(arrays, "arrays"), "arrays", default_arrays);
 }
 
-void fill_from_faces(riis_surface &surface, const riis::UserFaces &faces, const riis_surface_arrays &arrays,
-                     const riis_surface_options &options) {
+void check_options_for_faces(const riis_surface_options &options) {
   check_options(options);
   if (options.measure != RIIS_MEASURE_TRIANGLES)
     riis::fail(RIIS_INVALID_ARGUMENT, "options.measure is ", options.measure,
@@ -215,40 +175,21 @@ void fill_from_faces(riis_surface &surface, const riis::UserFaces &faces, const 
     riis::fail(RIIS_INVALID_ARGUMENT, "options.triangulation is ", options.triangulation,
                ", which is for valves, but a surface from arrays has the caller's triangles: it must be "
                "RIIS_TRIANGULATION_ADAPTED, 0");
-  fill(surface, options, [&](const riis::SurfaceRequest &request, riis::Surface &made) {
-    return riis::make_surface(faces, arrays, options.zero_area == RIIS_ZERO_AREA_SKIP, request, made);
-  });
-  surface.fixed.reset();
 }
 
 void fill_from_arrays(riis_surface &surface, const riis_surface_arrays &arrays, const riis_surface_options &options) {
-  riis::UserFaces faces = riis::faces_from_arrays(arrays, std::move(surface.faces_memory));
-  fill_from_faces(surface, faces, arrays, options);
-  surface.faces_memory = std::exchange(surface.faces, std::move(faces));
+  check_options_for_faces(options);
+  surface.updatable.update_from_arrays(arrays, options.zero_area == RIIS_ZERO_AREA_SKIP, request_of(options));
+  surface.options = options;
 }
 
-void update_from_arrays(riis_surface &surface, const riis_surface_arrays &arrays, const riis_surface_options &options) {
-  if (arrays.vertex_ids || arrays.n_faces != 0) return fill_from_arrays(surface, arrays, options);
-  if (surface.faces.leaflet_id.empty())
-    riis::fail(RIIS_INVALID_ARGUMENT,
-               "arrays.vertex_ids is NULL, but the surface was not made from arrays last: it has no faces to keep");
-  if (arrays.leaflet_id) riis::fail(RIIS_INVALID_ARGUMENT, "arrays.leaflet_id is given without faces: it must be NULL");
-  fill_from_faces(surface, surface.faces, arrays, options);
-}
-
-// The arrays of one time, in the surface's memory.
 void fill_from_keyframes(riis_surface &surface, const riis_keyframes *keyframes, double time, double dt,
                          const riis_surface_options &options) {
   const riis::Keyframes &frames = require_handle(keyframes, "keyframes")->keyframes;
-  frames.at(time, dt, surface.frame_xyz, surface.frame_velocity);
-  riis_surface_arrays arrays = default_arrays;
-  const double *xyz = surface.frame_xyz.data(), *velocity = surface.frame_velocity.data();
-  arrays.n_vertices = frames.faces().n_vertices;
-  arrays.x = xyz, arrays.y = xyz + 1, arrays.z = xyz + 2;
-  arrays.vx = velocity, arrays.vy = velocity + 1, arrays.vz = velocity + 2;
-  arrays.stride = arrays.velocity_stride = 3;
-  fill_from_faces(surface, frames.faces(), arrays, options);
-  surface.faces.leaflet_id.clear();
+  check_options_for_faces(options);
+  surface.updatable.update_from_keyframes(frames, time, dt, options.zero_area == RIIS_ZERO_AREA_SKIP,
+                                          request_of(options));
+  surface.options = options;
 }
 
 template <class Fill>
@@ -306,8 +247,8 @@ riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_su
                                             const riis_surface_options *options) {
   return guarded([&] {
     require_handle(surface, "surface");
-    update_from_arrays(*surface, completed(arrays),
-                       riis::completed(options, "options", options ? default_options : surface->options));
+    fill_from_arrays(*surface, completed(arrays),
+                     riis::completed(options, "options", options ? default_options : surface->options));
   });
 }
 
@@ -344,8 +285,8 @@ riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info
                                          content.area(),
                                          {lower.x, lower.y, lower.z},
                                          {upper.x, upper.y, upper.z},
-                                         surface->seconds_triangles,
-                                         surface->seconds_scene,
+                                         surface->updatable.seconds().triangles,
+                                         surface->updatable.seconds().scene,
                                          set.error_bound,
                                          content.velocity_error_bound()});
   });

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "distance/placed_patches.hpp"
@@ -42,5 +43,14 @@ class PatchDistance {
 
   PlacedPatches patches_;
 };
+
+struct DistanceRequest {
+  std::int32_t method;  // RIIS_MEASURE_SAMPLING or RIIS_MEASURE_MINIMIZATION
+  double max_error;     // measure_tolerance * half_thickness, placed units
+};
+
+// Makes the method that a surface's options choose. Fails with RIIS_LIMIT_EXCEEDED if patches or samples would be too many.
+std::unique_ptr<const PatchDistance> make_distance(const PatchSet &set, const DistanceRequest &request,
+                                                   const Placement &placement, bool flip_normals);
 
 }  // namespace riis

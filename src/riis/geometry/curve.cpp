@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
+#include "common/array_view.hpp"
 
 namespace riis {
 namespace {
@@ -110,10 +110,10 @@ Vector<double> Curve::joints() const {
   return shares;
 }
 
-Curve::Place Curve::place(double share) const {
+PointOnPiece Curve::on_piece(double share) const {
   if (share >= 1 || !(length() > 0)) return {pieces_.size() - 1, 1};
   const double behind = std::max(share, 0.0) * length();
-  // A place at a joint, or off it by rounding, is the start of the later piece.
+  // A point at a joint, or off it by rounding, is the start of the later piece.
   std::size_t piece = 0;
   while (piece + 1 < pieces_.size() && behind >= ends_[piece] - negligible_share * length()) ++piece;
   const double start = piece == 0 ? 0 : ends_[piece - 1];
@@ -122,12 +122,12 @@ Curve::Place Curve::place(double share) const {
 }
 
 Vec3 Curve::at(double share) const {
-  const Place where = place(share);
+  const PointOnPiece where = on_piece(share);
   return evaluate(pieces_[where.piece], where.t);
 }
 
 Curve::Frame Curve::frame(double share) const {
-  const Place where = place(share);
+  const PointOnPiece where = on_piece(share);
   const Bezier &piece = pieces_[where.piece];
   const Vec3 along = derivative(piece, where.t);
   const double speed = riis::length(along);
@@ -135,7 +135,7 @@ Curve::Frame Curve::frame(double share) const {
 }
 
 Bezier Curve::piece_beside(double share, bool after) const {
-  const Place where = place(share);
+  const PointOnPiece where = on_piece(share);
   const Bezier &piece = pieces_[where.piece];
   if (after) return where.t > 0 ? split(piece, where.t).second : piece;
   if (where.t == 0 && where.piece > 0) return pieces_[where.piece - 1];
@@ -143,7 +143,7 @@ Bezier Curve::piece_beside(double share, bool after) const {
 }
 
 Curve Curve::between(double share0, double share1) const {
-  const Place from = place(share0), to = place(share1);
+  const PointOnPiece from = on_piece(share0), to = on_piece(share1);
   Vector<Bezier> part;
   for (std::size_t i = from.piece; i <= to.piece; ++i) {
     if (i == to.piece && to.t == 0 && i > from.piece) break;
@@ -178,30 +178,30 @@ bool are_equal(const Curve &a, const Curve &b) {
 }
 
 VelocityBend::VelocityBend(const Bezier &curve, double curve_length, const Bezier &velocity) {
-  struct Place {
+  struct Sample {
     Vec3 first, second, third, tangent, rate_first, rate_second;
     double speed;
     double behind, rate_behind;  // the length up to here, and its rate
   };
-  std::array<Place, n_cells + 1> places;
+  std::array<Sample, n_cells + 1> samples;
   for (std::size_t k = 0; k <= n_cells; ++k) {
     const double t = static_cast<double>(k) / n_cells;
     const auto [d1, d2, d3] = derivatives(curve, t);
     const auto [r1, r2, r3] = derivatives(velocity, t);
     const double speed = riis::length(d1);
-    view(places)[k] = {d1, d2, d3, speed > 0 ? (1 / speed) * d1 : Vec3{0, 0, 0}, r1, r2, speed, 0, 0};
+    view(samples)[k] = {d1, d2, d3, speed > 0 ? (1 / speed) * d1 : Vec3{0, 0, 0}, r1, r2, speed, 0, 0};
   }
   constexpr double half_step = 0.5 / n_cells;
   for (std::size_t k = 1; k <= n_cells; ++k) {
-    const Place &from = view(places)[k - 1];
-    Place &to = view(places)[k];
+    const Sample &from = view(samples)[k - 1];
+    Sample &to = view(samples)[k];
     to.behind = from.behind + half_step * (from.speed + to.speed);
     to.rate_behind =
         from.rate_behind + half_step * (dot(from.tangent, from.rate_first) + dot(to.tangent, to.rate_first));
   }
-  const double total = places.back().behind, rate_total = places.back().rate_behind;
+  const double total = samples.back().behind, rate_total = samples.back().rate_behind;
   for (std::size_t k = 0; k <= n_cells; ++k) {
-    const Place &at = view(places)[k];
+    const Sample &at = view(samples)[k];
     view(u_)[k] = k == n_cells ? 1 : at.behind / total;
     view(bend_)[k] = 0;
     if (!(at.speed > 0)) continue;

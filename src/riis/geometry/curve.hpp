@@ -14,6 +14,12 @@ namespace riis {
 // A share of a curve's length that is negligible.
 inline constexpr double negligible_share = 1e-14;
 
+// A point of a curve: the position of its piece, and the parameter there.
+struct PointOnPiece {
+  std::size_t piece;
+  double t;
+};
+
 // Every piece but the first begins at the end of the piece before, in the direction of that end. So the curve may change its
 // curvature there, but not its course. (A curve with corners is several curves, and its patch several patches.)
 class Curve {
@@ -30,7 +36,7 @@ class Curve {
   // Returns the shares of the length at which one piece ends and the next begins, ascending.
   Vector<double> joints() const;
 
-  // The point at a share of the length, and the unit vector along the curve there; the vector is 0 if the curve has no
+  // The point at a share of the length, and the unit vector along the curve there. The vector is 0 if the curve has no
   // direction.
   struct Frame {
     Vec3 point, tangent;
@@ -50,11 +56,7 @@ class Curve {
   Curve through(Vec3 first, Vec3 last) const;
 
  private:
-  struct Place {
-    std::size_t piece;
-    double t;
-  };
-  Place place(double share) const;
+  PointOnPiece on_piece(double share) const;
 
   Vector<Bezier> pieces_;
   Vector<double> ends_;  // length from the start of the curve to the end of each piece
@@ -93,8 +95,8 @@ struct Flattened {
 // or 1/2 (quadratic) of its flatness from its chord. Parts are halved by length; the paper (algorithm "Recursive de
 // Casteljau subdivision") halves the parameter. So shares of two curves either agree to the last bit or differ by at
 // least a part, and patches have no slivers between them. A shared middle point appears once. Fails with
-// RIIS_LIMIT_EXCEEDED for more than 2^20 parts. With a bend it also halves parts on which the velocity is estimated to be
-// off linear by more than max_bend.
+// RIIS_LIMIT_EXCEEDED for more than 2^20 parts. A bend also halves parts whose velocity it estimates to be off linear by more
+// than max_bend.
 Flattened flatten(const Curve &curve, double max_error, const VelocityBend *bend = nullptr, double max_bend = 0);
 
 }  // namespace riis

@@ -18,7 +18,7 @@ CurvePoints::CurvePoints(const Curve &curve, bool is_reversed, const Vector<doub
     : curve_(curve), is_reversed_(is_reversed), shares_(shares) {
   const Vector<Bezier> &pieces = curve.pieces();
   const std::size_t n = shares.size();
-  places_.reserve(n);
+  points_.reserve(n);
   const auto behind = [&](std::size_t i) { return (is_reversed ? 1 - shares[n - 1 - i] : shares[i]) * curve.length(); };
   Vector<double> in_piece, t;
   in_piece.reserve(n);
@@ -30,29 +30,29 @@ CurvePoints::CurvePoints(const Curve &curve, bool is_reversed, const Vector<doub
     // A share at a joint, or off it by rounding, is the start of the later piece.
     const double end = is_last ? curve.length() : start + length - negligible_share * curve.length();
     in_piece.clear();
-    for (std::size_t i = places_.size(); i < n && (is_last || behind(i) < end); ++i) {
+    for (std::size_t i = points_.size(); i < n && (is_last || behind(i) < end); ++i) {
       const double from_start = behind(i) - start;
       in_piece.push_back(from_start <= negligible_share * curve.length() ? 0 : std::min(from_start, length));
-      places_.push_back({piece, 0});
+      points_.push_back({piece, 0});
     }
     t.assign(in_piece.size(), 0);
     parameters_at_lengths(pieces[piece], length, in_piece, t.data());
-    const std::size_t first = places_.size() - in_piece.size();
-    for (std::size_t k = 0; k < t.size(); ++k) places_[first + k].t = in_piece[k] == 0 ? 0 : t[k];
+    const std::size_t first = points_.size() - in_piece.size();
+    for (std::size_t k = 0; k < t.size(); ++k) points_[first + k].t = in_piece[k] == 0 ? 0 : t[k];
     start += length;
   }
   // The ends are the curve's own points, to the last bit.
-  places_.front() = {0, 0};
-  places_.back() = {pieces.size() - 1, 1};
+  points_.front() = {0, 0};
+  points_.back() = {pieces.size() - 1, 1};
 }
 
 Vec3 CurvePoints::point(std::size_t i) const {
-  const Place &at = place(i);
+  const PointOnPiece &at = on_piece(i);
   return evaluate(curve_.pieces()[at.piece], at.t);
 }
 
 Vec3 CurvePoints::tangent(std::size_t i) const {
-  const Place &at = place(i);
+  const PointOnPiece &at = on_piece(i);
   const Vec3 along = derivative(curve_.pieces()[at.piece], at.t);
   const double speed = length(along);
   if (!(speed > 0)) return {0, 0, 0};
@@ -60,7 +60,7 @@ Vec3 CurvePoints::tangent(std::size_t i) const {
 }
 
 const Vector<Bezier> &CurvePoints::between(std::size_t i, std::size_t j) {
-  const Place &from = is_reversed_ ? place(j) : place(i), &to = is_reversed_ ? place(i) : place(j);
+  const PointOnPiece &from = is_reversed_ ? on_piece(j) : on_piece(i), &to = is_reversed_ ? on_piece(i) : on_piece(j);
   parts_.clear();
   parts_.reserve(to.piece - from.piece + 1);
   for (std::size_t piece = from.piece; piece <= to.piece; ++piece) {
@@ -80,7 +80,7 @@ double CurvePoints::chord_error(std::size_t i, std::size_t j, double enough) {
   const double part_length = (shares_[j] - shares_[i]) * curve_.length();
   if (!(part_length > 0)) return 0;
   const double eighth = 0.125 * part_length * part_length;
-  const Place &from = is_reversed_ ? place(j) : place(i), &to = is_reversed_ ? place(i) : place(j);
+  const PointOnPiece &from = is_reversed_ ? on_piece(j) : on_piece(i), &to = is_reversed_ ? on_piece(i) : on_piece(j);
   double quick = 0, close = 0;
   for (std::size_t piece = from.piece; piece <= to.piece; ++piece) {
     const double t0 = piece == from.piece ? from.t : 0, t1 = piece == to.piece ? to.t : 1;

@@ -16,11 +16,11 @@ class CurvePoints {
   // curve and the shares have to stay. A curve without length has all its points in one place.
   CurvePoints(const Curve &curve, bool is_reversed, const Vector<double> &shares);
 
-  std::size_t size() const { return places_.size(); }
+  std::size_t size() const { return points_.size(); }
   Vec3 point(std::size_t i) const;
   // Return the piece that point i is on, and its parameter there.
-  std::size_t piece(std::size_t i) const { return place(i).piece; }
-  double parameter(std::size_t i) const { return place(i).t; }
+  std::size_t piece(std::size_t i) const { return on_piece(i).piece; }
+  double parameter(std::size_t i) const { return on_piece(i).t; }
   // Returns the unit vector along the curve, or 0 if the curve has no direction there.
   Vec3 tangent(std::size_t i) const;
 
@@ -33,16 +33,12 @@ class CurvePoints {
   double chord_error(std::size_t i, std::size_t j, double enough);
 
  private:
-  struct Place {
-    std::size_t piece;
-    double t;
-  };
-  const Place &place(std::size_t i) const { return places_[is_reversed_ ? places_.size() - 1 - i : i]; }
+  const PointOnPiece &on_piece(std::size_t i) const { return points_[is_reversed_ ? points_.size() - 1 - i : i]; }
 
   const Curve &curve_;
   bool is_reversed_;
   const Vector<double> &shares_;
-  Vector<Place> places_;  // along the curve
+  Vector<PointOnPiece> points_;  // along the curve
   Vector<Bezier> parts_;
 };
 

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "base/errors.hpp"
-#include "base/ranges.hpp"
 
 namespace riis {
 namespace {
@@ -16,8 +15,8 @@ constexpr double largest_time = 1e30, infinity = std::numeric_limits<double>::in
 constexpr double rounding = 1e-9;
 constexpr std::int64_t max_keys = 1'000'000;
 
-// The derivative of the monotone cubic at a key: the weighted harmonic mean of the slopes on either side, 0 where they differ
-// in sign, and at an end without a neighbour (F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5(2), 1984).
+// Returns the derivative of the monotone cubic at a key: the weighted harmonic mean of the slopes on either side. It is 0 where
+// they differ in sign, and at an end without a neighbour (F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5(2), 1984).
 double tangent(double slope_before, double slope_behind, double width_before, double width_behind) {
   if (!(slope_before * slope_behind > 0) || width_before == infinity || width_behind == infinity) return 0;
   const double w_before = 2 * width_behind + width_before, w_behind = width_behind + 2 * width_before;
@@ -64,7 +63,7 @@ double KeyTimes::from_key(std::int64_t i, double time) const {
   return is_closed_ && key == 0 ? std::min(distance, if_at(time_[n_keys_ - 1])) : distance;
 }
 
-KeyTimes::Place KeyTimes::place(double time, const char *name) const {
+KeyTimes::KeysAround KeyTimes::around(double time, const char *name) const {
   if (!(std::abs(time) <= largest_time))
     fail(RIIS_INVALID_ARGUMENT, name, " is ", time, "; it must be finite and at most ", largest_time, " in magnitude");
   if (n() == 1) return {{0, 0, 0, 0}, {infinity, infinity, infinity}, 0, true};
@@ -93,14 +92,14 @@ KeyTimes::Place KeyTimes::place(double time, const char *name) const {
           false};
 }
 
-ValueAndRate KeyTimes::between(const Place &place, const std::array<double, 4> &values) const {
+ValueAndRate KeyTimes::between(const KeysAround &around, const std::array<double, 4> &values) const {
   const double from = values[1], to = values[2];
-  if (place.is_at_rest) return {from, 0};
-  const double width = place.width[1], s = place.since / width, slope = (to - from) / width;
+  if (around.is_at_rest) return {from, 0};
+  const double width = around.width[1], s = around.since / width, slope = (to - from) / width;
   if (!is_cubic_) return {(1 - s) * from + s * to, slope};
-  const double slope_before = (from - values[0]) / place.width[0], slope_behind = (values[3] - to) / place.width[2];
-  const double d0 = width * tangent(slope_before, slope, place.width[0], width);
-  const double d1 = width * tangent(slope, slope_behind, width, place.width[2]);
+  const double slope_before = (from - values[0]) / around.width[0], slope_behind = (values[3] - to) / around.width[2];
+  const double d0 = width * tangent(slope_before, slope, around.width[0], width);
+  const double d1 = width * tangent(slope, slope_behind, width, around.width[2]);
   const double rise = to - from, c2 = 3 * rise - 2 * d0 - d1, c3 = d0 + d1 - 2 * rise;
   return {from + s * (d0 + s * (c2 + s * c3)), (d0 + s * (2 * c2 + s * 3 * c3)) / width};
 }

@@ -26,7 +26,7 @@ class KeyTimes {
 
   // A value at a time depends on the keys around it and on the times between them. Keys are positions in the arrays, so a time
   // in a later period has the same keys.
-  struct Place {
+  struct KeysAround {
     std::array<std::int64_t, 4> key;  // before the interval, at its two ends, behind it
     std::array<double, 3> width;      // from each of these to the next; infinite where there is no key
     double since;                     // time since the interval's first end
@@ -35,10 +35,10 @@ class KeyTimes {
   // A time within 8 units of rounding of a key, give or take whole periods, is that key: the first end of its interval.
   // The unit is 2^-52 of the largest of time, key and period. Fails with RIIS_INVALID_ARGUMENT for a time that is not
   // finite; the message names it by `name`.
-  Place place(double time, const char *name = "time") const;
+  KeysAround around(double time, const char *name = "time") const;
 
-  // Returns the value and the rate at a place, from the values at its four keys.
-  ValueAndRate between(const Place &place, const std::array<double, 4> &values) const;
+  // Returns the value and the rate at the time between these keys, from the values at all four.
+  ValueAndRate between(const KeysAround &around, const std::array<double, 4> &values) const;
 
  private:
   std::int64_t n() const { return n_keys_ - (is_closed_ ? 1 : 0); }

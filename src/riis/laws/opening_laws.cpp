@@ -10,7 +10,6 @@
 #include "base/constants.hpp"
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
-#include "base/ranges.hpp"
 
 namespace riis {
 namespace {
@@ -38,10 +37,10 @@ ValueAndRate opening_from_table(const riis_opening_table &table, double time) {
   if (keys.is_closed() && first != last)
     fail(RIIS_INVALID_ARGUMENT, "table.opening of the last key, a period after the first, is ", last,
          "; it must be that of the first, ", first);
-  const KeyTimes::Place place = keys.place(time);
+  const KeyTimes::KeysAround around = keys.around(time);
   std::array<double, 4> openings;
-  for (std::size_t k = 0; k < 4; ++k) openings[k] = table.opening[place.key[k]];
-  const ValueAndRate made = keys.between(place, openings);
+  for (std::size_t k = 0; k < 4; ++k) openings[k] = table.opening[around.key[k]];
+  const ValueAndRate made = keys.between(around, openings);
   // Rounding must not leave the range of openings.
   return {std::clamp(made.value, 0.0, 1.0), made.rate};
 }

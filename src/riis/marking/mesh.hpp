@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -13,11 +14,23 @@
 #include "geometry/strided.hpp"
 #include "marking/adjacency.hpp"
 #include "marking/clusters.hpp"
-#include "marking/edges.hpp"
 #include "marking/node_balls.hpp"
 #include "marking/proportions.hpp"
 
 namespace riis {
+
+// The edges of a mesh in blocks of 64 rows, each with the length of its longest edge and a box. A search for long edges near the
+// surface passes over the other blocks as a whole.
+struct EdgeBlocks {
+  static constexpr std::int64_t rows_per_block = 64;
+
+  struct Block {
+    double longest = 0;  // length of the longest edge of its rows
+    Bounds bounds;       // box of its edges
+  };
+  std::vector<Block> blocks;
+  double longest = 0;  // length of the mesh's longest edge
+};
 
 class Mesh {
  public:
@@ -59,14 +72,15 @@ class Mesh {
   const NodeBalls &balls(int n_threads) const;
   // Returns the nodes in clusters. The mesh must have at most max_clustered_nodes.
   const Clusters &clusters(int n_threads) const;
-  // Returns the edges in blocks of rows. The mesh must have an adjacency.
+  // Returns the edges in blocks of rows. The mesh must have an adjacency. Fails with RIIS_INVALID_MESH if a coordinate is not
+  // usable.
   const EdgeBlocks &edges(int n_threads) const;
 
   // Records a marking of these nodes. Returns true if clusters pay: a marking was recorded before, or clusters were made.
   bool record_marking() const { return was_marked_.exchange(true, std::memory_order_relaxed); }
 
   // Returns the surfaces that the caller was warned about because their sizes do not fit this mesh.
-  Warned &warned() const { return warned_; }
+  WarnedSurfaces &warned_surfaces() const { return warned_surfaces_; }
 
  private:
   static std::vector<double> with_capacity(std::size_t n) {
@@ -86,7 +100,7 @@ class Mesh {
   mutable std::mutex clusters_mutex_;
   mutable Clusters clusters_;
   mutable std::atomic<bool> has_clusters_{false}, was_marked_{false};
-  mutable Warned warned_;
+  mutable WarnedSurfaces warned_surfaces_;
   mutable std::mutex edges_mutex_;
   mutable EdgeBlocks edges_;
   mutable std::atomic<bool> has_edges_{false};

@@ -26,13 +26,13 @@ const char *misfit(double mesh, double surface, double half_thickness) {
 
 }  // namespace
 
-bool Warned::has(std::uint64_t surface_number) const {
+bool WarnedSurfaces::has(std::uint64_t surface_number) const {
   return std::any_of(numbers_.begin(), numbers_.end(), [&](const std::atomic<std::uint64_t> &number) {
     return number.load(std::memory_order_relaxed) == surface_number;
   });
 }
 
-bool Warned::is_first(std::uint64_t surface_number) {
+bool WarnedSurfaces::is_first(std::uint64_t surface_number) {
   for (std::atomic<std::uint64_t> &number : numbers_) {
     std::uint64_t found = 0;
     if (number.compare_exchange_strong(found, surface_number, std::memory_order_relaxed)) return true;
@@ -41,7 +41,7 @@ bool Warned::is_first(std::uint64_t surface_number) {
   return false;
 }
 
-void check_proportions(const Sizes &sizes, std::uint64_t surface_number, Warned &warned) {
+void check_proportions(const Sizes &sizes, std::uint64_t surface_number, WarnedSurfaces &warned) {
   // The box of fewer nodes may be of any size.
   constexpr std::int64_t fewest_nodes = 1000;
   if (sizes.n_nodes < fewest_nodes) return;

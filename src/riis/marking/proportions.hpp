@@ -12,7 +12,7 @@
 namespace riis {
 
 // The surfaces that a mesh was warned about. Several threads may call both functions at once.
-class Warned {
+class WarnedSurfaces {
  public:
   // Returns true once for every number other than 0. Returns false for every new number once the list is full.
   bool is_first(std::uint64_t surface_number);
@@ -31,6 +31,6 @@ struct Sizes {
 
 // Makes a few comparisons, whatever the size of the mesh. Compares sizes only, not places: a rank's part of a mesh may be
 // elsewhere.
-void check_proportions(const Sizes &sizes, std::uint64_t surface_number, Warned &warned);
+void check_proportions(const Sizes &sizes, std::uint64_t surface_number, WarnedSurfaces &warned);
 
 }  // namespace riis

@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/array_view.hpp"
 #include "base/constants.hpp"
 #include "base/errors.hpp"
-#include "base/ranges.hpp"
+#include "common/array_view.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {

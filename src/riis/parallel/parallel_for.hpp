@@ -21,6 +21,17 @@ inline int default_thread_count() noexcept {
   return n < 1 ? 1 : n;
 }
 
+// By default a call takes one more thread for each such amount of work, half a millisecond or more. Waking and awaiting a
+// thread takes a hundredth of that on a quiet machine. On a busy one it takes as long as the system lets other work run.
+constexpr std::int64_t triangles_per_thread = 4096, points_per_thread = 2048;
+constexpr std::int64_t nodes_per_thread = 16384;  // of a mesh, its cells or faces
+
+// Returns the number of threads that a caller requests or, if it is 0, the number that n_items of work feed.
+inline Threads threads_for(std::int32_t n_threads, std::int64_t n_items, std::int64_t per_thread) {
+  return n_threads > 0 ? Threads(n_threads)
+                       : Threads::by_default(n_items, per_thread, has_lost_threads() ? 1 : default_thread_count());
+}
+
 // Runs body(block, thread) once for every block in [0, n_blocks) on up to n_threads threads, and returns how many
 // threads ran. Blocks are handed out in ascending order, so each thread sees ascending block numbers. After all threads
 // have stopped, the exception of the lowest block is thrown again here. It is the one that a single thread meets,

@@ -22,45 +22,45 @@
 
 namespace riis {
 
-// Places for any number of ranges; a place never moves.
-class RangePlaces {
+// Slots for any number of ranges. A slot never moves.
+class RangeSlots {
  public:
-  struct Place {
+  struct Slot {
     std::atomic<bool> is_filled{false};
     Range range;
   };
 
-  RangePlaces() = default;
-  RangePlaces(const RangePlaces &) = delete;
-  RangePlaces &operator=(const RangePlaces &) = delete;
-  ~RangePlaces() {
+  RangeSlots() = default;
+  RangeSlots(const RangeSlots &) = delete;
+  RangeSlots &operator=(const RangeSlots &) = delete;
+  ~RangeSlots() {
     for (const auto &chunk : chunks_) delete[] chunk.load();
   }
 
-  // Chunk c has first_size << c places.
-  Place &operator[](std::int64_t i) {
+  // Chunk c has first_size << c slots.
+  Slot &operator[](std::int64_t i) {
     const int c = 63 - __builtin_clzll(static_cast<unsigned long long>(i / first_size + 1));
-    std::atomic<Place *> &chunk = view(chunks_)[c];
-    Place *places = chunk.load(std::memory_order_acquire);
-    if (!places) {
-      auto *const made = new Place[static_cast<std::size_t>(first_size << c)];
-      if (chunk.compare_exchange_strong(places, made, std::memory_order_acq_rel))
-        places = made;
+    std::atomic<Slot *> &chunk = view(chunks_)[c];
+    Slot *slots = chunk.load(std::memory_order_acquire);
+    if (!slots) {
+      auto *const made = new Slot[static_cast<std::size_t>(first_size << c)];
+      if (chunk.compare_exchange_strong(slots, made, std::memory_order_acq_rel))
+        slots = made;
       else
         delete[] made;
     }
-    return places[i - first_size * ((std::int64_t{1} << c) - 1)];
+    return slots[i - first_size * ((std::int64_t{1} << c) - 1)];
   }
 
  private:
   static constexpr std::int64_t first_size = 1024;
-  std::array<std::atomic<Place *>, 40> chunks_{};
+  std::array<std::atomic<Slot *>, 40> chunks_{};
 };
 
 template <class Body>
 int concurrent_walk(const std::vector<Range> &ranges, int n_threads, const Body &body) {
   if (n_threads > 1 && !begin_threads()) n_threads = 1;
-  RangePlaces places;
+  RangeSlots slots;
   std::atomic<std::int64_t> n_added{0}, n_taken{0}, n_left{0};
   std::atomic<int> n_ran{0};
   std::atomic<bool> has_failed{false};
@@ -68,23 +68,23 @@ int concurrent_walk(const std::vector<Range> &ranges, int n_threads, const Body 
   std::exception_ptr first_exception;
   const auto add = [&](const Range &range) {
     n_left.fetch_add(1, std::memory_order_relaxed);
-    RangePlaces::Place &place = places[n_added.fetch_add(1, std::memory_order_relaxed)];
-    place.range = range;
-    place.is_filled.store(true, std::memory_order_release);
+    RangeSlots::Slot &slot = slots[n_added.fetch_add(1, std::memory_order_relaxed)];
+    slot.range = range;
+    slot.is_filled.store(true, std::memory_order_release);
   };
   const auto work = [&](int thread) {
     const FloatEnvironment environment;
     bool is_counted = false;
     for (;;) {
-      RangePlaces::Place &place = places[n_taken.fetch_add(1, std::memory_order_relaxed)];
-      while (!place.is_filled.load(std::memory_order_acquire)) {
+      RangeSlots::Slot &slot = slots[n_taken.fetch_add(1, std::memory_order_relaxed)];
+      while (!slot.is_filled.load(std::memory_order_acquire)) {
         if (n_left.load(std::memory_order_relaxed) == 0) return;
         std::this_thread::sleep_for(std::chrono::microseconds(20));  // a busy wait would flood the sanitizer's history
       }
       if (!is_counted) n_ran.fetch_add(1, std::memory_order_relaxed);
       is_counted = true;
       try {
-        if (!has_failed.load(std::memory_order_relaxed)) body(place.range, add, thread);
+        if (!has_failed.load(std::memory_order_relaxed)) body(slot.range, add, thread);
       } catch (...) {
         const std::lock_guard<std::mutex> lock(mutex);
         if (!first_exception) first_exception = std::current_exception();

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "common/array_view.hpp"
 #include "base/log.hpp"
+#include "common/array_view.hpp"
 #include "surface/crossings.hpp"
 
 namespace riis {

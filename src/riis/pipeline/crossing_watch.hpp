@@ -14,9 +14,9 @@ namespace riis {
 
 class CrossingWatch {
  public:
-  // Looks at the first surface of each shape in each range of the opening, until it has warned of the shape, if there
-  // is a log function. Otherwise it allocates nothing and costs nothing. It
-  // never fails, because the surface is good: without memory for the search there is no warning.
+  // Looks at the first surface of each shape in each range of the opening, until it has warned of the shape. Without a log
+  // function it does nothing, allocates nothing and costs nothing. It never fails, because the surface is good: without memory
+  // for the search there is no warning.
   void look(const Valve &valve, const Surface &surface, int n_threads) noexcept;
 
  private:

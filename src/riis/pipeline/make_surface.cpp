@@ -8,7 +8,7 @@
 
 #include "base/errors.hpp"
 #include "base/log.hpp"
-#include "distance/make_distance.hpp"
+#include "distance/patch_distance.hpp"
 #include "surface/triangulate.hpp"
 #include "surface/user_arrays.hpp"
 
@@ -40,10 +40,10 @@ SurfaceSeconds logged(const Surface &surface, const SurfaceSeconds &seconds) {
 }  // namespace
 
 SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const SurfaceRequest &request,
-                            const ValveAccuracy &accuracy, Surface &surface) {
+                            const ValveAccuracy &accuracy, const FixedTriangulation *fixed, Surface &surface) {
   const Placement &placement = request.placement;
   Stopwatch stopwatch;
-  if (accuracy.fixed) accuracy.fixed->check(valve);
+  if (fixed) fixed->check(valve);
   // Parameters become curves and patches.
   PatchSet patches = valve.make_patches();
   // So do those of the state before, whose points have the same u and v.
@@ -54,11 +54,10 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
     motion.emplace(Motion{*patches_before, moved->placement_before, moved->seconds});
   }
   // Curves become polylines, patches become quads, and quads become triangles.
-  TriangleSet triangles =
-      triangulate(patches,
-                  {accuracy.triangle_error / placement.scale, placement, request.flip_normals, request.n_threads,
-                   motion ? &*motion : nullptr, accuracy.fixed ? &accuracy.fixed->plan() : nullptr},
-                  surface.take_triangles());
+  const Triangulation how{accuracy.triangle_error / placement.scale, placement, request.flip_normals, request.n_threads,
+                          motion ? &*motion : nullptr};
+  TriangleSet triangles = fixed ? triangulate_fixed(patches, how, fixed->plan(), surface.take_triangles())
+                                : triangulate_adapted(patches, how, surface.take_triangles());
   if (triangles.n_triangles() == 0) fail(RIIS_INVALID_PARAMETER, "the valve has no area");
   const double seconds_triangles = stopwatch.lap();
   // Another method for distances is made before the surface, because it may be refused.

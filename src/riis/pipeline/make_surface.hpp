@@ -26,9 +26,9 @@ struct SurfaceRequest {
 // Limits for the difference between distances to a generated valve and to the smooth valve, in placed units.
 struct ValveAccuracy {
   double triangle_error;
-  std::int32_t measure;             // RIIS_MEASURE_*
-  double distance_error;            // unused if triangles measure distances
-  const FixedTriangulation *fixed;  // null: triangles as large as the opening allows
+  std::int32_t measure;   // RIIS_MEASURE_*
+  double distance_error;  // unused if triangles measure distances
+  bool is_fixed;          // RIIS_TRIANGULATION_FIXED; if not, triangles are as large as the opening allows
 };
 
 // A valve's state before the present one. It gives the surface its velocity.
@@ -44,9 +44,10 @@ struct SurfaceSeconds {
 
 // Both replace the content of `surface` and reuse its memory. After a failure the surface can only be made again.
 // The first fails as the stages of the pipeline do. RIIS_INVALID_PARAMETER also refuses a valve without area and a motion
-// between two valves of different builds. Without a motion the vertices have no velocity.
+// between two valves of different builds. Without a motion the vertices have no velocity. The fixed triangulation is null
+// unless accuracy.is_fixed.
 SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *motion, const SurfaceRequest &request,
-                            const ValveAccuracy &accuracy, Surface &surface);
+                            const ValveAccuracy &accuracy, const FixedTriangulation *fixed, Surface &surface);
 SurfaceSeconds make_surface(const UserFaces &faces, const riis_surface_arrays &arrays, bool skip_zero_area,
                             const SurfaceRequest &request, Surface &surface);
 

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <utility>
 
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
+#include "common/array_view.hpp"
 #include "geometry/curve_points.hpp"
 #include "parallel/parallel_for.hpp"
 #include "surface/grids.hpp"
@@ -175,13 +175,13 @@ Polyline polyline_at(const Curve &curve, const Vector<double> &shares, double en
   return made;
 }
 
-// Positions, ascending, and for each step between two of them the number that times the square of a width bounds the error of a
-// segment of that width there, as a share of the allowed error.
+// Ascending positions, and a number for each step between two of them. The number times the square of a segment's width bounds
+// the segment's error there, as a share of the allowed error.
 struct Needs {
   Vector<double> at, need;
 };
 
-// Takes as few positions as keep the error of each segment at most `most` of the allowed one, from the first to the last.
+// Takes as few positions, from the first to the last, as keep the error of each segment at most `most` of the allowed one.
 Vector<double> segments(const Needs &needs, double most) {
   Vector<double> made{needs.at.front()};
   for (std::size_t i = 0; i < needs.need.size();) {
@@ -213,7 +213,7 @@ Vector<double> balanced_segments(const Needs &needs, double most) {
 
 // Errors of wide segments are bounded a little less closely than those of narrow ones, which the needs come from.
 constexpr double most_of_allowed = 0.9;
-// Needs are found on so many steps for each of the largest number of segments that a curve has, and on no more than the most.
+// The curve with most segments decides how many steps needs are found on: so many for each segment, within these limits.
 constexpr int steps_per_segment = 4;
 constexpr std::size_t least_steps = 64, most_steps = 4096;
 // One of so many states says how many steps each line needs. Then all states check the lines.
@@ -601,9 +601,9 @@ class PlannedGrids {
 
 }  // namespace
 
-Build::Build(const PatchSet &set) : patches_(set.patches), n_curves_(set.curves.size()) {}
+CurveNumbering::CurveNumbering(const PatchSet &set) : patches_(set.patches), n_curves_(set.curves.size()) {}
 
-bool Build::counts_as(const PatchSet &set) const {
+bool CurveNumbering::is_of(const PatchSet &set) const {
   const auto are_equal = [](const Side &a, const Side &b) { return a.curve == b.curve && a.reversed == b.reversed; };
   return set.curves.size() == n_curves_ && std::equal(patches_.begin(), patches_.end(), set.patches.begin(),
                                                       set.patches.end(), [&](const Patch &a, const Patch &b) {
@@ -612,7 +612,7 @@ bool Build::counts_as(const PatchSet &set) const {
                                                       });
 }
 
-PatchSet Build::counted(const PatchSet &set) const {
+PatchSet CurveNumbering::renumbered(const PatchSet &set) const {
   PatchSet made{Vector<Curve>(n_curves_, set.curves.front()), set.patches, set.seams, set.deviation};
   for (std::size_t i = 0; i < patches_.size(); ++i)
     for (const auto side : {&Patch::v0, &Patch::v1, &Patch::u0, &Patch::u1}) {

@@ -23,15 +23,16 @@ struct PatchPlan {
   Vector<int> n_parts;  // between each two lines: the parts that O is evaluated between, to bound its error
 };
 
-// The sides of patches, by which curves are counted. A valve may share curves at one opening and not at another, as closed
-// mitral leaflets do.
-struct Build {
-  explicit Build(const PatchSet &set);
-  // Returns whether the patches count their curves by this build already.
-  bool counts_as(const PatchSet &set) const;
-  // Returns the patches with curves counted by this build, so that lists by curve fit all openings. The patches have the same
-  // build but for shared curves (check_same_build).
-  PatchSet counted(const PatchSet &set) const;
+// The numbers that the sides of patches give their curves. A valve may share curves at one opening and not at another, as
+// closed mitral leaflets do.
+class CurveNumbering {
+ public:
+  explicit CurveNumbering(const PatchSet &set);
+  // Returns whether the patches number their curves so already.
+  bool is_of(const PatchSet &set) const;
+  // Returns the patches with curves numbered so, and lists by curve then fit all openings. The patches have the same build but
+  // for shared curves (check_same_build).
+  PatchSet renumbered(const PatchSet &set) const;
 
  private:
   Vector<Patch> patches_;
@@ -44,9 +45,9 @@ struct GridPlan {
   std::size_t n_rows = 1;  // of patches of arcs
 };
 
-// Makes the plan for patches that are counted by one build, at each of the openings. Keeps each curve of a Coons patch
-// within max_error times of_curves times its tightness, and curves of other patches within their share. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles, and with
-// RIIS_INVALID_PARAMETER if no lines are enough.
+// Makes the plan for patches at each of the openings, all with one numbering of curves. Keeps each curve of a Coons patch
+// within max_error times of_curves times its tightness, and curves of other patches within their share. Fails with
+// RIIS_LIMIT_EXCEEDED for more than max_triangles, and with RIIS_INVALID_PARAMETER if no lines are enough.
 GridPlan plan_grids(const Vector<PatchSet> &states, double max_error, double of_curves,
                     const Vector<double> &tightness);
 

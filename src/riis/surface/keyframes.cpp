@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
+#include "common/array_view.hpp"
 #include "geometry/strided.hpp"
 #include "surface/user_arrays.hpp"
 
@@ -63,15 +63,15 @@ Keyframes::Keyframes(const riis_surface_arrays &arrays, const riis_keyframe_arra
 void Keyframes::at(double time, double dt, std::vector<double> &xyz, std::vector<double> &velocity) const {
   if (!(dt == 0 || (std::abs(dt) >= 1e-30 && std::abs(dt) <= 1e30)))
     fail(RIIS_INVALID_ARGUMENT, "dt is ", dt, "; it must be 0, or from 1e-30 to 1e+30, or that much below 0");
-  const KeyTimes::Place now = keys_.place(time);
+  const KeyTimes::KeysAround now = keys_.around(time);
   if (dt != 0 && time - dt == time)
     fail(RIIS_INVALID_ARGUMENT, "dt is ", dt, ", which is lost in rounding beside time, ", time);
-  const KeyTimes::Place before = keys_.place(time - dt, "time - dt");
+  const KeyTimes::KeysAround before = keys_.around(time - dt, "time - dt");
   const std::int64_t n = 3 * faces_.n_vertices;
-  const auto value = [&](const KeyTimes::Place &place, std::int64_t i) {
+  const auto value = [&](const KeyTimes::KeysAround &around, std::int64_t i) {
     std::array<double, 4> values;
-    for (std::size_t k = 0; k < 4; ++k) values[k] = view(xyz_)[place.key[k] * n + i];
-    return keys_.between(place, values);
+    for (std::size_t k = 0; k < 4; ++k) values[k] = view(xyz_)[around.key[k] * n + i];
+    return keys_.between(around, values);
   };
   resize(xyz, n);
   resize(velocity, n);

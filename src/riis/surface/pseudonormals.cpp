@@ -5,8 +5,8 @@
 #include <cstring>
 #include <numeric>
 
-#include "common/array_view.hpp"
 #include "base/constants.hpp"
+#include "common/array_view.hpp"
 #include "kernels/kernels.hpp"
 #include "surface/rims.hpp"
 
@@ -174,15 +174,15 @@ Pseudonormals::Ends Pseudonormals::ends_of(std::int64_t slot) const {
   return from < to ? Ends{from, to} : Ends{to, from};
 }
 
-Pseudonormals::Place Pseudonormals::place_of(Vec3 barycentric) {
+Pseudonormals::Simplex Pseudonormals::simplex_of(Vec3 barycentric) {
   // By the weights that are 0: the first counts 1, the second 2, the third 4.
-  static constexpr Place places[8] = {{Kind::face, 0}, {Kind::edge, 1},   {Kind::edge, 2},   {Kind::vertex, 2},
-                                      {Kind::edge, 0}, {Kind::vertex, 1}, {Kind::vertex, 0}, {Kind::vertex, 0}};
-  return places[(barycentric.x == 0 ? 1 : 0) + (barycentric.y == 0 ? 2 : 0) + (barycentric.z == 0 ? 4 : 0)];
+  static constexpr Simplex simplices[8] = {{Kind::face, 0}, {Kind::edge, 1},   {Kind::edge, 2},   {Kind::vertex, 2},
+                                           {Kind::edge, 0}, {Kind::vertex, 1}, {Kind::vertex, 0}, {Kind::vertex, 0}};
+  return simplices[(barycentric.x == 0 ? 1 : 0) + (barycentric.y == 0 ? 2 : 0) + (barycentric.z == 0 ? 4 : 0)];
 }
 
 Pseudonormals::Feature Pseudonormals::at_border(std::int64_t triangle, Vec3 barycentric) const {
-  const auto [kind, corner] = place_of(barycentric);
+  const auto [kind, corner] = simplex_of(barycentric);
   if (kind == Kind::face) return {of_face(triangle), false};
   const std::int64_t slot = 3 * triangle + corner, position = view(position_)[slot];
   const bool is_vertex = kind == Kind::vertex;

@@ -9,8 +9,8 @@
 #include <array>
 #include <cstdint>
 
-#include "common/array_view.hpp"
 #include "base/recycled.hpp"
+#include "common/array_view.hpp"
 #include "surface/triangle_set.hpp"
 
 namespace riis {
@@ -18,7 +18,8 @@ namespace riis {
 // Returns the unit normal of a triangle by the right-hand rule.
 Vec3 triangle_normal(const std::array<Vec3, 3> &corners);
 
-// Returns +1, -1 or 0: the side of the surface that a point is on, by the way to it from its closest point and the normal there.
+// Returns the side of the surface that a point is on: +1, -1 or 0. `way` leads to the point from its closest point, which has
+// this normal.
 inline int side_of(Vec3 way, Vec3 normal) {
   const double height = dot(way, normal);
   return (height > 0) - (height < 0);
@@ -49,11 +50,11 @@ class Pseudonormals {
  private:
   // The vertex, edge or face that barycentric weights lie on. `corner` is the vertex, or the edge from there to the next.
   enum class Kind { face, edge, vertex };
-  struct Place {
+  struct Simplex {
     Kind kind;
     std::int64_t corner;
   };
-  static Place place_of(Vec3 barycentric);
+  static Simplex simplex_of(Vec3 barycentric);
 
   // The positions of an edge's ends.
   struct Ends {

@@ -38,7 +38,7 @@ struct Level {
   double error;
 };
 
-// Halves a quad until its parts are close enough to their triangles. There is an end, because the twist falls by 4 at each level.
+// Halves a quad until its parts are close enough to their triangles. This ends: each level divides the twist by 4.
 Level subdivision_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error) {
   const Quad quad = quad_of(grid, i, j);
   const double left = max_error - grid.error(i, j);
@@ -59,8 +59,7 @@ Quad without_shortest_edge(const Quad &quad, double &shortest) {
   return {corner[0], corner[1], corner[2], corner[3]};
 }
 
-// At a collapsed side rounding may make a quad fold, at one opening and not at the next; a bound without that
-// edge does not see it.
+// At a collapsed side, rounding may fold a quad at one opening and not at the next. A bound without that edge does not see it.
 Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error, int level) {
   const Quad quad = quad_of(grid, i, j);
   const double left = max_error - grid.error(i, j);
@@ -72,6 +71,20 @@ Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double m
     error = std::min(split_error_at(quad, level, infinity), split_error_at(merged, level, infinity) + shortest);
   }
   return {level, grid.error(i, j) + error};
+}
+
+LevelledGrid without_levels(QuadGrid grid) {
+  LevelledGrid made{std::move(grid), {}};
+  made.n_vertices = view(made.grid.u).size() * view(made.grid.v).size();
+  return made;
+}
+
+// Adds the triangles, further vertices and error of a quad.
+void count(const Level &level, LevelledGrid &made) {
+  made.error_bound = std::max(made.error_bound, level.error);
+  const std::int64_t n = std::int64_t{1} << level.level;
+  made.n_triangles += 2 * n * n;
+  if (n > 1) made.n_vertices += (n + 1) * (n + 1);
 }
 
 }  // namespace
@@ -88,35 +101,31 @@ double split_error(const Quad &q) {
   return std::min(at_equal_uv, 0.5 * std::abs(dot(twist, normal)) / size);
 }
 
-LevelledGrid with_levels(QuadGrid grid, double max_error, const Vector<int> *planned) {
-  LevelledGrid made{std::move(grid), {}};
+LevelledGrid with_levels(QuadGrid grid, double max_error) {
+  LevelledGrid made = without_levels(std::move(grid));
+  made.levels.reserve(made.grid.errors.size());
+  for_each_quad(made.grid, [&](std::size_t i, std::size_t j) {
+    const Level level = subdivision_level(made.grid, i, j, max_error);
+    made.levels.push_back(level.level);
+    count(level, made);
+  });
+  return made;
+}
+
+LevelledGrid with_planned_levels(QuadGrid grid, double max_error, const Vector<int> &planned) {
+  LevelledGrid made = without_levels(std::move(grid));
+  made.levels = planned;
   const QuadGrid &in = made.grid;
-  made.n_vertices = view(in.u).size() * view(in.v).size();
-  const auto add = [&](const Level &level) {
-    made.error_bound = std::max(made.error_bound, level.error);
-    const std::int64_t n = std::int64_t{1} << level.level;
-    made.n_triangles += 2 * n * n;
-    if (n > 1) made.n_vertices += (n + 1) * (n + 1);
-  };
-  if (!planned) {
-    made.levels.reserve(in.errors.size());
-    for_each_quad(in, [&](std::size_t i, std::size_t j) {
-      const Level level = subdivision_level(in, i, j, max_error);
-      made.levels.push_back(level.level);
-      add(level);
-    });
-    return made;
-  }
-  made.levels = *planned;
-  const int *level = planned->data();
+  const int *level = planned.data();
   const double *error = in.errors.data();
   const Vec3 *below = in.points.data(), *above = below + in.u.size();
   for (std::size_t j = 0; j + 1 < in.v.size(); ++j, ++below, ++above)
     for (std::size_t i = 0; i + 1 < in.u.size(); ++i, ++level, ++error, ++below, ++above) {
       // Most quads are not subdivided, and their twist alone is small enough.
       const double at_equal_uv = *level == 0 ? quad_flatness({below[0], below[1], above[1], above[0]}) : infinity;
-      add(at_equal_uv <= max_error - *error ? Level{0, *error + at_equal_uv}
-                                            : planned_level(in, i, j, max_error, *level));
+      count(at_equal_uv <= max_error - *error ? Level{0, *error + at_equal_uv}
+                                              : planned_level(in, i, j, max_error, *level),
+            made);
     }
   return made;
 }

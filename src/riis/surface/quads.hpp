@@ -50,8 +50,10 @@ struct LevelledGrid {
   double error_bound = 0;  // of the distance between the triangles and the smooth patch
 };
 
-// Takes the levels of a plan, if there is one.
-LevelledGrid with_levels(QuadGrid grid, double max_error, const Vector<int> *planned);
+// Gives each quad the lowest level that keeps max_error.
+LevelledGrid with_levels(QuadGrid grid, double max_error);
+// Gives the quads the levels of a plan. Bounds errors no closer than max_error needs.
+LevelledGrid with_planned_levels(QuadGrid grid, double max_error, const Vector<int> &planned);
 
 // Lifts levels to the levels that the quads of a grid need for max_error. An empty list stands for levels of 0.
 void raise_levels(const QuadGrid &grid, double max_error, Vector<int> &levels);

@@ -22,7 +22,8 @@ struct LeftOut {
   bool other_was_kept;
 };
 
-// The triangles of a plan at one of the openings, for a set of its vertices. They are the same where the same have an area.
+// The triangles of a plan at one of the openings, for a set of its vertices. Two openings share them if the same triangles
+// have area.
 struct Connectivity {
   std::vector<std::int64_t> vertex_id, triangle_id;
   std::vector<std::int32_t> leaflet_id, patch_id;
@@ -40,14 +41,14 @@ struct Connectivity {
 // A triangulation that stays the same while a valve opens: its grids, its quads' levels of subdivision, its triangles.
 struct TriangulationPlan {
   GridPlan grids;
-  Build build;                 // the curves that the grids count by
+  CurveNumbering curves;       // of the grids
   double max_error;            // that the lines and levels were chosen for
   Vector<Vector<int>> levels;  // of each patch's quads
   Connectivity connectivity;
 };
 
-// Makes the plan for a valve's patches at many openings; max_error as below. Keeps a small part of it for openings between
-// these. Fails as triangulate does.
+// Makes the plan for a valve's patches at many openings. max_error is that of a Triangulation, and the plan keeps a small part of
+// it for openings between these. Fails as triangulate_fixed does.
 TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double max_error, int n_threads);
 
 // Returns whether the plan's triangles are within max_error of a state.
@@ -59,13 +60,15 @@ struct Triangulation {
   const Placement &placement;
   bool flip_normals;
   int n_threads;
-  const Motion *motion = nullptr;           // gives the vertices velocities; the triangles are the same, bit for bit
-  const TriangulationPlan *plan = nullptr;  // null: grids as coarse as the state allows
+  const Motion *motion = nullptr;  // gives the vertices velocities; the triangles are the same, bit for bit
 };
 
-// Makes triangles in the memory of triangles that are no longer wanted. Fails with RIIS_LIMIT_EXCEEDED for more than
-// max_triangles, and with RIIS_INVALID_PARAMETER for a patch without area. With a plan, triangles keep their ids if others lose
-// their area. A plan that is not within max_error of this state fails with RIIS_LIMIT_EXCEEDED.
-TriangleSet triangulate(const PatchSet &set, const Triangulation &how, TriangleSet memory = {});
+// Makes triangles on grids as coarse as the state allows, in the memory of triangles that are no longer wanted. Fails with
+// RIIS_LIMIT_EXCEEDED for more than max_triangles, and with RIIS_INVALID_PARAMETER for a patch without area.
+TriangleSet triangulate_adapted(const PatchSet &set, const Triangulation &how, TriangleSet memory = {});
+// Does the same by a plan: triangles keep their ids if others lose their area. Also fails with RIIS_LIMIT_EXCEEDED if the plan is
+// not within max_error of this state.
+TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &how, const TriangulationPlan &plan,
+                              TriangleSet memory = {});
 
 }  // namespace riis

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "valve/aortic.hpp"
-
+// The aortic valve has three cusps of four patches each (paper, 2.1 and table "Aortic valve parameters"; docs/theory.md).
 #include <string>
 #include <utility>
 
 #include "valve/cusp.hpp"
+#include "valve/valve.hpp"
 
 namespace riis {
 namespace {

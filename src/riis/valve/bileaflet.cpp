@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "valve/bileaflet.hpp"
-
+// The bileaflet mechanical valve has two rigid flat leaflets, each of which turns about its hinge in a round housing
+// (docs/theory.md, "The bileaflet valve").
+// In: the parameters of two states, the opening. Out: patches of two leaflets and, on request, of the housing's wall.
 #include <riis/riis.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include "base/errors.hpp"
 #include "geometry/placement.hpp"
 #include "valve/patches.hpp"
+#include "valve/valve.hpp"
 
 namespace riis {
 namespace {
@@ -122,8 +124,8 @@ double arc_deviation(double whole_angle) {
 
 // Returns the arc of a circle about the axis from (radius, 0) to `last`, a point of the circle with y > 0. `placed` puts points
 // of the plane, such as control points, to their places in space.
-template <class Place>
-Curve make_arc(double circle_radius, double whole_angle, double last_x, double last_y, const Place &placed) {
+template <class ToSpace>
+Curve make_arc(double circle_radius, double whole_angle, double last_x, double last_y, const ToSpace &placed) {
   const double step = whole_angle / n_pieces, reach = 4.0 / 3.0 * std::tan(0.25 * step);
   struct Point {
     double x, y;

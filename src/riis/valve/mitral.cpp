@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "valve/mitral.hpp"
-
+// The mitral valve has an annulus, an anterior leaflet and a posterior leaflet of three scallops. It is closed, open or
+// in between (paper, appendix "Parametric modeling of the mitral valve"; docs/theory.md, section 4).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include "geometry/bulge.hpp"
 #include "geometry/placement.hpp"
 #include "valve/patches.hpp"
+#include "valve/valve.hpp"
 
 namespace riis {
 namespace {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "valve/trileaflet.hpp"
-
+// A valve of three equal cusps that closes: free edges meet along straight lines from the commissures to the axis
+// (docs/theory.md, section 3).
 #include <utility>
 
 #include "common/array_view.hpp"
 #include "geometry/placement.hpp"
 #include "valve/cusp.hpp"
+#include "valve/valve.hpp"
 
 namespace riis {
 namespace {

@@ -6,13 +6,9 @@
 #include <cstring>
 #include <utility>
 
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
+#include "common/array_view.hpp"
 #include "common/nearest_name.hpp"
-#include "valve/aortic.hpp"
-#include "valve/bileaflet.hpp"
-#include "valve/mitral.hpp"
-#include "valve/trileaflet.hpp"
 
 namespace riis {
 namespace {

@@ -53,6 +53,12 @@ struct ValveKind {
   std::int32_t housing = -1;
 };
 
+// The kinds that parameters make, each in a file of its name.
+const ValveKind &aortic_valve_kind();
+const ValveKind &bileaflet_valve_kind();
+const ValveKind &mitral_valve_kind();
+const ValveKind &trileaflet_valve_kind();
+
 // Returns the kind of that name. Fails with RIIS_INVALID_PARAMETER and names the existing kinds.
 const ValveKind &find_valve_kind(std::string_view name);
 

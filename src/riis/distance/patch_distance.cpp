@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "distance/make_distance.hpp"
+#include "distance/patch_distance.hpp"
 
 #include <riis/riis.h>
 

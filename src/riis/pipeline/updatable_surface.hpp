@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// A surface from update to update, with what the next update continues or reuses.
+// In: a valve, the caller's arrays or keyframes. Out: the surface, and the seconds that its last update took.
+#pragma once
+
+#include <riis/riis.h>
+
+#include <memory>
+#include <vector>
+
+#include "pipeline/crossing_watch.hpp"
+#include "pipeline/fixed_triangulation.hpp"
+#include "pipeline/make_surface.hpp"
+#include "surface/keyframes.hpp"
+
+namespace riis {
+
+class UpdatableSurface {
+ public:
+  // Returns the surface of the last update that succeeded. There must have been one.
+  const Surface &surface() const { return *surface_; }
+  const SurfaceSeconds &seconds() const { return seconds_; }
+
+  // All fail as make_surface does, and then leave the surface as it was. If request.n_threads is 0, the last surface's number of
+  // triangles decides. The first update with accuracy.is_fixed fixes the triangulation. An update without it ends that.
+  void update_from_valve(const Valve &valve, const ValveMotion *motion, const SurfaceRequest &request,
+                         const ValveAccuracy &accuracy);
+  // Without faces, the arrays are vertices for the faces of the last arrays.
+  void update_from_arrays(const riis_surface_arrays &arrays, bool skip_zero_area, const SurfaceRequest &request);
+  // Takes the vertices at a time, and the velocities since dt before (Keyframes::at).
+  void update_from_keyframes(const Keyframes &frames, double time, double dt, bool skip_zero_area,
+                             const SurfaceRequest &request);
+
+ private:
+  SurfaceRequest with_threads(const SurfaceRequest &request) const;
+  template <class Make>
+  void replace(const Make &make);
+  void replace_by_faces(const UserFaces &faces, const riis_surface_arrays &arrays, bool skip_zero_area,
+                        const SurfaceRequest &request);
+
+  std::unique_ptr<Surface> surface_, before_;        // the one before is kept to reuse its memory
+  std::unique_ptr<const FixedTriangulation> fixed_;  // null without RIIS_TRIANGULATION_FIXED
+  SurfaceSeconds seconds_{};
+  UserFaces faces_, faces_memory_;                  // of the last arrays; no faces after a valve or keyframes
+  std::vector<double> frame_xyz_, frame_velocity_;  // memory for updates from keyframes
+  CrossingWatch crossing_watch_;
+};
+
+}  // namespace riis

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// The triangles of grids, image by image: what the adapted and the fixed triangulation have in common.
+// In: grids with their quads' levels, patches and their images. Out: placed vertices, and the triangles between them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/recycled.hpp"
+#include "common/array_view.hpp"
+#include "parallel/parallel_for.hpp"
+#include "surface/triangulate.hpp"
+
+namespace riis {
+
+// An image of a patch, with its own vertices and triangles in a set. The thread that builds the image writes no others.
+struct Piece {
+  std::size_t patch;
+  const PatchImage *image;
+  const PatchImage *twin;  // null without a seam
+  const Seam *seam;
+  std::int64_t first_vertex, first_triangle;
+  std::int64_t n_triangles = 0;  // without triangles that turned out to have no area; there may be room for more
+  Vector<LeftOut> left_out{};    // these triangles
+  bool is_whole = true;          // false if the triangles kept do not stand for all triangles left out
+};
+
+// The vertices of a patch before any image is placed: those of the grid, then those of subdivided quads.
+struct PatchVertices {
+  Vector<Vec3> points;
+  Vector<double> uv;
+  Vector<Vec3> displacements;  // since an earlier state; empty without one
+};
+
+class Pieces {
+ public:
+  // Borrows its arguments. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles.
+  Pieces(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids, TriangleSet &triangles);
+
+  const Vector<Piece> &all() const { return pieces_; }
+  // Bounds the distance between the triangles and the smooth surface, placed.
+  double error_bound() const;
+
+  // Places the vertices of every piece, and then calls work(i) for piece i. Several threads call it at once.
+  template <class Work>
+  void place_vertices(const Work &work) {
+    make_patch_vertices();
+    parallel_for(view(pieces_).size(), how_.n_threads, [&](std::int64_t i, int) {
+      place_vertices_of(view(pieces_)[i]);
+      work(i);
+    });
+  }
+
+  // Makes vertices and triangles, and calls work(i, first_of_quad) for piece i in the same way. The list has the position of each
+  // quad's first triangle, and the end of the last. The ids also count triangles without area. Returns the patches of which
+  // triangles are missed; the triangles are complete if there are none.
+  template <class Work>
+  Vector<std::size_t> make_triangles(const Work &work) {
+    make_room_for_triangles();
+    place_vertices([&](std::int64_t i) { work(i, add_triangles_of(view(pieces_)[i])); });
+    return complete_triangles();
+  }
+
+ private:
+  void make_patch_vertices();
+  void place_vertices_of(const Piece &piece);
+  void make_room_for_triangles();
+  Vector<std::int32_t> add_triangles_of(Piece &piece);
+  Vector<std::size_t> complete_triangles();
+
+  const PatchSet &set_;
+  const Triangulation &how_;
+  const Vector<LevelledGrid> &grids_;
+  TriangleSet &triangles_;
+  Vector<Piece> pieces_;
+  Vector<PatchVertices> of_patches_;
+  std::int64_t n_triangles_ = 0, n_vertices_ = 0;  // at most
+};
+
+// Returns whether nothing in the set stands for a triangle that was left out.
+bool is_missed(const TriangleSet &set, const LeftOut &triangle);
+
+// Returns the triangulation with the error that the patches' own deviation leaves. Fails if that is too little, or if the state
+// before has another build.
+Triangulation checked(const PatchSet &set, const Triangulation &asked);
+
+// Adds the rims of the patches, and keeps the grids of a motion, for the bound of the velocities' errors.
+void finish(const PatchSet &set, const Triangulation &how, Vector<LevelledGrid> grids, TriangleSet &triangles);
+
+[[noreturn]] void fail_for_vanished(const PatchSet &set, std::size_t patch, const char *where);
+
+// Calls attempt(tightness) until it returns no patch of which triangles are missed. Patches thinner than the tolerance lose their
+// area if their sides become the same chords, so their curves become finer from attempt to attempt.
+template <class Attempt>
+void with_finer_curves(const PatchSet &set, const char *where, const Attempt &attempt) {
+  constexpr int max_attempts = 12;
+  Vector<double> tightness(set.curves.size(), 1);
+  for (int i = 0;; ++i) {
+    const Vector<std::size_t> vanished = attempt(tightness);
+    if (vanished.empty()) return;
+    if (i == max_attempts) fail_for_vanished(set, vanished.front(), where);
+    for (const std::size_t patch : vanished)
+      for (const Side &side :
+           {set.patches[patch].v0, set.patches[patch].v1, set.patches[patch].u0, set.patches[patch].u1})
+        tightness[side.curve] *= 0.1;
+  }
+}
+
+}  // namespace riis

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// The adapted triangulation: grids as coarse as the state of the valve allows.
+#include <numeric>
+#include <utility>
+
+#include "parallel/parallel_for.hpp"
+#include "surface/grids.hpp"
+#include "surface/pieces.hpp"
+#include "surface/triangle_groups.hpp"
+#include "surface/triangulate.hpp"
+
+namespace riis {
+namespace {
+
+// Groups the triangles of a piece by its quads.
+class QuadGroups {
+ public:
+  QuadGroups(const QuadGrid &grid, const Vector<std::int32_t> &first_of_quad, const TriangleSet &set)
+      : grid_(grid), first_of_quad_(first_of_quad), set_(set) {}
+
+  Grouping make() {
+    group({0, grid_.u.size() - 1, 0, grid_.v.size() - 1});
+    return std::move(made_);
+  }
+
+ private:
+  // The quads of the grid from i0 to i1 - 1 and from j0 to j1 - 1.
+  struct Quads {
+    std::size_t i0, i1, j0, j1;
+  };
+
+  // Halves quads along their longer side until their triangles fit in a group.
+  void group(const Quads &quads) {
+    const std::size_t i0 = quads.i0, i1 = quads.i1, j0 = quads.j0, j1 = quads.j1;
+    const std::size_t n_u = grid_.u.size() - 1;
+    // Quads of a row follow each other, and so do their triangles.
+    const auto triangles_of_row = [&](std::size_t j) {
+      return std::pair(first_of_quad_[j * n_u + i0], first_of_quad_[j * n_u + i1]);
+    };
+    std::int32_t n = 0;
+    for (std::size_t j = j0; j < j1; ++j) n += triangles_of_row(j).second - triangles_of_row(j).first;
+    if (n == 0) return;
+    if (n <= triangles_per_group) {
+      for (std::size_t j = j0; j < j1; ++j)
+        for (std::int32_t t = triangles_of_row(j).first; t < triangles_of_row(j).second; ++t) made_.order.push_back(t);
+      made_.end.push_back(static_cast<std::int32_t>(made_.order.size()));
+      return;
+    }
+    if (i1 - i0 == 1 && j1 - j0 == 1) {
+      group_by_place(set_, triangles_of_row(j0).first, triangles_of_row(j0).second, made_);
+      return;
+    }
+    const std::size_t i = (i0 + i1) / 2, j = (j0 + j1) / 2;
+    const bool along_u = j1 - j0 == 1 || (i1 - i0 > 1 && distance(grid_.point(i0, j), grid_.point(i1, j)) >
+                                                             distance(grid_.point(i, j0), grid_.point(i, j1)));
+    if (along_u) {
+      group({i0, i, j0, j1});
+      group({i, i1, j0, j1});
+    } else {
+      group({i0, i1, j0, j});
+      group({i0, i1, j, j1});
+    }
+  }
+
+  const QuadGrid &grid_;
+  const Vector<std::int32_t> &first_of_quad_;
+  const TriangleSet &set_;
+  Grouping made_;
+};
+
+// Joins the groups of all pieces, whose triangles have moved together.
+void join(const Vector<Piece> &pieces, const Vector<Grouping> &groups, Grouping &joined) {
+  std::int64_t n = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const auto n_grouped = static_cast<std::int32_t>(joined.order.size());
+    for (const std::int32_t triangle : groups[i].order)
+      joined.order.push_back(static_cast<std::int32_t>(triangle - pieces[i].first_triangle + n));
+    for (const std::int32_t end : groups[i].end) joined.end.push_back(n_grouped + end);
+    n += pieces[i].n_triangles;
+  }
+}
+
+Vector<LevelledGrid> make_levelled_grids(const PatchSet &set, const Triangulation &how,
+                                         const Vector<double> &tightness) {
+  Vector<QuadGrid> grids = make_grids(set, how.max_error, tightness, how.n_threads, how.motion != nullptr);
+  Vector<LevelledGrid> levelled(grids.size());
+  parallel_for(view(grids).size(), how.n_threads,
+               [&](std::int64_t i, int) { view(levelled)[i] = with_levels(std::move(view(grids)[i]), how.max_error); });
+  return levelled;
+}
+
+// Makes the triangles of these grids. Returns the patches of which triangles are missed.
+Vector<std::size_t> make_triangles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
+                                   TriangleSet &triangles) {
+  Pieces pieces(set, how, grids, triangles);
+  Vector<Grouping> groups(pieces.all().size());
+  Vector<std::size_t> vanished = pieces.make_triangles([&](std::int64_t i, const Vector<std::int32_t> &first_of_quad) {
+    const QuadGrid &grid = grids[view(pieces.all())[i].patch].grid;
+    view(groups)[i] = QuadGroups(grid, first_of_quad, triangles).make();
+  });
+  if (!vanished.empty()) return vanished;
+  join(pieces.all(), groups, triangles.grouping);
+  std::iota(triangles.triangle_id.begin(), triangles.triangle_id.end(), std::int64_t{0});
+  return vanished;
+}
+
+}  // namespace
+
+TriangleSet triangulate_adapted(const PatchSet &set, const Triangulation &asked, TriangleSet memory) {
+  const Triangulation how = checked(set, asked);
+  Vector<LevelledGrid> grids;
+  with_finer_curves(set, "", [&](const Vector<double> &tightness) {
+    grids = make_levelled_grids(set, how, tightness);
+    return make_triangles(set, how, grids, memory);
+  });
+  finish(set, how, std::move(grids), memory);
+  return memory;
+}
+
+}  // namespace riis
