@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # expand_templates.sh [FOLDER]
-# Expands templates/riis_*.fypp, and writes riisf.f90 (interfaces.py), into FOLDER/riis_*.f90, by default generated/ beside this script. Needs fypp (Debian's package fypp).
+# Expands templates/riis_*.fypp, and writes riisf.f90 (interfaces.py), into FOLDER/riis_*.f90, by default generated/ beside this
+# script. Needs fypp (Debian's package fypp).
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 folder=$(cd "${1:-$here/generated}" && pwd)

@@ -2,7 +2,8 @@
 !> The common part of the modules behind `riis`: errors, the addresses of the caller's arrays, integers of either kind. It is
 !! not for users: `use riis` does not give these names.
 module riis_support
-  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_intptr_t, c_null_char, c_ptr, c_associated, c_loc, c_null_ptr, c_sizeof
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_intptr_t, c_null_char, c_ptr, c_associated, &
+    c_loc, c_null_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
   use riis_c, only: riis_status, RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_SURFACE, RIIS_LIMIT_EXCEEDED, &
     RIIS_OUT_OF_MEMORY, riis_surface_arrays, riis_surface_options, riis_c_string, riis_c_text, riis_last_error, &

@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# The steps of ./run demo, which reads this file: compile the program, mesh, mark and draw, time, tell. They use its $build, $logs,
-# $n_jobs, $demo_packages, install_missing and step.
+# The steps of ./run demo, which reads this file: compile the program, mesh, mark and draw, time, tell. They use its $build,
+# $logs, $n_jobs, $demo_packages, install_missing and step.
 
 # build_demo: compiles the program. A folder that is configured for the tests keeps its configuration, so that ./run test does not
 # start again.

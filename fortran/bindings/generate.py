@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes fortran/generated/riis_c.f90, fortran/generated/riisf.h and tests/fortran/layouts.inc from riis.h and from bindings.table.
+"""Writes riis_c.f90 and riisf.h in fortran/generated, and tests/fortran/layouts.inc, from riis.h and from bindings.table.
 
     python3 generate.py                writes the files
     python3 generate.py --check        writes nothing; fails and shows the difference if a file is not what it should be

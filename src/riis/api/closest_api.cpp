@@ -7,9 +7,9 @@
 
 #include "api/handles.hpp"
 #include "api/structs.hpp"
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
+#include "common/array_view.hpp"
 #include "geometry/point_triangle.hpp"
 #include "parallel/parallel_for.hpp"
 

@@ -2,8 +2,8 @@
 // riis_valve_*: argument checks around valve/.
 #include "api/handles.hpp"
 #include "api/structs.hpp"
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
+#include "common/array_view.hpp"
 #include "valve/user_patches.hpp"
 
 using riis::guarded;

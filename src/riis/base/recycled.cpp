@@ -44,7 +44,8 @@ constexpr std::size_t largest_block = std::size_t{1} << largest;
 // took; so a thread whose pool is empty looks into the others before it goes to the system.
 constexpr unsigned n_pools = 16;
 
-// A lock that is held for a few instructions, and that seldom two threads want. With a mutex, locking would be half of what an array costs.
+// A lock that is held for a few instructions, and that seldom two threads want. With a mutex, locking would be half of what an
+// array costs.
 class ShortLock {
  public:
   void lock() noexcept {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
+#include "common/array_view.hpp"
 
 namespace riis {
 namespace {

@@ -35,8 +35,8 @@ class Surface {
   // Returns the area of all triangles. The first call computes it. Several threads may call this function at once.
   double area() const;
 
-  // Bounds how far a velocity is from that of the smooth valve at the same patch, u and v; 0 without a motion of patches. The first
-  // call computes it. Several threads may call this function at once.
+  // Bounds how far a velocity is from that of the smooth valve at the same patch, u and v; 0 without a motion of patches. The
+  // first call computes it. Several threads may call this function at once.
   double velocity_error_bound() const;
 
   // Returns the method that measures distances. Null means the triangles' scene.

@@ -6,8 +6,8 @@
 #include <array>
 #include <utility>
 
-#include "common/array_view.hpp"
 #include "base/recycled.hpp"
+#include "common/array_view.hpp"
 #include "geometry/vec3.hpp"
 
 namespace riis {
@@ -51,7 +51,8 @@ std::pair<Bezier, Bezier> split(const Bezier &curve, double t);
 // curve_length is the length of the whole curve; if it is 0, so is t.
 double parameter_at_length(const Bezier &curve, double curve_length, double behind);
 
-// Writes to t what parameter_at_length returns for ascending lengths behind. One pass over the curve takes a fraction of the time.
+// Writes to t what parameter_at_length returns for ascending lengths behind. One pass over the curve takes a fraction of the
+// time.
 void parameters_at_lengths(const Bezier &curve, double curve_length, const Vector<double> &behind, double *t);
 
 // Returns kappa, the largest distance of an inner control point to the segment from the first to the last. (The paper

@@ -106,7 +106,7 @@ template <int n>
 Exact<4 * n> operator*(const Exact<n> &a, const Exact<2> &b) {
   Exact<4 * n> made;
   if (b.n == 0) return made;
-  const Exact<2 * n> first = scaled(a, b.part[0]);
+  const Exact<2 *n> first = scaled(a, b.part[0]);
   if (b.n == 1) {
     std::copy_n(first.part.begin(), first.n, made.part.begin());
     made.n = first.n;

@@ -362,8 +362,8 @@ RIIS_INLINE void choose_axes(Doubles3 across, Doubles3 along, Axes &axes) {
 RIIS_INLINE void bound_group(const float (*rounded)[triangles_per_group], GroupBounds &bounds) {
   const Floats3 corner[3] = {load3(rounded), load3(rounded + 3), load3(rounded + 6)};
   const Floats zero = Floats::all(0);
-  // The box along the axes has three intervals, and so has the box along the group's own axes. An interval is its lower end and its
-  // negative upper end.
+  // The box along the axes has three intervals, and so has the box along the group's own axes. An interval is its lower end and
+  // its negative upper end.
   Floats ends[3][4];
   const auto set_ends = [&](int at, Floats a, Floats b, Floats c) RIIS_LAMBDA {
     ends[at / 2][at % 2 * 2] = least(least(a, b), c);
@@ -404,7 +404,8 @@ RIIS_INLINE void bound_group(const float (*rounded)[triangles_per_group], GroupB
   for (int i = 0; i < 3; ++i) bounds.corner[i] = rounded[3 * k + i][lane];
 }
 
-// Makes the frames of a group's triangles, rounds the corners, and returns the sum of the normals, each as long as twice the area.
+// Makes the frames of a group's triangles, rounds the corners, and returns the sum of the normals, each as long as twice the
+// area.
 RIIS_INLINE void make_frames(const GroupCorners &corners, TriangleGroup &group,
                              float (&rounded)[9][triangles_per_group], double (&normal)[3]) {
   const Doubles zero = Doubles::all(0), one = Doubles::all(1);

@@ -150,18 +150,48 @@ typedef Lanes<double, DoubleRegister, 8> Doubles;
   RIIS_LANEWISE(result, expression)
 
 // clang-format off
-RIIS_LANES Lanes<S, R, n> operator+(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_ARITHMETIC(L, a.part[i] + b.part[i]); }
-RIIS_LANES Lanes<S, R, n> operator-(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_ARITHMETIC(L, a.part[i] - b.part[i]); }
-RIIS_LANES Lanes<S, R, n> operator*(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_ARITHMETIC(L, a.part[i] * b.part[i]); }
-RIIS_LANES Lanes<S, R, n> operator/(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_ARITHMETIC(L, a.part[i] / b.part[i]); }
-RIIS_LANES typename Lanes<S, R, n>::Mask operator<(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef typename Lanes<S, R, n>::Mask M; RIIS_ARITHMETIC(M, a.part[i] < b.part[i]); }
-RIIS_LANES typename Lanes<S, R, n>::Mask operator<=(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef typename Lanes<S, R, n>::Mask M; RIIS_ARITHMETIC(M, a.part[i] <= b.part[i]); }
+RIIS_LANES Lanes<S, R, n> operator+(Lanes<S, R, n> a, Lanes<S, R, n> b) {
+  typedef Lanes<S, R, n> L;
+  RIIS_ARITHMETIC(L, a.part[i] + b.part[i]);
+}
+RIIS_LANES Lanes<S, R, n> operator-(Lanes<S, R, n> a, Lanes<S, R, n> b) {
+  typedef Lanes<S, R, n> L;
+  RIIS_ARITHMETIC(L, a.part[i] - b.part[i]);
+}
+RIIS_LANES Lanes<S, R, n> operator*(Lanes<S, R, n> a, Lanes<S, R, n> b) {
+  typedef Lanes<S, R, n> L;
+  RIIS_ARITHMETIC(L, a.part[i] * b.part[i]);
+}
+RIIS_LANES Lanes<S, R, n> operator/(Lanes<S, R, n> a, Lanes<S, R, n> b) {
+  typedef Lanes<S, R, n> L;
+  RIIS_ARITHMETIC(L, a.part[i] / b.part[i]);
+}
+RIIS_LANES typename Lanes<S, R, n>::Mask operator<(Lanes<S, R, n> a, Lanes<S, R, n> b) {
+  typedef typename Lanes<S, R, n>::Mask M;
+  RIIS_ARITHMETIC(M, a.part[i] < b.part[i]);
+}
+RIIS_LANES typename Lanes<S, R, n>::Mask operator<=(Lanes<S, R, n> a, Lanes<S, R, n> b) {
+  typedef typename Lanes<S, R, n>::Mask M;
+  RIIS_ARITHMETIC(M, a.part[i] <= b.part[i]);
+}
 RIIS_LANES typename Lanes<S, R, n>::Mask operator>(Lanes<S, R, n> a, Lanes<S, R, n> b) { return b < a; }
 RIIS_LANES typename Lanes<S, R, n>::Mask operator>=(Lanes<S, R, n> a, Lanes<S, R, n> b) { return b <= a; }
-RIIS_LANES typename Lanes<S, R, n>::Mask operator==(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef typename Lanes<S, R, n>::Mask M; RIIS_ARITHMETIC(M, a.part[i] == b.part[i]); }
-RIIS_LANES Lanes<S, R, n> least(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_ARITHMETIC(L, least(a.part[i], b.part[i])); }
-RIIS_LANES Lanes<S, R, n> greatest(Lanes<S, R, n> a, Lanes<S, R, n> b) { typedef Lanes<S, R, n> L; RIIS_ARITHMETIC(L, greatest(a.part[i], b.part[i])); }
-RIIS_LANES Lanes<S, R, n> multiply_add(Lanes<S, R, n> a, Lanes<S, R, n> b, Lanes<S, R, n> c) { typedef Lanes<S, R, n> L; RIIS_ARITHMETIC(L, multiply_add(a.part[i], b.part[i], c.part[i])); }
+RIIS_LANES typename Lanes<S, R, n>::Mask operator==(Lanes<S, R, n> a, Lanes<S, R, n> b) {
+  typedef typename Lanes<S, R, n>::Mask M;
+  RIIS_ARITHMETIC(M, a.part[i] == b.part[i]);
+}
+RIIS_LANES Lanes<S, R, n> least(Lanes<S, R, n> a, Lanes<S, R, n> b) {
+  typedef Lanes<S, R, n> L;
+  RIIS_ARITHMETIC(L, least(a.part[i], b.part[i]));
+}
+RIIS_LANES Lanes<S, R, n> greatest(Lanes<S, R, n> a, Lanes<S, R, n> b) {
+  typedef Lanes<S, R, n> L;
+  RIIS_ARITHMETIC(L, greatest(a.part[i], b.part[i]));
+}
+RIIS_LANES Lanes<S, R, n> multiply_add(Lanes<S, R, n> a, Lanes<S, R, n> b, Lanes<S, R, n> c) {
+  typedef Lanes<S, R, n> L;
+  RIIS_ARITHMETIC(L, multiply_add(a.part[i], b.part[i], c.part[i]));
+}
 // clang-format on
 
 template <class Mask>

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
+#include "common/array_view.hpp"
 #include "marking/cells.hpp"
 #include "marking/incidence.hpp"
 #include "parallel/parallel_for.hpp"

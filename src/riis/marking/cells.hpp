@@ -8,9 +8,9 @@
 #include <array>
 #include <cstdint>
 
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
+#include "common/array_view.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
+#include "common/array_view.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {

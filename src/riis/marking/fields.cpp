@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
+#include "common/array_view.hpp"
 #include "geometry/point_triangle.hpp"
 #include "kernels/kernels.hpp"
 #include "parallel/parallel_for.hpp"

@@ -77,7 +77,8 @@ struct FoundNodes {
   void add(int thread, std::int64_t node, const ClosestTriangle &closest) {
     view(by_thread)[thread].push_back({node, std::sqrt(closest.distance_sq), closest.triangle});
     if (Ties *const ties = ties_of(thread))
-      ties->settle([&](std::int64_t) -> auto & { return closest; }, [&](std::int64_t) { return node; });
+      ties->settle(
+          [&](std::int64_t) -> auto & { return closest; }, [&](std::int64_t) { return node; });
   }
 
   std::int64_t size() const {

@@ -11,8 +11,8 @@
 #include <new>
 #include <vector>
 
-#include "common/array_view.hpp"
 #include "base/unfilled.hpp"
+#include "common/array_view.hpp"
 #include "marking/adjacency.hpp"
 #include "parallel/parallel_for.hpp"
 

@@ -5,8 +5,8 @@
 #include <chrono>
 #include <utility>
 
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
+#include "common/array_view.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
+#include "common/array_view.hpp"
 #include "marking/distances.hpp"
 #include "parallel/concurrent_walk.hpp"
 #include "parallel/parallel_for.hpp"

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/array_view.hpp"
 #include "base/unfilled.hpp"
+#include "common/array_view.hpp"
 #include "geometry/bounds.hpp"
 #include "geometry/strided.hpp"
 #include "kernels/kernels.hpp"
@@ -81,8 +81,8 @@ struct NodeItem {
 template <class Node>
 using NodeItems = UnfilledVector<NodeItem<Node>>;
 
-// Sorts nodes so that near ones follow each other. Each pass counts a part's nodes in bins along the longest axis of its box. Then
-// it cuts the part at multiples of a unit: first clusters, then leaves. Items go from one array to the other and back.
+// Sorts nodes so that near ones follow each other. Each pass counts a part's nodes in bins along the longest axis of its box.
+// Then it cuts the part at multiples of a unit: first clusters, then leaves. Items go from one array to the other and back.
 template <class Node>
 class NodeSorter {
  public:

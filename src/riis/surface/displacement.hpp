@@ -27,8 +27,8 @@ struct MovedPatch {
 };
 
 // S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its quads that are split further. Each is evaluated on
-// the smooth patches: on their sides, and inside as the same combination of the sides. The two states share only the label (u,v), so
-// a change of the triangles does not matter. The result is exactly 0 where neither the sides nor the bulge changed.
+// the smooth patches: on their sides, and inside as the same combination of the sides. The two states share only the label (u,v),
+// so a change of the triangles does not matter. The result is exactly 0 where neither the sides nor the bulge changed.
 class PatchMotion {
  public:
   // The grid must have kept its lines.

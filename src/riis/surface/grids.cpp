@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <limits>
 
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
+#include "common/array_view.hpp"
 #include "parallel/parallel_for.hpp"
 #include "surface/triangle_set.hpp"
 

@@ -21,8 +21,7 @@ struct TieRule {
     const std::int64_t a = closest.triangle, b = other.triangle;
     const bool is_one_leaflet = leaflet_id[a] == leaflet_id[b];
     if (is_one_leaflet && patch_id[a] == patch_id[b]) return false;
-    return std::sqrt(other.distance_sq) <=
-           std::sqrt(closest.distance_sq) + (is_one_leaflet ? of_patches : of_leaflets);
+    return std::sqrt(other.distance_sq) <= std::sqrt(closest.distance_sq) + (is_one_leaflet ? of_patches : of_leaflets);
   }
   bool are_of_one_patch(const ClosestTriangle &a, const ClosestTriangle &b) const {
     return leaflet_id[a.triangle] == leaflet_id[b.triangle] && patch_id[a.triangle] == patch_id[b.triangle];
@@ -40,8 +39,8 @@ struct Ties {
   std::vector<Tie> candidates;  // of points that still may get nearer triangles
   std::vector<Tie> found;       // of nodes
 
-  // Keeps the farther one of two triangles of a point, if it may be a tie. `closest` is the nearest that was met. Another triangle
-  // of its patch is no tie, now or later: either this patch stays the nearest, or `closest` itself is kept.
+  // Keeps the farther one of two triangles of a point, if it may be a tie. `closest` is the nearest that was met. Another
+  // triangle of its patch is no tie, now or later: either this patch stays the nearest, or `closest` itself is kept.
   void compare(std::int64_t point, const ClosestTriangle &closest, const ClosestTriangle &other) {
     if (other.triangle < 0 || !rule.is_tie(closest, other)) return;
     if (!candidates.empty()) {

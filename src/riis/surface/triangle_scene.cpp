@@ -12,8 +12,8 @@
 #include <limits>
 #include <mutex>
 
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
+#include "common/array_view.hpp"
 #include "parallel/arena.hpp"
 
 namespace riis {
@@ -82,7 +82,7 @@ struct Query {
   Vec3 q;          // and in the frame
   double largest;  // a bound of q's coordinates and of distances that matter
   ClosestTriangle best;
-  Ties *ties;         // or null
+  Ties *ties;  // or null
   bool is_out_of_memory;
 };
 
@@ -128,7 +128,8 @@ void bounds_of_group(const RTCBoundsFunctionArguments *arguments) {
   bounds->upper_z = group.upper[2];
 }
 
-// Queries the triangles of a group. The filter leaves out triangles farther than the radius: its distances are right to its error.
+// Queries the triangles of a group. The filter leaves out triangles farther than the radius: its distances are right to its
+// error.
 template <bool keeps_ties>
 bool visit_group(RTCPointQueryFunctionArguments *arguments) {
   auto &query = *static_cast<Query *>(arguments->userPtr);

@@ -4,9 +4,9 @@
 #include <limits>
 #include <utility>
 
-#include "common/array_view.hpp"
 #include "base/integer_array.hpp"
 #include "base/log.hpp"
+#include "common/array_view.hpp"
 
 namespace riis {
 namespace {

@@ -60,13 +60,18 @@ ValveKind make_kind() {
     const std::string of = std::string(cusp_names[cusp]) + ".";
     const double *value = table[cusp];
     kind.parameters.insert(kind.parameters.end(), {
-      {of + "leaflet_radius_in", length, "radius of the free edge at the symmetry plane", 1, {value[leaflet_radius_in]}, 0, longest},
-      {of + "leaflet_radius_out", length, "radius of the free edge's end, at the commissure", 1, {value[leaflet_radius_out]}, shortest, longest},
+      {of + "leaflet_radius_in", length, "radius of the free edge at the symmetry plane",
+       1, {value[leaflet_radius_in]}, 0, longest},
+      {of + "leaflet_radius_out", length, "radius of the free edge's end, at the commissure",
+       1, {value[leaflet_radius_out]}, shortest, longest},
       {of + "leaflet_angle", degree, "angle from the symmetry plane to the free edge's end", 1, {value[leaflet_angle]}, 5, 175},
       {of + "leaflet_power", number, "exponent of the free edge's profile", 1, {value[leaflet_power]}, 1, 20},
-      {of + "bending_radius_in", length, "radius of the bending curve at the symmetry plane", 1, {value[bending_radius_in]}, 0, longest},
-      {of + "bending_radius_out", length, "radius of the bending curve's end, at the sinus", 1, {value[bending_radius_out]}, shortest, longest},
-      {of + "bending_angle", degree, "angle from the symmetry plane to the bending curve's end", 1, {value[bending_angle]}, 5, 175},
+      {of + "bending_radius_in", length, "radius of the bending curve at the symmetry plane",
+       1, {value[bending_radius_in]}, 0, longest},
+      {of + "bending_radius_out", length, "radius of the bending curve's end, at the sinus",
+       1, {value[bending_radius_out]}, shortest, longest},
+      {of + "bending_angle", degree, "angle from the symmetry plane to the bending curve's end",
+       1, {value[bending_angle]}, 5, 175},
       {of + "bending_power", number, "exponent of the bending curve's profile", 1, {value[bending_power]}, 1, 20},
       {of + "rotation", degree, "turns of the cusp about x, then y, then z", 3, {0, 0, value[rotation]}, -360, 360},
       {of + "translation", length, "shift of the cusp after its rotation", 3, {0, 0, value[translation]}, -longest, longest},

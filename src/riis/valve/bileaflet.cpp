@@ -36,7 +36,8 @@ ValveKind make_kind() {
     {"gap", length, "width of the slit between the closed leaflets", 1, {0}, 0, longest},
     {"closed_angle", degree, "angle of the closed leaflets from the orifice plane", 1, {30}, 0, 80},
     {"open_angle", degree, "angle of the open leaflets from the orifice plane", 1, {85}, 0, 90},
-    {"ring_height", length, "height of the housing's wall, half of it upstream of the orifice plane; 0: no wall", 1, {0}, 0, longest},
+    {"ring_height", length, "height of the housing's wall, half of it upstream of the orifice plane; 0: no wall",
+     1, {0}, 0, longest},
     opening_spec("0: closed, to 1: open; the leaflets turn from closed_angle to open_angle", 0),
   }, opening, true, check_values, make_patches, check_states};
   kind.housing = RIIS_LEAFLET_HOUSING;

@@ -5,8 +5,8 @@
 #include <tuple>
 #include <utility>
 
-#include "common/array_view.hpp"
 #include "base/errors.hpp"
+#include "common/array_view.hpp"
 #include "geometry/placement.hpp"
 
 namespace riis {

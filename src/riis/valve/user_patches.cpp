@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "common/array_view.hpp"
 #include "base/integer_array.hpp"
+#include "common/array_view.hpp"
 
 namespace riis {
 namespace {
