@@ -27,8 +27,8 @@ def limit_of(path, text):
     return CODE if _CODE.search(path) or is_script else None
 
 
-def limits_of_document(lines):
-    """The limit of each line, None for a line that has none."""
+def limits_of_document(lines, most):
+    """The limit of each line, None for a line that has none; `most` is that of text."""
     fence, is_comment, is_output, previous = None, False, False, ""
     for line in lines:
         mark = re.match(r"\s*```+\s*(\w*)", line)
@@ -39,11 +39,11 @@ def limits_of_document(lines):
             is_comment = "-->" not in line
         elif mark:
             fence = None if fence is not None else mark[1]
-            yield DOCUMENT
+            yield most
         elif fence is not None:
             yield None if fence == "text" else CODE
         else:
-            yield None if is_output or line.lstrip().startswith("|") or _LINK.match(line) else DOCUMENT
+            yield None if is_output or line.lstrip().startswith("|") or _LINK.match(line) else most
         previous = line
 
 
@@ -58,7 +58,7 @@ def too_long(path):
     if limit is None:
         return None
     lines = text.split("\n")
-    limits = limits_of_document(lines) if limit == DOCUMENT else [limit] * len(lines)
+    limits = limits_of_document(lines, limit) if path.endswith(".md") else [limit] * len(lines)
     return [(i, len(line), most) for i, (line, most) in enumerate(zip(lines, limits), 1) if most and len(line) > most]
 
 
