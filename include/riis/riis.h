@@ -768,9 +768,9 @@ typedef struct riis_mark_list {
                                  but against it on mirrored patches (cusps: patch_id % 4 >= 2; mitral: 3, 4,
                                  5, 8, 9), and the other way round for flipped normals */
   const double *velocity;     /* (3, n_nodes): the velocity of the surface there, as its last update gave it.
-                                 Where leaflets are equally near, within 1e-6 half thicknesses, it is the mean
-                                 of theirs, each at its own closest point (docs/theory.md, section 10). All
-                                 other fields are those of one triangle */
+                                 Where leaflets are equally near, within 1e-6 half thicknesses, or patches of
+                                 one, within 1e-9, it is the mean of theirs, each at its own closest point
+                                 (docs/theory.md, section 10). All other fields are those of one triangle */
   const int32_t *side;        /* (n_nodes): as riis_closest.side */
   const int32_t *rim;         /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a
                                  valve consists of the sides that only one patch has, such as free edges and

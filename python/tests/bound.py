@@ -112,7 +112,7 @@ LEFT_OUT = {
 
 def texts_of_the_library(root: pathlib.Path) -> list[str]:
     """Returns the texts of the library's sources that name something of riis.h. Statuses have their C names in Python too."""
-    folders = [folder for folder in (root / "src").iterdir() if folder.is_dir() and folder.name not in ("cli", "vtk")]
+    folders = [folder for folder in (root / "src" / "riis").iterdir() if folder.is_dir()]
     paths = sorted(path for folder in folders for path in folder.rglob("*.[ch]pp") if path.name != "library_api.cpp")
     lines = [line for path in paths for line in path.read_text(encoding="utf-8").splitlines()]
     code = "\n".join(line for line in lines if not line.lstrip().startswith(("#", "//")))

@@ -136,9 +136,9 @@ void set_opening(riis_valve *valve, double opening) {
 }
 
 // The opening goes up to 1 and down to 0 again, wherever it begins.
-class Swing {
+class OpeningSteps {
  public:
-  explicit Swing(riis_valve *valve) { check(riis_valve_get(valve, "opening", 1, &opening_)); }
+  explicit OpeningSteps(riis_valve *valve) { check(riis_valve_get(valve, "opening", 1, &opening_)); }
   double opening() const { return opening_; }
   double next() {
     if (opening_ + change_ > 1 || opening_ + change_ < 0) change_ = -change_;
@@ -152,7 +152,7 @@ class Swing {
 // Puts the valve's opening back, however the steps end.
 class KeptOpening {
  public:
-  explicit KeptOpening(riis_valve *valve) : valve_(valve), opening_(Swing(valve).opening()) {}
+  explicit KeptOpening(riis_valve *valve) : valve_(valve), opening_(OpeningSteps(valve).opening()) {}
   ~KeptOpening() { riis_valve_set_scalar(valve_, "opening", opening_); }
   KeptOpening(const KeptOpening &) = delete;
   KeptOpening &operator=(const KeptOpening &) = delete;
@@ -202,11 +202,11 @@ StepTimes time_steps(const MarkOptions &options, riis_valve *valve, const riis_v
   const Stage stage("timing " + std::to_string(options.n_steps) + " steps", options.quiet);
   const Steps steps = prepared(options, valve, file);
   const KeptOpening kept(valve);
-  Swing swing(valve);
+  OpeningSteps steps_of_opening(valve);
   std::vector<double> of_surface, of_marking;
   for (int i = 0; i < n_first_steps + options.n_steps; ++i) {
     const auto begin = std::chrono::steady_clock::now();
-    set_opening(valve, swing.next());
+    set_opening(valve, steps_of_opening.next());
     check(riis_surface_update(steps.surface.get(), valve, nullptr), "--steps");
     const double updated = seconds_since(begin);
     check(riis_mark_nodes(steps.surface.get(), steps.mesh.get(), &options.mark_options, steps.result.get()),

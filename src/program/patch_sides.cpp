@@ -67,16 +67,16 @@ std::vector<std::int64_t> triangles_of_vertices(const riis_triangles &surface) {
   return triangle;
 }
 
-struct Place {
+struct PointAlong {
   double along;
   Point point;
 };
 
-Line line_of(std::vector<Place> places) {
-  std::sort(places.begin(), places.end(), [](const Place &a, const Place &b) { return a.along < b.along; });
+Line line_of(std::vector<PointAlong> points) {
+  std::sort(points.begin(), points.end(), [](const PointAlong &a, const PointAlong &b) { return a.along < b.along; });
   Line line;
-  for (std::size_t i = 0; i < places.size(); ++i)
-    if (i == 0 || places[i].along != places[i - 1].along) line.push_back(places[i].point);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (i == 0 || points[i].along != points[i - 1].along) line.push_back(points[i].point);
   return line;
 }
 
@@ -122,7 +122,7 @@ class SidesByEnds {
 std::vector<PatchSides> sides_of_patches(const riis_triangles &surface) {
   struct Found {
     std::int32_t leaflet_id;
-    std::array<std::vector<Place>, n_sides> places;
+    std::array<std::vector<PointAlong>, n_sides> points;
   };
   std::map<std::int32_t, Found> found;
   const std::vector<std::int64_t> triangle = triangles_of_vertices(surface);
@@ -130,16 +130,16 @@ std::vector<PatchSides> sides_of_patches(const riis_triangles &surface) {
     const double u = surface.uv[2 * id], v = surface.uv[2 * id + 1];
     Found &patch = found[surface.patch_id[view(triangle)[id]]];
     patch.leaflet_id = surface.leaflet_id[view(triangle)[id]];
-    if (v == 0) patch.places[side_v0].push_back({u, vertex_of(surface, id)});
-    if (v == 1) patch.places[side_v1].push_back({u, vertex_of(surface, id)});
-    if (u == 0) patch.places[side_u0].push_back({v, vertex_of(surface, id)});
-    if (u == 1) patch.places[side_u1].push_back({v, vertex_of(surface, id)});
+    if (v == 0) patch.points[side_v0].push_back({u, vertex_of(surface, id)});
+    if (v == 1) patch.points[side_v1].push_back({u, vertex_of(surface, id)});
+    if (u == 0) patch.points[side_u0].push_back({v, vertex_of(surface, id)});
+    if (u == 1) patch.points[side_u1].push_back({v, vertex_of(surface, id)});
   }
   std::vector<PatchSides> patches;
   for (auto &[patch_id, patch] : found) {
     patches.push_back({patch_id, patch.leaflet_id, {}});
     for (const PatchSide side : {side_v0, side_v1, side_u0, side_u1})
-      patches.back().lines[side] = line_of(std::move(patch.places[side]));
+      patches.back().lines[side] = line_of(std::move(patch.points[side]));
   }
   return patches;
 }

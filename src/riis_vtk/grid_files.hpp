@@ -48,16 +48,16 @@ class XmlSizes {
 
  private:
   // The data of an element: text in the file from begin to end, or bytes.
-  struct Place {
+  struct ArrayData {
     enum Form { ascii, base64, raw } form;
     std::size_t begin, end;
   };
 
   template <class... Parts>
   [[noreturn]] void refuse(vtkXMLDataElement *element, const Parts &...parts) const;
-  Place place_of(vtkXMLDataParser *parser, vtkXMLDataElement *element) const;
-  std::vector<std::uint64_t> words(const Place &place, int size, bool is_big, std::uint64_t n) const;
-  std::uint64_t n_bytes_in(vtkXMLDataParser *parser, vtkXMLDataElement *element, const Place &place) const;
+  ArrayData data_of(vtkXMLDataParser *parser, vtkXMLDataElement *element) const;
+  std::vector<std::uint64_t> words(const ArrayData &data, int size, bool is_big, std::uint64_t n) const;
+  std::uint64_t n_bytes_in(vtkXMLDataParser *parser, vtkXMLDataElement *element, const ArrayData &data) const;
   void check_bits(vtkXMLDataParser *parser, vtkXMLDataElement *element, std::int64_t n, std::uint64_t n_bits);
   void check_array(vtkXMLDataParser *parser, vtkXMLDataElement *element, std::int64_t n);
   void check_piece(vtkXMLDataParser *parser, vtkXMLDataElement *piece);

@@ -168,7 +168,7 @@ void XmlSizes::refuse(vtkXMLDataElement *element, const Parts &...parts) const {
 }
 
 // Finds the data as VTK does: appended data if there is an offset, whatever the format is.
-XmlSizes::Place XmlSizes::place_of(vtkXMLDataParser *parser, vtkXMLDataElement *element) const {
+XmlSizes::ArrayData XmlSizes::data_of(vtkXMLDataParser *parser, vtkXMLDataElement *element) const {
   const std::size_t size = bytes_.size();
   if (element->GetAttribute("offset")) {
     vtkTypeInt64 offset = 0;
@@ -179,21 +179,21 @@ XmlSizes::Place XmlSizes::place_of(vtkXMLDataParser *parser, vtkXMLDataElement *
     // A sum that might overflow is not made.
     const bool is_inside = offset >= 0 && start >= 0 && start <= static_cast<vtkTypeInt64>(size) &&
                            offset <= static_cast<vtkTypeInt64>(size) - start;
-    return {encoding && std::strcmp(encoding, "raw") == 0 ? Place::raw : Place::base64,
+    return {encoding && std::strcmp(encoding, "raw") == 0 ? ArrayData::raw : ArrayData::base64,
             is_inside ? static_cast<std::size_t>(start + offset) : size, size};
   }
   const char *format = element->GetAttribute("format");
   std::size_t begin = std::min(bytes_.find('>', static_cast<std::size_t>(element->GetXMLByteIndex())), size - 1) + 1;
   while (begin < size && std::isspace(static_cast<unsigned char>(bytes_[begin]))) ++begin;
-  return {format && std::strcmp(format, "binary") == 0 ? Place::base64 : Place::ascii, begin,
+  return {format && std::strcmp(format, "binary") == 0 ? ArrayData::base64 : ArrayData::ascii, begin,
           std::min(bytes_.find('<', begin), size)};
 }
 
 // Returns the first n words, which must be there.
-std::vector<std::uint64_t> XmlSizes::words(const Place &place, int size, bool is_big, std::uint64_t n) const {
+std::vector<std::uint64_t> XmlSizes::words(const ArrayData &data, int size, bool is_big, std::uint64_t n) const {
   const auto byte = [&](std::uint64_t i) -> std::uint64_t {
-    if (place.form == Place::raw) return static_cast<unsigned char>(bytes_[place.begin + i]);
-    const char *four = &bytes_[place.begin + i / 3 * 4];
+    if (data.form == ArrayData::raw) return static_cast<unsigned char>(bytes_[data.begin + i]);
+    const char *four = &bytes_[data.begin + i / 3 * 4];
     const std::uint32_t bits = bits_of_character(four[0]) << 18 | bits_of_character(four[1]) << 12 |
                                bits_of_character(four[2]) << 6 | bits_of_character(four[3]);
     return bits >> (16 - 8 * (i % 3)) & 255;
@@ -209,7 +209,7 @@ std::vector<std::uint64_t> XmlSizes::words(const Place &place, int size, bool is
 // Returns how many bytes of values a block of binary data claims. An uncompressed block begins with that number. A compressed
 // one begins with the number of its parts, the size of each, that of the last if it is smaller, and the compressed sizes. In
 // base64 these numbers are written apart.
-std::uint64_t XmlSizes::n_bytes_in(vtkXMLDataParser *parser, vtkXMLDataElement *element, const Place &place) const {
+std::uint64_t XmlSizes::n_bytes_in(vtkXMLDataParser *parser, vtkXMLDataElement *element, const ArrayData &data) const {
   vtkXMLDataElement *root = parser->GetRootElement();
   const char *header_type = root->GetAttribute("header_type"), *byte_order = root->GetAttribute("byte_order");
   const int word = header_type && std::strcmp(header_type, "UInt64") == 0 ? 8 : 4;
@@ -218,25 +218,25 @@ std::uint64_t XmlSizes::n_bytes_in(vtkXMLDataParser *parser, vtkXMLDataElement *
 #else
   const bool is_big = byte_order && std::strcmp(byte_order, "BigEndian") == 0;
 #endif
-  const auto n_decoded = [&](std::uint64_t n) { return place.form == Place::raw ? n : n / 4 * 3; };
-  const std::uint64_t n_held = n_decoded(place.end - place.begin), word_size = static_cast<std::uint64_t>(word);
+  const auto n_decoded = [&](std::uint64_t n) { return data.form == ArrayData::raw ? n : n / 4 * 3; };
+  const std::uint64_t n_held = n_decoded(data.end - data.begin), word_size = static_cast<std::uint64_t>(word);
   if (!parser->GetCompressor()) {
     if (n_held < word_size) return 0;
-    const std::uint64_t n = words(place, word, is_big, 1)[0];
+    const std::uint64_t n = words(data, word, is_big, 1)[0];
     if (n > n_held - word_size) refuse(element, "claims ", n, " bytes, and the file holds ", n_held - word_size);
     return n;
   }
   if (n_held < 3 * word_size) return 0;
-  const std::vector<std::uint64_t> head = words(place, word, is_big, 3);
+  const std::vector<std::uint64_t> head = words(data, word, is_big, 3);
   const std::uint64_t n_blocks = head[0], block = head[1], last = head[2];
   if (n_blocks == 0) return 0;
   if (n_blocks > n_held / word_size - 3)
     refuse(element, "claims ", n_blocks, " compressed blocks, and the file holds ", n_held, " bytes");
   if (block == 0 || last > block) refuse(element, "claims compressed blocks of ", block, " bytes, the last of ", last);
   const std::uint64_t n_head = (3 + n_blocks) * word_size;
-  const std::uint64_t n_before = place.form == Place::raw ? n_head : (n_head + 2) / 3 * 4;
-  std::uint64_t n_left = n_decoded(place.end - std::min(place.begin + n_before, place.end)), n_bytes = 0;
-  const std::vector<std::uint64_t> sizes = words(place, word, is_big, 3 + n_blocks);
+  const std::uint64_t n_before = data.form == ArrayData::raw ? n_head : (n_head + 2) / 3 * 4;
+  std::uint64_t n_left = n_decoded(data.end - std::min(data.begin + n_before, data.end)), n_bytes = 0;
+  const std::vector<std::uint64_t> sizes = words(data, word, is_big, 3 + n_blocks);
   for (std::uint64_t i = 0; i < n_blocks; ++i) {
     const std::uint64_t compressed = sizes[3 + i], uncompressed = i + 1 == n_blocks && last > 0 ? last : block;
     if (compressed > n_left)
@@ -253,10 +253,10 @@ void XmlSizes::check_bits(vtkXMLDataParser *parser, vtkXMLDataElement *element, 
   const auto [found, is_new] = held_.try_emplace(element);
   Held &held = found->second;
   if (is_new) {
-    const Place place = place_of(parser, element);
-    held.is_text = place.form == Place::ascii;
+    const ArrayData data = data_of(parser, element);
+    held.is_text = data.form == ArrayData::ascii;
     // A number takes a character at least, and a blank before the next.
-    held.n = held.is_text ? (place.end - place.begin + 1) / 2 : n_bytes_in(parser, element, place);
+    held.n = held.is_text ? (data.end - data.begin + 1) / 2 : n_bytes_in(parser, element, data);
   }
   // Each number of a text is one value, or eight values of one bit.
   const std::uint64_t n_values = held.is_text ? held.n * (n_bits == 1 ? 8 : 1) : held.n * 8 / n_bits;
