@@ -15,8 +15,6 @@
 namespace riis::program {
 namespace {
 
-[[noreturn]] void refuse(const std::string &text) { throw Refusal{exit_wrong_usage, text}; }
-
 // Lists an option with the value that it takes. CLI11 would add what excludes it and what it needs, which fills a screen.
 class BriefHelp : public CLI::Formatter {
  public:
@@ -100,14 +98,15 @@ std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
 // Refuses a word that is no command where one must stand.
 void check_command(const CLI::App &app, const std::string &word) {
   const std::string hint = " (" + name_of(app) + " --help lists the commands)";
-  if (looks_like_option(word)) refuse(word + " stands before a command" + hint);
+  if (looks_like_option(word)) refuse_usage(word + " stands before a command" + hint);
   NearestName nearest(word);
   for (const CLI::App *command : app.get_subcommands([](const CLI::App *) { return true; })) {
     if (command->get_name() == word) return;
     nearest.consider(command->get_name());
   }
   const std::string near(nearest.nearest());
-  refuse("'" + word.substr(0, 64) + "' is not a command" + (near.empty() ? "" : ", did you mean " + near + "?") + hint);
+  refuse_usage("'" + word.substr(0, 64) + "' is not a command" + (near.empty() ? "" : ", did you mean " + near + "?") +
+               hint);
 }
 
 void check_commands(const CLI::App &app, int argc, char **argv) {
@@ -117,7 +116,7 @@ void check_commands(const CLI::App &app, int argc, char **argv) {
   if (argc < 2 || is_request(argv[1])) return;
   check_command(app, argv[1]);
   if (argv[1] != std::string("check")) return;
-  if (argc < 3) refuse("riis check needs a command: crossings or leaks");
+  if (argc < 3) refuse_usage("riis check needs a command: crossings or leaks");
   if (!is_request(argv[2])) check_command(*app.get_subcommand("check"), argv[2]);
 }
 
@@ -177,9 +176,9 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
     return std::nullopt;
   } catch (const CLI::ExtrasError &) {
     const CLI::App &parsed = innermost(app);
-    refuse(text_of_leftovers(parsed, argc, argv) + " (" + hint_of(parsed) + ")");
+    refuse_usage(text_of_leftovers(parsed, argc, argv) + " (" + hint_of(parsed) + ")");
   } catch (const CLI::ParseError &error) {
-    refuse(std::string(error.what()) + " (" + name_of(innermost(app)) + " --help lists the options)");
+    refuse_usage(std::string(error.what()) + " (" + name_of(innermost(app)) + " --help lists the options)");
   }
   if (help->parsed()) {
     write_text("-", text_of_topic(topic));

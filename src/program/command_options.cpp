@@ -21,8 +21,6 @@ const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor",
 const std::vector<std::string> distance_names = {"triangles", "sampling", "minimization"};
 const std::vector<std::string> view_names = {"side", "top", "oblique"};
 
-[[noreturn]] void refuse(const std::string &text) { throw Refusal{exit_wrong_usage, text}; }
-
 std::int32_t position_of(const std::string &name, const std::vector<std::string> &names) {
   return static_cast<std::int32_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
@@ -30,31 +28,31 @@ std::int32_t position_of(const std::string &name, const std::vector<std::string>
 // RIIS_AUTO is a negative number, and a user's number must not pass for it.
 double parse_positive(const std::string &text, const std::string &subject) {
   const double number = parse_number(text, subject);
-  if (!(number > 0)) refuse(subject + ": " + text + " is not above 0");
+  if (!(number > 0)) refuse_usage(subject + ": " + text + " is not above 0");
   return number;
 }
 
 double parse_positive_finite(const std::string &text, const std::string &subject) {
   const double number = parse_number(text, subject);
-  if (!(number > 0 && std::isfinite(number))) refuse(subject + ": " + text + " is not above 0 and finite");
+  if (!(number > 0 && std::isfinite(number))) refuse_usage(subject + ": " + text + " is not above 0 and finite");
   return number;
 }
 
 std::int32_t parse_count(const std::string &text, const std::string &subject, std::int32_t least, std::int32_t most) {
   const std::int32_t n = parse_integer(text, subject);
   if (n < least || n > most)
-    refuse(subject + ": " + text + " is not from " + std::to_string(least) + " to " + std::to_string(most));
+    refuse_usage(subject + ": " + text + " is not from " + std::to_string(least) + " to " + std::to_string(most));
   return n;
 }
 
 TimeSpan parse_span(const std::string &text, const std::string &subject) {
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos || text.find(':', colon + 1) != std::string::npos)
-    refuse(subject + ": '" + text + "' is not START:STOP");
+    refuse_usage(subject + ": '" + text + "' is not START:STOP");
   const TimeSpan span{parse_number(text.substr(0, colon), subject), parse_number(text.substr(colon + 1), subject)};
   if (!(std::abs(span.start) <= 1e30 && std::abs(span.stop) <= 1e30))
-    refuse(subject + ": " + text + " is not finite and at most 1e30 in magnitude");
-  if (!(span.stop > span.start)) refuse(subject + ": the stop of " + text + " is not after its start");
+    refuse_usage(subject + ": " + text + " is not finite and at most 1e30 in magnitude");
+  if (!(span.stop > span.start)) refuse_usage(subject + ": the stop of " + text + " is not after its start");
   return span;
 }
 
@@ -79,7 +77,7 @@ void declare_opening(Command &command, ValveOptions &options) {
                 [&options](const std::string &text) {
                   options.opening = parse_number(text, "--opening");
                   if (!(*options.opening >= 0 && *options.opening <= 1))
-                    refuse("--opening: " + text + " is not from 0 to 1");
+                    refuse_usage("--opening: " + text + " is not from 0 to 1");
                 });
 }
 
@@ -192,7 +190,7 @@ void declare_marking(Command &command, MarkOptions &options) {
       .value("--steps", "N", "Also time N steps: each moves the opening by 0.02 and marks again",
              [&options](const std::string &text) {
                options.n_steps = parse_integer(text, "--steps");
-               if (options.n_steps < 1) refuse("--steps: " + text + " is not above 0");
+               if (options.n_steps < 1) refuse_usage("--steps: " + text + " is not above 0");
              })
       ->excludes(command.option("--surface"));
 }
@@ -214,7 +212,7 @@ void declare_pictures(Command &command, MarkOptions &options) {
   command
       .values("--view", "VIEW", "View of a --picture: side, top or oblique (default); one for each, in their order",
               [&options](const std::vector<std::string> &views) {
-                if (views.size() > options.pictures.size()) refuse("--view: there are more views than pictures");
+                if (views.size() > options.pictures.size()) refuse_usage("--view: there are more views than pictures");
                 for (std::size_t i = 0; i < views.size(); ++i)
                   options.pictures[i].view = position_of(views[i], view_names);
               })
@@ -276,23 +274,24 @@ bool has_set_opening(const ValveOptions &options) {
 }
 
 void check_set_opening(const ValveOptions &options, const std::string &reason) {
-  if (has_set_opening(options)) refuse("--set opening " + reason);
+  if (has_set_opening(options)) refuse_usage("--set opening " + reason);
 }
 
 void check_opening(const ValveOptions &options) {
-  if (options.opening && has_set_opening(options)) refuse("--opening and --set opening exclude each other");
+  if (options.opening && has_set_opening(options)) refuse_usage("--opening and --set opening exclude each other");
 }
 
 // Derives the scale and the default half thickness from the units.
 void finish_units(ValveOptions &options) {
   const bool is_file = !options.surface.empty() || is_valve_file(options.valve);
   if (!is_file && options.surface_unit && options.surface_unit != Unit::centimetre)
-    refuse("--surface-unit: the parameters of the " + options.valve + " valve are in centimetres, not in " +
-           words_of(*options.surface_unit));
-  if (!options.unit && options.surface_unit) refuse("--surface-unit needs --unit, the unit of the mesh");
+    refuse_usage("--surface-unit: the parameters of the " + options.valve + " valve are in centimetres, not in " +
+                 words_of(*options.surface_unit));
+  if (!options.unit && options.surface_unit) refuse_usage("--surface-unit needs --unit, the unit of the mesh");
   if (!options.unit) return;
   if (is_file && !options.surface_unit)
-    refuse("--unit needs --surface-unit, the unit of " + (options.surface.empty() ? options.valve : options.surface));
+    refuse_usage("--unit needs --surface-unit, the unit of " +
+                 (options.surface.empty() ? options.valve : options.surface));
   apply_units(options);
 }
 
@@ -300,22 +299,22 @@ void finish_units(ValveOptions &options) {
 void check_motion(const Command &command, const ValveOptions &options, bool has_times, bool has_cycle) {
   const bool is_motion = is_motion_file(options.surface);
   if (is_motion && !options.time && !has_times)
-    refuse("--surface " + options.surface + " is a motion: it needs --time T");
+    refuse_usage("--surface " + options.surface + " is a motion: it needs --time T");
   if (!is_motion && options.time)
-    refuse("--time has no effect with --surface " + options.surface + ": a motion is a .pvd file");
+    refuse_usage("--time has no effect with --surface " + options.surface + ": a motion is a .pvd file");
   if (command.has("--period") && !is_motion && !has_cycle)
-    refuse("--period needs a motion, --surface FILE.pvd, or --cycle");
+    refuse_usage("--period needs a motion, --surface FILE.pvd, or --cycle");
 }
 
 void check_open_state(const ValveOptions &options) {
   if (!options.params_open.empty() && is_valve_file(options.valve))
-    refuse("--params-open has no effect with --valve " + options.valve + ": the open state is in that file");
+    refuse_usage("--params-open has no effect with --valve " + options.valve + ": the open state is in that file");
 }
 
 // At the default opening of most valves the file would have no effect, and nobody would see it.
 void check_open_state_is_met(const ValveOptions &options, bool has_cycle) {
   if (!options.params_open.empty() && !sets_opening(options) && !has_cycle)
-    refuse("--params-open needs --opening or --cycle: without either the valve does not open to that state");
+    refuse_usage("--params-open needs --opening or --cycle: without either the valve does not open to that state");
 }
 
 void finish_valve(const Command &command, ValveOptions &options) {
@@ -330,22 +329,22 @@ void check_series(const Command &command, const MarkOptions &options) {
   if (!series.case_file.empty()) return;
   if (series.times.empty()) {
     for (const char *name : {"--cycle", "--movie", "--series-table", "--all-cells"})
-      if (command.has(name)) refuse(std::string(name) + " needs --times");
+      if (command.has(name)) refuse_usage(std::string(name) + " needs --times");
     return;
   }
   if (!options.surface.empty()) {
-    if (!series.cycle.empty()) refuse("--cycle has no effect with --surface");
+    if (!series.cycle.empty()) refuse_usage("--cycle has no effect with --surface");
     if (!is_motion_file(options.surface))
-      refuse("--times has no effect with --surface " + options.surface + ": a motion is a .pvd file");
+      refuse_usage("--times has no effect with --surface " + options.surface + ": a motion is a .pvd file");
     return;
   }
-  if (series.cycle.empty()) refuse("--times needs --cycle, the valve's opening in time");
+  if (series.cycle.empty()) refuse_usage("--times needs --cycle, the valve's opening in time");
   check_set_opening(options, "has no effect with --times: see --cycle");
 }
 
 void check_distance(const Command &command, const MarkOptions &options) {
   if (command.has("--distance-tolerance") && options.surface_options.measure == RIIS_MEASURE_TRIANGLES)
-    refuse("--distance-tolerance has no effect with --distance triangles: see --tolerance");
+    refuse_usage("--distance-tolerance has no effect with --distance triangles: see --tolerance");
 }
 
 bool has_output(const MarkOptions &options) {
@@ -357,7 +356,7 @@ bool has_output(const MarkOptions &options) {
 void check_folder_name(const std::string &folder) {
   const auto is_blank = [](unsigned char c) { return c <= ' ' || c == 127; };
   if (std::any_of(folder.begin(), folder.end(), is_blank))
-    refuse("FOLDER: '" + folder + "' has a blank, and svMultiPhysics reads no path with one");
+    refuse_usage("FOLDER: '" + folder + "' has a blank, and svMultiPhysics reads no path with one");
 }
 
 }  // namespace
@@ -418,7 +417,7 @@ CLI::Option *Command::flag(const std::string &names, const char *help, bool &to)
   return finished(app_->add_flag(names, to, help), nullptr);
 }
 
-void refuse_empty(const std::string &name) { refuse(name + ": the value is empty"); }
+void refuse_empty(const std::string &name) { refuse_usage(name + ": the value is empty"); }
 
 // ---- The commands ----
 
@@ -563,18 +562,18 @@ MarkOptions finish_mark(const Command &command, MarkOptions options) {
   finish_units(options);
   check_distance(command, options);
   if (!is_prefix(options.prefix))
-    refuse("--prefix: '" + options.prefix.substr(0, 64) + "' must be 1 to 64 letters, digits, _, - and .");
+    refuse_usage("--prefix: '" + options.prefix.substr(0, 64) + "' must be 1 to 64 letters, digits, _, - and .");
   options.mark_options.n_threads = options.n_threads;
   if (has_case) return options;
-  if (options.mesh.empty()) refuse("nothing to do: a MESH is needed");
-  if (options.quiet && !has_output(options)) refuse("nothing to do: --quiet is given and no output is named");
+  if (options.mesh.empty()) refuse_usage("nothing to do: a MESH is needed");
+  if (options.quiet && !has_output(options)) refuse_usage("nothing to do: --quiet is given and no output is named");
   return options;
 }
 
 MarkOptions finish_surface(const Command &command, MarkOptions options) {
   finish_valve(command, options);
   check_open_state_is_met(options, false);
-  if (!has_output(options)) refuse("nothing to do: --output or --picture is needed");
+  if (!has_output(options)) refuse_usage("nothing to do: --output or --picture is needed");
   return options;
 }
 
@@ -604,7 +603,7 @@ ExportOptions finish_export(const Command &, ExportOptions options) {
   check_open_state(options);
   finish_units(options);
   if (options.cycle.empty() && (!options.opening_duration || !options.closing_duration))
-    refuse("riis export needs --opening-seconds and --closing-seconds, or --cycle");
+    refuse_usage("riis export needs --opening-seconds and --closing-seconds, or --cycle");
   return options;
 }
 

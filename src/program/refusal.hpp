@@ -16,6 +16,8 @@ struct Refusal {
   std::string text;
 };
 
+[[noreturn]] inline void refuse_usage(const std::string &text) { throw Refusal{exit_wrong_usage, text}; }
+
 // Returns the library's message with the command line's option in place of the struct field that it begins with.
 inline std::string with_option_named(const std::string &text) {
   static const std::pair<std::string, std::string> options[] = {{"options.scale ", "--scale "},

@@ -36,6 +36,6 @@ class WholeFolder {
 };
 
 // Throws a Refusal for a folder that WholeFolder would refuse, and changes nothing.
-void check_whole_folder(const std::string &path, const std::string &option);
+void check_whole_folder(const std::string &given, const std::string &option);
 
 }  // namespace riis::program

@@ -68,7 +68,7 @@ class Scene {
   // Shows the surface, and the marks that the grid has now. title NULL: "Surface".
   void show(const riis_surface *surface, const char *title, const Leaks &leaks);
   // The box that the camera sees, or nothing for the surface.
-  vtkRenderWindow *render(std::int32_t view, const std::optional<Bounds> &seen);
+  vtkRenderWindow *render(std::int32_t of, const std::optional<Bounds> &seen);
 
  private:
   void add_panel(vtkRenderer *renderer, int panel);

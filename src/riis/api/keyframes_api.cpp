@@ -6,7 +6,6 @@
 
 using riis::guarded;
 using riis::require;
-using riis::require_handle;
 
 namespace {
 

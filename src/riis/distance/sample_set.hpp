@@ -67,7 +67,7 @@ class SampleSet final : public PatchDistance {
   std::int32_t add_samples(std::int32_t patch, const Samples &samples);
   void add_leaf(std::int32_t patch, const Samples &samples, Node &node);
   void join(std::int32_t node, std::int32_t second);
-  void visit(std::int32_t node, Query &query) const;
+  void visit(std::int32_t at, Query &query) const;
 
   std::vector<SampleCounts> counts_;  // of each patch
   std::vector<double> xyz_;           // (3, n_samples), leaf after leaf

@@ -18,7 +18,7 @@ struct MarkingRequest {
 };
 
 // A failure leaves the lists as they were and where they were.
-void mark_nodes(const SearchRequest &request, const MarkingRequest &marking, Marks &marks);
+void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks &marks);
 
 // Writes the marks to the caller's arrays, whose far_distance was checked.
 void write_dense(const Marks &marks, const riis_dense_arrays &to);

@@ -46,7 +46,7 @@ struct SurfaceSeconds {
 // The first fails as the stages of the pipeline do. RIIS_INVALID_PARAMETER also refuses a valve without area and a motion
 // between two valves of different builds. Without a motion the vertices have no velocity. The fixed triangulation is null
 // unless accuracy.is_fixed.
-SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *motion, const SurfaceRequest &request,
+SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const SurfaceRequest &request,
                             const ValveAccuracy &accuracy, const FixedTriangulation *fixed, Surface &surface);
 SurfaceSeconds make_surface(const UserFaces &faces, const riis_surface_arrays &arrays, bool skip_zero_area,
                             const SurfaceRequest &request, Surface &surface);

@@ -47,12 +47,12 @@ struct TriangulationPlan {
   Connectivity connectivity;
 };
 
-// Makes the plan for a valve's patches at many openings. max_error is that of a Triangulation, and the plan keeps a small part of
-// it for openings between these. Fails as triangulate_fixed does.
-TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double max_error, int n_threads);
+// Makes the plan for a valve's patches at many openings. asked_error is the max_error of a Triangulation; the plan keeps a small
+// part of it for openings between these. Fails as triangulate_fixed does.
+TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked_error, int n_threads);
 
-// Returns whether the plan's triangles are within max_error of a state.
-bool is_within(const PatchSet &state, const TriangulationPlan &plan, double max_error);
+// Returns whether the plan's triangles are within asked_error of a state.
+bool is_within(const PatchSet &state, const TriangulationPlan &plan, double asked_error);
 
 struct Triangulation {
   double
@@ -65,10 +65,10 @@ struct Triangulation {
 
 // Makes triangles on grids as coarse as the state allows, in the memory of triangles that are no longer wanted. Fails with
 // RIIS_LIMIT_EXCEEDED for more than max_triangles, and with RIIS_INVALID_PARAMETER for a patch without area.
-TriangleSet triangulate_adapted(const PatchSet &set, const Triangulation &how, TriangleSet memory = {});
+TriangleSet triangulate_adapted(const PatchSet &set, const Triangulation &asked, TriangleSet memory = {});
 // Does the same by a plan: triangles keep their ids if others lose their area. Also fails with RIIS_LIMIT_EXCEEDED if the plan is
 // not within max_error of this state.
-TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &how, const TriangulationPlan &plan,
+TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, const TriangulationPlan &plan,
                               TriangleSet memory = {});
 
 }  // namespace riis

@@ -22,7 +22,7 @@ enum Parameter { radius, hinge_offset, hinge_height, gap, closed_angle, open_ang
 
 void check_values(const ParameterValues &values);
 void check_states(const ValveState &valve, const ValveState &other, const char *name);
-PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
+PatchSet make_patches(const ValveState &closed, const ValveState &open, double at);
 
 // clang-format off
 ValveKind make_kind() {
