@@ -156,9 +156,9 @@ void riisValve::readAll() {
   markOptions_.n_threads = options.n_threads;
   markOptions_.fields = withVelocity_ ? RIIS_FIELD_VELOCITY : 0;
   check(riis_resistance_init(&resistance_, sizeof resistance_));
-  resistance_.resistance = dimensionedScalar("resistance", dimMass / dimLength / dimTime, coeffs_).value();
-  if (!(resistance_.resistance >= 0)) {
-    FatalIOErrorInFunction(coeffs_) << "resistance is " << resistance_.resistance << ", and must be at least 0"
+  resistance_.R = dimensionedScalar("resistance", dimMass / dimLength / dimTime, coeffs_).value();
+  if (!(resistance_.R >= 0)) {
+    FatalIOErrorInFunction(coeffs_) << "resistance is " << resistance_.R << ", and must be at least 0"
                                     << exit(FatalIOError);
   }
 }
