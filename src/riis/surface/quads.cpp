@@ -14,7 +14,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Bounds the distance between a quad and its triangles at a level of subdivision. Refines the bound only as far as `enough` needs.
+// Bounds the distance between a quad and its triangles at a level of subdivision. Refines no further than `enough` needs.
 double split_error_at(const Quad &quad, int level, double enough) {
   // Each halving divides the twist of all parts by exactly 4. All parts are checked while there are few.
   constexpr int few = 5;
