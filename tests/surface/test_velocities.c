@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Velocities of valves that open, at vertices and inside triangles, compared with the smooth motion. The bound on their errors
- * holds for any motion. */
+ * is tested for any motion. */
 #include <riis/riis.h>
 
 #include "test_support.h"
