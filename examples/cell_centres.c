@@ -41,7 +41,7 @@ int main(void) {
   check(riis_mesh_create(n_cells, centre, centre + 1, centre + 2, 3, &mesh));
   check(riis_marks_create(&marks));
 
-  /* A round rim would add half a tube around the free edges and the annulus. Cut, the band ends there. */
+  /* A round rim would add half a tube around the free edges and the annulus. With a cut rim, the band ends there. */
   riis_mark_options mark_options;
   riis_resistance resistance;
   check(riis_mark_options_init(&mark_options, sizeof mark_options));

@@ -29,7 +29,7 @@ program cell_centres
   call surface%create(valve, half_thickness=eps, scale=0.01d0) ! the valve's tables are in centimetres
   call mesh%create(centre)
 
-  ! A round rim would add half a tube around the free edges and the annulus. Cut, the band ends there.
+  ! A round rim would add half a tube around the free edges and the annulus. With a cut rim, the band ends there.
   call riis_mark_nodes(surface, mesh, result, fields=RIIS_FIELD_RIM)
   call result%add_resistance(R, coefficient, rim=RIIS_RIM_CUT)
 

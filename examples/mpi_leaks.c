@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Does a closed valve seal, in a mesh that is partitioned over the ranks of MPI? Each rank labels the open regions of its part,
- * and riis does not communicate. The ranks exchange the labels of the nodes that they share, until nothing changes. Then rank 0
- * compares the labels with those of the whole mesh. Lengths are in cm.
+ * Tests whether a closed valve seals, in a mesh that is partitioned over the ranks of MPI. Each rank labels the open regions of
+ * its part, and riis does not communicate. The ranks exchange the labels of the nodes that they share, until nothing changes.
+ * Then rank 0 compares the labels with those of the whole mesh. Lengths are in cm.
  *   mpirun -n 4 ./mpi_leaks */
 #include <mpi.h>
 #include <riis/riis.h>
@@ -44,7 +44,7 @@ static int64_t label_part(const riis_surface *surface, riis_marks *marks, int fi
 }
 
 /* Sends the labels of one plane of the part to a rank, and takes those of another rank for the same or the other plane. Returns 1
- * if they say that a region reaches to a lower node. */
+ * if these labels show that a region reaches to a lower node. */
 static int exchange(int from_plane, int to_rank, int at_plane, int from_rank) {
   int64_t sent[plane], got[plane];
   int changed = 0;
@@ -79,7 +79,7 @@ int main(int argc, char **argv) {
     in_tube[i] = x * x + y * y <= 1.2 * 1.2;
   }
 
-  /* An aortic valve whose cusps nearly meet. The surface is small, so every rank makes it for itself, with the same bits. */
+  /* The cusps of this aortic valve nearly meet. The surface is small, so every rank makes it for itself, with the same bits. */
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_marks *marks = NULL;
@@ -88,7 +88,7 @@ int main(int argc, char **argv) {
   check(riis_surface_create(valve, NULL, &surface));
   check(riis_marks_create(&marks));
 
-  /* The part: whole planes, and the first plane of the next rank, whose nodes both ranks have. */
+  /* The part consists of whole planes and of the first plane of the next rank, whose nodes both ranks have. */
   int first_plane = n * rank / n_ranks, n_own = n * (rank + 1) / n_ranks - first_plane;
   int first = first_plane * plane, is_last = rank + 1 == n_ranks, n_planes = n_own + !is_last;
   int before = rank > 0 ? rank - 1 : MPI_PROC_NULL, behind = is_last ? MPI_PROC_NULL : rank + 1;

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Does a closed valve seal, in a mesh that is partitioned over the ranks of MPI? Each rank labels the open regions of its part,
-! and riis does not communicate. The ranks exchange the labels of the nodes that they share, until nothing changes. Then rank 0
-! compares the labels with those of the whole mesh. Lengths are in cm.
+! Tests whether a closed valve seals, in a mesh that is partitioned over the ranks of MPI. Each rank labels the open regions of
+! its part, and riis does not communicate. The ranks exchange the labels of the nodes that they share, until nothing changes. Then
+! rank 0 compares the labels with those of the whole mesh. Lengths are in cm.
 !   mpirun -n 4 ./mpi_leaks_fortran
 program mpi_leaks
   use, intrinsic :: iso_fortran_env, only: int64
@@ -32,12 +32,12 @@ program mpi_leaks
   end do
   in_tube = xyz(1, :)**2 + xyz(2, :)**2 <= 1.2d0**2
 
-  ! An aortic valve whose cusps nearly meet. The surface is small, so every rank makes it for itself, with the same bits.
+  ! The cusps of this aortic valve nearly meet. The surface is small, so every rank makes it for itself, with the same bits.
   call valve%create('aortic')
   call valve%set('leaflet_radius_in', 0.02d0)
   call surface%create(valve)
 
-  ! The part: whole planes, and the first plane of the next rank, whose nodes both ranks have.
+  ! The part consists of whole planes and of the first plane of the next rank, whose nodes both ranks have.
   first = n * rank / n_ranks * plane + 1
   n_own = n * (rank + 1) / n_ranks - n * rank / n_ranks
   n_planes = n_own + merge(1, 0, rank + 1 < n_ranks)
@@ -98,8 +98,8 @@ contains
     call adjacency%destroy()
   end subroutine label_part
 
-  ! Sends the labels of one plane of the part to a rank, and takes those of another rank for the other plane. They may say that
-  ! a region reaches to a lower node.
+  ! Sends the labels of one plane of the part to a rank, and takes those of another rank for the other plane. These labels may
+  ! show that a region reaches to a lower node.
   subroutine exchange(from_plane, to_rank, at_plane, from_rank)
     integer, intent(in) :: from_plane, to_rank, at_plane, from_rank
     integer(int64) :: sent(plane), got(plane), own

@@ -20,9 +20,9 @@ static void check(riis_status status) {
 
 static int first_node(int rank, int n_ranks) { return n * rank / n_ranks * plane; } /* whole planes of the grid */
 
-/* Makes compressed sparse rows of the rank's own nodes, n_rows from the first one on. The neighbors in the planes before and
- * behind are other ranks' nodes: ghosts, which are numbered from n_rows on, as in most solvers. Returns the number of own
- * nodes and ghosts. */
+/* Makes compressed sparse rows of the rank's own nodes, n_rows from the first one on. The neighbours in the planes before and
+ * behind are other ranks' nodes. These ghosts are numbered from n_rows on, as in most solvers. Returns the number of own nodes
+ * and ghosts. */
 static int make_rows(int first, int n_rows) {
   int n_before = first > 0 ? plane : 0, n_behind = first + n_rows < n_nodes ? plane : 0, end = 0;
   for (int i = 0; i < n_rows; ++i) {
@@ -78,9 +78,9 @@ int main(int argc, char **argv) {
   check(riis_surface_create(valve, NULL, &surface));
   check(riis_marks_create(&marks));
 
-  /* One thread suits a rank on every core. Ranks that are bound to several cores each, such as by mpirun --map-by slot:PE=4,
-   * leave n_threads at 0, which means all cores of the rank. If nothing binds the ranks, 0 means all cores of the machine for
-   * each. */
+  /* If every core has a rank, one thread suits each rank. Ranks that are bound to several cores each, such as by mpirun --map-by
+   * slot:PE=4, leave n_threads at 0, which means all cores of the rank. If nothing binds the ranks, 0 means all cores of the
+   * machine for each rank. */
   riis_mark_options options;
   check(riis_mark_options_init(&options, sizeof options));
   options.n_threads = 1;

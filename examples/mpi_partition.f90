@@ -36,9 +36,9 @@ program mpi_partition
     call make_rows(last - first + 1, n_all)
     call mesh%create(xyz(:, first:last))
     call mesh%set_adjacency(offsets(1:last - first + 2), columns, n_all=n_all)
-    ! One thread suits a rank on every core. Ranks that are bound to several cores each, such as by mpirun --map-by
-    ! slot:PE=4, leave n_threads out, which means all cores of the rank. If nothing binds the ranks, it means all cores of
-    ! the machine for each.
+    ! If every core has a rank, one thread suits each rank. Ranks that are bound to several cores each, such as by mpirun --map-by
+    ! slot:PE=4, leave n_threads out, which means all cores of the rank. If nothing binds the ranks, it means all cores of the
+    ! machine for each rank.
     call riis_mark_nodes(surface, mesh, result, search=RIIS_SEARCH_NEIGHBOR, n_threads=1)
     n_marked = int(result%n_marked())
     call result%dense(distance=distance(first:last))
@@ -68,8 +68,8 @@ program mpi_partition
 
 contains
 
-  ! Makes compressed sparse rows of the rank's own nodes, n_rows from the first one on. The neighbors in the planes before
-  ! and behind are other ranks' nodes: ghosts, which are numbered from n_rows + 1 on, as in most solvers.
+  ! Makes compressed sparse rows of the rank's own nodes, n_rows from the first one on. The neighbours in the planes before and
+  ! behind are other ranks' nodes. These ghosts are numbered from n_rows + 1 on, as in most solvers.
   subroutine make_rows(n_rows, n_all)
     integer, intent(in) :: n_rows
     integer, intent(out) :: n_all ! the number of own nodes and ghosts

@@ -39,8 +39,8 @@ int main(void) {
   check(riis_valve_create("aortic", &valve));
   check(riis_surface_create(valve, NULL, &surface));
 
-  /* One call between parallel regions. Whatever OpenMP's settings, it uses the processors that this thread may run on. For
-   * another number, set n_threads in riis_mark_options. */
+  /* One call between parallel regions. Whatever OpenMP's settings are, the call uses the processors that this thread may run on.
+   * For another number of threads, set n_threads in riis_mark_options. */
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
   check(riis_marks_create(&marks));
   check(riis_mark_nodes(surface, mesh, NULL, marks));
@@ -70,7 +70,7 @@ int main(void) {
     check(riis_mark_nodes(surface, block_mesh[i], &options, block_marks[i]));
   }
 
-  /* The blocks' lists, one after the other, are the list of the whole mesh. */
+  /* The lists of the blocks, one after the other, make the list of the whole mesh. */
   int64_t n_found = 0;
   int same = 1;
   for (int i = 0; i < n_blocks; ++i) {

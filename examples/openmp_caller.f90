@@ -28,8 +28,8 @@ program openmp_caller
   call valve%create('aortic')
   call surface%create(valve)
 
-  ! One call between parallel regions. Whatever OpenMP's settings, it uses the processors that this thread may run on. For
-  ! another number, set n_threads.
+  ! One call between parallel regions. Whatever OpenMP's settings are, the call uses the processors that this thread may run on.
+  ! For another number of threads, set n_threads.
   call mesh%create(xyz)
   call riis_mark_nodes(surface, mesh, result)
   call result%marked_nodes(node_num, distance)
@@ -51,7 +51,7 @@ program openmp_caller
     call riis_mark_nodes(surface, block_mesh(i), block_result(i), n_threads=1)
   end do
 
-  ! The blocks' lists, one after the other, are the list of the whole mesh.
+  ! The lists of the blocks, one after the other, make the list of the whole mesh.
   n_found = 0
   same = .true.
   do i = 1, n_blocks

@@ -5,10 +5,10 @@
 ! leaflet is two patches, which meet in its middle line from the ring to the free edge. Each patch lies between two
 ! curves from a commissure to that line: the attachment at v = 0, down the post to the ring, and half of the free edge at
 ! v = 1. Its side at the commissure is collapsed to a point, so the patch consists of straight lines from the attachment
-! to the free edge. To open, only the free edges and the middle lines move.
+! to the free edge. When the valve opens, only the free edges and the middle lines move.
 !
-! Closed, each half of a free edge runs from its commissure to the axis and has the same control points as the half
-! beside it, so the leaflets meet without a hole. All control points of a leaflet lie in its third of the ring, at every
+! When the valve is closed, each half of a free edge runs from its commissure to the axis. It has the same control points as the
+! half beside it, so the leaflets meet without a hole. All control points of a leaflet lie in its third of the ring, at every
 ! opening. A third is convex, so the leaflet also stays in it, and leaflets never cross.
 program prosthesis
   use riis

@@ -51,7 +51,7 @@ static void make_points(void) {
   }
 }
 
-/* Adds K and K u_surface of all points to the nodes, as the assembly of any element vector. */
+/* Adds K and K u_surface of all points to the nodes, as in the assembly of any element vector. */
 static void assemble(void) {
   for (int i = 0; i < n_points; ++i) {
     for (int a = 0; a < 4; ++a) {

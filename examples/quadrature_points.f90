@@ -98,7 +98,7 @@ contains
     end do
   end subroutine make_points
 
-  ! Adds K and K u_surface of all points to the nodes, as the assembly of any element vector.
+  ! Adds K and K u_surface of all points to the nodes, as in the assembly of any element vector.
   subroutine assemble()
     integer :: cell, q, a, i, node
     double precision :: by(4)

@@ -136,7 +136,7 @@ module riis
 
 contains
 
-  ! The length of a result may come from a pure function, which may call only functions that are declared pure.
+  ! A pure function may give the length of a result, and it may call only functions that are declared pure.
   pure function error_length() result(length)
     integer :: length
     interface

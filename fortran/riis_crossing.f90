@@ -44,7 +44,7 @@ module riis_crossing
     module procedure find_crossings
   end interface riis_find_crossings
 
-  ! The target of pointers to nothing, so that their size can be taken.
+  ! Empty pointers get these targets, so that their size can be taken.
   real(c_double), target, save :: no_reals(0), no_points(3, 0)
   integer(int64), target, save :: no_pairs(2, 0)
 

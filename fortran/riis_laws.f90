@@ -22,7 +22,7 @@ module riis_laws
   public :: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, riis_opening_angle_state
   public :: riis_opening_from_table, riis_opening_from_times, riis_opening_advance
 
-  ! NaN stands for a number that has no default, or none yet.
+  ! NaN stands for a number that has no default, or that is not known yet.
   real(c_double), parameter :: no_value = transfer(int(z'7FF8000000000000', int64), 0._c_double)
 
   !> An opening by times: a mitral valve opens at 0.45 s in 0.05 s, and closes at 0.95 s in 0.05 s, every 1 s. The ramps are

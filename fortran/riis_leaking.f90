@@ -46,7 +46,7 @@ module riis_leaking
     module procedure find_leaks_int32
   end interface riis_find_leaks
 
-  ! The target of pointers to nothing, so that their size can be taken.
+  ! Empty pointers get this target, so that their size can be taken.
   real(c_double), target, save :: no_reals(0)
   integer(int64), target, save :: no_edges(2, 0)
 
@@ -105,7 +105,7 @@ contains
     call finish(code, status)
   end subroutine find_leaks_int32
 
-  ! The common part of all specifics; does nothing after an error.
+  ! This is the common part of all specifics. It does nothing after an error.
   subroutine find(surface, mesh, marks, leaks, mask, n_threads, code)
     class(riis_surface), intent(in) :: surface
     class(riis_mesh), intent(in) :: mesh

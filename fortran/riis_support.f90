@@ -316,7 +316,7 @@ contains
       code = refuse_unequal('strides', points%stride, y_stride, z_stride, prefix)
   end subroutine points_of_vectors
 
-  ! The name of one of three arguments.
+  ! Returns the name of one of three arguments.
   function prefixed(name, prefix) result(whole)
     character(len=1), intent(in) :: name
     character(len=*), intent(in), optional :: prefix
@@ -370,7 +370,7 @@ contains
     end select
   end subroutine get_int64
 
-  ! The number of letters of a number as text, its sign included.
+  ! Returns the number of letters of a number as text, its sign included.
   pure function n_letters(number) result(n)
     integer(int64), intent(in) :: number
     integer :: n

@@ -95,7 +95,7 @@ GroundTruth make_ground_truth(const PatchSet &patches, const TruthRequest &reque
     const double xyz[3] = {p.x, p.y, p.z};
     const riis_closest closest = fine.closest(xyz);
     // The curvature is bounded, so the surface around the foot is at least sqrt(height^2 + r^2 / 2) away at r from the foot. If
-    // the nearest triangle is farther from the foot than that allows, it belongs to another part of the surface.
+    // the nearest triangle is farther from the foot than this allows, it belongs to another part of the surface.
     const double reach = 3 * std::sqrt(error * (height + error)) + error;
     if (closest.distance < height - error || norm(closest.point, foot.point) > reach) {
       ++truth.n_nearer;

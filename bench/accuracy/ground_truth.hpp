@@ -33,12 +33,12 @@ struct TruthRequest {
 
 struct GroundTruth {
   TruePoints on_surface;   // evenly by area; u and v at least SmoothSurface::step away from a patch's sides
-  TruePoints off_surface;  // one for each of them, offsets in turn; two kinds are left out:
+  TruePoints off_surface;  // one for each of them, with offsets in turn; two kinds are left out:
   std::int64_t n_curved;   // the curvature radius is too small for the offset
   std::int64_t n_nearer;   // another part of the surface is nearer than the foot
   std::int64_t n_fine_triangles;
-  // Both are in half thicknesses. Every point's distance was compared with that to triangles within fine_error of the smooth
-  // surface, so all true distances are right within twice fine_error. (They are right up to rounding: an offset point's foot is
+  // Both are in half thicknesses. Every true distance was compared with the distance to triangles within fine_error of the smooth
+  // surface. So all true distances are right within twice fine_error. (They are right up to rounding: an offset point's foot is
   // the only minimum near itself.)
   double fine_error;
   double most_from_fine;  // the largest difference between a true distance and the distance to these triangles

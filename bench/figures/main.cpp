@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis-figures FILE.html [GIVEN.json|KIND.csv...]: draws the geometry into one page, beginning with the paper's figures. Valves
-// at the openings of tables by riis states follow, then the pictures that the JSON files name. riis-figures --curves
+// riis-figures FILE.html [GIVEN.json|KIND.csv...]: draws the geometry into one page, beginning with the paper's figures. Next
+// come valves at the openings of tables by riis states, then the pictures that the JSON files name. riis-figures --curves
 // FILE.json: writes the valves' parameters and curves, for parameters/draw.py.
 #include <algorithm>
 #include <cstdio>

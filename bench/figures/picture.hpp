@@ -78,7 +78,7 @@ class Picture {
   void add_dashed(const Points &points, Colour colour, double width);
   void add_points(const Points &points, Colour colour, double diameter);
 
-  // Adds a text whose middle is so many pixels to the right (+) of a point and above it (+).
+  // Adds a text whose middle is `right` pixels to the right of a point and `above` pixels above it.
   void add_label(Vec3 at, const std::string &text, double right, double above, Colour colour = dark, int size = 26);
   // Adds a text whose middle is moved away from `from`, as this camera sees it.
   void add_label_away(Vec3 at, Vec3 from, const std::string &text, double distance, Colour colour = dark,

@@ -116,7 +116,7 @@ Marks mark(const TetrahedralMesh &mesh, const char *kind, double opening, double
 }
 
 Faces marked_faces(const TetrahedralMesh &mesh, const Marks &marks) {
-  // A face that two tetrahedra have is inside.
+  // A face that two tetrahedra share is inside.
   std::map<std::array<std::int64_t, 3>, std::pair<int, std::int32_t>> faces;
   for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
     if (!marks.is_whole[i]) continue;

@@ -10,7 +10,7 @@ namespace riis::figures {
 // Returns 12345 as "12,345".
 std::string count(std::size_t n);
 
-// Returns the number with at most so many significant digits: 0.050 as "0.05".
+// Returns the number with at most this many significant digits: 0.050 as "0.05".
 std::string number(double value, int digits = 3);
 
 // Returns 0.05 as "5 %".

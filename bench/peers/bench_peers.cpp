@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench peers: gives the same nodes and triangles to others (CGAL, VTK, OpenVDB), on one thread. First their marks are
-// compared with those of a loop over all triangles, then their times are taken in turns. Fails if the library or CGAL does not
-// mark the loop's nodes.
+// ./run bench peers: gives the same nodes and triangles to other programs (CGAL, VTK, OpenVDB), on one thread. First their marks
+// are compared with those of a loop over all triangles. Then their times are taken in turns. Fails if the library or CGAL does
+// not mark the loop's nodes.
 //   argv[1]  a file for the results as JSON
 //   argv[2]  thousands of nodes; 100 if left out
 //   argv[3]  a folder that gets nodes, triangles and distances as raw binary numbers, for peers.py
@@ -43,7 +43,7 @@ constexpr int n_turns = 10, n_slow_turns = 5;
 constexpr std::pair<const char *, double> voxels[] = {{"0.025", 0.025}, {"0.0125", 0.0125}};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// The truth to agree on: distances by a loop over all triangles.
+// The reference for all peers: distances by a loop over all triangles.
 struct Truth {
   std::vector<double> distance;
   std::vector<bool> nearest_is_thin;  // the nearest triangle's height over its longest edge is below 1e-6 of that edge
@@ -145,7 +145,7 @@ std::vector<double> marked_distances(const riis_marks *result, std::int64_t n_no
   return distance;
 }
 
-// False if the library or CGAL marks other nodes than the loop.
+// Returns false if the library or CGAL marks other nodes than the loop.
 bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_nodes, const std::string &folder,
              json &out) {
   const Surface made = [&] {

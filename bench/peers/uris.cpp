@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run uris: reads exports back and marks the nodes of a cylinder by the rule of svMultiPhysics: the distance is
-// that to the nearest middle of a triangle. Compares with the library's distances to the same triangles, and prints rows of the
-// table of docs/export.md.
+// ./run uris: reads exports back and marks the nodes of a cylinder by the rule of svMultiPhysics: a node's distance is the
+// distance to the nearest middle of a triangle. Compares with the library's distances to the same triangles, and prints rows of
+// the table of docs/export.md.
 //   argv[1]   the kind of the valve
 //   argv[2]   thousands of nodes
 //   argv[3..] what riis export printed
@@ -43,7 +43,7 @@ constexpr Cylinder prosthesis_cylinder{1.6, -1.0, 1.6, 0};
 // Triangles in one state: their corners, (3, 3, n).
 using Corners = std::vector<double>;
 
-// What the solver sees in one state: the triangles of the leaflets, and all nodes, also those of the face that widens its box.
+// The solver's input in one state: the triangles of the leaflets, and all nodes, also those of the face that widens its box.
 struct State {
   Corners leaflets, nodes;
 };

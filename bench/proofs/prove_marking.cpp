@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench proof, its first part: the search over clusters marks the same nodes as a loop over triangles, with the same
 // distances to the last bit and the same triangles. It runs on a million nodes, with both valves, three positions, three half
-// thicknesses, every instruction set of the processor and 1 to 4 threads. The loop runs the library's decision kernel in its
-// scalar form on every triangle whose box is near the node, which a grid of its own finds. On a sample of nodes it runs it on
-// every triangle. Prints a table and fails on any difference. argv[1]: thousands of nodes instead of a million.
+// thicknesses, every instruction set of the processor and 1 to 4 threads. The loop runs the scalar form of the library's decision
+// kernel on every triangle whose box is near the node. A grid of the loop's own finds these triangles. On a sample of nodes the
+// loop runs the kernel on every triangle. Prints a table and fails on any difference. argv[1]: thousands of nodes instead of a
+// million.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -47,8 +48,8 @@ class NearTriangles {
             cells_[i + n_[0] * (j + n_[1] * k)].push_back(t);
   }
 
-  // Returns the closest of the triangles whose boxes are within reach, the lowest if several are. Counts the pairs that it
-  // measures.
+  // Returns the closest of the triangles whose boxes are within reach, and the lowest of equally close ones. Counts the pairs
+  // that it measures.
   riis::ClosestTriangle closest(const double *p, std::int64_t &n_pairs) const {
     riis::ClosestTriangle best{INFINITY, -1};
     if (!has(whole_, p)) return best;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench proof, its second part: 10,000 time steps of a valve that opens and closes, for both valves, with 100,000 nodes and
-// 2 threads. At the end, the memory of the process is that of step 100, to 1 MB. With one thread, a marking requests nothing from
-// malloc once the valve has been through all its positions. Prints a table and fails if this does not hold. argv[1]: another
+// 2 threads. At the end, the process has the memory that it had at step 100, to 1 MB. With one thread, a marking requests nothing
+// from malloc once the valve has been through all its positions. Prints a table and fails if this does not hold. argv[1]: another
 // number of steps, a multiple of 100.
 #include <algorithm>
 #include <atomic>
@@ -68,8 +68,8 @@ struct Case {
   const Cylinder &cylinder;
   int n_threads;
   int n_steps;
-  // The limit for all markings after the warm steps. Threads share the work as it comes. If a thread gets more than ever before,
-  // its room doubles, which is a matter of chance and soon over.
+  // The limit for all markings after the warm steps. Threads share the work as it comes, so their shares depend on chance. If a
+  // thread gets more than ever before, its room doubles, which soon ends.
   std::int64_t most_allocations;
 };
 

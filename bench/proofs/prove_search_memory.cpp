@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench proof, its third part: the memory of the process stays while a small mesh is marked again and again, by every
-// search, with 1, 2 and 4 threads, on processors that other processes keep busy. Threads then come late to a search of less than
-// a millisecond, and TBB keeps the memory that it made for them. Prints a table and fails if memory grows. argv[1]: another
-// number of markings. OpenMP's threads should sleep while they wait (OMP_WAIT_POLICY=passive), or all takes many times as long.
+// ./run bench proof, its third part: the memory of the process does not grow while every search marks a small mesh again and
+// again. It runs with 1, 2 and 4 threads, on processors that other processes keep busy. Threads then come late to a search of
+// less than a millisecond, and TBB keeps the memory that it made for them. Prints a table and fails if memory grows. argv[1]:
+// another number of markings. OpenMP's threads should sleep while they wait (OMP_WAIT_POLICY=passive), or the run takes many
+// times as long.
 #include <sched.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -61,8 +62,8 @@ class BusyProcessors {
   std::vector<pid_t> processes_;
 };
 
-// The time at which the handles of a marking are made. A solver keeps them, a solver whose mesh moves may make the mesh each
-// time, and a subroutine that keeps nothing between its calls makes all of them each time.
+// The time at which the handles of a marking are made. A solver keeps them. If its mesh moves, it may make the mesh each time. A
+// subroutine that keeps nothing between its calls makes all of them each time.
 enum class Made { before, mesh_each_time, all_each_time };
 
 struct Case {
@@ -87,7 +88,7 @@ Surface aortic_surface() {
   return make_surface(valve.get(), &options);
 }
 
-// The handles of a marking, made as the case says.
+// The handles of a marking, made at the times that the case says.
 class Marking {
  public:
   Marking(const Case &of, int n_threads) : made_(of.made), nodes_(cylinders[0], 3000), rows_(nodes_.rows()) {
@@ -118,8 +119,9 @@ class Marking {
   Result result_;
 };
 
-// The bytes that the markings may add to the memory of the process: a thread's stack and its allocator's first pages, if the
-// thread first comes now. In the short form (300 markings) this is 1 kB per marking. TBB's arena of two threads takes 7 kB.
+// The bytes that the markings may add to the memory of the process. A thread that comes only now adds its stack and its
+// allocator's first pages. In the short form (300 markings) this limit is 1 kB per marking. TBB's arena of two threads takes 7
+// kB.
 constexpr double most_growth = 3e5;
 
 // A leak grows in every round. Memory that is made once does not.

@@ -19,12 +19,12 @@ PAPER_THREADS = (1, 2, 4, 8, 12)
 SEARCHES = "exhaustive|clusters|neighbor_warm|neighbor_cold|paper|all_distances|paper_exhaustive|paper_neighbor"
 ONCE = "^search_(every_triangle|groups|adjacency)"
 STAGES = "^(calibration|pipeline|distance_query|surface_update|closest_point|mark_exhaustive|brute_force)"
-# What is kept in baselines: all that takes no more than a second or so, on the smallest mesh.
+# Baselines keep these benchmarks: all that take no more than about a second, on the smallest mesh.
 GUARDED = (
     r"^(calibration|pipeline|surface_update|closest_point/|mark_exhaustive|distance_query/.*/(method:0/|method:1/tolerance:50/))"
     r"|^search_(exhaustive|clusters|neighbor_warm|neighbor_cold|all_distances)/[01]/110/[12]/"
 )
-# What others wrote, or is made anew, is not removed.
+# Files that others wrote, or that are made anew, are not removed.
 OWN_JSON = ("searches", "stages", "marking", "roofline", "accuracy", "peers", "peers_python")
 
 
@@ -122,7 +122,7 @@ class Study:
             file.write("\n")
 
     def google_benchmark(self, name, regex, seconds, repetitions):
-        # In random order: what else the machine does then falls on all alike.
+        # In random order, other work of the machine slows all benchmarks alike.
         self.run(
             name,
             [
@@ -150,7 +150,7 @@ class Study:
         self.run("accuracy", [self.program("riis_accuracy"), "OUT", "20000" if full else "2000"])
 
     def peers(self):
-        # Those of PyPI were measured beside the last ones.
+        # The results of the peers from PyPI belong to the last run of the peers.
         if os.path.exists(self.path("peers_python")):
             os.remove(self.path("peers_python"))
         os.makedirs(os.path.join(self.out, "peers"), exist_ok=True)

@@ -37,8 +37,8 @@ double distance_sq(const Point &p, const CGAL::Bbox_3 &box) {
   return x * x + y * y + z * z;
 }
 
-// Tells CGAL's traversal which boxes to enter and what to do with a triangle. It is like CGAL's own for closest points, but it
-// begins with a radius.
+// Tells CGAL's traversal which boxes to enter and what to do with a triangle. CGAL's own for closest points does the same, but
+// this one begins with a radius.
 struct WithinLimit {
   double radius_sq;
   bool has_found = false;

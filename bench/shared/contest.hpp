@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times of several pieces of work that take turns, so that other work of the machine falls on all alike. Then the bars that
-// ratios of these times must meet. Out: tables in markdown, and JSON.
+// Times of several pieces of work that take turns, so that other work of the machine slows all alike. Ratios of these times must
+// meet bars. Out: tables in markdown, and JSON.
 #pragma once
 
 #include <functional>

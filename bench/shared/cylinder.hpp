@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes like the paper's: cylinders of tetrahedra that a valve fits, with any number of nodes.
+// Meshes like the paper's: cylinders of tetrahedra round a valve, with any number of nodes.
 #pragma once
 
 #include <cstdint>
@@ -59,8 +59,8 @@ class CylinderMesh : public CylinderNodes {
 
 Adjacency adjacency_of(std::int64_t n_nodes, const std::vector<std::int32_t> &tetrahedra, int n_threads);
 
-// The number of nodes that argv[at] gives in thousands, a million without it. Ends the program with status 2 and a message unless
-// there are at least so many thousands.
+// The number of nodes that argv[at] gives in thousands, or a million without it. Ends the program with status 2 and a message if
+// the number of thousands is below fewest_thousands.
 std::int64_t n_nodes_given(int argc, char **argv, int at, std::int64_t fewest_thousands);
 
 }  // namespace bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rule by which svMultiPhysics marks: the distance of a node is that to the nearest middle of a triangle.
+// The rule by which svMultiPhysics marks: a node's distance is the distance to the nearest middle of a triangle.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace bench {
 // The middles of triangles, (3, n): the means of their corners.
 std::vector<double> middles_of(const Triangles &triangles);
 
-// Measures all of them for each node, as that solver does. distance: (n_nodes); xyz: (3, n_nodes).
+// Measures all middles for each node, as that solver does. distance: (n_nodes); xyz: (3, n_nodes).
 void distances_to_middles(const std::vector<double> &middles, std::int64_t n_nodes, const double *xyz,
                           double *distance);
 

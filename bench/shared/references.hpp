@@ -20,8 +20,8 @@ struct Triangles {
   std::int64_t n() const { return static_cast<std::int64_t>(leaflet_id.size()); }
 };
 
-// Computes the least distance to any triangle by measuring all of them (paper, 4.1). What depends on a triangle alone, its edges
-// and their products, is computed once.
+// Computes the least distance to any triangle by measuring all of them (paper, 4.1). Numbers that depend on a triangle alone, its
+// edges and their products, are computed once.
 class EveryTriangle {
  public:
   explicit EveryTriangle(const Triangles &triangles);
@@ -56,7 +56,7 @@ class PaperSearch {
   PaperSearch(std::int64_t n_nodes, const double *xyz, const riis_csr &rows)
       : n_nodes_(n_nodes), xyz_(xyz), rows_(rows) {}
 
-  // Finds the nodes to begin at. This is not part of a search, which has the last marking.
+  // Finds the nodes to begin at. This is not part of a search, which begins at the nodes of the last marking.
   void begin_at(const Triangles &triangles);
   // Returns the number of marked nodes. n_asked() returns the number of queried nodes.
   template <class Distance>

@@ -39,8 +39,8 @@ class TimeSteps {
     marking_.instructions = options.instructions;
   }
 
-  // From position 0 to 1 the valve opens, or the free edges of the aortic valve's cusps turn by 30 degrees. A fixed triangulation
-  // serves all openings, and no other changes of the valve.
+  // From position 0 to 1, the valve opens, or the free edges of the aortic valve's cusps turn by 30 degrees. A fixed
+  // triangulation serves all openings, but no other changes of the valve.
   void move_to(double position) {
     if (opens_)
       check(riis_valve_set_scalar(valve_.get(), "opening", position));

@@ -29,7 +29,7 @@ const CylinderMesh &mesh_of(const benchmark::State &state) {
   return *mesh;
 }
 
-// A valve that moves there and back, by a hundredth of its motion from state to state. The tolerance is the paper's, 5 %.
+// A valve that moves there and back, by a hundredth of its motion from state to state. The tolerance is 5 %, as in the paper.
 class MovingValve {
  public:
   explicit MovingValve(std::int64_t kind) {
@@ -71,7 +71,7 @@ riis_mark_options options_for(const benchmark::State &state, std::int32_t search
   return options;
 }
 
-// The shortest of many markings, since other work of the machine only adds time.
+// The shortest of many markings, since other work of the machine only adds time to a marking.
 class Shortest {
  public:
   template <class Work>

@@ -56,8 +56,8 @@ Mesh box_mesh() {
   return Mesh(mesh);
 }
 
-// From parameters to triangles to the scene, as at every time step of a moving valve. Argument: tolerance in tenths of a per
-// cent.
+// Measures the way from parameters to triangles to the scene, as at every time step of a moving valve. Argument: tolerance in
+// tenths of a per cent.
 void surface_update(benchmark::State &state) {
   const Valve valve = make_valve("aortic");
   const riis_surface_options options = with_tolerance(static_cast<double>(state.range(0)) * 1e-3);

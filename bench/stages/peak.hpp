@@ -8,10 +8,10 @@
 
 namespace bench {
 
-// Each function repeats so many operations on registers and returns a number that depends on all of them. Operations are those of
+// Each function repeats its operations on registers and returns a number that depends on all of them. Operations are those of
 // kernels/count.hpp.
 struct PeakKernel {
-  int64_t operations;  // a repetition
+  int64_t operations;  // in one repetition
   double (*repeat)(int64_t n);
 };
 struct PeakKernels {
@@ -21,7 +21,7 @@ struct PeakKernels {
 
 extern const PeakKernels peak_kernels_baseline, peak_kernels_avx2, peak_kernels_avx512;
 
-// The most in a nanosecond. Bytes are those that a copy reads and writes, of arrays that no cache holds.
+// The largest numbers in a nanosecond. Bytes are those that a copy reads and writes, of arrays that no cache holds.
 struct Peak {
   double floats, doubles, bytes;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// As many operations as the processor can do, on registers alone. Compiled for each instruction set, like the library's kernels.
+// These kernels do as many operations as the processor can, on registers alone. They are compiled for each instruction set, like
+// the library's kernels.
 #include "kernels/lanes.hpp"
 #include "kernels/table.hpp"
 #include "peak.hpp"
@@ -7,7 +8,7 @@
 namespace bench {
 namespace {
 
-// So many chains of operations keep all units busy, and they fit into sixteen registers.
+// This many chains of operations keep all units busy, and they fit into sixteen registers.
 constexpr int n_chains = 12;
 
 template <class Register, class Scalar, class Step>

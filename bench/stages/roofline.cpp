@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench roofline: where the time of a step goes, and how far each stage is from what the machine can do. A step makes the
-// surface of a valve that moved and marks by clusters, on one thread. The search runs with kernels that read a clock; then with
-// kernels that count operations and pairs, and note the memory that they are given.
+// ./run bench roofline: the time of each stage of a step, beside the machine's limits. A step makes the surface of a valve that
+// moved and marks by clusters, on one thread. The search runs first with kernels that read a clock. Then it runs with kernels
+// that count operations and pairs, and note the memory that they are given.
 //   argv[1]  the file for counts, times and peaks as JSON
 //   argv[2]  thousands of nodes instead of a million
 #include <riis/riis.h>
@@ -111,7 +111,7 @@ struct Counted {
 };
 Counted *counted = nullptr;
 
-// Adds what the kernels counted in the meantime.
+// Adds the operations and pairs that the kernels counted while this object lived.
 class CountsOf {
  public:
   explicit CountsOf(riis::Counts &to) : to_(to), before_(riis::counts_of_kernels) {}
@@ -177,7 +177,7 @@ std::size_t bytes_of(const std::vector<Number> &numbers) {
   return numbers.size() * sizeof(Number);
 }
 
-// Returns the bytes of a surface's triangles and groups. Embree's scene comes on top; nobody tells its size.
+// Returns the bytes of a surface's triangles and groups. Embree's scene needs more memory, which Embree does not report.
 double bytes_of(const riis::Surface &surface) {
   const riis::TriangleSet &set = surface.triangles();
   const riis::TriangleGroups &groups = surface.scene().groups();

@@ -135,7 +135,7 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
       contest.leave_out(name, "the processor has no AVX-512");
   }
 
-  // The competitors mark the surface as it is now.
+  // The competitors mark the present surface.
   const riis_mark_list marked = two.step();
   const Triangles triangles(two.surface());
   PaperSearch paper(n, xyz, nodes.rows());

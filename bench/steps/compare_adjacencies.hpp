@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cost of riis_adjacency_create_from_cells beside the loop that it was (plain_adjacency.hpp).
+// The cost of riis_adjacency_create_from_cells beside its former loop (plain_adjacency.hpp).
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 //   the edges that leak through a closed valve, by the longest edge
 //   the part of the aortic valve's cross-section that its triangles leave open
 //   the cost of riis_find_leaks, riis_label_open_regions and riis_find_passage beside a marking
-// argv[1], optional: thousands of nodes for the last. Random places come from printed seeds.
+// argv[1], optional: thousands of nodes for the last item. Random places come from printed seeds.
 #include <riis/riis.h>
 
 #include <algorithm>
@@ -53,8 +53,8 @@ Surface with_half_thickness(const Surface &surface, double thickness) {
 }
 
 // A cube of nodes at the corners and in the middles of small cubes, turned and shifted at random. It is cut into equal
-// tetrahedra. Their edges are the cubes' own, of this length, and those from a middle to the eight corners round it, 0.87 times
-// as long.
+// tetrahedra. Some of their edges are the cubes' own, of this length. The others go from a middle to the eight corners round it
+// and are 0.87 times as long.
 struct Crystal {
   std::vector<double> xyz;
   std::vector<std::int64_t> offsets{0}, columns;
@@ -126,7 +126,7 @@ Mesh mesh_over(const Crystal &crystal) {
   return Mesh(mesh);
 }
 
-// The numbers of the leaks; the arrays are gone.
+// Returns the numbers of the leaks; the arrays are gone.
 riis_leak_list leaks_of(const Surface &surface, const Mesh &mesh) {
   const Result result = make_result();
   const Leaks leaks = make_leaks();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench moving: the cost of a valve's velocity, of the fields of the closest points and of the resistance, beside a plain
-// time step on the same nodes in the same run; the same for triangles that stay as the valve opens, coarse and fine, and for the
-// search for crossings. Prints times and bars.
+// time step on the same nodes in the same run. It measures the same for triangles that stay as the valve opens, coarse and fine,
+// and for the search for crossings. Prints times and bars.
 //   argv[1]  thousands of nodes instead of a million, for a quick look
 #include <riis/riis.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop that riis_adjacency_create_from_cells was before it counted into 32-bit entries: its competitor.
+// The loop of riis_adjacency_create_from_cells before it counted into 32-bit entries. It is the competitor of the present one.
 #pragma once
 
 #include <riis/riis.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench ranks: the cost of a time step on each rank of a partitioned mesh, for the table of docs/solvers.md. METIS cuts a
 // mesh of a million nodes into 2 to 64 parts. A rank's step runs alone here, on one thread, part by part. The marks of all parts
-// together must be those of the whole mesh, bit for bit; otherwise the program ends with status 1.
+// together must be those of the whole mesh, bit for bit. Otherwise the program ends with status 1.
 //   argv[1]  thousands of nodes instead of a million, for a quick look
 #include <metis.h>
 #include <riis/riis.h>
@@ -63,7 +63,7 @@ std::vector<idx_t> partition(Graph &graph, idx_t n_parts, std::vector<idx_t> &we
   std::exit(1);
 }
 
-// One rank: a surface of its own, which every rank has whole, and the nodes of a part.
+// One rank. It has a whole surface of its own, as every rank has, and the nodes of a part.
 class Rank {
  public:
   Rank(const CylinderNodes &nodes, std::vector<std::int64_t> ids)

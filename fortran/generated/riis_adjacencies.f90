@@ -247,7 +247,7 @@ contains
       text_of(n) // ' entries')
   end function check_nodes_of_cells
 
-  ! The common part of all specifics of create_from_cells; does nothing after an error.
+  ! This is the common part of all specifics of create_from_cells. It does nothing after an error.
   subroutine create_from_cells(this, n_nodes, cells, index_base, n_threads, code)
     class(riis_adjacency), intent(inout) :: this
     integer(int64), intent(in) :: n_nodes
@@ -455,7 +455,7 @@ contains
     call finish(code, status)
   end subroutine adjacency_owner_int64_int64
 
-  ! The common part of all specifics of create_from_faces; does nothing after an error.
+  ! This is the common part of all specifics of create_from_faces. It does nothing after an error.
   subroutine create_from_faces(this, n_cells, faces, index_base, n_threads, code)
     class(riis_adjacency), intent(inout) :: this
     integer(int64), intent(in) :: n_cells

@@ -85,7 +85,7 @@ contains
     call finish(code, status)
   end subroutine keyframes_create_int64
 
-  ! The common part of both specifics of create; does nothing after an error.
+  ! This is the common part of both specifics of create. It does nothing after an error.
   subroutine create(this, time, xyz, faces, period, interpolation, code)
     class(riis_keyframes), intent(inout) :: this
     real(c_double), intent(in), contiguous, target :: time(:), xyz(:, :, :)

@@ -75,7 +75,7 @@ module riis_marking
     module procedure mark_nodes_int32
   end interface riis_mark_nodes
 
-  ! The target of pointers to nothing, so that their size can be taken.
+  ! Empty pointers get these targets, so that their size can be taken.
   real(c_double), target, save :: no_reals(0), no_vectors(3, 0), no_uv(2, 0)
   integer(int32), target, save :: no_int32(0)
   integer(int64), target, save :: no_int64(0)
@@ -162,7 +162,7 @@ contains
     call finish(code, status)
   end subroutine mark_nodes_int32
 
-  ! The common part of all specifics of riis_mark_nodes; does nothing after an error.
+  ! This is the common part of all specifics of riis_mark_nodes. It does nothing after an error.
   subroutine mark(surface, mesh, marks, distance_limit, mask, search, n_threads, fields, R, half_thickness, rim, code)
     class(riis_surface), intent(in) :: surface
     class(riis_mesh), intent(in) :: mesh
@@ -581,7 +581,7 @@ contains
     call finish(code, status)
   end subroutine marks_get_list
 
-  ! The resistance as the library takes it; does nothing after an error.
+  ! Makes the resistance as the library takes it. Does nothing after an error.
   subroutine get_resistance(R, half_thickness, rim, made, code)
     real(c_double), intent(in) :: R
     real(c_double), intent(in), optional :: half_thickness

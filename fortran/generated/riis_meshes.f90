@@ -388,7 +388,7 @@ contains
     call finish(code, status)
   end subroutine mesh_update_copy_x_y_z_real64
 
-  ! The common part of all specifics of create; does nothing after an error.
+  ! This is the common part of all specifics of create. It does nothing after an error.
   subroutine create_mesh(this, points, code)
     class(riis_mesh), intent(inout) :: this
     type(strided_points), intent(in) :: points
@@ -398,7 +398,7 @@ contains
     if (code == RIIS_OK) this%n = points%n
   end subroutine create_mesh
 
-  ! The common part of all specifics of update; does nothing after an error.
+  ! This is the common part of all specifics of update. It does nothing after an error.
   subroutine update_mesh(this, points, code)
     class(riis_mesh), intent(inout) :: this
     type(strided_points), intent(in) :: points
@@ -542,7 +542,7 @@ contains
     end if
   end function check_rows
 
-  ! The common part for all kinds of rows.
+  ! This is the common part for all kinds of rows.
   function set_rows(this, csr, last_offset, n_columns, index_base, n_all) result(code)
     class(riis_mesh), intent(inout) :: this
     type(riis_csr), intent(inout) :: csr

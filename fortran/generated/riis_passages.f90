@@ -217,7 +217,7 @@ contains
     call finish(code, status)
   end subroutine find_passage_int32_int64
 
-  ! Makes ids of numbers, which is the only copy; nothing happens after an error.
+  ! Makes ids of numbers, which is the only copy. Does nothing after an error.
   subroutine get_ids_int32(numbers, ids, code)
     integer(int32), intent(in) :: numbers(:)
     integer(int64), allocatable, intent(out) :: ids(:)
@@ -229,7 +229,7 @@ contains
     if (code == RIIS_OK) ids = int(numbers, int64) - 1
   end subroutine get_ids_int32
 
-  ! Makes ids of numbers, which is the only copy; nothing happens after an error.
+  ! Makes ids of numbers, which is the only copy. Does nothing after an error.
   subroutine get_ids_int64(numbers, ids, code)
     integer(int64), intent(in) :: numbers(:)
     integer(int64), allocatable, intent(out) :: ids(:)
@@ -241,7 +241,7 @@ contains
     if (code == RIIS_OK) ids = int(numbers, int64) - 1
   end subroutine get_ids_int64
 
-  ! The options of both calls; nothing happens after an error.
+  ! Makes the options of both calls. Does nothing after an error.
   subroutine get_options(mesh, mask, n_threads, options, code)
     class(riis_mesh), intent(in) :: mesh
     integer(int8), intent(in), contiguous, optional, target :: mask(:)
@@ -256,7 +256,7 @@ contains
     if (size(mask, kind=int64) > 0) options%node_mask = c_loc(mask)
   end subroutine get_options
 
-  ! The common part of all specifics; does nothing after an error.
+  ! This is the common part of all specifics. It does nothing after an error.
   subroutine label(mesh, marks, region_num, n_regions, mask, n_threads, code)
     class(riis_mesh), intent(in) :: mesh
     class(riis_marks), intent(in) :: marks
@@ -274,7 +274,7 @@ contains
     if (code == RIIS_OK) region_num = region_num + 1
   end subroutine label
 
-  ! The common part of all specifics; does nothing after an error.
+  ! This is the common part of all specifics. It does nothing after an error.
   subroutine find(surface, mesh, from, to, passage, mask, n_threads, code)
     class(riis_surface), intent(in) :: surface
     class(riis_mesh), intent(in) :: mesh

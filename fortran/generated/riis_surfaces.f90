@@ -69,7 +69,7 @@ module riis_surfaces
     procedure, private, non_overridable :: closest_x_y_z_int8 => surface_closest_points_x_y_z_int8
   end type riis_surface
 
-  ! The target of pointers to nothing, so that their size can be taken.
+  ! Empty pointers get these targets, so that their size can be taken.
   real(c_double), target, save :: no_points(3, 0), no_uv(2, 0)
   integer(int32), target, save :: no_int32(0)
   integer(int64), target, save :: no_int64(0), no_corners(3, 0)
@@ -554,7 +554,7 @@ contains
     arrays%velocity_stride = velocities%stride
   end subroutine set_points
 
-  ! The common part of all specifics of create_from_arrays; does nothing after an error.
+  ! This is the common part of all specifics of create_from_arrays. It does nothing after an error.
   subroutine create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, &
       rotation_angle, translation, flip_normals, n_threads, code)
     class(riis_surface), intent(inout) :: this
@@ -572,7 +572,7 @@ contains
     if (code == RIIS_OK) this%options = options
   end subroutine create_from_arrays
 
-  ! The common part of all specifics of update_from_arrays; does nothing after an error.
+  ! This is the common part of all specifics of update_from_arrays. It does nothing after an error.
   subroutine update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, &
       rotation_angle, translation, flip_normals, n_threads, code)
     class(riis_surface), intent(inout) :: this
@@ -659,7 +659,7 @@ contains
     call finish(code, status)
   end subroutine surface_update_from_keyframes
 
-  ! The options that a new surface begins with; does nothing after an error.
+  ! Makes the options that a new surface begins with. Does nothing after an error.
   subroutine create_options(this, options, code)
     class(riis_surface), intent(in) :: this
     type(riis_surface_options), intent(out) :: options
@@ -668,7 +668,7 @@ contains
     if (code == RIIS_OK) code = riis_surface_options_init(options, c_sizeof(options))
   end subroutine create_options
 
-  ! The options that a surface has; does nothing after an error.
+  ! Returns the options that a surface has. Does nothing after an error.
   subroutine update_options(this, options, code)
     class(riis_surface), intent(in) :: this
     type(riis_surface_options), intent(out) :: options
@@ -677,7 +677,7 @@ contains
     if (code == RIIS_OK) options = this%options
   end subroutine update_options
 
-  ! Sets the options that are present; does nothing after an error.
+  ! Sets the options that are present. Does nothing after an error.
   subroutine set_options(options, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
       flip_normals, code, measure, measure_tolerance, n_threads, triangulation, skip_zero_area)
     type(riis_surface_options), intent(inout) :: options
@@ -900,7 +900,7 @@ contains
     call finish(code, status)
   end subroutine surface_closest_points_x_y_z_int8
 
-  ! The common part of all specifics of closest_points.
+  ! This is the common part of all specifics of closest_points.
   subroutine closest_points(this, points, distance_limit, far_distance, n_threads, distance, point, barycentric, normal, &
       triangle_id, leaflet_id, side, code, mask, point_id)
     class(riis_surface), intent(in) :: this

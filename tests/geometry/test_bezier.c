@@ -8,7 +8,7 @@ static void random_control(double *control) {
   for (int i = 0; i < 12; ++i) control[i] = random_between(&rng, -2, 2);
 }
 
-/* The definition: sum of binomial (1-t)^(n-i) t^i Q_i. */
+/* Evaluates the definition: the sum of binomial (1-t)^(n-i) t^i Q_i. */
 static void bernstein(int degree, const double *control, double t, double *point) {
   static const double binomial[4][4] = {{0}, {0}, {1, 2, 1, 0}, {1, 3, 3, 1}};
   for (int c = 0; c < 3; ++c) {
@@ -61,7 +61,7 @@ static void arc_length_of_known_curves(void **state) {
   /* y = x^2 on [0,1]: (2 sqrt 5 + asinh 2) / 4. */
   const double parabola[9] = {0, 0, 0, 0.5, 0, 0, 1, 1, 0};
   CHECK_NEAR(bezier_arc_length(2, parabola, 0, 1), (2 * sqrt(5.0) + asinh(2.0)) / 4, 1e-12);
-  /* A curve that goes there and back: the speed is zero at the turning point, the length is twice the reach. */
+  /* A curve that goes there and back. The speed is zero at the turning point, so the length is twice the reach. */
   const double there_and_back[9] = {0, 0, 0, 1, 0, 0, 0, 0, 0};
   CHECK_NEAR(bezier_arc_length(2, there_and_back, 0, 1), 1, 1e-11);
   const double point[9] = {1, 2, 3, 1, 2, 3, 1, 2, 3};
@@ -119,7 +119,7 @@ static void flatness_is_measured_to_the_segment(void **state) {
 }
 
 /* Compares every point of the curve with the point of its chord at the same share of the length. The promised bound holds for
- * every piece and is not much too large on average. Shares are binary fractions. */
+ * every piece, and on average it is not much too large. Shares are binary fractions. */
 static void flattening_stays_within_its_bound(void **state) {
   (void)state;
   double sum_of_ratios = 0;

@@ -45,8 +45,8 @@ static void is_nothing_where_base_and_edge_touch(void **state) {
   for (int c = 0; c < 3; ++c) CHECK_NEAR(offset[c], 0, 0);
 }
 
-/* Edges have any shape, also single points, and bases have joints. On no range does O leave the line by more than the bound. On
- * short ranges the bound is not much too large. */
+/* Edges have any shape, also single points, and bases have joints. O never leaves the line by more than the bound. On short
+ * ranges the bound is not much too large. */
 static void stays_within_the_bound(void **state) {
   (void)state;
   double sum_of_ratios = 0;
@@ -55,7 +55,7 @@ static void stays_within_the_bound(void **state) {
     double edge[12], bent[12 * n_base];
     const double factor = random_between(&rng, -1, 1);
     memcpy(bent, base, sizeof bent);
-    /* The second piece curves unlike the first, and both leave the plane. */
+    /* The second piece curves differently from the first, and both leave the plane. */
     for (int i = 2; i < 8; ++i) {
       if (i < 5) continue;
       for (int c = 0; c < 3; ++c)

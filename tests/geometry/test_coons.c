@@ -132,7 +132,7 @@ static double distance_to_line_of_quad(const double (*q)[3], double t, const dou
 
 /* Returns the distance to the bilinear quad, at most 2e-7 above the truth and never below it. From t to t' no point of a segment
  * moves by more than |t - t'| times the longer of the sides along t. So the middle of an interval tells whether the interval can
- * have the nearest point. Intervals that can are halved. (A search that follows only its best point can end in another
+ * have the nearest point. If it can, the interval is halved. (A search that follows only its best point can end in another
  * minimum.) */
 static double distance_to_bilinear(const double (*q)[3], const double *p) {
   const double speed = fmax(distance(q[0], q[3]), distance(q[1], q[2]));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Whether a segment meets a triangle, compared with whole numbers. Segments are in general position, pass through corners,
- * sides and planes, miss these by less than doubles resolve, or lie in planes. Units vary. */
+ * Tests whether a segment meets a triangle, against whole numbers. Segments are in general position, pass through corners, sides
+ * and planes, miss these by less than doubles resolve, or lie in planes. Units vary. */
 #include "crossing_oracle.h"
 #include "internals.h"
 #include "test_support.h"

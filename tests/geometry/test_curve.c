@@ -97,7 +97,7 @@ static void parts_are_parts(void **state) {
 }
 
 /* Points are on the curve at binary fractions of its length, as for one piece (test_bezier). At equal shares no chord is farther
- * from the curve than its bound, also across joints. */
+ * from the curve than its bound, not even across joints. */
 static void flattening_stays_within_its_bound(void **state) {
   (void)state;
   double sum_of_ratios = 0;

@@ -51,7 +51,7 @@ static void check_sample(const sample *s, double *worst) {
   for (int i = 0; i < 9; ++i) largest = fmax(largest, fabs(s->abc[i]));
   for (int c = 0; c < 3; ++c) largest = fmax(largest, fabs(s->p[c]));
   *worst = fmax(*worst, fabs(distance - expected) / largest);
-  /* The weights are at least 0 and sum to 1. The point is at their place and at the returned distance. */
+  /* The weights are at least 0 and sum to 1. They give the point, and the point is at the returned distance. */
   CHECK_NEAR(w[0] + w[1] + w[2], 1, 1e-15);
   double sum = 0;
   for (int c = 0; c < 3; ++c) {

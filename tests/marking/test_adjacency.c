@@ -38,7 +38,7 @@ static int compare_pairs(const void *a, const void *b) {
   return p[1] < q[1] ? -1 : p[1] > q[1];
 }
 
-/* Sorts the pairs and removes repeats. The result is what the rows should hold, read from front to back. */
+/* Sorts the pairs and removes repeats. The rows, read from front to back, should hold the result. */
 static void tidy_pairs(pair_list *list) {
   if (list->n == 0) return;
   qsort(list->ends, (size_t)list->n, 2 * sizeof *list->ends, compare_pairs);

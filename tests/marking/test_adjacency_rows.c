@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The handle of an adjacency, rows that a mesh is given, and what ends them. */
+ * The handle of an adjacency, the rows that a mesh is given, and the calls that end them. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -18,7 +18,7 @@ static void handles_of_adjacencies(void **state) {
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "csr is 64", riis_adjacency_get_csr(adjacency, &csr, 64));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "csr|NULL", riis_csr_init(NULL, sizeof csr));
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "csr is -8", riis_csr_init(&csr, -8));
-  /* A mesh in its place, and it in a mesh's. */
+  /* A mesh takes the place of an adjacency, and an adjacency the place of a mesh. */
   const double xyz[18] = {0};
   riis_mesh *mesh = NULL;
   CHECK_OK(riis_mesh_create(6, xyz, xyz + 1, xyz + 2, 3, &mesh));
@@ -38,7 +38,7 @@ static void handles_of_adjacencies(void **state) {
   riis_adjacency_destroy(NULL);
 }
 
-/* 1 if the mesh can be searched along an adjacency. */
+/* Returns 1 if the mesh can be searched along an adjacency. */
 static int has_adjacency(const riis_surface *surface, const riis_mesh *mesh) {
   riis_marks *result = new_result();
   riis_mark_options options = mark_options();
@@ -71,7 +71,7 @@ static void rows_that_are_refused(void **state) {
   good.n_rows = n;
   good.offsets = offsets;
   good.columns = columns;
-  /* Before there is one and while there is one, which stays. */
+  /* A refusal comes before there is an adjacency, and while there is one. The adjacency stays. */
   for (int has_one = 0; has_one < 2; ++has_one) {
     if (has_one) CHECK_OK(riis_mesh_set_adjacency(mesh, &good));
 #define REFUSED(status, parts)                                         \
@@ -130,7 +130,7 @@ static void when_an_adjacency_goes(void **state) {
   enum { n = 4 };
   riis_surface *surface = aortic_surface(NULL);
   double xyz[3 * (n + 1)] = {0};
-  /* Columns 4 and 5 are ghosts; the rest of the rows is the node itself, and again. */
+  /* Columns 4 and 5 are ghosts. The rest of each row is the node itself, with repeats. */
   int64_t offsets[n + 1] = {1, 4, 4, 7, 8}, columns[7] = {5, 6, 1, 3, 3, 2, 4};
   riis_csr csr;
   riis_marks *result = new_result();
@@ -148,7 +148,7 @@ static void when_an_adjacency_goes(void **state) {
   csr.n_all = n + 2;
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
   assert_int_equal(has_adjacency(surface, mesh), 1);
-  /* The adjacency stays if the number of nodes does, and if an update is refused. It goes with another number. */
+  /* The adjacency stays if the number of nodes stays, and if an update is refused. It goes with another number of nodes. */
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   assert_int_equal(has_adjacency(surface, mesh), 1);
   xyz[3 * n] = NAN;

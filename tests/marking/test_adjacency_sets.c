@@ -12,7 +12,7 @@
 
 static random_source rng;
 
-/* As many meshes are made of each kind of cells. */
+/* The same number of meshes is made of each kind of cells. */
 enum { n_kinds = 5, n_meshes = 150 * n_kinds, most_cells = 300, most_corners = 8 };
 
 static int64_t below(int64_t n) { return (int64_t)(random_bits(&rng) % (uint64_t)n); }

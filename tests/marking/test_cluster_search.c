@@ -91,8 +91,8 @@ static void nodes_that_differ_by_next_to_nothing(void **state) {
   }
 }
 
-/* Both valves, with spacings that grow to one side or cells a hundred times as long as they are high. Limits reach from nearly 0
- * to beyond the mesh. */
+/* Both valves are tested with spacings that grow to one side, and with cells a hundred times as long as they are high. Limits
+ * reach from nearly 0 to beyond the mesh. */
 static void graded_and_anisotropic_meshes(void **state) {
   (void)state;
   static const double limits[] = {0, 1e-3, 0.05, 0.4, 50};
@@ -142,7 +142,7 @@ static void masked_nodes_are_left_out(void **state) {
   }
 }
 
-/* Each mesh is one node, so only the allowance for single precision makes its box large. The limit is the node's distance, or a
+/* Each mesh is one node, so only the allowance for single precision makes its box large. The limit is the node's distance, or one
  * bit less. */
 static void nodes_at_the_limit_are_found(void **state) {
   (void)state;
@@ -215,7 +215,7 @@ static void more_pairs_than_room(void **state) {
     n_equal += oracle_point_triangle(middle, abc) <= smallest + error;
   }
   printf("%lld of %lld triangles are as near\n", (long long)n_equal, (long long)all.n_triangles);
-  assert_true(32 * n_equal > 2 * room); /* one leaf has so many */
+  assert_true(32 * n_equal > 2 * room); /* so many pairs in one leaf */
   for (int spread = 0; spread < 3; ++spread) {
     for (int i = 0; i < 3 * n; ++i)
       xyz[i] = spread == 0 ? 0 : (spread == 1 ? 1e-7 : 1e-3) * random_between(&rng, -1, 1);
@@ -226,8 +226,8 @@ static void more_pairs_than_room(void **state) {
   }
 }
 
-/* Triangles from arrays: arbitrary ones, needles down to 1e-11, sizes over many powers of ten, level ones, and separate pieces.
- * Units go from 1e-50 to 1e50, and some surfaces are far from the origin, where coordinates round. */
+/* Triangles from arrays: arbitrary ones, needles down to 1e-11, sizes over many powers of ten, level triangles, and separate
+ * pieces. Units go from 1e-50 to 1e50. Some surfaces are far from the origin, where coordinates round. */
 static void surfaces_from_arrays(void **state) {
   (void)state;
   enum { max_triangles = 600, n = 1500 };

@@ -43,7 +43,7 @@ static void nodes_and_valve_move(void **state) {
   }
 }
 
-/* Nodes that moved before they were sorted, without riis_mesh_update. Clusters are those of the nodes of now, however far they
+/* Nodes move before they are sorted, without riis_mesh_update. The clusters are those of the present nodes, however far these
  * are. */
 static void nodes_that_moved_without_a_word(void **state) {
   (void)state;
@@ -85,11 +85,11 @@ static void non_finite_coordinates(void **state) {
         options.n_threads = threads;
         CHECK_OK(riis_mark_nodes(surface, mesh, &options, kept));
         CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-        if (made_before < 2) { /* else they are as they were when they are next used */
+        if (made_before < 2) { /* otherwise the clusters are next used as they are */
           free_one_owned(mesh);
           mesh = mesh_of(n, xyz);
         }
-        /* Clusters that are to be made, or to be placed. */
+        /* Clusters have to be made, or only placed. */
         if (made_before == 1) {
           CHECK_OK(riis_mesh_prepare(mesh, threads));
           CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
@@ -120,7 +120,8 @@ static int32_t search_of(const riis_surface *surface, const riis_mesh *mesh, int
   return search;
 }
 
-/* Exhaustive for the first marking of a mesh, clusters for all others, and also for the first if the mesh is prepared. */
+/* RIIS_SEARCH_AUTO is exhaustive for the first marking of a mesh, and uses clusters for all others. It also uses clusters for the
+ * first if the mesh is prepared. */
 static void what_auto_is(void **state) {
   (void)state;
   enum { n = 200 };
@@ -151,14 +152,14 @@ static void what_auto_is(void **state) {
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
   free_one_owned(mesh);
-  mesh = mesh_of(n, xyz); /* a marking is one, whatever its search */
+  mesh = mesh_of(n, xyz); /* any search counts as a marking */
   assert_int_equal(search_of(surface, mesh, RIIS_SEARCH_EXHAUSTIVE), RIIS_SEARCH_EXHAUSTIVE);
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
 }
 
 /* --- Threads --------------------------------------------------------------------------------------------------------- */
 
-/* 1 if a marking of a mesh that may be new to all is not the expected one. */
+/* Returns 1 if a marking of a mesh, which may be new to all threads, is not the expected one. */
 static int marks_wrong(const riis_surface *surface, riis_mesh *mesh, const riis_marks *expected, int n_threads,
                        int prepares) {
   riis_mark_options options = {0};
@@ -173,8 +174,8 @@ static int marks_wrong(const riis_surface *surface, riis_mesh *mesh, const riis_
   return wrong;
 }
 
-/* The thread sanitizer's view of OpenMP misses where a team inside another team has ended: a stack that is used again afterwards
- * looks like a race. */
+/* The thread sanitizer's view of OpenMP misses the end of a team inside another team. If the stack of such a team is used again,
+ * this looks like a race. */
 #if defined(__has_feature)
 #if __has_feature(thread_sanitizer)
 #define RIIS_TEST_MOST_NESTED 1
@@ -212,7 +213,7 @@ static void several_callers_of_one_mesh(void **state) {
   omp_set_max_active_levels(levels);
 }
 
-/* So many nodes that threads share the sorting of them. */
+/* There are so many nodes that threads share their sorting. */
 static void a_mesh_that_threads_sort_together(void **state) {
   (void)state;
   const int64_t n = 300000;

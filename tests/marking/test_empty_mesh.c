@@ -85,7 +85,7 @@ static void adjacencies_may_be_empty(void **state) {
   static const int64_t from_one = 1, zero = 0;
   csr.offsets = &zero, csr.offset_bits = 64;
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
-  csr.offsets = &from_one, csr.index_base = 1, csr.n_all = 7; /* ghosts, whose nodes are others' */
+  csr.offsets = &from_one, csr.index_base = 1, csr.n_all = 7; /* ghosts, which are nodes of other ranks */
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
   csr = empty_csr();
   csr.n_rows = -1;
@@ -99,7 +99,7 @@ static void adjacencies_may_be_empty(void **state) {
   riis_mesh_cells cells;
   riis_adjacency *adjacency = NULL;
   CHECK_OK(riis_mesh_cells_init(&cells, sizeof cells));
-  for (int64_t n_nodes = 0; n_nodes <= 5; n_nodes += 5) /* without cells, or without nodes also */
+  for (int64_t n_nodes = 0; n_nodes <= 5; n_nodes += 5) /* no cells, or no nodes either */
     for (int32_t base = 0; base < 2; ++base)
       for (int with_offsets = 0; with_offsets < 2; ++with_offsets) {
         const int32_t first = base;
@@ -170,7 +170,7 @@ static void every_search_finds_all_of_nothing(void **state) {
         check_nothing_found(result, search);
       }
     }
-  /* A mesh without nodes may lack an adjacency as others do: then these two searches are refused. */
+  /* A mesh without nodes may lack an adjacency, as other meshes may. Then these two searches are refused. */
   riis_mesh *mesh = empty_mesh();
   riis_mark_options options = mark_options();
   for (int32_t search = RIIS_SEARCH_NEIGHBOR; search <= RIIS_SEARCH_PAPER; ++search) {
@@ -193,7 +193,7 @@ static void other_distances_find_nothing_too(void **state) {
   }
 }
 
-/* A result, and a mesh, that have nodes, have none, and have them again. */
+/* A result and a mesh have nodes, have none, and have them again. */
 static void nodes_come_and_go(void **state) {
   (void)state;
   riis_surface *surface = moving_surface();
@@ -252,7 +252,7 @@ static void nothing_leaks(void **state) {
   riis_passage passage;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "ends.from[0] is 0|0 nodes",
                 find_passage_between(surface, mesh, NULL, 1, &node, 1, &node, &passage, sizeof passage));
-  /* What an empty result is not of: a marking. */
+  /* An empty result is of no marking. */
   riis_marks *empty = new_result();
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "never marked", find_leaks_in(surface, mesh, empty, NULL, &leaks));
 }

@@ -49,7 +49,7 @@ static int same_fields(riis_mark_list a, riis_mark_list b) {
          same_array(a.rim, b.rim, n, 4) && same_array(a.patch_id, b.patch_id, n, 4);
 }
 
-/* Which arrays there are, as a sum. */
+/* Returns the sum of the fields whose arrays are given. */
 static int32_t arrays_in(riis_mark_list f) {
   return (f.point ? RIIS_FIELD_POINT : 0) | (f.normal ? RIIS_FIELD_NORMAL : 0) |
          (f.barycentric ? RIIS_FIELD_BARYCENTRIC : 0) | (f.side ? RIIS_FIELD_SIDE : 0) | (f.rim ? RIIS_FIELD_RIM : 0) |
@@ -58,7 +58,7 @@ static int32_t arrays_in(riis_mark_list f) {
 
 static int is_bit(int32_t fields) { return fields && !(fields & (fields - 1)); }
 
-/* The same part of the fields as their result has of the nodes. */
+/* Checks that the marked nodes have the same fields in both lists of the result. */
 static void check_part(const riis_marks *result) {
   const found_nodes all = within_in(result), some = marked_in(result);
   const riis_mark_list of_all = within_fields(result), of_some = marked_fields(result);
@@ -156,7 +156,7 @@ static int is_rim(const rims *r, int64_t triangle, const double *w) {
 /* --- Against single queries ------------------------------------------------------------------------------------------ */
 
 /* Compares all fields of the nodes within the limit with single queries and with the rim. Velocities are those of the closest
- * triangle, but for places that are equally near. */
+ * triangle, except where several places are equally near. */
 static void check_fields(const riis_surface *surface, const double *xyz, const rims *r, const riis_marks *result) {
   const riis_mark_list f = within_fields(result);
   const found_nodes nodes = within_in(result);
@@ -218,7 +218,7 @@ static test_mesh nodes_near(const riis_surface *surface, int64_t n, double reach
   return mesh;
 }
 
-/* All searches, some threads and instructions, which must give the fields of the first. */
+/* Checks that all searches, several threads and instructions give the fields of the first search. */
 static void check_all_ways(const riis_surface *surface, const rims *r, int32_t fields) {
   const double half_thickness = info_of(surface).half_thickness;
   test_mesh nodes = nodes_near(surface, 300 + any_of(400), 2 * half_thickness);
@@ -395,7 +395,7 @@ static void valves_have_a_rim_all_around_and_none_inside(void **state) {
           ++n_free_closed;
           assert_int_equal(f.rim[k], 0);
         }
-        /* Apart from the numbers of patches: no rim has both ends in the mirror's plane of the mitral valve. */
+        /* This check does not use the numbers of patches: no rim has both ends in the mirror's plane of the mitral valve. */
         if (is_mitral && f.rim[k] && r.edge[e] && t == e / 3)
           assert_true(corner_of(&r.c, e)[0] != 0 || corner_of(&r.c, next_of(e))[0] != 0);
       }
@@ -435,7 +435,7 @@ static void no_other_patch_touches_the_rim(void **state) {
         if (!f.rim[k] || middle > 0.6) continue; /* ends of edges are shared */
         ++n;
         for (int64_t t = 0; t < c.n_triangles; ++t) {
-          /* Leaflets of their own may touch others'. */
+          /* Triangles of other leaflets may touch this one, so they are left out. */
           if (c.patch_id[t] == f.patch_id[k]) continue;
           if (c.leaflet_id[t] != (is_mitral ? f.patch_id[k] > 5 : f.patch_id[k] / 4)) continue;
           /* Its distance to the box of the triangle's corners, which bounds that to the triangle from below. */

@@ -168,8 +168,8 @@ static void decisions_have_the_bits_of_the_scalar_kernel(void **state) {
               is_more(n_corner, 5000));
 }
 
-/* Random ones, needles, coinciding corners and lattices by eights, which mix kinds; points also at corners and on edges, and
- * units in which squares nearly leave the range. */
+/* There are random triangles, needles, coinciding corners and lattices, in registers of eight that mix kinds. Some points are at
+ * corners and on edges. In some units, squares nearly leave the range. */
 static void located_points_have_the_bits_of_the_scalar_kernel(void **state) {
   (void)state;
   enum { n = 8 };
@@ -246,8 +246,8 @@ static int store(const framed *f, const double *p, float *stored, float *as_floa
   return 1;
 }
 
-/* Compares filtered distances with decided ones, as shares of the allowed error. Filtered distances that are too small and too
- * large are judged apart: the margin accounts for most of the second kind. */
+/* Compares filtered distances with decided ones, as shares of the allowed error. Distances that are too small and distances that
+ * are too large are judged apart, because the margin causes most of the second kind. */
 static void single_precision_is_right_to_its_error(void **state) {
   (void)state;
   enum { n_lanes = 16 };
@@ -555,8 +555,8 @@ static void corners_are_bounded_and_framed(void **state) {
   }
 }
 
-/* Triangles with heights around the least: a triangle without area never passes, and one with a hundred times as much always
- * does. */
+/* Triangles have heights around the least one. A triangle without area never passes. A triangle with a hundred times the least
+ * height always passes. */
 static void triangles_without_area_are_noticed(void **state) {
   (void)state;
   for (int set = 0; set < n_kernel_sets; ++set) {

@@ -141,7 +141,7 @@ static int64_t expected_leaks(const whole_case *c, const uint8_t *marks, uint8_t
   return n;
 }
 
-/* The oracle's marks. The result's marks replace them if rounding decides. */
+/* Writes the oracle's marks. If rounding decides, the result's marks replace them. */
 static void expected_marks(const whole_case *c, const double *xyz, const riis_surface *surface,
                            const riis_marks *result, uint8_t *marks) {
   const riis_triangles all = triangles_of(surface);
@@ -242,7 +242,7 @@ static void random_meshes_leak_where_the_loop_says(void **state) {
 
 /* --- What must not matter ---------------------------------------------------------------------------------------------- */
 
-/* A case that is turned by quarters, mirrored, moved and renumbered has the same leaking edges. */
+/* If a case is turned by quarters, mirrored, moved and renumbered, it has the same leaking edges. */
 static void motion_and_order_do_not_matter(void **state) {
   (void)state;
   static whole_case c, moved;

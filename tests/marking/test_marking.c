@@ -44,7 +44,7 @@ static void aortic_marks_equal_the_oracle(void **state) {
     if (!is_listed) continue;
     CHECK_NEAR(marked.distance[at], expected, 1e-13);
     assert_int_equal(marked.leaflet_id[at], leaflet_id[marked.triangle_id[at]]);
-    /* The triangle named attains the distance. */
+    /* The named triangle is at that distance. */
     double abc[9];
     for (int k = 0; k < 3; ++k)
       memcpy(abc + 3 * k, vertices + 3 * vertex_id[3 * marked.triangle_id[at] + k], 3 * sizeof *abc);
@@ -133,7 +133,7 @@ static void wider_limit_lists_more_and_marks_the_same(void **state) {
     assert_int_equal(mark[i], listed && c.distance[at] <= 0.1);
     at += listed;
   }
-  /* Any of the arrays may be given alone. Any far value that cannot be taken for a near distance is accepted. */
+  /* Any of the arrays may be given alone. A far value is accepted unless it could be a near distance. */
   CHECK_OK(dense_of(wide, n, NAN, NULL, distance, NULL, NULL));
   assert_true(isnan(distance[0]) || within_in(wide).node_id[0] == 0);
   CHECK_OK(dense_of(wide, n, -1, mark, NULL, NULL, NULL));
@@ -220,8 +220,8 @@ static void coordinates_may_move_and_results_are_reused(void **state) {
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
   assert_true(llabs(marked_in(result).n - n_before) <= 2); /* z + 10 - 10 rounds */
-  /* Spoilt behind the handle's back: refused by name if it is asked, and the result keeps what it had. Clusters have what they
-   * were told. */
+  /* A coordinate is spoilt without an update of the handle. A search that reads it refuses it by name, and the result stays as it
+   * was. Clusters keep the coordinates that they were given. */
   const found_nodes kept = marked_in(result);
   const int64_t spoilt = kept.node_id[kept.n / 2];
   char text[64];
@@ -283,7 +283,7 @@ static riis_marks *marks_of(const riis_surface *surface, const riis_mesh *mesh) 
   return marks;
 }
 
-/* A mesh of copies has the marks of one that borrows, whatever becomes of the arrays, and may change between both. */
+/* A mesh of copies has the marks of a mesh that borrows, whatever happens to the arrays. A mesh may change between both. */
 static void copies_and_single_precision_are_the_same_mesh(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);

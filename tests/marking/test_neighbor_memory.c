@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A step that finds what the last one found allocates nothing, whatever the search. */
+ * A step that finds the same nodes as the last step allocates nothing, whatever the search. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* dladdr, RTLD_DEFAULT */
 #endif
@@ -13,9 +13,9 @@
 #include "sanitized.h"
 #include "searches.h"
 
-/* All allocations of the process use these functions, because an executable's symbols go before those of the libraries. They
- * count those of the object that has riis_mark_nodes, also if the C++ library allocates for it. A sanitizer's allocator must be
- * the only one. */
+/* All allocations of the process use these functions, because an executable's symbols go before those of the libraries. The
+ * functions count the allocations of the object that has riis_mark_nodes, also those that the C++ library makes for it. A
+ * sanitizer's allocator must be the only one. */
 #if defined(__GLIBC__) && defined(__x86_64__) && !defined(IS_SANITIZED)
 #define COUNTS_ALLOCATIONS 1
 void *__libc_malloc(size_t size);
@@ -138,7 +138,7 @@ static moving_valve moving_valve_of(const char *kind, int has_open_state, int32_
   return made;
 }
 
-/* Opens and closes in 40 steps, and counts the allocations of all of them. */
+/* Opens and closes the valve in 40 steps, and counts the allocations of all steps. */
 static int64_t allocations_of_a_cycle(moving_valve *valve) {
   riis_resistance resistance;
   int64_t n = 0;
@@ -179,7 +179,7 @@ static void a_steady_step_allocates_nothing(void **state) {
       options.n_threads = 1;
       if (kind % 2) options.distance_limit = 0.2;
       if (kind / 2) options.fields = 255 - RIIS_FIELD_VELOCITY; /* all that the surface has */
-      /* The first makes room: it shows that allocations are seen, vectors' and aligned ones. */
+      /* The first step makes room. It shows that allocations are seen, both those of vectors and aligned ones. */
       assert_true(allocations_of_a_step(surface, mesh, &options, result) > 5);
       allocations_of_a_step(surface, mesh, &options, result);
       for (int step = 3; step <= 5; ++step) assert_int_equal(allocations_of_a_step(surface, mesh, &options, result), 0);
@@ -211,7 +211,7 @@ static void a_steady_moving_step_allocates_nothing(void **state) {
 #endif
 }
 
-/* More threads may need more blocks at once than ever before, but the number of blocks has an end. */
+/* Several threads may need more blocks at once than ever before, but the number of blocks is limited. */
 static void allocations_of_several_threads_do_not_grow(void **state) {
   (void)state;
 #if defined(COUNTS_ALLOCATIONS)

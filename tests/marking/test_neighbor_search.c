@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The neighbour search finds what the exhaustive one finds, to the last bit, whatever mesh, adjacency, mask, limit, number of
- * threads, and last marking; the paper's own algorithm finds the piece of the band that it starts in, and says so.
- */
+ * The neighbour search finds the nodes of the exhaustive search, to the last bit. This holds for any mesh, adjacency, mask,
+ * limit, number of threads and last marking. The paper's own algorithm finds the piece of the band that it starts in, and reports
+ * this. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -13,7 +13,7 @@
 
 static random_source rng;
 
-/* How many nodes the paper's algorithm misses, which it must not hide. */
+/* Returns the number of nodes that the paper's algorithm misses. It must report that it may miss some. */
 static int64_t missed_by_the_paper(const riis_surface *surface, const riis_mesh *mesh, const uint8_t *mask) {
   const int owned_before = n_owned();
   riis_marks *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, mask);
@@ -40,7 +40,8 @@ static void three_separate_cusps(void **state) {
   test_mesh nodes = lattice_around(surface, 0.08, 0.15);
   riis_mesh *mesh = mesh_from(&nodes);
   const riis_mark_stats stats = check_same_as_exhaustive(surface, mesh, mark_options(), NULL);
-  assert_int_equal(stats.n_unreached, 0); /* starts in every near ball reach all of a connected band */
+  assert_int_equal(stats.n_unreached,
+                   0); /* the walk starts in every near ball, so it reaches all of a connected band */
   /* One start finds one cusp. */
   const int64_t missed = missed_by_the_paper(surface, mesh, NULL);
   assert_true(missed > stats.n_marked / 2 && missed < stats.n_marked);
@@ -53,7 +54,7 @@ static void three_separate_cusps(void **state) {
   assert_int_equal(check_same_as_exhaustive(surface, mesh, options, paper).n_unreached, 0);
 }
 
-/* Slabs that no edge joins, and the same region twice, the second time half a spacing away. */
+/* No edge joins the slabs. The same region comes twice, the second time half a spacing away. */
 static void mesh_of_several_components(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -134,7 +135,7 @@ static void isolated_nodes(void **state) {
   assert_true(missed_by_the_paper(surface, mesh, NULL) >= first.n_marked - 1);
 }
 
-/* The adjacency only says where to look first, so the result does not depend on it. */
+/* The adjacency only gives the order of queries, so the result does not depend on it. */
 static void any_adjacency_is_right(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -240,8 +241,8 @@ static void degenerate_meshes(void **state) {
   }
 }
 
-/* The limit is the library's own distance of the first node of a column over a triangle, which has any size. All other distances
- * in the proof equal it up to rounding, which must not lose the node. */
+/* The limit is the library's own distance of the first node of a column over a triangle of any size. All other distances in the
+ * proof equal it up to rounding, which must not lose the node. */
 static void nodes_at_the_limit_are_found(void **state) {
   (void)state;
   static const int32_t ids[3] = {0, 1, 2};
@@ -372,7 +373,7 @@ static void mask_that_cuts_the_band(void **state) {
   const found_nodes found = marked_in(paper);
   for (int64_t i = 0; i < found.n; ++i)
     assert_true(nodes.xyz[3 * found.node_id[i]] < wall); /* the first vertex's side */
-  /* From one side's marking the walk does not reach the other side, but the proof does. */
+  /* The walk starts from the marking of one side and does not reach the other side. The proof does. */
   assert_int_equal(check_same_as_exhaustive(surface, mesh, options, paper).n_unreached, missed);
 }
 

@@ -57,7 +57,7 @@ static void a_valve_jumps(void **state) {
     CHECK_OK(riis_surface_update(surface, valve, &options));
     const riis_mark_stats stats = check_same_as_exhaustive(surface, mesh, mark_options(), result);
     assert_int_equal(stats.n_marked > 0, fabs(x[step]) < 10);
-    if (step == 1 || step == 2) assert_int_equal(stats.n_unreached, stats.n_within_limit); /* the start was of no use */
+    if (step == 1 || step == 2) assert_int_equal(stats.n_unreached, stats.n_within_limit); /* the start did not help */
   }
 }
 
@@ -116,7 +116,7 @@ static void nodes_move(void **state) {
     check_same_as_exhaustive(surface, mesh, mark_options(), result);
     check_same_as_exhaustive(surface, mesh, mark_options(), NULL);
   }
-  /* Another number of nodes removes the adjacency. A new one for these nodes lets the search run again. */
+  /* Another number of nodes removes the adjacency. With a new adjacency for these nodes, the search runs again. */
   const int64_t fewer = nodes.n / 2;
   CHECK_OK(riis_mesh_update(mesh, fewer, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
   riis_mark_options options = mark_options();
@@ -130,7 +130,7 @@ static void nodes_move(void **state) {
   check_same_as_exhaustive(surface, mesh, options, result);
 }
 
-/* Made non-finite behind the handle's back, before the first search or between two. */
+/* Coordinates become non-finite without an update of the handle, before the first search or between two searches. */
 static void non_finite_coordinates_are_refused(void **state) {
   (void)state;
   static const double bad[3] = {NAN, INFINITY, -INFINITY};
@@ -147,7 +147,7 @@ static void non_finite_coordinates_are_refused(void **state) {
     const found_nodes marked = marked_in(expected);
     const int is_first_search = trial % 4 < 2;
     if (!is_first_search) CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-    /* A node of the band: it has to be asked. */
+    /* A node of the band has to be queried. */
     const int64_t node = marked.node_id[random_bits(&rng) % (uint64_t)marked.n];
     double *coordinate = nodes.xyz + 3 * node + trial % 3;
     const double good = *coordinate;
@@ -168,7 +168,7 @@ static void non_finite_coordinates_are_refused(void **state) {
   }
 }
 
-/* Nodes that moved in place are where they moved to, even if the handle was told with coordinates that it refused. */
+/* Nodes that moved in place are at their new places, even if an update refused these coordinates. */
 static void a_refused_update_forgets_where_nodes_were(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);

@@ -39,7 +39,7 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
         if (stats.n_threads > most[threads]) most[threads] = stats.n_threads;
         free_owned_after(n_outside);
       }
-    /* They really ran. The paper's is nothing but the walk, which a second thread joins when the system lets it. */
+    /* The threads really ran. The paper's search is only the walk, which a second thread joins when the system lets it. */
     for (int repeat = 0; repeat < 500 && most[2] < 2; ++repeat) {
       const int n_outside = n_owned();
       riis_marks *two = marked_by(surface, mesh, searches[k], 2, NULL);
@@ -62,7 +62,7 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
   }
 }
 
-/* Returns 1 if any of several markings with a result of its own is not the expected one. */
+/* Returns 1 if any of several markings, each with a result of its own, is not the expected one. */
 static int marks_wrong(const riis_surface *surface, const riis_mesh *mesh, const riis_marks *expected, int n_threads) {
   riis_mark_options options = {0};
   riis_marks *result = NULL;
@@ -90,7 +90,7 @@ static void *mark_with_own_result(void *of) {
   return NULL;
 }
 
-/* The same surface and mesh, new to all of them: the first caller makes the mesh's balls. */
+/* All threads use the same surface and mesh, which are new to them. The first caller makes the mesh's balls. */
 static void several_caller_threads_at_once(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -129,7 +129,7 @@ static void inside_the_callers_openmp(void **state) {
       const int levels = omp_get_max_active_levels();
       int n_wrong = 0;
       omp_set_max_active_levels(nested);
-      /* Every time a mesh that none has searched. */
+      /* The mesh is new each time, so no search has prepared it. */
       free_one_owned(mesh);
       mesh = mesh_from(&nodes);
 #pragma omp parallel num_threads(3) reduction(+ : n_wrong)
@@ -219,7 +219,7 @@ static void the_default_has_the_threads_that_the_work_feeds(void **state) {
     assert_int_equal(of_few.if_two, 2);
     assert_in_range(of_many.by_default, more, omp_get_num_procs());
     assert_int_equal(of_many.if_two, 2);
-    /* The exhaustive search looks at all nodes. The others look near the surface, where there are few. */
+    /* The exhaustive search queries all nodes. The others query the nodes near the surface, which are few. */
     assert_in_range(of_dot.by_default, search == RIIS_SEARCH_EXHAUSTIVE ? more : 1,
                     search == RIIS_SEARCH_EXHAUSTIVE ? omp_get_num_procs() : 1);
   }

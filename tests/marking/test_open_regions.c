@@ -66,7 +66,7 @@ static riis_surface *far_surface(void) {
   return surface_from(&arrays, NULL);
 }
 
-/* A chain whose nodes are in any order: roots are hooked many times. Some links are missing. */
+/* A chain's nodes are in any order, so roots are hooked many times. Some links are missing. */
 static void chains_are_labelled_as_the_flood_fill_does(void **state) {
   (void)state;
   riis_surface *surface = far_surface();
@@ -109,7 +109,7 @@ static void meshes_round_valves_are_labelled_as_the_flood_fill_does(void **state
   }
 }
 
-/* Rows of 32 bits from 1, as Fortran codes have them; ids of labels count from 0. */
+/* The rows have 32 bits and count from 1, as in Fortran codes. The ids of labels count from 0. */
 static void rows_that_count_from_1_give_the_same_labels(void **state) {
   (void)state;
   static const int32_t offsets[6] = {1, 2, 2, 3, 4, 4}, columns[3] = {3, 5, 2}; /* 0-2-4, 1-3 */

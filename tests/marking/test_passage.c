@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The widest passage against a binary search over half thicknesses with a flood fill each, and holes of known place and size.
- * RIIS_TEST_LONG=1 tries many more. */
+ * The widest passage is compared with a binary search over half thicknesses, with a flood fill each, and with holes of known
+ * place and size. RIIS_TEST_LONG=1 tries many more. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -20,7 +20,7 @@ typedef struct near_node {
   int64_t node;
 } near_node;
 
-/* The nearest first; of equal ones the highest id. */
+/* Orders the nearest first, and the highest id first among equal distances. */
 static int nearer(const void *a, const void *b) {
   const near_node *p = a, *q = b;
   if (p->distance != q->distance) return p->distance < q->distance ? -1 : 1;
@@ -39,7 +39,7 @@ static int are_joined(const test_mesh *rows, const uint8_t *is_open, const ends 
   return 0;
 }
 
-/* Closes more and more of the nearest nodes. */
+/* Finds, by bisection, the node whose closing separates the ends if all nearer nodes are closed. */
 static riis_passage expected_passage(const test_mesh *rows, const riis_surface *surface, const uint8_t *mask,
                                      const ends *e) {
   const size_t n = (size_t)rows->n;
@@ -52,7 +52,7 @@ static riis_passage expected_passage(const test_mesh *rows, const riis_surface *
     order[i] = (near_node){closest_to(surface, p[0], p[1], p[2]).distance, i};
   }
   qsort(order, n, sizeof *order, nearer);
-  while (low < high) { /* the largest number that leaves them joined is from low - 1 on, below high */
+  while (low < high) { /* the last node that closes with the ends still joined is from low - 1 on, below high */
     const int64_t middle = low + (high - low) / 2;
     memcpy(is_open, mask, n);
     for (int64_t i = 0; i <= middle; ++i) is_open[order[i].node] = 0;
@@ -94,7 +94,7 @@ static int is_among(int64_t node, const int64_t *ids, int64_t n) {
   return i < n;
 }
 
-/* Ends outside the band. Returns 0 if there are none. */
+/* Chooses ends outside the band. Returns 0 if there are none. */
 static int random_ends(const test_mesh *rows, const riis_surface *surface, const uint8_t *mask, ends *e) {
   const double half_thickness = info_of(surface).half_thickness;
   e->n_from = e->n_to = 0;
@@ -168,7 +168,8 @@ static void meshes_have_the_passage_of_the_serial_search(void **state) {
   assert_true(n_of_state[RIIS_PASSAGE_OPEN] > 0 && n_of_state[RIIS_PASSAGE_CLOSED] > 0);
 }
 
-/* The way found is the one that closes: with its distance as the half thickness nothing joins the ends, with less it does. */
+/* The passage is what a half thickness closes: with its distance as the half thickness nothing joins the ends, with less
+ * something does. */
 static void the_distance_is_what_just_closes(void **state) {
   (void)state;
   static const int32_t ids[18] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17};
@@ -297,7 +298,7 @@ static double distance_of(const double *p, const double *q) {
   return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]);
 }
 
-/* The triangles that have a vertex in the ball are left out. *reach is how far they go from its centre. */
+/* Leaves out the triangles that have a vertex in the ball. *reach is the distance of their farthest corner from its centre. */
 static riis_surface *without_ball(const riis_surface *surface, const double *centre, double radius, double *reach) {
   const riis_triangles all = triangles_of(surface);
   int32_t *ids = own(malloc((size_t)all.n_triangles * 3 * sizeof *ids));
@@ -321,7 +322,7 @@ static riis_surface *without_ball(const riis_surface *surface, const double *cen
   return surface_from(&arrays, &options);
 }
 
-/* A hole that opens into the narrow gap between two leaflets may stay closed, so the centre is far from the others. */
+/* If a hole opens into the narrow gap between two leaflets, it may stay closed. So the centre is far from the other leaflets. */
 static const double *centre_of_hole(const riis_triangles *all) {
   for (;;) {
     const int64_t t = random_integer(0, all->n_triangles - 1), leaflet = all->patch_id[t] / 4;

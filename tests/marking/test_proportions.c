@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The warning about a mesh, a surface and a half thickness that can hardly be in one unit. It comes once, and not for a part of
- * a mesh that is elsewhere. It depends on the box of the nodes, which is tested for every layout of the coordinates. */
+ * The warning about a mesh, a surface and a half thickness that can hardly be in one unit. It comes once, and not for a part of a
+ * mesh that is elsewhere. It depends on the box of the nodes. The test checks the box for every layout of the coordinates. */
 #include <pthread.h>
 #include <riis/riis.h>
 
@@ -133,7 +133,7 @@ static void one_warning_a_mesh_and_surface(void **state) {
   }
 }
 
-/* A warning without a listener does not count as given. */
+/* Without a listener, a warning does not count as given. */
 static void a_late_listener_is_told(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -201,7 +201,7 @@ static riis_status create(const layout *lies, int n, riis_mesh **mesh) {
                           lies->stride, mesh);
 }
 
-/* All nodes but one are within a hundredth of the surface, so there is no warning only if the box holds that one. The test tries
+/* All nodes but one are within a hundredth of the surface, so there is no warning only if the box holds that node. The test tries
  * every place of a node in the registers, every axis and both directions. */
 static void the_box_holds_every_node(void **state) {
   (void)state;

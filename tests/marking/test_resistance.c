@@ -39,7 +39,7 @@ static void into_frame(double a, double b, double c, double *p) {
 static void disc(double s, double t, double *p) {
   into_frame(disc_radius * t * cos(2 * pi * s), disc_radius * t * sin(2 * pi * s), 0, p);
 }
-/* Half a radian and a bit wide. */
+/* The cylinder is a bit wider than half a radian. */
 static void cylinder(double s, double t, double *p) {
   const double angle = 0.9 * (s - 0.5);
   into_frame(cylinder_radius * cos(angle), cylinder_radius * sin(angle), 0.7 * t, p);
@@ -51,7 +51,8 @@ static void cap(double s, double t, double *p) {
              sphere_radius * cos(polar), p);
 }
 
-/* Nowhere near the grid's directions: along them an edge of the band jumps over a row of nodes at once. */
+/* The axes are far from the grid's directions. Along a direction of the grid, an edge of the band jumps over a row of nodes at
+ * once. */
 static void random_frame(void) {
   const double a = between(0.3, 0.6), b = between(0.3, 0.6);
   const double ca = cos(a), sa = sin(a), cb = cos(b), sb = sin(b);
@@ -65,7 +66,7 @@ static riis_surface *surface_of(shape at, int n, int m, double half_thickness) {
   int32_t *ids = own(malloc((size_t)(n * m) * 4 * sizeof *ids));
   for (int j = 0; j <= m; ++j)
     for (int i = 0; i <= n; ++i) at((double)i / n, (double)j / m, xyz + 3 * (j * (n + 1) + i));
-  /* The ends of a closed shape are the same place to the last bit. */
+  /* The two ends of a closed shape are the same place, to the last bit. */
   for (int j = 0; j <= m; ++j)
     if (at != cylinder) memcpy(xyz + 3 * (j * (n + 1) + n), xyz + 3 * j * (n + 1), 3 * sizeof *xyz);
   for (int i = 1; i <= n; ++i)
@@ -108,8 +109,8 @@ static double integral_of(const riis_surface *surface, const riis_resistance *re
   return sum * volume;
 }
 
-/* Without the rim, the integral of K is the area times R / eps. This is exact for a plane, and for a cylinder, whose layers
- * inside and outside make up for each other. A sphere has a factor 1 + c eps^2 / r^2 more, where c = 1/3 - 2/pi^2 is the
+/* Without the rim, the integral of K is the area times R / eps. This is exact for a plane. It is also exact for a cylinder,
+ * because its layers inside and outside balance. A sphere has a factor 1 + c eps^2 / r^2 more. Here c = 1/3 - 2/pi^2 is the
  * integral of x^2 (1 + cos pi x) from 0 to 1. */
 static void the_integral_is_the_area(void **state) {
   (void)state;
@@ -182,7 +183,7 @@ static riis_mark_list fields_of(const flow *f) {
   return fields;
 }
 
-/* K, K u of the surface, and the force, by a plain loop over all nodes, whatever the library keeps. */
+/* Compares K, K u of the surface, and the force with a plain loop over all nodes, whatever the library keeps. */
 static void sums_are_those_of_plain_loops(void **state) {
   (void)state;
   for (int trial = 0; trial < 12; ++trial) {
@@ -226,7 +227,7 @@ static void sums_are_those_of_plain_loops(void **state) {
     CHECK_OK(add_reaction_to(f.result, &resistance, n, f.velocity, f.weight, force));
     for (int c = 0; c < 3; ++c) CHECK_NEAR(force[c], expected_force[c], 1e-12 * (1 + scale));
 
-    /* One without the other, and neither. */
+    /* The calls add K alone, K u alone, and neither of them. */
     double *alone = own(calloc((size_t)n * 3, sizeof *alone)), *both = own(calloc((size_t)n * 4, sizeof *both));
     CHECK_OK(add_resistance_to(f.result, &resistance, n, NULL, NULL));
     CHECK_OK(add_resistance_to(f.result, &resistance, n, both, moves ? both + n : NULL));
@@ -245,8 +246,8 @@ static void sums_are_those_of_plain_loops(void **state) {
   }
 }
 
-/* K and K u of a list are those of the arrays, to the last bit. So are arrays by component and with gaps. Both lists have them,
- * and a marking does not need the field of velocities for them. */
+/* K and K u of a list are those of the arrays, to the last bit. Arrays by component and with gaps have the same bits. Both lists
+ * have K and K u, and a marking does not need the field of velocities for them. */
 static void lists_and_layouts_have_the_same_bits(void **state) {
   (void)state;
   for (int trial = 0; trial < 12; ++trial) {
@@ -306,7 +307,7 @@ static void lists_and_layouts_have_the_same_bits(void **state) {
   }
 }
 
-/* The force on the surface is what the flow loses; ranks that share the nodes add theirs. */
+/* The force on the surface is the loss of the flow. Ranks that share the nodes add their parts. */
 static void ranks_add_up(void **state) {
   (void)state;
   for (int trial = 0; trial < 8; ++trial) {
@@ -318,7 +319,7 @@ static void ranks_add_up(void **state) {
     riis_band_sums all, of_rank[2];
     CHECK_OK(add_reaction_to(f.result, &resistance, n, f.velocity, f.weight, whole));
     CHECK_OK(band_sums_of(f.result, 0, 0.2, n, f.value, f.weight, &all, sizeof all));
-    /* Weights of 0 for the other rank's. */
+    /* The nodes of the other rank have weights of 0. */
     double *weight = own(malloc((size_t)n * sizeof *weight));
     uint8_t *rank = own(malloc((size_t)n));
     for (int64_t i = 0; i < n; ++i) rank[i] = random_bits(&rng) & 1, scale += 300 * f.weight[i];
@@ -332,7 +333,7 @@ static void ranks_add_up(void **state) {
       CHECK_NEAR(of_rank[0].sum[side] + of_rank[1].sum[side], all.sum[side], 1e-13 * scale);
       CHECK_NEAR(of_rank[0].weight[side] + of_rank[1].weight[side], all.weight[side], 1e-13 * scale);
     }
-    /* Each rank with a mesh of its own nodes. */
+    /* Each rank has a mesh of its own nodes. */
     for (int r = 0; r < 2; ++r) {
       double *of_mesh = own(malloc((size_t)n * 7 * sizeof *of_mesh)), *velocity = of_mesh + 3 * n,
              *own = of_mesh + 6 * n;
@@ -415,7 +416,7 @@ static void band_sums_are_those_of_a_plain_loop(void **state) {
   assert_true(n_rim > 100);
 }
 
-/* The pressure jumps across the surface, and the means on either side are its values there. */
+/* The pressure jumps across the surface, and the means on either side are the pressures there. */
 static void a_jump_of_pressure_is_measured(void **state) {
   (void)state;
   random_frame();

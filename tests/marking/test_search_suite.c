@@ -15,8 +15,8 @@
 
 /* --- Brute force ------------------------------------------------------------------------------------------------------ */
 
-/* Triangles in blocks with boxes. A triangle whose box is farther than the closest so far, by more than any rounding, is left
- * out. The distance of every other triangle is computed in extended precision. */
+/* Triangles are in blocks with boxes. If a triangle's box is farther than the closest triangle so far, by more than any rounding,
+ * it is left out. The distance of every other triangle is computed in extended precision. */
 enum { per_block = 16 };
 typedef struct brute_force {
   int64_t n;

@@ -45,7 +45,7 @@ static void place(int64_t n, double *xyz, double degrees, const double *offset) 
   }
 }
 
-/* Centres of cells around a surface. The planes x = 0 and y = 0 have some of them, and are planes of symmetry. */
+/* Centres of cells around a surface. Some of them lie in the planes x = 0 and y = 0, which are planes of symmetry. */
 static test_mesh symmetric_cells(const riis_surface *surface, double spacing) {
   const riis_surface_info info = info_of(surface);
   const double margin = 1.5 * info.half_thickness;
@@ -107,7 +107,8 @@ static void check_velocities(const riis_surface *surface, const test_mesh *mesh,
   }
 }
 
-/* Other searches, threads and instructions give the same bits, and a marking without velocity all else. */
+/* Other searches, threads and instructions give the same bits. A marking without velocity gives the same bits of everything else.
+ * */
 static void check_searches(const riis_surface *surface, const test_mesh *from, const riis_marks *expected) {
   static const int32_t searches[] = {RIIS_SEARCH_EXHAUSTIVE, RIIS_SEARCH_NEIGHBOR, RIIS_SEARCH_CLUSTERS};
   const int64_t n = within_in(expected).n;

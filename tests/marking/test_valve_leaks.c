@@ -13,7 +13,7 @@ static random_source rng;
 
 /* --- Valves ------------------------------------------------------------------------------------------------------------ */
 
-/* How far the segment passes inside the triangle, as a share of its size: below 0 where it passes outside. */
+/* Returns how far the segment passes inside the triangle, as a share of its size. The result is below 0 if it passes outside. */
 static long double depth_in(const double *a, const double *b, const double *const *corner) {
   long double e1[3], e2[3], along[3], from[3], p[3], q[3], det = 0, t = 0, u = 0, v = 0;
   for (int i = 0; i < 3; ++i) {
@@ -33,7 +33,7 @@ static long double depth_in(const double *a, const double *b, const double *cons
   return least;
 }
 
-/* Every edge between two unmarked nodes, however short, against every triangle. */
+/* Checks every edge between two unmarked nodes, however short, against every triangle. */
 static int64_t check_against_valve(const test_mesh *nodes, const riis_surface *surface, const uint8_t *marks,
                                    leak_list list) {
   const riis_triangles all = triangles_of(surface);
@@ -161,7 +161,7 @@ static void what_the_papers_search_misses_leaks(void **state) {
   CHECK_NEAR(list.sum.longest_middle[2], 10, 0.06);
 }
 
-/* The list is of what the mesh and its adjacency are now, and of the last marking. */
+/* The list follows the present mesh and adjacency, and the last marking. */
 static void changes_are_seen(void **state) {
   (void)state;
   test_mesh nodes = column_of_nodes(12, -0.5, 1);

@@ -165,7 +165,7 @@ static void log_goes_to_the_callers_function_only(void **state) {
   assert_string_equal(line, "");
 }
 
-/* A step and a refusal run with both standard streams redirected into a file, which stays empty. */
+/* A step and a refusal run while both standard streams go to a file, which stays empty. */
 static void nothing_is_printed(void **state) {
   (void)state;
   FILE *file = tmpfile();

@@ -131,7 +131,7 @@ static void null_arguments_are_named(void **state) {
   }
 }
 
-/* All of Fortran's handles have one type, so swapped ones compile. */
+/* All handles have one type in Fortran, so a program with swapped handles compiles. */
 static void swapped_handles_are_refused(void **state) {
   (void)state;
   riis_valve *valve = NULL;
@@ -385,7 +385,7 @@ static void marking_options_are_refused_by_name(void **state) {
   MARK_OPTION_IS_REFUSED(n_threads, 4096, "n_threads is 4096");
 }
 
-/* A caller with an older header gets and gives less. A caller with a newer header is refused. */
+/* A caller with an older header exchanges fewer fields. A caller with a newer header is refused. */
 static void struct_sizes_are_checked(void **state) {
   (void)state;
   riis_surface_options options;

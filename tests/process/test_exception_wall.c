@@ -56,7 +56,7 @@ static int update_without_memory(void) {
   return 0;
 }
 
-/* Runs in a child process again. There are many patches, and already the first has too many quads. The curves of a few patches
+/* Also runs in a child process. There are many patches, and the first one already has too many quads. The curves of a few patches
  * are made before the quads are counted, but not all curves, which would take a gigabyte. Returns 0 if this holds. */
 static int refusal_with_little_memory(void) {
   enum { n_patches = 200, n_curves = 4 * n_patches };

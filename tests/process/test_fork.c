@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * A process may be forked while another thread is inside the library: the child finds the library's pools unlocked. It makes no
- * surface, because TBB would wait there for threads that the child lacks. A child of a process that used several threads has one:
- * it is refused more, and gets one by default. */
+ * surface, because TBB would wait there for threads that the child lacks. If a process used several threads, its child has one
+ * thread. A request for more is refused, and the default is one. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* fork */
 #endif
@@ -44,7 +44,7 @@ static void *go_on_stepping(void *status_of_thread) {
   return NULL;
 }
 
-/* Makes and drops valves, whose values are in the pools. */
+/* Copies and drops valves, whose values are in the pools. */
 static riis_status copy_often(const riis_valve *valve) {
   riis_status status = RIIS_OK;
   for (int i = 0; i < 20 && !status; ++i) {
@@ -67,7 +67,7 @@ static int child_copies_valves(const riis_valve *valve) {
          WEXITSTATUS(outcome) == child_passed;
 }
 
-/* The thread is at a pool's lock for a part of its time, so that a few of the forks meet a locked one. */
+/* The thread holds a pool's lock for a part of its time, so that a few of the forks meet a locked pool. */
 static void forked_processes_copy_valves(void **state) {
   (void)state;
   pthread_t thread;
@@ -83,7 +83,7 @@ static void forked_processes_copy_valves(void **state) {
   assert_int_equal(n_passed, fewer_if_sanitized(n_forks));
 }
 
-/* What the parent made before the fork. */
+/* The objects that the parent made before the fork. */
 typedef struct scene {
   riis_valve *valve;
   riis_surface *surface;
@@ -113,7 +113,7 @@ static riis_status mark(const scene *s, int32_t search, int32_t n_threads, riis_
   return status ? status : riis_mark_nodes(s->surface, s->mesh, &options, result);
 }
 
-/* Each call with an n_threads. Returns how many give the status, and counts the calls. */
+/* Makes each call with an n_threads. Returns how many calls give the status, and counts the calls. */
 static int with_status(const scene *s, int32_t n_threads, riis_status expected, const char *text, int *n_calls) {
   riis_mark_options options;
   riis_surface_options of_surface;
@@ -176,7 +176,7 @@ static riis_status use_result(const scene *s) {
   return status ? status : dense_of(s->result, s->nodes.n, RIIS_FAR_DISTANCE, NULL, s->k, NULL, NULL);
 }
 
-/* What a child checks. Returns 0 if all is right. */
+/* The check of a child. Returns 0 if all is right. */
 typedef int child_check(const scene *s);
 
 static int run_child(child_check *check, const scene *s) {
@@ -230,7 +230,7 @@ static int has_threads(const scene *s) {
   return all_have(s, 2, RIIS_OK, NULL) ? 0 : 2;
 }
 
-/* Runs first: the process has not used threads. */
+/* This test runs first, because the process has not used threads then. */
 static void a_child_of_one_thread_has_threads(void **state) {
   (void)state;
   const scene s = scene_by(1);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * n_threads = 1 starts no thread: the process has as many after each call as before the first. Neither does 0, the default, where
- * there is little work. With 2 there are more, so the count sees threads. Calls on one thread come first, because OpenMP and TBB
- * keep the threads that they start. */
+ * n_threads = 1 starts no thread: after each call the process has the number of threads that it had before the first. The default
+ * 0 also starts none if there is little work. With 2 there are more, so the count sees threads. Calls on one thread come first,
+ * because OpenMP and TBB keep the threads that they start. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -220,7 +220,7 @@ static void markings(void **state) {
   check_markings(most_side);
 }
 
-/* On a machine of one processor this holds anyway. */
+/* On a machine of one processor this holds in any case. */
 static void little_work_by_default(void **state) {
   (void)state;
   n_threads_asked = 0;
@@ -229,7 +229,7 @@ static void little_work_by_default(void **state) {
   check_markings(25);
 }
 
-/* OpenMP and TBB each start at most one more. */
+/* OpenMP and TBB each start at most one more thread. */
 static void two_threads_are_more(void **state) {
   (void)state;
   const riis_surface_options options = options_with(2, RIIS_TRIANGULATION_ADAPTED, 0.005);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Memory runs out at every single allocation of the library's own code, and at every request of Embree to its memory monitor.
- * Without RIIS_TEST_LONG=1 some of the allocations of long calls are left out.
- * The call then returns RIIS_OUT_OF_MEMORY, nothing has changed, nothing leaks, and the same call succeeds afterwards. */
+ * Memory runs out at every single allocation of the library's own code, and at every request of Embree to its memory monitor. The
+ * call then returns RIIS_OUT_OF_MEMORY, nothing has changed, nothing leaks, and the same call succeeds afterwards. Without
+ * RIIS_TEST_LONG=1 some of the allocations of long calls are left out. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -20,7 +20,7 @@ static random_source rng;
 
 static int64_t n_injected[4], n_calls_failed[4]; /* by the owner of the memory */
 
-/* The state of the world before and after the call. */
+/* The state of everything before and after the call. */
 typedef struct reference {
   uint64_t before, after;
 } reference;
@@ -58,7 +58,7 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
     n_injected[whose] += n_failed;
     ++n_calls_failed[whose];
     check_status(s, status, n);
-    /* There are two ways to fail at n. One checks everything before it calls again, the other does not. */
+    /* There are two ways to fail at n. One checks everything before it calls again. The other does not. */
     if ((n + and_all_after) % 2 == 0 || (s->flags & IS_FIRST))
       check_digest(s, &w, expected->before, "after the failure", n);
     if (!(s->flags & IS_FIRST)) status = s->call(&w);
@@ -69,8 +69,8 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
   }
   destroy(&w);
   const live after = live_now();
-  /* Embree keeps memory for each thread that works for it, from that thread's first work on. With TBB's threads that may be at
-   * any time. Memory that remains after each of several attempts is a leak. */
+  /* Embree keeps memory for each thread from that thread's first work for it on. TBB's threads may begin such work at any time.
+   * So memory is a leak only if it remains after each of several attempts. */
   if (after.embree == before.embree + 1 && after.library == before.library &&
       after.embree_bytes == before.embree_bytes && attempt < 5)
     return try_one(s, expected, whose, n, and_all_after, attempt + 1);
@@ -137,8 +137,8 @@ static void embrees_memory_runs_out(void **state) {
   assert_int_equal(memory_live_bytes_of_embree(), 0);
 }
 
-/* It is chance which thread does what, so the test repeats until another thread allocates. The mesh is large enough to give all
- * threads work. */
+/* Chance decides the work of each thread, so the test repeats until another thread allocates. The mesh is large enough to give
+ * all threads work. */
 static void memory_of_other_threads_runs_out(void **state) {
   (void)state;
   set_nodes(45);
@@ -155,7 +155,7 @@ static void memory_of_other_threads_runs_out(void **state) {
   }
 }
 
-/* There is no memory at all, also not for the C++ library's exceptions or for the message. */
+/* There is no memory at all, not even for the C++ library's exceptions or for the message. */
 static void all_memory_runs_out(void **state) {
   (void)state;
   if (!memory_of_all_can_fail()) skip();
@@ -174,7 +174,7 @@ static void all_memory_runs_out(void **state) {
   riis_valve_destroy(&valve);
 }
 
-/* The requests are sound, but no machine has so much memory. */
+/* The requests are sound, but no machine has enough memory for them. */
 static void requests_beyond_any_memory_are_refused(void **state) {
   (void)state;
   const int64_t n = INT64_C(1) << 56;

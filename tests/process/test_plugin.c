@@ -12,7 +12,7 @@
 
 typedef int64_t mark_function(int32_t n_threads);
 
-/* Opens the plug-in, marks and closes it. Threads that wait for work come to their code within the time after it. */
+/* Opens the plug-in, marks and closes it. Threads that wait for work run their code within the pause after it. */
 static int64_t mark_by_plugin(const char *path, int32_t n_threads) {
   void *const plugin = dlopen(path, RTLD_NOW | RTLD_LOCAL);
   mark_function *mark = NULL;

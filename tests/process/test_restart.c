@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A restart in the middle of a cycle: two valves follow laws of opening, and all that a restart file holds is the laws'
- * states. K and K u_surface have the same bits to the end of the cycle as without the restart. */
+ * A restart in the middle of a cycle: two valves follow laws of opening, and a restart file holds only the states of these laws.
+ * To the end of the cycle, K and K u_surface have the same bits as without the restart. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -10,7 +10,7 @@
 enum { per_side = 16, n_nodes = per_side * per_side * per_side, n_steps = 40, n_before = 9 };
 static const double dt = 0.01;
 
-/* What is written to the restart file. */
+/* The content of the restart file. */
 typedef struct laws {
   riis_opening_switch_state aortic;
   riis_opening_angle_state mitral;
@@ -41,7 +41,7 @@ static void advance(laws *state, double time) {
   CHECK_OK(riis_opening_angle_advance(&by_angle, &state->mitral, time, 0.1 * wave, 20 * wave, &state->mitral));
 }
 
-/* A valve, as it is now and as it was in the step before. */
+/* A valve now, and in the step before. */
 typedef struct moving_valve {
   riis_valve *now, *before;
   riis_surface *surface;
@@ -81,7 +81,7 @@ static void add_resistance(const moving_valve *valve, const riis_mesh *mesh, rii
   CHECK_OK(add_resistance_to(result, &resistance, n_nodes, fields, fields + n_nodes));
 }
 
-/* Goes on from the state before the first of the steps to the last. `fields` has K and K u_surface of every step. */
+/* Goes on from the state before the first of the steps to the last step. `fields` has K and K u_surface of every step. */
 static void run(laws *state, int first, int last, double *fields, const double *xyz) {
   const int n = n_owned();
   const moving_valve aortic = valve_at("aortic", state->aortic.opening, 0.8),
@@ -136,7 +136,7 @@ static void a_restart_in_mid_cycle_has_the_same_resistance_to_the_end(void **unu
     for (int k = 0; k < n_nodes; ++k) most = fmax(most, a[k]);
     for (int k = n_nodes; k < 4 * n_nodes; ++k) fastest = fmax(fastest, fabs(a[k]));
     assert_true(most > 1e5);
-    if (i == n_before + 1) assert_true(fastest > 1e5); /* what moves is compared */
+    if (i == n_before + 1) assert_true(fastest > 1e5); /* the compared values come from a motion */
     if (memcmp(a, b, (size_t)4 * n_nodes * sizeof *a) != 0) fail_msg("step %d after a restart differs", i);
   }
 }

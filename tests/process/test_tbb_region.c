@@ -52,7 +52,7 @@ static void expect_same_as_outside(int region) {
   int most_at_once = 0;
   for (int count = 0; count < 4; ++count)
     for (int repeat = 0; repeat < fewer_if_sanitized(3); ++repeat) {
-      /* Every time a mesh that none has searched: one of the tasks makes the groups. */
+      /* The mesh is new each time, so one of the tasks prepares it. */
       free_one_owned(mesh);
       mesh = mesh_from(&nodes);
       work w = {.surface = surface, .mesh = mesh, .expected = expected};
@@ -96,7 +96,7 @@ int main(void) {
       cmocka_unit_test(in_the_callers_arena_of_one),
       cmocka_unit_test(under_the_callers_limit_of_one),
   };
-  /* Nothing may be printed: TBB reports on stderr if it is asked for more than it can give. */
+  /* Nothing may be printed. If TBB is asked for more than it can give, it reports this on stderr. */
   FILE *captured = tmpfile();
   const int terminal = dup(STDERR_FILENO);
   if (!captured || terminal < 0 || dup2(fileno(captured), STDERR_FILENO) < 0) return 1;

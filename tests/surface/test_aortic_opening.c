@@ -120,8 +120,8 @@ static void open_free_edges_are_parabolas(void **state) {
   assert_true(n > 50);
 }
 
-/* Every vertex of each surface is on the other, as far as both know the smooth valve. Their triangles differ, because further
- * vertices follow the motion to the open state. */
+/* Checks that every vertex of each surface is on the other, as far as both know the smooth valve. Their triangles differ, because
+ * some vertices follow the motion to the open state. */
 static int have_same_shape(const riis_valve *a, const riis_valve *b) {
   riis_surface_options options = surface_options();
   options.tolerance = 0.005;
@@ -195,8 +195,8 @@ static void copies_and_moving_updates(void **state) {
   assert_true(n > 0);
 }
 
-/* With triangles that stay, a vertex's displacement divided by the time is its velocity, but for the chords of lines that end
- * between two vertices of a side. */
+/* With fixed triangles, a vertex's velocity is its displacement divided by the time. Only lines that end between two vertices of
+ * a side differ slightly, because they end on chords. */
 static void fixed_triangulations(void **state) {
   (void)state;
   const riis_surface_options options = fixed_options();
@@ -216,7 +216,7 @@ static void fixed_triangulations(void **state) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "has an open state|fixed for none", riis_surface_update(surface, other, NULL));
 }
 
-/* Such values still make a surface at opening 0, as before there was an open state. */
+/* Such values still make a surface at opening 0, as they did before valves had an open state. */
 static void absurd_open_states_are_refused(void **state) {
   (void)state;
   riis_valve *valve = new_valve("aortic");

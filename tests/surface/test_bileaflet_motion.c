@@ -95,7 +95,7 @@ static void vertices_and_closest_points_turn_exactly(void **state) {
       const tied_velocity tied = tied_velocity_at(&c, velocity, xyz + 3 * i, found.distance[i], half_thickness);
       if (tied.n_leaflets > 1 || !tied.is_clear) continue;
       chord_velocity(&of, found.leaflet_id[i], fields.point + 3 * i, now, before, seconds, expected);
-      /* Equally near patches of one leaflet give a mean, too. Beside a seam their closest points lie apart. */
+      /* Equally near patches of one leaflet also give a mean. Beside a seam their closest points lie apart. */
       CHECK_AT_MOST(distance(tied.n_places > 1 ? tied.mean : expected, fields.velocity + 3 * i), 10 * rounding);
     }
     free_owned_after(owned_before);
@@ -171,8 +171,8 @@ static int leaks(const bileaflet *of, double spacing, double half_thickness) {
   return has_leaked;
 }
 
-/* An edge of the grid that crosses a leaflet has an end within half its length. So 0.55 of the spacing seals: half of it, and
- * the tolerance. */
+/* An edge of the grid that crosses a leaflet has an end within half its length. So a half thickness of 0.55 of the spacing seals:
+ * half of the spacing, plus the tolerance. */
 static void a_closed_valve_seals_its_housing(void **state) {
   (void)state;
   static const double angle[4] = {0, 25, 30, 45};

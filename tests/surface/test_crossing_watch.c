@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The log's warning of leaflets that go through each other: once for each shape that the user chose, against the pairs of
- * riis_find_crossings. Without a log function nobody searches, which the allocations show. */
+ * The log warns of leaflets that go through each other: once for each shape that the user chose. The test compares the warnings
+ * with the pairs of riis_find_crossings. Without a log function nobody searches, which the allocations show. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -9,8 +9,8 @@
 #include "handles.h"
 #include "sanitized.h"
 
-/* Replaces operator new for the process, because an executable's symbols go before those of the libraries. A sanitizer's
- * allocator must be the only one. */
+/* These functions replace operator new for the process, because an executable's symbols go before those of the libraries. A
+ * sanitizer's allocator must be the only one. */
 static int64_t n_allocations;
 #ifndef IS_SANITIZED
 void *new_one(size_t size) __asm__("_Znwm");
@@ -55,7 +55,7 @@ static void update(riis_surface *surface, const riis_valve *valve) {
   CHECK_OK(riis_surface_update(surface, valve, NULL));
 }
 
-/* The last warning has the numbers of the search. */
+/* Checks that the last warning has the numbers of the search. */
 static void expect_pairs_of(riis_surface *surface) {
   riis_crossing_list found;
   char part[64];
@@ -84,7 +84,7 @@ static void a_shape_is_named_once(void **state) {
       CHECK_OK(riis_surface_update_moving(surface, valve, valve, 0.1, NULL, NULL));
   }
   assert_int_equal(warnings.n, 1);
-  /* Another shape, and the first again. A copy is the same shape. */
+  /* The shape is another one, then the first again. A copy is the same shape. */
   set(valve, "opening", 0);
   set(valve, "leaflet_height", 1.29);
   update(surface, valve);
@@ -96,12 +96,12 @@ static void a_shape_is_named_once(void **state) {
   own(copy);
   update(surface, copy);
   assert_int_equal(warnings.n, 2);
-  /* Another surface has not looked yet. */
+  /* Another surface has not searched yet. */
   new_surface(valve, NULL);
   assert_int_equal(warnings.n, 3);
 }
 
-/* A valve that begins open closes later: each range of the opening is looked at, until there was something to say. */
+/* A valve that begins open closes later. Each range of the opening is searched until a crossing is found. */
 static void a_valve_that_begins_open_is_named(void **state) {
   (void)state;
   riis_valve *valve = new_valve("trileaflet");
@@ -118,8 +118,8 @@ static void a_valve_that_begins_open_is_named(void **state) {
 
 static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet"};
 
-/* Default shapes at all openings, and shapes that do not cross: the closed mitral leaflets touch, and their fixed triangles go
- * through each other by less than leaflets that cross. */
+/* Default shapes do not cross at any opening. Neither do other sound shapes: the closed mitral leaflets touch, and their fixed
+ * triangles go through each other by less than leaflets that cross. */
 static void sound_shapes_are_not_named(void **state) {
   (void)state;
   for (int kind = 0; kind < 4; ++kind)
@@ -190,7 +190,7 @@ static void an_open_state_makes_another_shape(void **state) {
   assert_int_equal(warnings.n, 2);
 }
 
-/* Allocations of ten updates, each of another shape, in a surface that has made room. */
+/* Counts the allocations of ten updates, each of another shape, in a surface that has made room. */
 static int64_t allocations_of_updates(double height) {
   riis_valve *valve = new_valve("trileaflet");
   riis_surface *surface = new_surface(valve, NULL);
@@ -218,7 +218,7 @@ static void nobody_searches_in_silence(void **state) {
 #ifndef IS_SANITIZED
   assert_true(heard_all > in_silence + 10);
 #endif
-  /* A log function that comes later hears of a shape that was there before. */
+  /* A log function that is set later gets the warning of a shape that was there before. */
   riis_set_log(NULL, NULL);
   riis_valve *valve = new_valve("trileaflet");
   set(valve, "leaflet_height", 1.3);

@@ -73,7 +73,7 @@ static double distance_to_profile(const double *p, double t) {
   return hypot(x, z);
 }
 
-/* Follows every minimum of a fine net: near the middle between two, the net's least need not lead to the true one. */
+/* Follows every minimum of a fine net. Near the middle between two minima, the least of the net need not lead to the true one. */
 static double distance_to_cylinder(const double *p) {
   enum { n = 400 };
   double at[n + 1], nearest = INFINITY;
@@ -102,7 +102,8 @@ static riis_surface *measured(const riis_valve *valve, int32_t distance, double 
   return new_surface(valve, &options);
 }
 
-/* A hairpin that leans as v grows. At the middle of v the arm at x = 1 is nearest to the point, at v = 1 the other arm is. */
+/* A hairpin that leans as v grows. At the middle of v the arm at x = 1 is nearest to the point. At v = 1 the other arm is
+ * nearest. */
 static const double between_arms[3] = {0.2, 1, 1};
 static riis_valve *hairpin(void) {
   const double sides[24] = {-1.95, 0, 1, -1.95, 0, -2, 1, 0, -2, 1, 0, 1, -0.05, 1, 1, -0.05, 1, -2, 1, 1, -2, 1, 1, 1};
@@ -134,8 +135,8 @@ static void check_answer(const riis_closest *answer, const double *p) {
   if (size != 0) CHECK_NEAR(size, 1, 1e-14);
 }
 
-/* Distances that are known up to an error of `known_to`. The points are in a box or at the surface, where samples are farthest
- * off. */
+/* Distances that are known up to an error of `known_to`. The points are in a box or at the surface, where the error of samples is
+ * largest. */
 typedef struct reference {
   const char *name;
   riis_valve *valve;
@@ -333,7 +334,7 @@ static void minimisation_is_never_below(void **state) {
     }
 }
 
-/* The known failure: from the middle the search goes to the wrong arm and stays there. Distance and mark are wrong. */
+/* The known failure: from the middle the search goes to the wrong arm and stays there. The distance and the mark are wrong. */
 static void minimisation_ends_in_local_minima(void **state) {
   (void)state;
   riis_valve *valve = hairpin();
@@ -361,7 +362,7 @@ static void minimisation_ends_in_local_minima(void **state) {
   assert_int_equal(n_marked[RIIS_MEASURE_MINIMIZATION], 0);
 }
 
-/* The patch whose box is nearest need not have the nearest point. Here that box holds the query's point. */
+/* The patch with the nearest box need not have the nearest point. Here that box holds the query's point. */
 static void all_near_patches_are_asked(void **state) {
   (void)state;
   /* A slope through [0,1]^3, and a floor below it. */
@@ -457,7 +458,8 @@ static void searches_agree(void **state) {
         assert_int_equal(n, within.n);
         assert_true(marked_in(expected).n > 50 && marked_in(expected).n < nodes.n / 2);
         for (int32_t n_threads = 1; n_threads <= 3; ++n_threads) {
-          /* The first marking starts anew, the second from the last marked nodes. The third leaves the search to the library. */
+          /* The first marking starts anew, and the second starts from the last marked nodes. The third leaves the search to the
+           * library. */
           for (int repeat = 0; repeat < 2; ++repeat) {
             mark(surface, mesh, RIIS_SEARCH_NEIGHBOR, n_threads, limit, which, result);
             assert_true(same_results(expected, result));
@@ -484,8 +486,8 @@ static void searches_agree(void **state) {
     }
 }
 
-/* Two nodes lie in a ball. From the ball's middle minimisation goes to the wrong arm, twice as far away as the ball's radius.
- * This must not dismiss the node that minimisation finds near. */
+/* Two nodes lie in a ball. From the ball's middle, minimisation goes to the wrong arm, at twice the distance of the ball's
+ * radius. This must not dismiss the node that minimisation finds near. */
 static void local_minima_dismiss_no_group(void **state) {
   (void)state;
   const double xyz[6] = {-0.1, 1, 0.9, 0.6, 1, 0.9};
@@ -505,7 +507,7 @@ static void local_minima_dismiss_no_group(void **state) {
   assert_true(marked.n == 1 && marked.node_id[0] == 0);
 }
 
-/* Batches answer like single points, for any number of threads, and tell far points. */
+/* Batches give the results of single points, for any number of threads, and mark far points as far. */
 static void batches_agree(void **state) {
   (void)state;
   random_source rng = random_start("batches_agree");
@@ -562,7 +564,7 @@ static void what_has_no_meaning_is_refused(void **state) {
 
   riis_valve *valve = rectangle();
   surface = measured(valve, RIIS_MEASURE_SAMPLING, 0.1);
-  /* The surface's own options are refused for arrays, and leave the surface as it was. */
+  /* The options that the surface keeps are refused for arrays, and leave the surface as it was. */
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.measure is 1",
                 riis_surface_update_from_arrays(surface, &triangle, NULL));
   options = surface_options();

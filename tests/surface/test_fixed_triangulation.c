@@ -50,7 +50,7 @@ static riis_valve *fan(void) {
   return valve;
 }
 
-/* A copy of what stays: it outlives the next update. */
+/* A copy of the arrays that stay: it outlives the next update. */
 typedef struct topology {
   int64_t n_vertices, n_triangles;
   int64_t vertex_id[3 * 20000], triangle_id[20000];
@@ -83,8 +83,8 @@ static void check_same_topology(const topology *a, const topology *b) {
   assert_memory_equal(a->patch_id, b->patch_id, n * sizeof *a->patch_id);
 }
 
-/* 101 openings that the lines were chosen at or not: the same triangles, within the bound, at most half as many again as the
- * largest number of the adapted ones. */
+/* Checks 101 openings, whether the lines were chosen at them or not. The triangles are the same and within the bound. Their
+ * number is at most 1.5 times the largest number of adapted triangles. */
 static void check_triangles_stay(riis_valve *valve, const char *name) {
   const riis_surface_options options = fixed_options();
   set_opening(valve, 0.5);
@@ -142,7 +142,8 @@ static void distances_are_within_the_bound(void **state) {
   check_distances(fan());
 }
 
-/* The triangles depend on the valve and on its opening now, not on where the surface began: a restart has the same bits. */
+/* The triangles depend on the valve and on its opening now, not on the opening at which the surface began. A restart has the same
+ * bits. */
 static void a_restart_has_the_same_bits(void **state) {
   (void)state;
   riis_valve *valves[3] = {new_valve("mitral"), opening_aortic(), fan()};
@@ -156,8 +157,8 @@ static void a_restart_has_the_same_bits(void **state) {
   }
 }
 
-/* The lines of a valve without joints stay. So the velocity is the difference of places, but for the chords of lines that end
- * between two vertices of a side. */
+/* The lines of a valve without joints stay. So a vertex's velocity is the difference of its places over the time. Only lines that
+ * end between two vertices of a side differ slightly, because they end on chords. */
 static void velocity_is_that_of_the_vertices(void **state) {
   (void)state;
   rng = random_start("test_fixed_triangulation");
@@ -228,7 +229,7 @@ static void flat_mitral_leaflets_stay_within_the_bound(void **state) {
   check_distances(valve);
 }
 
-/* Patches with rough sides that differ between both states: the openings that the lines were chosen at are never refused. */
+/* Patches have rough sides that differ between both states. The openings that the lines were chosen at are never refused. */
 static void openings_of_the_choice_are_never_refused(void **state) {
   (void)state;
   rng = random_start("test_fixed_triangulation");
@@ -299,7 +300,7 @@ static void a_surface_of_arrays_forgets_the_choice(void **state) {
   CHECK_OK(riis_surface_update(surface, opening_aortic(), &fixed));
 }
 
-/* A patch with a side that nearly stops. All of it moves by 1e-6 in 1e-6 seconds. */
+/* A patch has a side that nearly stops. All of the patch moves by 1e-6 in 1e-6 seconds. */
 static void near_cusps_move_with_their_valve(void **state) {
   (void)state;
   shape made[2] = {{0}, {0}};

@@ -93,7 +93,7 @@ static void linear_frames_have_right_hand_and_mean_velocities(void **state) {
   assert_null(keyframes);
 }
 
-/* Whoever adds periods to a key's time rounds. */
+/* Adding periods to a key's time rounds it. */
 static void frames_have_the_velocity_after_them_in_every_period(void **state) {
   (void)state;
   const double time[] = {-0.08, 0.15, 0.24, 0.42, 0.65}, height[] = {0, 2, 1, 3, 0.5};

@@ -66,7 +66,7 @@ static riis_valve *valve_of(const states *s) {
   return valve;
 }
 
-/* The smooth valve, and where on its annulus each patch begins and ends. */
+/* The smooth valve, and the places on its annulus where each patch begins and ends. */
 typedef struct smooth {
   mitral_oracle *oracle;
   double from[10], to[10];
@@ -226,7 +226,7 @@ static void vertices_move_as_the_oracles(void **state) {
   printf("at random points the velocity is off by %.3f of tolerance, per unit of opening, at most\n", share);
 }
 
-/* The velocity of now is that of the middle of the step, so it is off by the first power of the time between. */
+/* The velocity of now is that of the middle of the step. So its error falls with the first power of the time between. */
 static void the_error_falls_with_the_time_between(void **state) {
   (void)state;
   double last = 0;
@@ -263,7 +263,7 @@ static void the_error_at_any_point_falls_with_the_tolerance(void **state) {
   }
 }
 
-/* At opening 0 the leaflets share their edge, as one curve; at any other each has its own. */
+/* At opening 0 the leaflets share their edge as one curve. At any other opening each leaflet has its own. */
 static void steps_into_and_out_of_the_closed_state(void **state) {
   (void)state;
   static const double other[] = {1, 0.5, 0.1, 0.01, 0.001};
@@ -281,7 +281,7 @@ static void steps_into_and_out_of_the_closed_state(void **state) {
     }
 }
 
-/* A vertex whose place on its patch jumped from step to step would have a speed of the jump over the time between. */
+/* If a vertex's place on its patch jumped from step to step, its speed would be the jump divided by the time between. */
 static void no_vertex_is_an_outlier(void **state) {
   (void)state;
   const states at = paper_at(0);
@@ -301,8 +301,8 @@ static void no_vertex_is_an_outlier(void **state) {
   CHECK_AT_MOST(0.98 * 2.581, largest);
 }
 
-/* A patch without a bulge is a Coons patch with the same labels. Arcs that are nearly straight have few triangles, between whose
- * vertices the velocity is linear: how fast they bend is seen only where they are bent. */
+/* A patch without a bulge is a Coons patch with the same labels. Arcs that are nearly straight have few triangles. Between their
+ * vertices the velocity is linear, so the rate of the bend shows only where the arcs are bent. */
 static void a_bulge_goes_through_zero(void **state) {
   (void)state;
   static const struct {
@@ -346,7 +346,7 @@ static void any_parameter_moves(void **state) {
     states now = paper_at(random_between(&rng, 0.05, 0.95)), before;
     before = now;
     if (i == n_scalars) before.closed.translation[random_bits(&rng) % 3] += 0.1;
-    for (int k = 0; k < n_scalars; ++k) { /* one of them, and at the end all */
+    for (int k = 0; k < n_scalars; ++k) { /* one of them; in the last round all */
       if (i != k && i != n_scalars + 1) continue;
       *scalar_of(&before.closed, k) *= random_between(&rng, 0.95, 0.99);
       *scalar_of(&before.open, k) *= random_between(&rng, 0.95, 0.99);

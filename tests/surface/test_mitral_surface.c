@@ -121,7 +121,7 @@ static void numbers_of_the_model(void **state) {
     CHECK_NEAR(info.upper[2], expected[i].z_high, 5e-3);
     free_owned_after(owned_before);
   }
-  /* The tip of the open anterior leaflet does not depend on the tolerance, because it is a control point. */
+  /* The tip of the open anterior leaflet is a control point, so it does not depend on the tolerance. */
   riis_surface *surface = mitral_surface(1, 0.5);
   const riis_closest tip = closest_to(surface, 0, 0.951, -2.048);
   CHECK_NEAR(tip.point[1], 0.951, 5e-4);
@@ -287,10 +287,10 @@ static double least_step(const riis_triangles *c, int32_t patch, double *longer)
   return least;
 }
 
-/* No lines of a grid nearly coincide, for valves of many shapes. Lines that two sides need are one if they are within 0.02 of the
- * tolerance (docs/theory.md, section 2). There is a line beside a joint of the annulus, where O has a kink, only if the tolerance
- * needs it. The least of 3,840 valves was 0.4. (The triangles can be flat all the same: the quads are sheared where a leaflet's
- * arcs meet its free edge at a small angle.) */
+/* No lines of a grid nearly coincide, for valves of many shapes. Lines that two sides need are one line if they are within 0.02
+ * of the tolerance (docs/theory.md, section 2). A joint of the annulus, where O has a kink, has a line beside it only if the
+ * tolerance needs it. The least of 3,840 valves was 0.4. (The triangles can still be flat: the quads are sheared where a
+ * leaflet's arcs meet its free edge at a small angle.) */
 static void has_no_slivers(void **state) {
   (void)state;
   random_source rng = random_start("test_mitral_surface");
@@ -330,8 +330,8 @@ static void normals_point_downstream(void **state) {
   assert_int_equal(closest_to(open, 2.4, 0, -0.5).side, 1);
 }
 
-/* No point of the valve moves by more than about 2.6 times a change of the opening (the oracle's figure). So the surface at 1e-9
- * from either end has nearly the vertices of the surface at that end. */
+/* No point of the valve moves by more than about 2.6 times a change of the opening (the oracle's number). So at an opening 1e-9
+ * from either end, the surface has nearly the vertices of the surface at that end. */
 static void opens_continuously(void **state) {
   (void)state;
   const double ends[2] = {0, 1}, near[2] = {1e-9, 1 - 1e-9};
@@ -348,7 +348,7 @@ static void opens_continuously(void **state) {
   }
 }
 
-/* An update to a new opening gives the same surface as a new one, to the last bit. */
+/* An update to a new opening gives the same surface as a new surface at that opening, to the last bit. */
 static void an_update_moves_the_valve(void **state) {
   (void)state;
   riis_valve *valve = mitral_valve(0);
@@ -387,7 +387,7 @@ static void opens_from_one_state_to_another(void **state) {
     CHECK_OK(riis_valve_set_open_state(valve, second));
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
     CHECK_OK(riis_valve_set_scalar(first, "opening", 0));
-    /* Vertices of the aortic valve follow its motion, which the ends alone do not have. */
+    /* Vertices of the aortic valve follow its motion, which the states at the ends alone do not have. */
     const double off = i == 0 ? 1e-3 : 0;
     CHECK_NEAR(area_of(valve), area_of(first), off);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5));
@@ -461,7 +461,7 @@ static void refusals(void **state) {
   CHECK_OK(riis_valve_set_scalar(open, "anterior_length", 2));
   CHECK_OK(riis_valve_set_open_state(valve, open));
   free_one_owned(open);
-  /* Refused states do not stick. */
+  /* Refused states leave no trace. */
   surface = new_surface(valve, NULL);
 }
 

@@ -262,7 +262,7 @@ static placed placed_by(const riis_surface_options *o) {
   return made;
 }
 
-/* Tells where a point x of now was: the inverse of scale times rotation is its transpose over the scale's square. */
+/* Finds the former place of a point x of now: the inverse of scale times rotation is its transpose over the scale's square. */
 static void before_of(const riis_surface_options *now, const riis_surface_options *then, const double *x,
                       long double *was) {
   const placed a = placed_by(now), b = placed_by(then);
@@ -315,8 +315,8 @@ static void placements_move(void **state) {
   printf("off by %.2g of the coordinates over the time\n", worst);
 }
 
-/* Control points that are scaled by 1 + growth t and drift: so does every point, by arc length also. The state before may
- * be earlier or later. */
+/* Control points are scaled by 1 + growth t and drift. Every point does the same, also by arc length. The state before may be
+ * earlier or later. */
 static void patches_grow_and_drift(void **state) {
   (void)state;
   double worst = 0;
@@ -333,7 +333,7 @@ static void patches_grow_and_drift(void **state) {
     CHECK_OK(riis_surface_update_moving(surface, valve, before, dt, NULL, NULL));
     const riis_triangles c = triangles_of(surface);
     const double *velocity = velocity_of(surface);
-    /* A vertex is a point of the polylines, which are as far from the curves as the tolerance allows. */
+    /* A vertex is a point of the polylines, which are within the tolerance of the curves. */
     const double allowed = fabs(growth) * options.tolerance * 0.1 + 1e-10 / fabs(dt);
     for (int64_t i = 0; i < c.n_vertices; ++i)
       for (int k = 0; k < 3; ++k) {
@@ -346,7 +346,7 @@ static void patches_grow_and_drift(void **state) {
   printf("off by %.3f of what the tolerance allows\n", worst);
 }
 
-/* The same two states with the time's sign changed move the other way, to the last bit. */
+/* The same two states with the opposite sign of the time move the other way, to the last bit. */
 static void time_goes_back(void **state) {
   (void)state;
   for (int trial = 0; trial < 15; ++trial) {
@@ -401,7 +401,7 @@ static void vertices_come_from_their_place_before(void **state) {
       double place[2] = {0, 0};
       for (int x = 0; x < 6; ++x)
         place[x % 2] += closest.barycentric[x / 2] * w.uv[2 * w.vertex_id[3 * t + x / 2] + x % 2];
-      /* At the root u means nothing. */
+      /* At the root, u means nothing. */
       const double off =
           fmax(fabs(place[1] - c.uv[2 * i + 1]), c.uv[2 * i + 1] > 0.2 ? fabs(place[0] - c.uv[2 * i]) : 0);
       worst_uv = fmax(worst_uv, off);
@@ -413,7 +413,7 @@ static void vertices_come_from_their_place_before(void **state) {
   CHECK_AT_MOST(worst_uv, 0.1);
 }
 
-/* Steps of a thousandth are as fast as those of a fiftieth, where rounding and jumps hardly show. */
+/* Steps of a thousandth are as fast as steps of a fiftieth, in which rounding and jumps hardly show. */
 static void no_vertex_of_the_aortic_valve_is_an_outlier(void **state) {
   (void)state;
   riis_valve *valve = random_valve(0), *before = copy_of(valve);
@@ -470,7 +470,7 @@ static kept keep(const riis_surface *surface) {
   return made;
 }
 
-/* The same arrays in the same place with the same values. */
+/* Checks that the arrays are in the same place with the same values. */
 static void check_kept(const kept *k) {
   const riis_triangles c = triangles_of(k->surface);
   assert_ptr_equal(velocity_of(k->surface), k->velocity);
@@ -524,7 +524,7 @@ static void refusals_leave_the_surface_as_it_was(void **state) {
   MOVING_REFUSED(RIIS_INVALID_PARAMETER, "in valve_before: in the open state, the left cusp", aortic, bad, 1, NULL,
                  NULL);
 
-  /* Options, those of before by their own name. */
+  /* Options are refused. Those of the state before are named as such. */
   riis_surface_options options = surface_options();
 #define BEFORE_REFUSED(change, parts)                                             \
   do {                                                                            \

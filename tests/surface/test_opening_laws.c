@@ -76,14 +76,14 @@ static void rounding_of_a_period_does_not_matter(void **state) {
   check_table(&table, 0.8 + 0.15, 0.5, 1 / 0.3);
 }
 
-/* Returns the distance of a time from a key and so many periods, in units of rounding of the largest of time, key and period. */
+/* Returns the distance of a time from a key n_periods later, in units of rounding of the largest of time, key and period. */
 static double units_from_key(double time, double key, double period, int n_periods) {
   const long double distance = fabsl((long double)time - key - (long double)period * n_periods);
   return (double)(distance / (DBL_EPSILON * fmaxl(fmaxl(fabsl(time), fabsl(key)), period)));
 }
 
-/* Looks at the times that doubles have around each key of periods -2 to 1000. Those within 8 units of rounding have the key's
- * opening and the rate after it, to the last bit. Returns how many these are. */
+/* Checks the doubles around each key of periods -2 to 1000. Times within 8 units of rounding have the key's opening and the rate
+ * after it, to the last bit. Returns the number of these times. */
 static int64_t check_keys_of_periods(const riis_opening_table *table) {
   const int64_t n = table->n_keys;
   int64_t n_at_keys = 0;
@@ -131,7 +131,7 @@ static void a_key_has_the_rate_after_it_in_every_period(void **state) {
   }
 }
 
-/* A last key may miss the end of the period by a billionth. It is the first key as well. */
+/* A last key may miss the end of the period by a billionth. It still counts as the first key. */
 static void a_last_key_is_the_first_one_of_the_next_period(void **state) {
   (void)state;
   const double opening[] = {0.5, 1, 0.5};
@@ -333,7 +333,8 @@ static void a_switch_opens_by_pressure_and_closes_by_flow(void **state) {
   CHECK_NEAR(now.opening, where, 1e-6);
 }
 
-/* The steps of a solver do not end on the ramp's end: 0.04 s in steps of 2 ms, added up, end a rounding error before it. */
+/* The steps of a solver do not end exactly on the ramp's end: steps of 2 ms, added up to 0.04 s, end a rounding error before it.
+ * */
 static void an_opening_rounds_to_at_most_one(void **state) {
   (void)state;
   const riis_opening_switch law = some_switch();
@@ -370,7 +371,7 @@ static void a_filter_and_a_dwell_keep_noise_out(void **state) {
 /* Advances a law to a time, driven by functions of it. */
 typedef void driven_step(void *state, double time);
 
-/* A law goes on from a copy of its state half way, as from a restart file. The end has the same bits. */
+/* A law goes on from a copy of its state half way, as after a restart. The end has the same bits. */
 static void check_restart(driven_step *advance, void *state, void *kept, size_t size) {
   enum { n_steps = 600, half = n_steps / 2 };
   for (int i = 1; i <= n_steps; ++i) {
@@ -425,7 +426,7 @@ static void without_a_drive_friction_stops_the_leaflet(void **state) {
   CHECK_NEAR(now.rate, now.angle_rate / 75, 1e-15);
 }
 
-/* Constant drives: small steps of explicit Euler in long double are an independent answer, right to their own order. */
+/* The drives are constant. Small steps of explicit Euler in long double are an independent answer, right to their own order. */
 static void the_angle_follows_the_published_equation(void **state) {
   (void)state;
   for (int trial = 0; trial < 6; ++trial) {

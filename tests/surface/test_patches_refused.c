@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Valves from the caller's patches: every refusal by code and text. */
+ * Valves from the caller's patches: every refusal by code and message. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -228,13 +228,13 @@ static void patches_without_area_make_no_surface(void **state) {
   }
 }
 
-/* A crescent much thinner than the tolerance is still there: its sides become finer, not the same chord. */
+/* A crescent much thinner than the tolerance does not vanish: its sides become finer, not the same chord. */
 static void a_patch_thinner_than_the_tolerance_stays(void **state) {
   (void)state;
   for (double sagitta = 0.04; sagitta > 1e-6; sagitta /= 10) {
     const int owned_before = n_owned();
     shape made = unit_square();
-    const double y = 4; /* apart from the square, which has the tolerance all to itself */
+    const double y = 4; /* away from the square, which uses the whole tolerance */
     const int32_t straight = (int32_t)made.n_curves;
     add_line(&made, 0, y, 0, 1, y, 0);
     const int32_t bent = (int32_t)made.n_curves;

@@ -58,7 +58,7 @@ static void add_random(soup *s) {
   }
 }
 
-/* They share corners and sides, lie in planes, and cross there exactly. */
+/* The triangles share corners and sides, lie in planes, and cross there exactly. */
 static void add_whole_numbers(soup *s) {
   const int64_t largest = random_integer(1, 4);
   const int in_plane = one_in(3);
@@ -95,7 +95,7 @@ static void add_touching(soup *s) {
   }
 }
 
-/* All in one plane, which is not along the axes, up to rounding. */
+/* All triangles are in one plane, up to rounding. The plane is not along the axes. */
 static void add_in_plane(soup *s) {
   const double u[3] = {random_between(&rng, -1, 1), random_between(&rng, -1, 1), random_between(&rng, -1, 1)};
   const double v[3] = {random_between(&rng, -1, 1), random_between(&rng, -1, 1), 0.5};
@@ -109,7 +109,7 @@ static void add_in_plane(soup *s) {
   }
 }
 
-/* A sheet with waves. Each triangle has vertices of its own, or neighbours share theirs. */
+/* A sheet with waves. Each triangle has its own vertices, or neighbours share them. */
 static void add_sheet(soup *s, int side, int32_t leaflet_id, int shares) {
   const double height = random_between(&rng, -0.1, 0.1), tilt = random_between(&rng, -0.5, 0.5);
   const int64_t first = s->n_vertices;
@@ -214,7 +214,7 @@ static void check_pair(const riis_crossing_list *pairs, int64_t at, const double
   double middle[3];
   const double length = oracle_segment(a, b, middle);
   CHECK_NEAR(pairs->depth[at], depth, 0x1p-24 * longest + 0x1p-48 * largest);
-  /* The planes' angle is at least depth / longest, and the segment is so ill conditioned. */
+  /* The planes' angle is at least depth / longest. The segment is ill conditioned by that much. */
   const double error = 0x1p-44 * (longest + largest) * longest / depth;
   CHECK_NEAR(pairs->length[at], length, error);
   for (int i = 0; i < 3; ++i) CHECK_NEAR(pairs->point[3 * at + i], middle[i], error);
@@ -307,7 +307,7 @@ static void pairs_equal_those_of_all_triangles(void **state) {
     print_message("kind %d: %lld cross, %lld touch, %lld are too close to call\n", kind,
                   (long long)tallies[kind].n_crossing, (long long)tallies[kind].n_touching,
                   (long long)tallies[kind].n_undecided);
-    /* Random triangles are the kind with the fewest: 157 pairs in 100 trials, and 85 by the least of 81 seeds. */
+    /* Random triangles are the kind with the fewest pairs: 157 in 100 trials here, and 85 with the least of 81 seeds. */
     if (kinds[kind] == add_in_plane)
       assert_int_equal(tallies[kind].n_crossing, 0);
     else
@@ -316,7 +316,7 @@ static void pairs_equal_those_of_all_triangles(void **state) {
   }
 }
 
-/* Many groups of triangles, so that threads share the work, and boxes of groups have several levels. */
+/* There are many groups of triangles, so that threads share the work, and boxes of groups have several levels. */
 static int same_summary(const riis_crossing_list *a, const riis_crossing_list *b) {
   const size_t from = offsetof(riis_crossing_list, total_length), to = offsetof(riis_crossing_list, seconds);
   return a->n_pairs == b->n_pairs && memcmp((const char *)a + from, (const char *)b + from, to - from) == 0;
@@ -345,8 +345,8 @@ static void threads_find_the_same(void **state) {
   }
 }
 
-/* Unit squares at right angles meet along a whole side's length. Each triangle of one meets one of the other. The shortest way
- * out, for the corner of a triangle, is across its diagonal: half a side times sin 45 degrees. */
+/* Unit squares at right angles meet along a whole side's length. Each triangle of one square meets one of the other. The shortest
+ * way out for the corner of a triangle is across its diagonal: half a side times sin 45 degrees. */
 static void unit_squares_cross_along_one_unit(void **state) {
   (void)state;
   const double xyz[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0, -0.5, 0.5, 1, -0.5, 0.5, 1, 0.5, 0.5, 0, 0.5};
@@ -449,7 +449,7 @@ static void bad_arguments_are_refused_by_name(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "list is NULL", riis_crossings_get_list(crossings, NULL, sizeof list));
 }
 
-/* The states that come with the library, as each kind of valve opens. */
+/* The states that come with the library do not cross, as each kind of valve opens. */
 static void valves_do_not_cross(void **state) {
   (void)state;
   static const char *const kinds[] = {"aortic", "trileaflet", "bileaflet", "mitral"};

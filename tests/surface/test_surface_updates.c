@@ -127,7 +127,7 @@ static void check_marks(const riis_surface *updated, const riis_surface *fresh, 
 static void an_updated_surface_is_a_fresh_one(void **state) {
   (void)state;
   riis_valve *valves[2] = {new_valve("aortic"), new_valve("mitral")}, *open = new_valve("aortic");
-  riis_surface *updated = NULL, *last = NULL; /* a fresh one of what it should be */
+  riis_surface *updated = NULL, *last = NULL; /* `last` is a new surface with the content that `updated` should have */
   riis_marks *result = new_result();
   CHECK_OK(riis_valve_set_scalar(open, "leaflet_angle", 40));
   CHECK_OK(riis_valve_set_open_state(valves[0], open));

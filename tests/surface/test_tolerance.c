@@ -69,8 +69,8 @@ static void aortic_point(int32_t patch_id, double u, double v, double *placed) {
 
 static mitral_oracle *mitral;
 
-/* The places of the mitral valve's patches on the annulus: each goes from one u down to the next. The others are mirror
- * images. */
+/* The places of the mitral valve's patches on the annulus. Each patch goes from one u down to the next. The other patches are
+ * mirror images. */
 static void mitral_point(int32_t patch_id, double u, double v, double *point) {
   double at[MITRAL_ORACLE_BREAKS];
   mitral_oracle_breaks(mitral, at);
@@ -116,7 +116,7 @@ static double distance_on_way(const smooth_valve *smooth, int32_t patch_id, doub
 }
 
 /* Returns the distance of p from the patch, never below the truth. The steps can end in another minimum, or leave the patch where
- * it folds. So a distance that is too large is searched again, from all over the patch. */
+ * it folds. So the search for a distance that is too large is repeated from all over the patch. */
 static double distance_to_smooth(const smooth_valve *smooth, int32_t patch_id, const double *guess, const double *p,
                                  double enough) {
   double nearest = distance_on_way(smooth, patch_id, guess[0], guess[1], p);
@@ -360,7 +360,7 @@ static void so_it_does_for_other_mitral_valves(void **state) {
   assert_true(n_tried > fewer_if_sanitized(40));
 }
 
-/* One triangulation for all openings, at openings that it was not chosen at. */
+/* One triangulation for all openings is tested at openings that it was not chosen at. */
 static void so_does_a_fixed_triangulation(void **state) {
   (void)state;
   random_source rng = random_start("test_tolerance");
@@ -404,7 +404,7 @@ static void so_does_a_fixed_triangulation(void **state) {
   assert_true(n_tried > fewer_if_sanitized(20) && n_refused <= 4);
 }
 
-/* Curves that are off by a deviation leave the rest of the tolerance to the triangles, and the bound counts both. */
+/* Curves that are off by a deviation leave the rest of the tolerance to the triangles. The bound counts both. */
 static void a_deviation_of_curves_is_part_of_the_bound(void **state) {
   (void)state;
   static const char *const kinds[3] = {"aortic", "mitral", "bileaflet"};

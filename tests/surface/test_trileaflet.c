@@ -35,7 +35,7 @@ static void closed_free_edges_are_straight(void **state) {
     const double along = p[0] * cos(a) + p[1] * sin(a), across = p[1] * cos(a) - p[0] * sin(a);
     CHECK_NEAR(across, 0, 1e-15);
     CHECK_NEAR(p[2], edge_z, 1e-15);
-    /* The share of the way is u, because both curves of the patch are taken by arc length. */
+    /* The share of the way is u, because both curves of the patch are parametrised by arc length. */
     CHECK_NEAR(along, all.uv[2 * v] * commissure, 1e-12);
     farthest = fmax(farthest, along), nearest = fmin(nearest, along);
   }
@@ -127,7 +127,7 @@ static void cusps_are_equal(void **state) {
   }
 }
 
-/* Triangles without area are those at the three root points only. */
+/* The only triangles without area are those at the three root points. */
 static void triangles_have_an_area(void **state) {
   (void)state;
   for (int i = 0; i <= 10; ++i) {
@@ -277,13 +277,14 @@ static void opens_by_itself(void **state) {
   (void)state;
   const double orifice = check_opening(new_valve("trileaflet"), root, turn, half_angle, 0.1, "trileaflet");
   assert_true(orifice > 3 && orifice < 4);
-  /* Closed, only slivers along the wall stay free. */
+  /* When the valve is closed, only slivers along the wall stay free. */
   assert_true(orifice_area(new_surface(new_valve("trileaflet"), NULL), root, 600) < 0.05);
   CHECK_AT_MOST(orifice_area(new_surface(new_valve("trileaflet"), NULL), 1.23, 600), 0);
 }
 
-/* With triangles that stay, a vertex's displacement divided by the time is its velocity, but for the chords of lines that end
- * between two vertices of a side. Where closed cusps meet, each vertex has the velocity of its own cusp: outwards. */
+/* With fixed triangles, a vertex's velocity is its displacement divided by the time. Only lines that end between two vertices of
+ * a side differ slightly, because they end on chords. Where closed cusps meet, each vertex has the velocity of its own cusp:
+ * outwards. */
 static void velocity_is_that_of_the_vertices(void **state) {
   (void)state;
   riis_surface_options options = surface_options();
@@ -316,7 +317,7 @@ static void velocity_is_that_of_the_vertices(void **state) {
   }
 }
 
-/* A closed free edge is no rim: the neighbour goes on there. An open one is. */
+/* A closed free edge is no rim, because the neighbour continues there. An open free edge is a rim. */
 static void closed_free_edges_are_no_rims(void **state) {
   (void)state;
   const double probe[3] = {0.5 * cos(60 * cusp_degree), 0.5 * sin(60 * cusp_degree), 0.05};
@@ -338,7 +339,7 @@ static void closed_free_edges_are_no_rims(void **state) {
   }
 }
 
-/* With a second valve, closed curves are the first's, open curves the second's. */
+/* With a second valve, the closed curves are those of the first valve, and the open curves are those of the second. */
 static void opens_to_another_valves_open_state(void **state) {
   (void)state;
   riis_valve *valve = new_valve("trileaflet"), *other = new_valve("trileaflet"), *plain = new_valve("trileaflet");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Surfaces of valves from the caller's patches, against what the patches say. */
+ * Surfaces of valves from the caller's patches, compared with the patches' own curves. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -120,7 +120,7 @@ static void points_by_length(const shape *from, int side, double (*points)[3]) {
   }
 }
 
-/* Makes a surface from arrays: the first patch of the shape by Coons' formula. */
+/* Makes a surface from arrays of points of the shape's first patch, by Coons' formula. */
 static riis_surface *dense_surface(const shape *from) {
   static double side[4][n_dense + 1][3], xyz[(n_dense + 1) * (n_dense + 1)][3];
   static int32_t quads[n_dense * n_dense][4];
@@ -334,7 +334,7 @@ static void shared_curves_leave_no_cracks(void **state) {
       check_holds(a, n_a, &of_curve[i]);
       check_holds(b, n_b, &of_curve[i]);
     }
-    /* Vertices that only one patch has lie on the other's edges, to rounding. */
+    /* A vertex that only one patch has lies on the other patch's edges, to rounding. */
     for (int i = 0; i < n_a; ++i) CHECK_AT_MOST(distance_to_polyline(a[i].p, b, n_b), 1e-15);
     for (int i = 0; i < n_b; ++i) CHECK_AT_MOST(distance_to_polyline(b[i].p, a, n_a), 1e-15);
     /* The normals of both are along S_u x S_v. */

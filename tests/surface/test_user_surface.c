@@ -168,8 +168,6 @@ static void update_replaces_the_content(void **state) {
   CHECK_NEAR(closest_to(surface, 0.9, 0.1, 1).distance, 1, 0);
 }
 
-/* A closed body with sharp edges. The inside is also recognised where the closest point is on an edge or a corner. There the
- * plain normal of one face would be wrong. */
 /* Vertices alone move the faces of the last arrays. The surface is that of faces and vertices together. */
 static void vertices_alone_keep_the_faces(void **state) {
   (void)state;
@@ -255,6 +253,8 @@ static void vertices_alone_are_refused_without_their_faces(void **state) {
                 riis_surface_update_from_arrays(surface, &vertices, NULL));
 }
 
+/* A closed body with sharp edges. The inside is also recognised where the closest point is on an edge or a corner. There the
+ * plain normal of one face would be wrong. */
 static void side_at_edges_and_corners_of_a_wedge(void **state) {
   (void)state;
   /* A thin tetrahedron: dihedral angles far below and above 90 degrees. */

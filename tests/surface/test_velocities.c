@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Velocities of valves that open, at vertices and inside triangles, against the smooth motion; and the bound on their errors for
- * any motion. */
+ * Velocities of valves that open, at vertices and inside triangles, compared with the smooth motion. The bound on their errors
+ * is tested for any motion. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -62,7 +62,8 @@ static compared compare(const riis_surface *surface, const smooth_motion *motion
   return made;
 }
 
-/* In steps of a thousandth. The first openings are those at which velocities were once off by most. RIIS_TEST_LONG takes all. */
+/* The valve opens in steps of a thousandth. The first openings are those with the largest errors that were ever found.
+ * RIIS_TEST_LONG takes all. */
 static void velocities_follow_the_smooth_valve(void **state) {
   (void)state;
   static const int known[] = {957, 930, 950, 755, 1000};
@@ -117,7 +118,7 @@ static const struct {
   int n;
 } values_of[n_kinds] = {{aortic_values, 6}, {trileaflet_values, 6}, {mitral_values, 3}, {bileaflet_values, 2}};
 
-/* Sets one value at random, or some. */
+/* Sets the value at position `only` at random, or about half of the values if it is negative. */
 static void move(riis_valve *valve, int kind, int only) {
   for (int i = 0; i < values_of[kind].n; ++i)
     if (only < 0 ? random_bits(&rng) % 2 : i == only)
@@ -166,7 +167,7 @@ static void the_bound_holds_for_any_motion(void **state) {
     move(valve, kind, -1);
     CHECK_OK(riis_valve_copy(valve, &before));
     own(before);
-    /* A step of the opening, or a jump, of one value or of some. */
+    /* The motion is a step of the opening or a jump, of one value or of several. */
     double opening;
     CHECK_OK(riis_valve_get(valve, "opening", 1, &opening));
     if (trial / n_kinds % 2)
@@ -202,7 +203,8 @@ static void the_bound_holds_for_any_motion(void **state) {
   printf("the bound is at least %.2f times what was found\n", least_ratio);
 }
 
-/* The bound is of use: a small share of the speed in a motion that opens, and near the truth where few triangles bend much. */
+/* The bound is useful: in a motion that opens, it is a small share of the speed. Where few triangles bend much, it is near the
+ * truth. */
 static void the_bound_is_near(void **state) {
   (void)state;
   for (int kind = 0; kind < n_kinds; ++kind) {
@@ -239,7 +241,7 @@ static void the_bound_is_near(void **state) {
   CHECK_AT_MOST(bound, 3 * off);
 }
 
-/* A motion that keeps everything in place has no error; neither have arrays. */
+/* A motion that keeps everything in place has no error. Surfaces from arrays have none either. */
 static void no_motion_has_no_error(void **state) {
   (void)state;
   for (int kind = 0; kind < n_kinds; ++kind) {

@@ -17,7 +17,7 @@ thread_local char last_error[message_size] = "";
 
 riis_status record_error(riis_status status, const char *text) noexcept {
   const std::size_t n = std::min(std::strlen(text), message_size - 1);
-  std::memmove(last_error, text, n);  // a component may pass the last error on
+  std::memmove(last_error, text, n);  // text may be the last error itself, which a component passes on
   last_error[n] = '\0';
   return status;
 }

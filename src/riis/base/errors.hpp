@@ -50,8 +50,8 @@ T *require(T *pointer, const char *argument) {
   return pointer;
 }
 
-// Refuses a field that is not from least to most, such as NaN. `owner` is the argument that has the field, or "" if the
-// number is the argument itself.
+// Refuses a field outside of least to most, also NaN. `owner` is the argument that has the field, or "" if the number is the
+// argument itself.
 inline void check_range(const char *owner, const char *name, double value, double least, double most) {
   if (!(value >= least && value <= most))
     fail(RIIS_INVALID_ARGUMENT, owner, *owner ? "." : "", name, " is ", value, "; it must be from ", least, " to ",

@@ -40,12 +40,12 @@ struct Block {
 constexpr int smallest = 6, largest = 22;
 constexpr std::size_t largest_block = std::size_t{1} << largest;
 
-// Each thread takes from a pool of its own first, so that threads seldom wait for each other. A thread may give back what another
-// took; so a thread whose pool is empty looks into the others before it goes to the system.
+// Each thread takes from a pool of its own first, so that threads seldom wait for each other. A thread may give back memory that
+// another thread took. So a thread with an empty pool looks into the other pools before it goes to the system.
 constexpr unsigned n_pools = 16;
 
-// A lock that is held for a few instructions, and that seldom two threads want. With a mutex, locking would be half of what an
-// array costs.
+// A lock that is held for a few instructions, and that two threads seldom want at once. A mutex would take half of an array's
+// time.
 class ShortLock {
  public:
   void lock() noexcept {
@@ -70,7 +70,7 @@ struct alignas(64) Pool {
   }
 };
 
-// They need neither constructors nor destructors at run time, so arrays of other static objects may outlive everything.
+// The pools need neither constructors nor destructors at run time, so arrays of other static objects may outlive everything.
 std::array<Pool, n_pools> pools;
 std::atomic<int> n_keepers{0};
 
@@ -80,7 +80,7 @@ unsigned own_pool() {
   return own;
 }
 
-// A process may be forked while another thread is at a pool. The child has no such thread, which would never unlock the pool.
+// A process may be forked while another thread has locked a pool. The child lacks that thread, so nothing would unlock the pool.
 bool prepare_for_forks() noexcept {
   const auto unlock = [] {
     for (Pool &pool : pools) pool.in_use.unlock();

@@ -12,14 +12,14 @@
 
 namespace riis {
 
-// Returns memory for so many bytes, aligned for any fundamental type. Throws std::bad_alloc. Any thread may give it back.
+// Returns memory for n_bytes bytes, aligned for any fundamental type. Throws std::bad_alloc. Any thread may give it back.
 void *take_memory(std::size_t n_bytes);
 void give_memory_back(void *memory, std::size_t n_bytes) noexcept;
 
-// Frees the memory that is kept now, after work that took much more than a step does.
+// Frees the memory that is kept now. It is for the end of work that took much more memory than a step takes.
 void free_kept_memory() noexcept;
 
-// Memory is kept while one of these lives. The last one frees it.
+// Memory is kept while an object of this type lives. The last object frees it.
 class KeepsMemory {
  public:
   KeepsMemory() noexcept;

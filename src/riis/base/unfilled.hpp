@@ -10,7 +10,7 @@
 
 namespace riis {
 
-// The memory is that of another allocator.
+// Takes its memory from another allocator.
 template <class T, template <class> class Memory>
 struct UnfilledAllocator : Memory<T> {
   static_assert(std::is_trivially_default_constructible_v<T>);

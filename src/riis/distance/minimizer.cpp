@@ -38,7 +38,7 @@ void Minimizer::query(std::int64_t patch, Vec3 p, ClosestOnPatches &best) const 
     const Vec3 d = to_surface(at);
     return dot(d, d);
   };
-  // Returns a step that moves S by at most a tenth of `enough`, or the smallest step that squares can tell.
+  // Returns a step that moves S by at most a tenth of `enough`, or the smallest step that changes a square noticeably.
   const auto step_of = [&](Parameters along) {
     const double speed = std::abs(along.u) * measures.width + std::abs(along.v) * measures.height;
     const double longest = std::max(std::abs(along.u), std::abs(along.v));

@@ -23,8 +23,8 @@ class PatchDistance {
  public:
   virtual ~PatchDistance() = default;
 
-  // Returns the point that the method finds closest to p, if its distance is at most limit (>= 0, may be infinite); patch is -1
-  // if not. The limit does not change the bits of a result within it. Several threads may call this function at once.
+  // Returns the point that the method finds closest to p, if its distance is at most limit (>= 0, may be infinite). Otherwise
+  // patch is -1. The limit does not change the bits of a result within it. Several threads may call this function at once.
   virtual ClosestOnPatches closest(Vec3 p, double limit) const = 0;
 
   // Returns false only if nothing is within the limit of p.

@@ -58,7 +58,7 @@ class Surface {
   TriangleSet triangles_;
   TriangleScene scene_;
   double half_thickness_ = 0;
-  // Marking never needs the area. It does not depend on who computes it.
+  // Marking never needs the area. Any thread that computes it gets the same bits.
   mutable std::atomic<double> area_{not_known};
   std::optional<TwoStates> states_;
   mutable std::atomic<double> velocity_error_bound_{not_known};

@@ -21,7 +21,7 @@ double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
   return distance(p, a + t * ab);
 }
 
-// Two numbers in a register that every processor of a kind has.
+// Two numbers in one register, which every processor of the baseline has.
 typedef double Two __attribute__((vector_size(16)));
 
 Two root(Two a) {
@@ -76,7 +76,7 @@ double adaptive_length(const Speed &speed, double t0, double t1, double whole, d
          adaptive_length(speed, middle, t1, right, 0.5 * tolerance, depth - 1);
 }
 
-// Returns an error of lengths that does not matter.
+// Returns a negligible error of a length.
 double length_tolerance(const Bezier &curve) {
   double control_length = 0, largest = 0;
   for (std::size_t i = 0; i <= degree_of(curve); ++i) {

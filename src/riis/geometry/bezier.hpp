@@ -51,7 +51,7 @@ std::pair<Bezier, Bezier> split(const Bezier &curve, double t);
 // curve_length is the length of the whole curve; if it is 0, so is t.
 double parameter_at_length(const Bezier &curve, double curve_length, double behind);
 
-// Writes to t what parameter_at_length returns for ascending lengths behind. One pass over the curve takes a fraction of the
+// Writes to t the results of parameter_at_length for ascending lengths `behind`. One pass over the curve takes a fraction of the
 // time.
 void parameters_at_lengths(const Bezier &curve, double curve_length, const Vector<double> &behind, double *t);
 
@@ -61,7 +61,7 @@ double flatness(const Bezier &curve);
 
 // Bounds the curvature everywhere on the curve; infinite if the curve may turn on the spot.
 double largest_curvature(const Bezier &curve);
-// Bounds it from parameter t0 to t1, t0 < t1, more loosely, in a tenth of the time.
+// Bounds the curvature from parameter t0 to t1, t0 < t1. This bound is looser and takes a tenth of the time.
 double rough_curvature(const Bezier &curve, double t0, double t1);
 
 }  // namespace riis

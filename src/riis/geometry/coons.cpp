@@ -221,8 +221,8 @@ QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size
   }
   grid.points.insert(grid.points.end(), edge.begin(), edge.end());
 
-  // Between two lines, the base, the edge and O differ from linear by their errors. On a line, the chords of its arc
-  // differ from it by |O| / 2 times the square of the row's height.
+  // Between two lines, the base, the edge and O differ from linear by their errors. On a line, the chords differ from the arc by
+  // |O| / 2 times the square of the row's height.
   const Vector<double> base_errors = errors_between(lines.u_lines, *sides.side_v0, &GridLine::t0);
   const Vector<double> edge_errors = errors_between(lines.u_lines, *sides.side_v1, &GridLine::t1);
   const double row = 1 / static_cast<double>(n_rows);

@@ -56,10 +56,10 @@ struct SideVectors {
 // Returns the Coons combination of the sides' vectors, points or displacements, in the order of QuadGrid::points.
 Vector<Vec3> coons_combination(const Vector<double> &u, const Vector<double> &v, const SideVectors &sides);
 
-// Makes the Coons patch on the grid. It is bilinear inside every quad, so the grid loses nothing. Lines are merged if
-// that moves a point by at most max_merge_shift along a side. Writes the lines where they are wanted.
+// Makes the Coons patch on the grid. It is bilinear inside every quad, so the grid loses nothing. Lines are merged if that moves
+// a point by at most max_merge_shift along a side. Writes the lines to `lines` unless it is null.
 QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift, GridLines *lines = nullptr);
-// Makes it on given lines, which end on vertices of the sides.
+// Makes the grid on given lines, which end on vertices of the sides.
 QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines);
 
 // A patch of arcs consists of the straight lines from side_v0, the base, to side_v1, the edge, plus 2 v (1-v) O(u)
@@ -96,8 +96,8 @@ Vector<double> middles(const Vector<GridLine> &lines);
 // Returns the lines of that grid.
 GridLines lines_of_arc_grid(const ArcLines &lines, const QuadGrid &grid);
 
-// Returns the index of the interval of ascending values that holds x. A value belongs to the interval behind it, the
-// upper end to the last interval.
+// Returns the index of the interval of ascending values that holds x. A value belongs to the interval behind it, and the upper
+// end belongs to the last interval.
 std::size_t interval_of(const Vector<double> &values, double x);
 
 // Returns S(u,v) by bilinear interpolation inside the quad that holds (u,v) in [0,1]^2. (The paper prints u - u_o for

@@ -13,7 +13,7 @@ namespace {
 
 // A curve has at most 2^20 parts. Only requests that no surface of this library could meet reach this limit.
 constexpr int max_depth = 20;
-// Parts that are narrower are not halved for the velocity. Where a curve nearly turns on the spot, halving would not end.
+// Narrower parts are not halved for the velocity. Where a curve nearly turns on the spot, halving would not end.
 constexpr double narrowest_for_velocity = 1.0 / 32;
 
 // Collects the chords of parts that are within max_error of them.

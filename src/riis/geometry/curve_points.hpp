@@ -13,7 +13,7 @@ namespace riis {
 class CurvePoints {
  public:
   // Finds the points at these shares, which ascend from 0 to 1. The shares of a reversed curve count from its last point. The
-  // curve and the shares have to stay. A curve without length has all its points in one place.
+  // curve and the shares must outlive this object. A curve without length has all its points in one place.
   CurvePoints(const Curve &curve, bool is_reversed, const Vector<double> &shares);
 
   std::size_t size() const { return points_.size(); }

@@ -8,8 +8,9 @@
 namespace riis {
 namespace {
 
-// The faces of the Minkowski difference of two triangles have the normals of the triangles, or are spanned by an edge of each.
-// So the least overlap over these directions is the distance from the origin to its boundary: the penetration depth.
+// The faces of the Minkowski difference of two triangles have the normals of the triangles, or are spanned by an edge of each. So
+// the least overlap over these directions is the distance from the origin to the boundary of the difference: the penetration
+// depth.
 class Overlap {
  public:
   Overlap(const Triangle &a, const Triangle &b, double limit) : a_(a), b_(b), limit_(limit) {}
@@ -50,7 +51,8 @@ bool are_parallel(Vec3 w, Vec3 e, Vec3 f) { return dot(w, w) <= 1e-16 * dot(e, e
 }  // namespace
 
 double penetration_depth(const Triangle &a, const Triangle &b, double limit) {
-  // Most pairs end here. Relative to a corner of a plane, the plane has the height 0 without rounding.
+  // Most pairs end here. Points are taken relative to a corner of the plane's triangle, so the plane is at the height 0 without
+  // rounding.
   const Vec3 normal_a = cross(a[1] - a[0], a[2] - a[0]), normal_b = cross(b[1] - b[0], b[2] - b[0]);
   const Triangle b_from_a = moved(b, a[0]);
   if (!cuts_plane(b_from_a, normal_a, limit) || !cuts_plane(moved(a, b[0]), normal_b, limit)) return 0;

@@ -9,7 +9,7 @@
 namespace riis {
 namespace {
 
-// Two doubles in one register. One at a time, the comparisons would take longer than the memory.
+// Two doubles in one register. Comparing them one at a time would take longer than reading the memory.
 typedef double Two __attribute__((vector_size(16)));
 
 struct Spread {
@@ -41,7 +41,7 @@ struct PairSpread {
   }
 };
 
-// If a coordinate is NaN, `sum` becomes and stays NaN. The comparisons for the bounds pass over it.
+// If a coordinate is NaN, `sum` becomes and stays NaN. The comparisons for the bounds ignore a NaN.
 Bounds bounds_of(const StridedPoints &points, double &sum) {
   const double *const x = points.x, *const y = points.y, *const z = points.z;
   const std::int64_t stride = points.stride;

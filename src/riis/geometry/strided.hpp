@@ -26,7 +26,7 @@ struct StridedReals {
 };
 using StridedPoints = StridedReals<double>;
 
-// Calls use(points) with the points as the numbers of the width that the caller stated.
+// Calls use(points) with the points in the precision that the caller stated.
 template <class Use>
 auto with_points(std::int64_t n, const void *const (&xyz)[3], std::int64_t stride, std::int32_t real_bits,
                  const Use &use) {
@@ -45,9 +45,9 @@ inline constexpr double max_coordinate = 1e60, min_edge = 1e-60;
 inline bool is_usable(double coordinate) { return std::abs(coordinate) <= max_coordinate; }
 inline bool is_usable(Vec3 p) { return is_usable(p.x) && is_usable(p.y) && is_usable(p.z); }
 
-// Checks pointers, stride and every coordinate. Only the calling thread runs: others would not pay, and the caller may not want
-// them. Fails with RIIS_INVALID_ARGUMENT, or with bad_coordinate for the first unusable coordinate. The message then names the
-// point by `what` ("node", "point") and its number. Returns the points' box, which the same pass over memory finds.
+// Checks pointers, stride and every coordinate. Only the calling thread runs: more threads would not pay off, and the caller may
+// not want them. Fails with RIIS_INVALID_ARGUMENT, or with bad_coordinate for the first unusable coordinate. The message then
+// names the point by `what` ("node", "point") and its number. Returns the points' box, which the same pass over memory finds.
 // Messages name the arguments with `prefix` before them, such as "points.".
 template <class Real>
 Bounds check_points(const StridedReals<Real> &points, const char *what, riis_status bad_coordinate,

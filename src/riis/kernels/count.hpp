@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts what kernels compute, where they are compiled with RIIS_COUNT_OPERATIONS. Only ./run bench roofline links such kernels;
-// in all others this is no code.
+// Counts the operations of kernels that are compiled with RIIS_COUNT_OPERATIONS. Only ./run bench roofline links such kernels. In
+// all other kernels the counts are no code.
 #pragma once
 
 #include <stdint.h>

@@ -295,7 +295,7 @@ RIIS_INLINE Direction direction(Doubles3 v, Doubles3 otherwise) {
 
 constexpr int halves = triangles_per_group / Doubles::n;
 
-// Round outwards by more than a number's rounding to single precision, so that bounds hold also for numbers that were rounded.
+// Both round outwards by more than a number's rounding to single precision, so that bounds also hold for rounded numbers.
 RIIS_INLINE float round_down(double x) {
   const double unit = (x < 0 ? -x : x) * 0x1p-22 + 0x1p-120;
   return static_cast<float>(x - unit);
@@ -318,7 +318,7 @@ RIIS_INLINE double sum_of(Doubles x) {
   return sum;
 }
 
-// Makes the length 1. Returns where there is one.
+// Makes the length 1 where there is a length. Returns the lanes that have one.
 RIIS_INLINE Doubles::Mask normalize(Doubles3 &a) {
   const Doubles length = root(dot(a, a));
   const Doubles::Mask has_one = length > Doubles::all(1e-12);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Leaves out pairs of nodes and triangles that cannot matter, in single precision. Compiled for each instruction set.
+// The filter leaves out pairs of nodes and triangles that cannot matter, in single precision. It is compiled for each instruction
+// set.
 #include "kernels/lanes.hpp"
 #include "kernels/table.hpp"
 
@@ -22,10 +23,10 @@ RIIS_INLINE Floats outside(Floats x, Floats from, Floats to) {
   return greatest(greatest(from - x, x - to), Floats::all(0));
 }
 
-// Computes the squares of the distances of n points to sixteen triangles, points together, so that a triangle's numbers
-// are loaded once. Every result is the distance to a point of the triangle, to rounding. Inside means inside by a
-// margin; next to the edges, the nearest edge is as near, to that margin. The results are written where they are needed:
-// GCC copies them in pieces, for which later loads wait.
+// Computes the squares of the distances of n points to sixteen triangles, points together, so that a triangle's numbers are
+// loaded once. Every result is the distance to a point of the triangle, to rounding. A point counts as inside only if it is
+// inside by a margin. Next to the edges, the nearest edge is as near, to that margin. The results are written directly to their
+// place: GCC would copy them in pieces, for which later loads wait.
 template <int n>
 RIIS_INLINE void distances_to_group(const TriangleGroup &group, const Floats3 (&p)[n], Floats margin,
                                     Floats *distances) {
@@ -163,7 +164,7 @@ RIIS_INLINE int32_t compare(const FilterTask &task, LeafTask &leaf, const float 
 #pragma GCC unroll 2
   for (int i = 0; i < n; i += n_together) {
     if (!*rest) {
-      // The lanes that are left out here are never used. GCC would copy these numbers by memset and in pieces.
+      // The lanes that are left out here are never used. Without this loop, GCC would copy these numbers by memset and in pieces.
 #pragma GCC unroll 4
       for (int j = i; j < n; ++j) {
         lanes[j] = -1;

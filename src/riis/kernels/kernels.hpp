@@ -122,12 +122,13 @@ struct FilterKernels {
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
   // Writes pairs of a node and a triangle, at most room, and returns their number. For every node within the limit, its closest
-  // triangles are among the pairs. Begins, or goes on where it stopped for lack of room; room for 64 pairs is enough to go on.
+  // triangles are among the pairs. A call begins, or goes on where the last one stopped for lack of room. Room for 64 pairs is
+  // enough to go on.
   int32_t (*filter_leaf)(const FilterTask &task, LeafTask &leaf, const PairArrays &pairs, int32_t room);
   // Computes squares of the distances, in single precision, of a point (in the surface's frame) to the triangles of a group.
   void (*group_distances)(const TriangleGroup &group, const float *point, float margin, float *distance_sq);
-  // Counts for each key how many of the first n keys are less, n <= keys_at_once. If these differ, that is the key's place in
-  // ascending order. Both arrays are aligned to 64 bytes, and have room for keys_at_once.
+  // Counts for each key how many of the first n keys are less, n <= keys_at_once. If the keys differ, that count is the key's
+  // place in ascending order. Both arrays are aligned to 64 bytes, and have room for keys_at_once.
   void (*rank)(const int32_t *key, int32_t n, int32_t *n_less);
 };
 
@@ -137,8 +138,8 @@ struct DecisionKernels {
   void (*take_corners)(const double *vertices, const int64_t *vertex_id, int64_t n, double *corners, double *lower,
                        double *upper);
   // Returns false if one of up to eight triangles, given by the ids of vertices, may have no area, or may have none after its
-  // corners move by up to an eighth of `shift`. The square of twice the area must exceed 4e-23 (|ab|^2 + |ac|^2)^2 and
-  // shift^2 (|ab|^2 + |ac|^2), both together.
+  // corners move by up to an eighth of `shift`. The square of twice the area must exceed the sum of 4e-23 (|ab|^2 + |ac|^2)^2 and
+  // shift^2 (|ab|^2 + |ac|^2).
   bool (*have_area)(const double *vertices, const int64_t *vertex_id, int32_t n, double shift);
   // Places n points (3, n), with the bits of place(placement, place(image, p)).
   void (*place_points)(const PlacedBy &by, const double *points, int64_t n, double *placed);

@@ -5,7 +5,7 @@
 // functions with code of their own.
 #pragma once
 
-// RIIS_PORTABLE_LANES requests the code of processors without any of these instruction sets. Tests run it where there are some.
+// RIIS_PORTABLE_LANES requests the code of processors without any of these instruction sets. Tests run it on processors with one.
 #if defined(__SSE2__) && !defined(RIIS_PORTABLE_LANES)
 #define RIIS_SSE2
 #include <immintrin.h>
@@ -213,7 +213,7 @@ RIIS_LANES Lanes<S, R, n> choose(typename Lanes<S, R, n>::Mask where, Lanes<S, R
   RIIS_LANEWISE(L, where.part[i] ? yes.part[i] : no.part[i]);
 }
 
-// Returns a bit for each lane, the first lane's lowest.
+// Returns a bit for each lane. The first lane has the lowest bit.
 RIIS_INLINE uint32_t bits(Floats::Mask mask) {
 #if defined(__AVX512DQ__)
   return _mm512_movepi32_mask((__m512i)mask.part[0]);

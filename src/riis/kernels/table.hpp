@@ -4,8 +4,9 @@
 
 #include "kernels/kernels.hpp"
 
-// RIIS_INSTRUCTION_SET names the instruction set that this is being compiled for: baseline, avx2 or avx512; or portable,
-// the code for processors without any of them, which only tests link; or counted, which only ./run bench roofline links.
+// RIIS_INSTRUCTION_SET names the instruction set that this is compiled for: baseline, avx2 or avx512. There are two more names.
+// `portable` is the code for processors without any of these sets, which only tests link. `counted` is linked only by ./run bench
+// roofline.
 #define RIIS_JOIN(a, b) a##_##b
 #define RIIS_JOINED(a, b) RIIS_JOIN(a, b)
 #define RIIS_KERNELS(name) RIIS_JOINED(name, RIIS_INSTRUCTION_SET)

@@ -48,8 +48,8 @@ KeyTimes::KeyTimes(const char *name, std::int64_t n_keys, const double *time, do
   is_closed_ = period > 0 && n_keys > 1 && time[n_keys - 1] - time[0] >= (1 - rounding) * period;
 }
 
-// Adding and subtracting periods rounds, here and in the caller's time. A key's time that rounding made earlier would have
-// the rate before the key.
+// Adding and subtracting periods rounds, here and in the caller's time. If rounding made a key's time earlier, it would have the
+// rate before the key.
 double KeyTimes::from_key(std::int64_t i, double time) const {
   const auto if_at = [&](double key) {
     const double difference = time - key, key_lost = difference - time;

@@ -32,9 +32,9 @@ class KeyTimes {
     double since;                     // time since the interval's first end
     bool is_at_rest;                  // before the first or behind the last key: the value is that of key[1]
   };
-  // A time within 8 units of rounding of a key, give or take whole periods, is that key: the first end of its interval.
-  // The unit is 2^-52 of the largest of time, key and period. Fails with RIIS_INVALID_ARGUMENT for a time that is not
-  // finite; the message names it by `name`.
+  // A time counts as a key if it is within 8 units of rounding of that key, give or take whole periods. The key is then the first
+  // end of the interval. The unit is 2^-52 of the largest of time, key and period. Fails with RIIS_INVALID_ARGUMENT for a time
+  // that is not finite; the message names it by `name`.
   KeysAround around(double time, const char *name = "time") const;
 
   // Returns the value and the rate at the time between these keys, from the values at all four.

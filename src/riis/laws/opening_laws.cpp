@@ -210,7 +210,7 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
 
   const AngleLaw::Drive to{pressure_difference, flow};
   const AngleLaw angle_law(law, has_drive ? AngleLaw::Drive{before.pressure_difference, before.flow} : to, to);
-  // The method's error falls with the fourth power of this length. So it is far below the error of a drive that is linear.
+  // The method's error falls with the fourth power of this length. So it is far below the error of taking the drive as linear.
   constexpr double largest_step = 0.05;
   const double n_wanted = std::ceil(step * angle_law.fastest() / largest_step);
   constexpr double max_steps = 1e6;

@@ -92,7 +92,7 @@ struct InnerFaces {
 template <class Id>
 OwnAdjacency adjacency_from_cells_with(const riis_mesh_cells &given, int n_threads, const NarrowLimits &limits) {
   const Cells<Id> cells(given, n_threads);
-  // One shape takes three quarters of the time. Beyond the limits, each shape's code would be of use to hardly any mesh.
+  // Code for one shape takes three quarters of the time. Beyond the limits, hardly any mesh would use such code.
   if (given.offsets || cells.n_nodes() > limits.n_nodes || cells.n_listed() > limits.n_entries)
     return adjacency_of_lists(CellsOfAnyShape<Id>(cells), cells.n_listed(), n_threads, limits);
   const auto made_of = [&](const auto &lists) { return narrow_adjacency_of_lists(lists, n_threads); };

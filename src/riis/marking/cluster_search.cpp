@@ -38,7 +38,7 @@ class ClusterSearch {
     const Frame &frame = groups_.frame;
     const Placing placing(clusters_, frame);
     const double limit = request.distance_limit * frame.scale;
-    // The second term covers the rounding of the decision's distances, the third ties, which are that much farther.
+    // The second term covers the rounding of the decision's distances. The third covers ties, which are that much farther.
     const double error = filter_error(placing.ratio, placing.largest_shift, limit, groups_.longest_edge) +
                          4 * scene_.rounding() * frame.scale + request.ties.of_leaflets * frame.scale;
     reach_ = static_cast<float>(limit + 2 * error);
@@ -55,8 +55,8 @@ class ClusterSearch {
     own_.prepare(request.n_threads);
   }
 
-  // Finds the clusters that the surface may be near. Each gets the groups that it may be near, and each of these groups gets the
-  // cluster's leaves that it may be near.
+  // Finds the clusters that may be near the surface. Each cluster gets the groups that may be near it. Each of these groups gets
+  // the leaves of the cluster that may be near it.
   void find_near_clusters() {
     const Bounds &bounds = scene_.bounds();
     const Vec3 lower = groups_.frame(bounds.lower), upper = groups_.frame(bounds.upper);
@@ -134,7 +134,7 @@ class ClusterSearch {
       add_cluster(cluster, cluster - of_region.begin, own);
   }
 
-  // Appends the numbers whose bits have the given bit, and returns how many these are.
+  // Appends the numbers whose bits have the given bit, and returns their count.
   static std::size_t add_marked(const std::int32_t *numbers, const std::uint16_t *bits, std::size_t n, std::int64_t bit,
                                 std::vector<std::int32_t> &to) {
     const std::size_t first = to.size();

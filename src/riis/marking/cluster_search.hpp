@@ -56,7 +56,7 @@ struct ClusterScratch {
 bool separates_in_single_precision(const SearchRequest &request, const Clusters &clusters);
 
 // The clusters must belong to the request's mesh, and separates_in_single_precision must be true of them. The kernels are those
-// of the request's instructions; ./run bench roofline passes its own, which measure.
+// of the request's instructions. ./run bench roofline passes kernels of its own, which measure.
 SearchReport search_clusters(const SearchRequest &request, const Clusters &clusters, const Kernels &kernels,
                              ClusterScratch &scratch, FoundNodes &found);
 

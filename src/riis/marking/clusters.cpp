@@ -72,7 +72,7 @@ void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const N
         Leaf &leaf = clusters.leaves.get()[l];
         double *xyz = clusters.points.get()[l].xyz;
         const std::int64_t first = l * nodes_per_leaf, last = clusters.n_nodes - 1;
-        // The next leaf's nodes lie anywhere in the caller's memory. Those of the next region are another thread's.
+        // The next leaf's nodes lie anywhere in the caller's memory. The nodes of the next region are for another thread.
         for (std::int64_t i = first + nodes_per_leaf; i < std::min(first + 2 * nodes_per_leaf, end); ++i)
           nodes.prefetch(node_of(i));
         NodeBox box;
@@ -97,7 +97,7 @@ void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const N
   });
 }
 
-// The caller may have moved nodes since they were given, without a word. The errors of single precision are bounded for
+// The caller may have moved nodes since they were given, without telling the mesh. The errors of single precision are bounded for
 // coordinates that are at most 1.
 bool are_within_frame(const Clusters &clusters) {
   return std::all_of(clusters.boxes.begin(), clusters.boxes.end(), [](const Clusters::Box &box) {

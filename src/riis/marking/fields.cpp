@@ -45,11 +45,11 @@ class Positions {
   bool are_ids_;
 };
 
-// Two numbers in a register that every processor of a kind has.
+// Two numbers in one register, which every processor of the baseline has.
 typedef double Two __attribute__((vector_size(16)));
 
-// The mean of the velocities of leaflets. A leaflet's velocity is the mean of its places. The closest triangle's is given first;
-// the places of each other leaflet follow each other.
+// The mean of the velocities of leaflets. A leaflet's velocity is the mean over its places. The velocity at the closest triangle
+// is given first. The places of each other leaflet then follow each other.
 class MeanOfLeaflets {
  public:
   MeanOfLeaflets(std::int32_t closest_leaflet, Vec3 velocity) : closest_leaflet_(closest_leaflet) {
@@ -118,8 +118,8 @@ class TriangleFields {
     }
   }
 
-  // Replaces the velocities of nodes with ties by the mean of all leaflets that are equally near. A leaflet's is the mean of its
-  // places. A node counts in the range that its first tie is in.
+  // Replaces the velocities of nodes with ties by the mean of all leaflets that are equally near. A leaflet's velocity is the
+  // mean over its places. A node belongs to the range that its first tie is in.
   void take_means(const Range &range) const {
     const std::int64_t begin = next_node(range.begin), end = next_node(range.end);
     MeanOfLeaflets mean(-1, {0, 0, 0});
@@ -188,7 +188,7 @@ class TriangleFields {
     }
   }
 
-  // Returns the first tie from `tie` on that is its node's first, or the number of all.
+  // Returns the first tie, from `tie` on, that is the first one of its node. Returns the number of all ties if there is none.
   std::int64_t next_node(std::int64_t tie) const {
     while (tie > 0 && tie < ties_.size() && ties_[tie].point == ties_[tie - 1].point) ++tie;
     return tie;
@@ -329,7 +329,7 @@ void FieldScratch::prepare(const SearchRequest &request, std::int32_t fields, co
   const auto is_one_leaflet = [&](const Tie &a, const Tie &b) {
     return rule.leaflet_id[a.triangle.triangle] == rule.leaflet_id[b.triangle.triangle];
   };
-  // Each leaflet keeps its closest triangle, and one on each other patch of its own that ties with that.
+  // Each leaflet keeps its closest triangle, and one triangle on each other patch of its own that ties with it.
   auto closest = ties.begin(), end = ties.begin();
   for (const Tie &tie : ties) {
     const bool is_first = end == ties.begin() || tie.point != closest->point || !is_one_leaflet(*closest, tie);

@@ -38,7 +38,7 @@ struct FieldScratch {
 // Fails with RIIS_INVALID_ARGUMENT for fields (the sum of RIIS_FIELD_*) that the surface lacks.
 void check_fields(const Surface &surface, std::int32_t fields);
 
-// Returns whether the surface has to make the normals of its triangles first, for so many nodes (Surface::prepare_sides).
+// Returns whether the surface has to make the normals of its triangles first, for n_nodes nodes (Surface::prepare_sides).
 bool need_normals(const Surface &surface, std::int32_t fields, std::int64_t n_nodes);
 
 // Returns which ties a search has to find for these fields.

@@ -15,7 +15,7 @@
 
 namespace riis {
 
-// No memory holds the coordinates of so many nodes.
+// No memory holds the coordinates of this many nodes.
 inline constexpr std::int64_t max_nodes = std::int64_t{1} << 40;
 
 // A node within the distance limit. `triangle` is a position in the surface's set of triangles. If another method measures the
@@ -50,7 +50,7 @@ struct FoundNodes {
 
   // Empties the lists, and makes room for the next ones.
   void prepare(int n_threads, const TieRule &ties = {}) {
-    // Each on its own, because memory may have run out between them.
+    // Each list is resized on its own, because memory may have run out between them.
     if (view(by_thread).size() < n_threads) resize(by_thread, n_threads);
     if (view(ties_by_thread).size() < n_threads) resize(ties_by_thread, n_threads);
     make_room(
@@ -73,7 +73,7 @@ struct FoundNodes {
     return ties.rule.leaflet_id ? &ties : nullptr;
   }
 
-  // Adds a node with its closest triangle, and with the ties among the candidates, which are all the node's.
+  // Adds a node with its closest triangle and its ties. All candidates must belong to the node.
   void add(int thread, std::int64_t node, const ClosestTriangle &closest) {
     view(by_thread)[thread].push_back({node, std::sqrt(closest.distance_sq), closest.triangle});
     if (Ties *const ties = ties_of(thread))

@@ -68,9 +68,9 @@ class RowMaker {
 
  private:
   static constexpr std::int64_t nodes_per_block = 4096;
-  // Each part of the items has its own number for each node. More parts would take more memory than they save time.
+  // Each part of the items has its own count for each node. More parts would take more memory than they save time.
   static constexpr std::int64_t most_parts = 8;
-  static constexpr std::int64_t items_ahead = 16, entries_ahead = 24;  // so early is memory requested
+  static constexpr std::int64_t items_ahead = 16, entries_ahead = 24;  // memory is requested this early
   static constexpr std::int64_t most_inserted =
       64;  // rows of more entries are sorted as a whole: insertion would be too slow
 

@@ -53,8 +53,8 @@ struct alignas(64) Finder {
     return crosses;
   }
 
-  // Returns false only where no point of the surface is within the radius of p: one query saves many. The margin counts rounding
-  // more than once, also that of p, which is somewhere near the surface.
+  // Returns false only where no point of the surface is within the radius of p. This query saves many others. The margin counts
+  // rounding more than once, also the rounding of p, which is somewhere near the surface.
   bool may_be_within(Vec3 p, double radius) const {
     const TriangleScene &scene = request->surface.scene();
     return scene.closest(p, radius * (1 + 1e-9) + 4 * scene.rounding(), request->instructions).triangle >= 0;

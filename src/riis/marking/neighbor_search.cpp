@@ -163,7 +163,7 @@ class NeighborSearch {
   }
 
   // Returns true if the node is farther from the surface than the limit, whatever its direction from the ball's centre. The
-  // node's distance is at least the centre's distance less the node's distance from the centre.
+  // centre's distance minus the node's distance from the centre is a lower bound of the node's distance.
   bool is_far(const NodeBalls &balls, const NearBall &near, std::int64_t node) const {
     const Vec3 centre = view(balls.balls)[near.ball].centre;
     const double from_centre = distance(centre, nodes_[node]);

@@ -116,8 +116,8 @@ class NodeSorter {
   static constexpr std::int64_t small_size = 1024;
   static constexpr int n_small_bins = 64;
   typedef std::array<Node, n_bins> Counts;
-  // Items are counted and put four at a time, one from each quarter of a block. Each quarter has numbers of its own, because a
-  // number waits for its last change, and neighbours are often in the same bin and stream.
+  // Items are counted and put four at a time, one from each quarter of a block. Each quarter has counts of its own, because an
+  // update of a count waits for the last update of the same count. Neighbours are often in the same bin and stream.
   static constexpr int n_quarters = 4;
   typedef std::array<Node, n_quarters> OfQuarters;
   typedef std::array<OfQuarters, n_bins> QuarterCounts;
@@ -151,7 +151,7 @@ class NodeSorter {
     std::array<std::uint8_t, n_bins> of_bin;
     int n = 1;
 
-    // ends: where the cuts are, in ascending order, within a part with so many items in each bin.
+    // `counts` has the number of items in each bin of a part. `ends` has the places of the cuts in the part, ascending.
     Streams(const Counts &counts, int n_in_use, const std::array<std::int64_t, most_parts> &ends, int n_parts) {
       int first_of_stream = 0, bin = 0;
       const auto begin_stream = [&](int at) {
@@ -221,8 +221,8 @@ class NodeSorter {
     }
   }
 
-  // The box of some items. Four numbers are compared at once: one at a time would take longer than the memory. The fourth is
-  // anything, and is not used.
+  // Returns the box of some items. Four numbers are compared at once: comparing one at a time would take longer than reading the
+  // memory. The fourth number is arbitrary and is not used.
   static NodeBox box_of(const Item *items, const Part &part) {
     typedef float Four __attribute__((vector_size(16)));
     static_assert(sizeof(Item) >= sizeof(Four));
@@ -314,7 +314,7 @@ class NodeSorter {
   static void sort_whole(const Part &part, const Item *from, Item *to) {
     const NodeBox box = box_of(from, part);
     const int axis = box.longest_axis();
-    // A key has the place along the axis in its upper bits. The number below makes all keys different.
+    // A key has the place along the axis in its upper bits and the item's number in its lower bits. So all keys are different.
     constexpr std::int32_t most = (1 << 24) - 1;
     const float per_unit = per_unit_of(static_cast<float>(most), box.upper[axis] - box.lower[axis]);
     static_assert(most < std::numeric_limits<std::int32_t>::max() / keys_at_once);

@@ -49,7 +49,7 @@ class OpenSets {
   }
 
  private:
-  // Relaxed operations do: a parent stands for nothing but itself, and the end of a loop orders the rest.
+  // Relaxed operations are enough: a parent stands for nothing but itself, and the end of a loop orders the rest.
   std::int64_t load(std::int64_t node) const { return __atomic_load_n(&parent_[node], __ATOMIC_RELAXED); }
   bool replace(std::int64_t node, std::int64_t before, std::int64_t parent) {
     return __atomic_compare_exchange_n(&parent_[node], &before, parent, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);

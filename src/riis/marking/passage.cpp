@@ -90,8 +90,8 @@ class Opening {
     return is_joined();
   }
 
-  // Opens the other nodes that are farther than `nearest`, one after the other. Returns the node that joins the ends, or one with
-  // the id -1.
+  // Opens the other nodes that are farther than `nearest`, one after the other. Returns the node that joins the ends, or a
+  // candidate with the id -1.
   Candidate open_until_joined(double nearest) {
     const std::vector<OneWayEdge> one_way = one_way_edges();
     OpenSets sets = this->sets();
@@ -150,7 +150,7 @@ class Opening {
   UnfilledVector<std::int64_t> parent_;
 };
 
-// No node is so far from a surface.
+// No node is this far from a surface.
 constexpr double beyond_all = 10 * max_coordinate;
 
 }  // namespace

@@ -34,7 +34,7 @@ class Ranks {
  private:
   static std::int64_t word(std::int64_t node) { return node % nodes_per_stretch / bits_per_word; }
   static std::uint64_t bit(std::int64_t node) { return std::uint64_t{1} << node % bits_per_word; }
-  // Written out because the compiler would call a function for an x86-64 without the popcount instruction.
+  // This is written out because the compiler would call a function for an x86-64 without the popcount instruction.
   static std::uint32_t n_bits(std::uint64_t x) {
     x -= x >> 1 & 0x5555555555555555;
     x = (x & 0x3333333333333333) + (x >> 2 & 0x3333333333333333);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turns the lists of several threads into lists that ascend by node.
-// In: found nodes. Out: the nodes within the limit. If the limit is wider than the half thickness, the marked nodes come also.
+// In: found nodes. Out: the nodes within the limit, and also the marked nodes if the limit is wider than the half thickness.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct OrderScratch {
 OrderScratch::Counts prepare_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider,
                                    std::int64_t n_nodes, int n_threads, OrderScratch &scratch);
 
-// Fills the lists, `marked` only where the limit is wider than the half thickness. prepare_order comes before, with the same
+// Fills the lists, `marked` only if the limit is wider than the half thickness. Call prepare_order first, with the same
 // arguments.
 void put_in_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider, std::int64_t n_nodes,
                   int n_threads, OrderScratch &scratch, NodeList &within, NodeList &marked);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Work in an arena of the pool, and TBB's limit of threads around it. Embree's scenes and walks run in one: the threads that TBB
-// lends them are those of the caller's n_threads, not all of the process.
+// Work in an arena of the pool, and TBB's limit of threads around it. Embree's scenes and walks run in such an arena. So TBB
+// lends them the caller's n_threads threads, not all threads of the process.
 #pragma once
 
 #if !defined(RIIS_STD_THREADS)

@@ -21,7 +21,7 @@ struct Pool {
   std::int64_t n_keepers = 0;
   std::size_t n_arenas = 0;
   PooledArena *idle = nullptr;  // a list, since giving back must not need memory
-  pid_t process = 0;            // that made them
+  pid_t process = 0;            // the process that made the arenas
 };
 Pool pool;
 static_assert(std::is_trivially_destructible_v<Pool>);
@@ -78,7 +78,7 @@ KeepsArenas::~KeepsArenas() {
   {
     const std::lock_guard<std::mutex> lock(pool.mutex);
     --pool.n_keepers;
-    // A child of fork() lacks the workers, and TBB may wait there for what they held.
+    // A child of fork() lacks the workers, and TBB may wait there for the things that they held.
     if (pool.n_keepers > 0 || getpid() != pool.process) return;
     first = std::exchange(pool.idle, nullptr);
     for (const PooledArena *arena = first; arena; arena = arena->next) --pool.n_arenas;

@@ -19,7 +19,7 @@ struct PooledArena {
 };
 
 // Lends an arena of n_threads threads until it is given back. The arena comes from the pool, or is new if the pool has none of
-// that number. So there are never more arenas of a number than borrowers of that number at the same time.
+// that number. So there are never more arenas of a number than were borrowed at the same time.
 PooledArena *borrow_arena(int n_threads);
 void give_back(PooledArena *arena) noexcept;
 

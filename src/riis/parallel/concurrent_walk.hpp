@@ -35,7 +35,7 @@ int concurrent_walk(std::vector<Range> &ranges, int n_threads, const Body &body)
     }
     return 1;
   }
-  std::atomic<std::uint64_t> ran[16] = {};  // a bit a thread, of up to 1024
+  std::atomic<std::uint64_t> ran[16] = {};  // a bit for each thread, up to 1024
   Arena arena(n_threads);
   arena.run([&] {
     tbb::parallel_for_each(ranges.begin(), ranges.end(), [&](const Range &range, tbb::feeder<Range> &feeder) {

@@ -32,14 +32,13 @@ inline Threads threads_for(std::int32_t n_threads, std::int64_t n_items, std::in
                        : Threads::by_default(n_items, per_thread, has_lost_threads() ? 1 : default_thread_count());
 }
 
-// Runs body(block, thread) once for every block in [0, n_blocks) on up to n_threads threads, and returns how many
-// threads ran. Blocks are handed out in ascending order, so each thread sees ascending block numbers. After all threads
-// have stopped, the exception of the lowest block is thrown again here. It is the one that a single thread meets,
-// because all blocks before it were handed out before it and run to their end. No setting of the caller's OpenMP
-// changes. Inside a caller's parallel region, the loop runs on as many threads as nesting allows. One thread is the
-// calling thread, without OpenMP: the run-time of OpenMP ends the process if it has no memory. A loop of fewer blocks than
-// threads leaves some idle: GCC's run-time ends the threads that a smaller team leaves out, and the next loop waits for new
-// ones.
+// Runs body(block, thread) once for every block in [0, n_blocks) on up to n_threads threads, and returns how many threads ran.
+// Blocks are handed out in ascending order, so each thread sees ascending block numbers. After all threads have stopped, the
+// exception of the lowest block is thrown again here. A single thread meets the same exception, because all blocks before it were
+// handed out before it and run to their end. No setting of the caller's OpenMP changes. Inside a caller's parallel region, the
+// loop runs on as many threads as nesting allows. One thread means the calling thread without OpenMP, whose run-time ends the
+// process if it has no memory. A loop of fewer blocks than threads leaves some threads idle: GCC's run-time ends the threads that
+// a smaller team leaves out, and the next loop waits for new ones.
 template <class Body>
 int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
   if (n_blocks <= 1 || (n_threads > 1 && !begin_threads())) n_threads = 1;

@@ -10,8 +10,8 @@
 namespace riis {
 namespace {
 
-// Depths in half thicknesses. Pairs count from the first, the default of riis_find_crossings. Rounding makes none as deep as the
-// second.
+// Depths in half thicknesses. Pairs count from the first depth on, which is the default of riis_find_crossings. Rounding makes no
+// pair as deep as the second one.
 constexpr double least_depth = 1e-6, least_deepest = 1e-3;
 
 // Returns the depth that triangles of leaflets which only touch may have (docs/theory.md, section 16).

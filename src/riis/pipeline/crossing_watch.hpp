@@ -27,7 +27,7 @@ class CrossingWatch {
   };
   Shape &remembered(std::uint64_t digest);
 
-  // A caller that goes back and forth between so few shapes gets one warning for each.
+  // A caller that goes back and forth between at most this many shapes gets one warning for each.
   static constexpr std::size_t n_remembered = 8;
 
   std::array<Shape, n_remembered> shapes_{};

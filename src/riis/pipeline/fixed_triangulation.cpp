@@ -9,10 +9,10 @@
 namespace riis {
 namespace {
 
-// The lines are chosen at so many openings, evenly spaced from 0 to 1.
+// The lines are chosen at this many openings, evenly spaced from 0 to 1.
 constexpr int n_openings = 33;
-// They are tried at so many openings between each two of these. Lines that fail there are chosen again with the openings at which
-// they failed, at most so often.
+// They are tried at n_between openings between each two of these. Lines that fail are chosen again with the openings at which
+// they failed, at most n_trials times.
 constexpr int n_between = 7, n_trials = 4;
 // The choice holds the patches of all these openings.
 constexpr std::size_t max_patches = 10'000;

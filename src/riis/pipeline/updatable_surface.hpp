@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A surface from update to update, with what the next update continues or reuses.
+// A surface from update to update, with the data that the next update continues or reuses.
 // In: a valve, the caller's arrays or keyframes. Out: the surface, and the seconds that its last update took.
 #pragma once
 
@@ -21,8 +21,9 @@ class UpdatableSurface {
   const Surface &surface() const { return *surface_; }
   const SurfaceSeconds &seconds() const { return seconds_; }
 
-  // All fail as make_surface does, and then leave the surface as it was. If request.n_threads is 0, the last surface's number of
-  // triangles decides. The first update with accuracy.is_fixed fixes the triangulation. An update without it ends that.
+  // All fail as make_surface does, and then leave the surface as it was. If request.n_threads is 0, the number of threads follows
+  // from the last surface's number of triangles. The first update with accuracy.is_fixed fixes the triangulation. An update
+  // without it ends the fixed triangulation.
   void update_from_valve(const Valve &valve, const ValveMotion *motion, const SurfaceRequest &request,
                          const ValveAccuracy &accuracy);
   // Without faces, the arrays are vertices for the faces of the last arrays.

@@ -23,7 +23,7 @@ class MovedSide {
 
   bool is_at_rest() const { return is_at_rest_; }
 
-  // Returns the displacements at shares of the length that ascend from 0 to 1. `points` has the points of now that are known
+  // Returns the displacements at shares of the length that ascend from 0 to 1. `points` has the current points that are known
   // already. `unknown` lists the others, ascending. If there are any, it also lists the first point and the last.
   Vector<Vec3> displacements(const Vector<double> &shares, Vector<Vec3> points,
                              const Vector<std::size_t> &unknown) const {
@@ -59,7 +59,7 @@ class HalvedLines {
   }
 
   std::size_t size() const { return place_.back() + 1; }
-  // Where each line of the grid stands among all.
+  // Returns the place of each line of the grid among all lines.
   const Vector<std::size_t> &places() const { return place_; }
   const Vector<GridLine> &lines() const { return lines_; }
   const Vector<double> &middle() const { return middle_; }

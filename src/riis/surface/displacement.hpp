@@ -26,9 +26,10 @@ struct MovedPatch {
   std::size_t patch;
 };
 
-// S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its quads that are split further. Each is evaluated on
-// the smooth patches: on their sides, and inside as the same combination of the sides. The two states share only the label (u,v),
-// so a change of the triangles does not matter. The result is exactly 0 where neither the sides nor the bulge changed.
+// The displacement S_now(u,v) - S_before(u,v) of a patch, at the vertices of its grid and of its quads that are split further.
+// Both states are evaluated on the smooth patches: on their sides, and inside as the same combination of the sides. The two
+// states share only the label (u,v), so a change of the triangles does not matter. The result is exactly 0 where neither the
+// sides nor the bulge changed.
 class PatchMotion {
  public:
   // The grid must have kept its lines.
@@ -41,11 +42,11 @@ class PatchMotion {
     return at(column_[i] + (static_cast<std::size_t>(column) << (column_levels_[i] - level)),
               row_[j] + (static_cast<std::size_t>(row) << (row_levels_[j] - level)));
   }
-  // The same, but linear along a side between the vertices that the neighbouring quad has there too. So the displacement does not
-  // jump from quad to quad.
+  // Returns the same, but linear along a side between the vertices that the neighbouring quad also has. So the displacement does
+  // not jump from quad to quad.
   Vec3 without_jumps(std::size_t i, std::size_t j, int column, int row) const;
 
-  // How far O moves on each line of a patch of arcs.
+  // Returns the displacement of O on each line of a patch of arcs.
   Vector<Vec3> offset_moves() const {
     Vector<Vec3> made;
     for (const std::size_t i : column_) made.push_back(offsets_[i]);
@@ -69,8 +70,8 @@ class ImageMotion {
  public:
   ImageMotion(const PatchImage &now, const PatchImage &before, const Placement &placement_now, const Motion &motion);
 
-  // Returns the mean velocity, over the time between the states, of the point that is p now, before the image is placed, and
-  // that was p - displacement. Nothing cancels where image and placement are at rest.
+  // Returns the mean velocity of a point over the time between the states. Before the image is placed, the point is p now and was
+  // p - displacement. Nothing cancels where image and placement are at rest.
   Vec3 velocity(Vec3 p, Vec3 displacement) const {
     const Vec3 moved = now_.linear * displacement + difference_.linear * (p - displacement) + difference_.offset;
     return {moved.x / seconds_, moved.y / seconds_, moved.z / seconds_};

@@ -17,10 +17,10 @@
 namespace riis {
 namespace {
 
-// A curve may be halved so often. Only requests that no surface of this library could meet reach the limit.
+// A curve may be halved this often. Only requests that no surface of this library could meet reach the limit.
 constexpr int max_rounds = 24;
 
-// The bound counts at most so many parts between two lines.
+// The bound counts at most this many parts between two lines.
 constexpr int most_parts = 8;
 
 // Returns the joints of a side, by the patch's parameter.
@@ -181,7 +181,7 @@ struct Needs {
   Vector<double> at, need;
 };
 
-// Takes as few positions, from the first to the last, as keep the error of each segment at most `most` of the allowed one.
+// Takes the fewest positions, from the first to the last, that keep the error of each segment at most `most` of the allowed one.
 Vector<double> segments(const Needs &needs, double most) {
   Vector<double> made{needs.at.front()};
   for (std::size_t i = 0; i < needs.need.size();) {
@@ -213,10 +213,10 @@ Vector<double> balanced_segments(const Needs &needs, double most) {
 
 // Errors of wide segments are bounded a little less closely than those of narrow ones, which the needs come from.
 constexpr double most_of_allowed = 0.9;
-// The curve with most segments decides how many steps needs are found on: so many for each segment, within these limits.
+// Needs are found on steps. The curve with most segments decides their number: this many for each segment, within these limits.
 constexpr int steps_per_segment = 4;
 constexpr std::size_t least_steps = 64, most_steps = 4096;
-// One of so many states says how many steps each line needs. Then all states check the lines.
+// One state in this many decides how many steps each line needs. Then all states check the lines.
 constexpr std::size_t states_per_need = 4;
 
 // Halves the steps of a list that are too large. `is_too_large` has an entry for each step.
@@ -348,7 +348,7 @@ class Planner {
     }
   }
 
-  // Returns the number of segments of a curve that bends everywhere as its control points allow.
+  // Returns the number of segments that a curve needs if it bends everywhere as much as its control points allow.
   std::size_t rough_number_of_segments(std::size_t curve) const {
     double most = 1;
     for (std::size_t i = 0; i < states_.size(); i += states_per_need) {
@@ -439,8 +439,8 @@ class Planner {
     return first;
   }
 
-  // Adds lines until base, edge and O are near enough to linear between them, at every opening. Then takes as few parts for O
-  // as are enough.
+  // Adds lines until base, edge and O are near enough to linear between them, at every opening. Then takes the fewest parts for O
+  // that are enough.
   void plan_arcs(std::size_t patch) {
     PatchPlan &plan = plan_.patches[patch];
     plan.joints = joints(patch);

@@ -28,10 +28,10 @@ struct PatchPlan {
 class CurveNumbering {
  public:
   explicit CurveNumbering(const PatchSet &set);
-  // Returns whether the patches number their curves so already.
+  // Returns whether the patches already number their curves in this way.
   bool is_of(const PatchSet &set) const;
-  // Returns the patches with curves numbered so, and lists by curve then fit all openings. The patches have the same build but
-  // for shared curves (check_same_build).
+  // Returns the patches with curves numbered in this way. Lists by curve then fit all openings. The patches have the same build
+  // but for shared curves (check_same_build).
   PatchSet renumbered(const PatchSet &set) const;
 
  private:

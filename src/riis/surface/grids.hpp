@@ -14,7 +14,8 @@ namespace riis {
 // u curve, a v curve and merged grid lines, each bounded as below. At least 1 - 2 * (curve_share + merge_share) is left
 // for the split of a quad into triangles.
 inline constexpr double curve_share = 0.45, merge_share = 0.01;
-// A plan's lines use their share nearly everywhere. A larger share would leave too little for quads, and split many further.
+// A plan's lines use their share nearly everywhere. A larger share would leave too little for quads, and many would be split
+// further.
 inline constexpr double planned_curve_share = 0.39;
 // The error of a point of a patch of arcs has three parts: the mean of two curves' errors, at most half of the error of O, and
 // the error of the arcs' chords. At least 1 - (arc_curve_share + merge_share + offset_share / 2 + row_share) is left.

@@ -70,7 +70,7 @@ PlacedBy placed_by(const PatchImage &image, const Placement &placement) {
     put({from.row_x.z, from.row_y.z, from.row_z.z}, to[2]);
   };
   put_columns(image.rotation, by.of_image);
-  // The product with a mirrored coordinate is that with a mirrored column, to the last bit.
+  // The product with a mirrored coordinate equals that with a mirrored column, to the last bit.
   if (image.mirror != Mirror::none)
     for (double &x : by.of_image[image.mirror == Mirror::in_x ? 0 : 1]) x = -x;
   put(image.translation, by.offset_of_image);

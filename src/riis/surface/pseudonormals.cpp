@@ -27,7 +27,7 @@ std::uint64_t hash(Vec3 p) {
 
 // Numbers all vertices; vertices with equal coordinates get the same number.
 UnfilledShortVector<std::int32_t> distinct_positions(const TriangleSet &set, std::int64_t &n_positions) {
-  // A table of vertices that is at most half full. Each vertex is at the first place from its hash on that was free.
+  // A table of vertices that is at most half full. Each vertex takes the first free place from its hash on.
   constexpr std::int32_t none = -1;
   UnfilledShortVector<std::int32_t> position;
   resize(position, set.n_vertices());
@@ -50,15 +50,15 @@ UnfilledShortVector<std::int32_t> distinct_positions(const TriangleSet &set, std
   return position;
 }
 
-// The third angle follows from the other two, because an arc tangent is dear.
+// The third angle follows from the other two, because an arc tangent is expensive.
 std::array<double, 3> angles_of(const TriangleMeasures &measures, int lane) {
   const double at_a = std::atan2(measures.twice_area[lane], measures.product_at_a[lane]),
                at_b = std::atan2(measures.twice_area[lane], measures.product_at_b[lane]);
   return {at_a, at_b, std::max(0.0, pi - at_a - at_b)};
 }
 
-// Sorts edges, in the order of their slots and mostly few, by their upper ends. Edges with equal ends keep their order. A stable
-// sort of the standard library would allocate.
+// Sorts edges by their upper ends. The edges are mostly few and come in the order of their slots. Edges with equal ends keep that
+// order. A stable sort of the standard library would allocate.
 template <class Edge>
 void sort_few(Edge *begin, Edge *end) {
   constexpr std::ptrdiff_t few = 32;
@@ -175,7 +175,7 @@ Pseudonormals::Ends Pseudonormals::ends_of(std::int64_t slot) const {
 }
 
 Pseudonormals::Simplex Pseudonormals::simplex_of(Vec3 barycentric) {
-  // By the weights that are 0: the first counts 1, the second 2, the third 4.
+  // The index is a sum over the weights that are 0: the first counts 1, the second 2, the third 4.
   static constexpr Simplex simplices[8] = {{Kind::face, 0}, {Kind::edge, 1},   {Kind::edge, 2},   {Kind::vertex, 2},
                                            {Kind::edge, 0}, {Kind::vertex, 1}, {Kind::vertex, 0}, {Kind::vertex, 0}};
   return simplices[(barycentric.x == 0 ? 1 : 0) + (barycentric.y == 0 ? 2 : 0) + (barycentric.z == 0 ? 4 : 0)];

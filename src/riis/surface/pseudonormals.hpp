@@ -48,7 +48,7 @@ class Pseudonormals {
   Feature at_border(std::int64_t triangle, Vec3 barycentric) const;
 
  private:
-  // The vertex, edge or face that barycentric weights lie on. `corner` is the vertex, or the edge from there to the next.
+  // The vertex, edge or face that barycentric weights lie on. `corner` is the vertex, or the corner at which the edge begins.
   enum class Kind { face, edge, vertex };
   struct Simplex {
     Kind kind;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Bounds the distance between a quad and its triangles at a level of subdivision. Looks no closer than `enough` needs.
+// Bounds the distance between a quad and its triangles at a level of subdivision. Refines no further than `enough` needs.
 double split_error_at(const Quad &quad, int level, double enough) {
   // Each halving divides the twist of all parts by exactly 4. All parts are checked while there are few.
   constexpr int few = 5;
@@ -59,7 +59,7 @@ Quad without_shortest_edge(const Quad &quad, double &shortest) {
   return {corner[0], corner[1], corner[2], corner[3]};
 }
 
-// At a collapsed side, rounding may fold a quad at one opening and not at the next. A bound without that edge does not see it.
+// At a collapsed side, rounding may fold a quad at one opening and not at the next. A bound without that edge ignores the fold.
 Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error, int level) {
   const Quad quad = quad_of(grid, i, j);
   const double left = max_error - grid.error(i, j);

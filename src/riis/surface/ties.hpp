@@ -33,7 +33,7 @@ struct Tie {
   ClosestTriangle triangle;
 };
 
-// The ties that one thread of a search finds. Each patch's closest triangle is among them, if it ties, and farther ones may be.
+// The ties that one thread of a search finds. The closest triangle of each patch that ties is among them. Farther ones may be.
 struct Ties {
   TieRule rule;
   std::vector<Tie> candidates;  // of points that still may get nearer triangles
@@ -55,7 +55,7 @@ struct Ties {
   }
 
   // Takes the ties among the candidates, once all points are decided. closest_to(point) returns the closest triangle, or -1 for
-  // none, node_of(point) the node.
+  // none. node_of(point) returns the node.
   template <class ClosestTo, class NodeOf>
   void settle(const ClosestTo &closest_to, const NodeOf &node_of) {
     for (const Tie &tie : candidates) {

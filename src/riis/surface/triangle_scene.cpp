@@ -50,7 +50,7 @@ std::shared_ptr<std::remove_pointer_t<RTCDevice>> shared_device() {
   return device;
 }
 
-// Beyond this many half extents from the centre single precision separates nothing: all triangles are queried.
+// Beyond this many half extents from the centre, single precision separates nothing. Then all triangles are queried.
 constexpr double far_away = 1e6;
 
 // Returns the radius, in the frame's units, that makes Embree visit every triangle whose computed distance from q is at most
@@ -79,7 +79,7 @@ struct Query {
   const TriangleScene::Implementation *in;
   const Kernels *kernels;
   Vec3 p;          // the point as it is
-  Vec3 q;          // and in the frame
+  Vec3 q;          // the point in the frame
   double largest;  // a bound of q's coordinates and of distances that matter
   ClosestTriangle best;
   Ties *ties;  // or null
@@ -128,8 +128,8 @@ void bounds_of_group(const RTCBoundsFunctionArguments *arguments) {
   bounds->upper_z = group.upper[2];
 }
 
-// Queries the triangles of a group. The filter leaves out triangles farther than the radius: its distances are right to its
-// error.
+// Queries the triangles of a group. The filter leaves out triangles farther than the radius, with an allowance for the error of
+// its distances.
 template <bool keeps_ties>
 bool visit_group(RTCPointQueryFunctionArguments *arguments) {
   auto &query = *static_cast<Query *>(arguments->userPtr);
@@ -243,7 +243,7 @@ ClosestTriangle TriangleScene::find_closest(Vec3 p, double limit, InstructionSet
   Query query{&in, &kernels(instructions), p, q, largest, {infinity, -1}, ties, false};
   if constexpr (keeps_ties) ties->candidates.clear();
   if (!(largest <= far_away)) {
-    // The frame's units may overflow here. The surface is farther away than its own size, so most limits end here.
+    // The frame's units may overflow here. The surface is farther away than its own size, so most limits end the query here.
     if (!may_be_within(p, limit)) return {infinity, -1};
     const std::int64_t n = view(in.groups.corners).size() / 9;
     for (std::int64_t i = 0; i < n; ++i) query_triangle<keeps_ties>(query, i);

@@ -26,7 +26,7 @@ class TriangleScene {
   TriangleScene &operator=(const TriangleScene &) = delete;
 
   // Makes the scene from a copy of the corners; the set may go. A second call, for triangles that moved, uses the memory of the
-  // first. Fails with RIIS_INTERNAL_ERROR or RIIS_OUT_OF_MEMORY, as Embree says. The scene is then fit for destruction only.
+  // first. Fails with RIIS_INTERNAL_ERROR or RIIS_OUT_OF_MEMORY, as Embree reports. The scene is then fit for destruction only.
   void make(const TriangleSet &set, int n_threads);
 
   // Returns the closest triangle to p, or triangle -1 if none is within the limit (>= 0, may be infinite). p is finite, with

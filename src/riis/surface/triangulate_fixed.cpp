@@ -44,12 +44,12 @@ bool have_area(const TriangleSet &set) {
   return true;
 }
 
-// Bounds how far a corner of an image of a patch is from where an image exactly congruent to the others would have it.
+// Bounds the distance of a corner of an image from its place in an image that is exactly congruent to the others.
 double rounding_of_corners(const QuadGrid &grid, const Patch &patch, const Placement &placement) {
   double largest = 0, farthest = 0;
   for (const Vec3 &p : grid.points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   for (const PatchImage &image : patch.images) farthest = std::max(farthest, length(image.translation));
-  // Each coordinate is right to 16 units of rounding of the numbers that it is the sum of.
+  // Each coordinate is a sum, right to 16 units of rounding of its terms.
   return 0x1p-48 * (placement.scale * (2 * largest + farthest) + length(placement.translation));
 }
 

@@ -95,7 +95,7 @@ AlongCurve along(const CurveRange &on) {
     const Both unknown{infinity, infinity};
     return {length, unknown, unknown, unknown, infinity, infinity, false};
   }
-  // The states' parameters of the same u differ by at most `shift`. It is the difference at the ends, and the growth in between
+  // At the same u, the states' parameters differ by at most `shift`: by the difference at the ends, and by the growth in between
   // that the rates dt/du = length / |B'| allow.
   const Derivatives change = changes_on(*on.now, *on.before, from, to);
   const double at_ends = larger(std::abs(on.t_now[0] - on.t_before[0]), std::abs(on.t_now[1] - on.t_before[1]));
@@ -217,14 +217,14 @@ class Shares {
   }
 
   const Vector<double> &all() const { return all_; }
-  // Where line k stands.
+  // Returns the position of line k.
   std::size_t line(std::size_t k) const {
     const auto found = std::lower_bound(all_.begin(), all_.end(), lines_[k] - 4 * negligible_share);
     return static_cast<std::size_t>(found - all_.begin());
   }
 
-  // Halves the ranges for which is_tight(i) is false. Returns whether there were any. Returns
-  // false once there are too many ranges, as for a curve that never gets tight.
+  // Halves the ranges for which is_tight(i) is false. Returns whether there were any. Returns false once there are too many
+  // ranges, as for a curve that never gets tight.
   template <class IsTight>
   bool halve(const IsTight &is_tight) {
     if (all_.size() > 2 * most_ranges) return false;
@@ -319,7 +319,7 @@ ArcRangeInBoth offset_on(const SideInBoth &base, const SideInBoth &edge, std::si
       larger(larger_of(now[0], now[1]), larger_of(before[0], before[1])) + width * (edge.longer() + base.longer());
   const double w_largest = w0.size <= w_far ? w0.size : w_far;
   const double w_least = std::min(least_on_segment(now[0], now[1]), least_on_segment(before[0], before[1])) - bend;
-  // W' is its value at the start of the range, where both states have a direction, and its change along the range.
+  // W' is the sum of its value at the start of the range, where both states have a direction, and of its change along the range.
   const Both w1{larger_of(slope(i, true), slope(i, false)) + width * w2.size,
                 distance(slope(i, true), slope(i, false)) + width * w2.change};
   const Both m1 = w1 * b.value + w0 * b.first, m2 = w2 * b.value + 2 * w1 * b.first + w0 * b.second;

@@ -25,7 +25,7 @@ enum OfCusp {
 // clang-format on
 constexpr std::size_t n_cusps = 3;
 const char *const cusp_names[n_cusps] = {"right", "left", "non_coronary"};
-// They begin messages, which are needed only when a check fails: checks pass them on without making a string.
+// These names begin messages. Messages are needed only when a check fails, so checks pass the names on without making a string.
 const char *const cusps[n_cusps] = {"the right cusp", "the left cusp", "the non_coronary cusp"};
 constexpr std::size_t open_radius_ratio = n_general + n_cusps * n_of_cusp, commissure_expansion = open_radius_ratio + 1;
 // The orifice is then 3.9 cm2, and no free edge changes by more than 5 % (docs/theory.md, section 3).

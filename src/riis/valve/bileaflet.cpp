@@ -69,8 +69,8 @@ void check_states(const ValveState &valve, const ValveState &other, const char *
 // A valve at one opening. Lengths are those between two states.
 struct Shape {
   double radius, hinge_offset, hinge_height, gap, ring_height;
-  double closed_angle;  // that the leaflets' outline is made for
-  double angle;         // of the leaflets now, from the orifice plane
+  double closed_angle;  // the angle that the leaflets' outline is made for
+  double angle;         // the leaflets' angle from the orifice plane now
 };
 
 Shape blended(const ValveState &closed, const ValveState &open, double at) {
@@ -104,7 +104,7 @@ class Turn {
     return {x + along * (now_.cosine - closed_.cosine), y, height_ + along * now_.sine};
   }
 
-  // Returns how much longer than on the orifice plane a leaflet's lines are at most.
+  // Bounds the factor by which a leaflet's lines are longer than on the orifice plane.
   double stretch() const { return 1 / closed_.cosine; }
 
  private:
@@ -112,7 +112,7 @@ class Turn {
   SineCosine closed_, now_;
 };
 
-// Every arc has so many pieces. A quarter of a circle is then right to 1e-9 of its radius.
+// Every arc has this many pieces. A quarter of a circle is then right to 1e-9 of its radius.
 constexpr int n_pieces = 8;
 
 // Bounds the distance of such an arc from its circle, in radii: 2/27 sin^6(a/4) / cos^2(a/4) for a piece of the angle a.

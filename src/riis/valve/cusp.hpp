@@ -45,8 +45,8 @@ HalfCusp blend(const HalfCusp &closed, const HalfCusp &open, double opening);
 // Returns the derivatives of the control points by the opening.
 HalfCusp rate(const HalfCusp &closed, const HalfCusp &open);
 
-// Refuses curves that reach far away. Values that are sound one by one can make them: a high power with a long tangent, or a
-// bending curve near the root. `state` and `cusp` begin the message, as in "" and "the right cusp"; `also` ends its list of
+// Refuses curves that reach far away. Values that are each sound can make such curves together: a high power with a long tangent,
+// or a bending curve near the root. `state` and `cusp` begin the message, as in "" and "the right cusp"; `also` ends its list of
 // parameters.
 void check_reach(const HalfCusp &half, const CuspShape &shape, const char *state, const char *cusp, const char *also);
 

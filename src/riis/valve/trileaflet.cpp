@@ -19,9 +19,9 @@ enum Parameter {
 };
 // clang-format on
 
-// Half the angle of a cusp: the free edge's end is so far from the symmetry plane, in degrees.
+// Half the angle of a cusp, in degrees: the angle from the symmetry plane to the free edge's end.
 constexpr double half_angle = 60;
-// The right, the left and the non-coronary cusp, in degrees about the axis. Each is the next of the one before.
+// The right, the left and the non-coronary cusp, in degrees about the axis. They follow each other round it.
 constexpr double turns[3] = {0, 120, -120};
 
 void check_values(const ParameterValues &values);

@@ -13,7 +13,7 @@
 namespace riis {
 namespace {
 
-// Cuts a name for a message, because it may be anything.
+// Cuts a name for a message, because it may have any length.
 std::string_view shown(std::string_view name) { return name.substr(0, 80); }
 
 // Returns the parameter that may have been meant, or "" if none is near. It has its leaflet's name if the given name has one.

@@ -77,7 +77,7 @@ class Valve {
   // Takes the other valve's own state as the state to open to. The other valve must be of the same kind.
   void set_open_state(const Valve &open);
 
-  // Returns whether the opening may be another than 0.
+  // Returns whether the opening may differ from 0.
   bool can_open() const { return open_ || kind_->opens_by_itself; }
   double opening() const { return state_.values[kind_->opening][0]; }
 
@@ -91,7 +91,7 @@ class Valve {
 
   // Makes the patches at the current opening.
   PatchSet make_patches() const;
-  // Makes the patches of another valve, of the same kind and built like this one: an earlier state of it.
+  // Makes the patches of `before`, an earlier state of this valve. It is a valve of the same kind and build.
   PatchSet make_patches_before(const Valve &before) const;
 
  private:
