@@ -15,7 +15,7 @@ class OpenVdbBand {
   // The band reaches one voxel beyond the limit.
   OpenVdbBand(const Triangles &triangles, double voxel, double limit);
   ~OpenVdbBand();
-  // Makes the band. A surface that moved needs it anew.
+  // Makes the band. It has to be made again for a surface that moved.
   void make();
   // distance: (n_nodes), about the limit where the band does not reach. xyz: (3, n_nodes).
   void distances(std::int64_t n_nodes, const double *xyz, double *distance) const;

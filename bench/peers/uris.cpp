@@ -194,7 +194,7 @@ double delta(double distance, double thickness) {
   return distance < thickness ? (1 + std::cos(pi * distance / thickness)) / (2 * thickness) : 0;
 }
 
-// A loop over all middles must find what the locator found.
+// A loop over all middles must find the same distances as the locator.
 void check_locator(const std::vector<double> &middles, const std::vector<double> &xyz,
                    const std::vector<double> &found) {
   constexpr std::int64_t n_checked = 100;

@@ -248,7 +248,7 @@ class StagedSteps {
     return times;
   }
 
-  // Counts what the stages of the present step compute and touch.
+  // Counts the operations of the present step's stages, and the bytes that they touch.
   nlohmann::json count() {
     Counted counts;
     counted = &counts;

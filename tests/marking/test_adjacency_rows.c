@@ -106,7 +106,7 @@ static void rows_that_are_refused(void **state) {
     columns[4] = 3;
     offsets[3] = 2;
     REFUSED(RIIS_INVALID_MESH, "row 2|ends at 2|begins, at 3");
-    offsets[3] = 1000; /* beyond what the last one promises: nothing is read there */
+    offsets[3] = 1000; /* beyond the number that the last offset promises: nothing is read there */
     REFUSED(RIIS_INVALID_MESH, "row 3|ends at 7|begins, at 1000");
     offsets[3] = 5;
     offsets[0] = 1;

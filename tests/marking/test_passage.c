@@ -168,8 +168,7 @@ static void meshes_have_the_passage_of_the_serial_search(void **state) {
   assert_true(n_of_state[RIIS_PASSAGE_OPEN] > 0 && n_of_state[RIIS_PASSAGE_CLOSED] > 0);
 }
 
-/* The passage is what a half thickness closes: with its distance as the half thickness nothing joins the ends, with less
- * something does. */
+/* With the passage's distance as the half thickness, nothing joins the ends. With a smaller half thickness, something does. */
 static void the_distance_is_what_just_closes(void **state) {
   (void)state;
   static const int32_t ids[18] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17};

@@ -33,7 +33,7 @@ static riis_patches parabola(void) {
 }
 
 /* Returns the distance from (x, z) to the parabola. Newton's method starts from every local minimum among many points of the
- * parabola, because the nearest of these points need not be beside the true nearest point. */
+ * parabola. The nearest of these points need not be beside the true nearest point. */
 static double distance_to_parabola(double x, double z) {
   enum { n = 2000 };
   double at[n + 1], best = INFINITY;

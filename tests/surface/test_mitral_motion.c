@@ -226,7 +226,8 @@ static void vertices_move_as_the_oracles(void **state) {
   printf("at random points the velocity is off by %.3f of tolerance, per unit of opening, at most\n", share);
 }
 
-/* The velocity of now is that of the middle of the step. So its error falls with the first power of the time between. */
+/* The mean velocity over a step is that of the step's middle. So its error at the end falls with the first power of the time
+ * between. */
 static void the_error_falls_with_the_time_between(void **state) {
   (void)state;
   double last = 0;

@@ -31,8 +31,8 @@ SampleCounts samples_within(const QuadGrid &grid, double radius);
 
 class SampleSet final : public PatchDistance {
  public:
-  // Distances are within max_error of the distances to the smooth surface, in placed units. The covering radius is
-  // max_error less the patches' own error. Fails with RIIS_LIMIT_EXCEEDED for more than max_samples.
+  // Distances are within max_error of the distances to the smooth surface, in placed units. The covering radius is max_error
+  // minus the patches' own error. Fails with RIIS_LIMIT_EXCEEDED for more than max_samples.
   SampleSet(PlacedPatches patches, double max_error);
 
   ClosestOnPatches closest(Vec3 p, double limit) const override;

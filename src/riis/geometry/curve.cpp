@@ -59,9 +59,9 @@ class Flattening {
   Flattened take() { return std::move(flattened_); }
 
  private:
-  // If the part and its chord are parametrised by the share of their own length, they are at most length^2 / 8 times the largest
-  // curvature apart. (That is linear interpolation of a function with that second derivative. Joints do not matter, because the
-  // direction is continuous there.) If the curve may turn on the spot, they are at most the length apart.
+  // Let the part and its chord be parametrised by the share of their own length. They are then at most length^2 / 8 times the
+  // largest curvature apart. (That is linear interpolation of a function with that second derivative. Joints do not matter,
+  // because the direction is continuous there.) If the curve may turn on the spot, they are at most the length apart.
   template <class LargestCurvature>
   bool accept(Vec3 last, double distance_to_chord, double part_length, const LargestCurvature &largest_curvature,
               double t1) {

@@ -137,9 +137,9 @@ struct DecisionKernels {
   // coordinates, n > 0.
   void (*take_corners)(const double *vertices, const int64_t *vertex_id, int64_t n, double *corners, double *lower,
                        double *upper);
-  // Returns false if one of up to eight triangles, given by the ids of vertices, may have no area, or may have none after its
-  // corners move by up to an eighth of `shift`. The square of twice the area must exceed the sum of 4e-23 (|ab|^2 + |ac|^2)^2 and
-  // shift^2 (|ab|^2 + |ac|^2).
+  // Checks up to eight triangles, given by the ids of vertices. Returns false if one may have no area, now or after its corners
+  // move by up to an eighth of `shift`. The square of twice the area must exceed the sum of 4e-23 (|ab|^2 + |ac|^2)^2 and shift^2
+  // (|ab|^2 + |ac|^2).
   bool (*have_area)(const double *vertices, const int64_t *vertex_id, int32_t n, double shift);
   // Places n points (3, n), with the bits of place(placement, place(image, p)).
   void (*place_points)(const PlacedBy &by, const double *points, int64_t n, double *placed);

@@ -53,7 +53,7 @@ KeyTimes::KeyTimes(const char *name, std::int64_t n_keys, const double *time, do
 double KeyTimes::from_key(std::int64_t i, double time) const {
   const auto if_at = [&](double key) {
     const double difference = time - key, key_lost = difference - time;
-    const double rest = (time - (difference - key_lost)) - (key + key_lost);  // what the subtraction rounded off
+    const double rest = (time - (difference - key_lost)) - (key + key_lost);  // the rounding of the subtraction
     const double distance = std::abs((period_ > 0 ? std::remainder(difference, period_) : difference) + rest);
     constexpr double unit = std::numeric_limits<double>::epsilon();
     return distance <= 8 * unit * std::max({std::abs(time), std::abs(key), period_}) ? distance : infinity;

@@ -49,7 +49,7 @@ struct OwnAdjacency {
   riis_csr csr() const;
 };
 
-// Up to these numbers, 32 bits hold what is counted: the nodes of all cells, and the columns. A test lowers them.
+// Up to these numbers, 32 bits hold the counts: the nodes of all cells, and the columns. A test lowers them.
 struct NarrowLimits {
   std::int64_t n_entries = std::numeric_limits<std::uint32_t>::max();
   std::int64_t n_nodes = std::numeric_limits<std::int32_t>::max();

@@ -44,7 +44,7 @@ struct OtherDistances {
   }
 
   // A method that may end anywhere on S proves nothing about points nearby. But its result is the distance of some point of S. So
-  // it is at least the distance to the triangles less their error.
+  // the distance to the triangles minus their error is a lower bound.
   double lower_bound(Vec3 p, double limit) const {
     if (method.is_of_fixed_points()) return std::sqrt(method.closest(p, limit).distance_sq);
     const double infinity = std::numeric_limits<double>::infinity();

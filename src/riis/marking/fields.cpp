@@ -285,7 +285,7 @@ void gather_at_vertices(const TriangleSet &set, std::int32_t fields, int n_threa
   });
 }
 
-// Writes the fields of a node whose distance is by sampling or minimisation. It finds the point once more.
+// Writes the fields of a node whose distance is by sampling or minimisation. It finds the closest point again.
 void write_patch_fields(const SearchRequest &request, std::int32_t fields, std::int64_t node, std::int64_t i,
                         NodeFields &made) {
   const PatchDistance &method = *request.surface.other_distance();

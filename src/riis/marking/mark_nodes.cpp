@@ -86,8 +86,8 @@ WantedData wanted_data(const SearchRequest &request, const MarkingRequest &asked
   return data;
 }
 
-// Gives the lists the sizes that they are filled with. Lists that are too short are made anew, and take the place of the old
-// ones when nothing can fail any more.
+// Gives the lists room for their new entries. A list that is too short is made anew. The new list takes the place of the old one
+// when nothing can fail any more.
 void make_room(const WantedData &data, const OrderScratch::Counts &n, Marks &marks) {
   if (!marks.within.has_room(data, n.n_within) || !marks.marked.has_room(data, n.n_marked)) {
     ListedNodes within, marked;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sets of nodes that threads unite at the same time without locks. An array holds each node's parent, which has a lower id, so
-// that the root of a set is its lowest node, whatever the order of the unions.
+// Sets of nodes that threads unite at the same time without locks. An array holds each node's parent, which has a lower id. So
+// the root of a set is its lowest node, whatever the order of the unions.
 #pragma once
 
 #include <cstdint>

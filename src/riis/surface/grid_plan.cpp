@@ -363,7 +363,7 @@ class Planner {
 
   double allowed(std::size_t curve) const { return of_curves_ * max_error_ * tightness_[curve]; }
 
-  // Finds what a curve needs, by the shares of the first curve of its family.
+  // Finds the needs of a curve, by the shares of the first curve of its family.
   Needs needs_of(std::size_t curve, bool runs_against, std::size_t n_steps) const {
     Needs made;
     for (std::size_t i = 0; i <= n_steps; ++i) made.at.push_back(static_cast<double>(i) / static_cast<double>(n_steps));

@@ -36,8 +36,8 @@ Vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const Vector<
 // Fails with RIIS_LIMIT_EXCEEDED if lengths or coordinates of curves round by too much for max_error.
 void check_precision(const PatchSet &set, double max_error);
 
-// Returns max_error less the deviation of the curves from the shape that they stand for. Fails with RIIS_LIMIT_EXCEEDED if
-// the deviation takes more than half of it.
+// Returns max_error minus the deviation of the curves from the shape that they stand for. Fails with RIIS_LIMIT_EXCEEDED if the
+// deviation takes more than half of it.
 double error_left(const PatchSet &set, double max_error);
 
 // Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles.

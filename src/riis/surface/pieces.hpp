@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The triangles of grids, image by image: what the adapted and the fixed triangulation have in common.
+// The triangles of grids, image by image: the common part of the adapted and the fixed triangulation.
 // In: grids with their quads' levels, patches and their images. Out: placed vertices, and the triangles between them.
 #pragma once
 

@@ -38,7 +38,7 @@ void for_each_quad(const QuadGrid &grid, const Visit &visit) {
     for (std::size_t i = 0; i + 1 < grid.u.size(); ++i) visit(i, j);
 }
 
-// No quad that the library accepts needs so many halvings.
+// No quad that the library accepts needs this many halvings.
 inline constexpr int most_halvings = 13;
 
 // The quads of a patch, with the level of subdivision of each in the order of for_each_quad.

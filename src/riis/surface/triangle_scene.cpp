@@ -78,7 +78,7 @@ namespace {
 struct Query {
   const TriangleScene::Implementation *in;
   const Kernels *kernels;
-  Vec3 p;          // the point as it is
+  Vec3 p;          // the point itself
   Vec3 q;          // the point in the frame
   double largest;  // a bound of q's coordinates and of distances that matter
   ClosestTriangle best;
@@ -195,7 +195,7 @@ void TriangleScene::make(const TriangleSet &set, int n_threads) {
     const RTCError error = rtcGetDeviceError(device);
     if (error != RTC_ERROR_NONE) fail_embree(error, what);
   };
-  rtcGetDeviceError(device);  // forgets what an earlier failure of this thread may have left
+  rtcGetDeviceError(device);  // forgets an earlier failure of this thread
   if (!in.scene) {
     in.scene.reset(rtcNewScene(device));
     check("create a scene");

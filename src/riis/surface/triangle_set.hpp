@@ -32,9 +32,9 @@ struct TriangleSet {
   std::int64_t n_zero_area = 0;           // triangles that were left out
   double error_bound = 0;                 // of the distance to the smooth valve, placed; 0 for surfaces from arrays
   Vector<std::uint8_t> rim_sides;         // one entry a patch_id, bits of PatchRim; empty for surfaces from arrays
-  std::uint64_t connectivity = 0;         // whose triangles these are; 0: nobody's (surface/triangulate_fixed.cpp)
-  Grouping grouping;                      // empty if the maker of the triangles knows no groups
-  Vector<LevelledGrid> moved_grids;       // of triangles with velocities from patches
+  std::uint64_t connectivity = 0;    // number of the plan that these come from; 0: none (surface/triangulate_fixed.cpp)
+  Grouping grouping;                 // empty if the maker of the triangles knows no groups
+  Vector<LevelledGrid> moved_grids;  // of triangles with velocities from patches
 
   // Empties the set and keeps its memory.
   void clear() {

@@ -29,7 +29,7 @@ struct Connectivity {
   std::vector<std::int32_t> leaflet_id, patch_id;
   Grouping grouping;
   Vector<LeftOut> left_out;
-  // Of each image of each patch: the end of its triangles, and whether they are those of the image before.
+  // For each image of each patch: the end of its triangles, and whether they are those of the image before.
   struct OfImage {
     std::int64_t end;
     bool is_as_before;

@@ -18,8 +18,8 @@
 namespace riis {
 namespace {
 
-// Returns false if one of these triangles may have no area (has_zero_area), or may have none after its corners move by up to an
-// eighth of `shift`.
+// Returns false if one of these triangles may have no area (has_zero_area), now or after its corners move by up to an eighth of
+// `shift`.
 bool have_area(const double *vertices, const std::vector<std::int64_t> &vertex_id, const Range &triangles,
                double shift) {
   const Kernels &simd = kernels(best_instruction_set());

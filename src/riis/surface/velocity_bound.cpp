@@ -95,8 +95,8 @@ AlongCurve along(const CurveRange &on) {
     const Both unknown{infinity, infinity};
     return {length, unknown, unknown, unknown, infinity, infinity, false};
   }
-  // At the same u, the states' parameters differ by at most `shift`: by the difference at the ends, and by the growth in between
-  // that the rates dt/du = length / |B'| allow.
+  // At the same u, the states' parameters differ by at most `shift`. It counts the difference at the ends, and the growth in
+  // between that the rates dt/du = length / |B'| allow.
   const Derivatives change = changes_on(*on.now, *on.before, from, to);
   const double at_ends = larger(std::abs(on.t_now[0] - on.t_before[0]), std::abs(on.t_now[1] - on.t_before[1]));
   const double half = 0.5 * on.width, rate_change = length.change / least + whole * change.first / (least * least);
