@@ -77,7 +77,7 @@ void print_case(const Case &all, const std::vector<MovingValve> &valves, const R
   write_text("-", text);
 }
 
-// Marks all valves and sets their arrays. Returns the most marked nodes of a valve.
+// Marks all valves and sets their arrays. Returns the largest number of marked nodes of any valve.
 int64_t mark_valves(const Case &all, std::vector<MovingValve> &valves, const riis_mesh *mesh, riis_vtk_mesh *file) {
   int64_t n_nodes = 0, most = 0;
   check(riis_vtk_mesh_get_nodes(file, &n_nodes, nullptr, nullptr));

@@ -33,7 +33,7 @@ namespace riis::program {
 
 namespace {
 
-// Says whether the valve is the paper's aortic valve, since that valve looks closed but is not (docs/meshes.md).
+// Says whether the valve is the paper's aortic valve, whose title says that it is not closed (docs/meshes.md).
 bool is_papers_aortic_valve(const ValveOptions &options, const riis_valve *valve) {
   if (!valve || options.valve != "aortic") return false;
   int64_t n_parameters = 0;

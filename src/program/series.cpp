@@ -114,7 +114,7 @@ class Writing {
  private:
   const std::vector<double> &times() const { return all_.options.series.times; }
 
-  // Returns the time before a step. The first time takes the length of the first step.
+  // Returns the time before a step. Before the first time, this is the time one first step earlier.
   double time_before(std::size_t step) const {
     return step == 0 ? times()[0] - (times()[1] - times()[0]) : times()[step - 1];
   }

@@ -23,7 +23,7 @@ ExitCode run_series(Case &all);
 struct Sweep {
   std::vector<std::int64_t> node_ids;  // within the distance limit at some time, ascending
   Box box;                             // contains all surfaces at all times
-  // For each valve, the step at which it marked most nodes.
+  // For each valve, the values at the time when it marked most nodes.
   std::vector<std::int64_t> most_marked;
   std::vector<riis_surface_info> surface;
 };

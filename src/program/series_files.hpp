@@ -86,7 +86,7 @@ class SeriesTable {
   explicit SeriesTable(const Case &all);
   void add(double time, const std::vector<MovingValve> &valves, double seconds);
   const std::string &text() const { return text_; }
-  // Returns the most marked nodes of all valves and times.
+  // Returns the largest number of marked nodes of any valve at any time.
   int64_t most_marked() const;
   // Returns a line for each valve: its openings, marked nodes and speed.
   std::string summary() const;

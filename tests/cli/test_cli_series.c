@@ -279,7 +279,7 @@ static void test_first_velocity(void **state) {
            scratch_path("v.csv"), "--quiet");
   char *text = scratch_read(scratch_path("v.csv"), NULL);
   assert_int_equal(sscanf(strchr(text, '\n'), "\n%lf,%lf,%lf,%lf", &time, &opening, &n_marked, &speed), 4);
-  /* From 0.5 to 0 in 0.1. */
+  /* The opening goes from 0.5 to 0 in a time of 0.1. */
   riis_valve *now = NULL, *before = NULL;
   riis_surface *surface = NULL;
   riis_surface_options options;

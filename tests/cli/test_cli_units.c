@@ -163,7 +163,8 @@ static void expect_one_advice(void) {
   assert_null(strstr(program_leaks, "half thicknesses"));
 }
 
-/* A mesh in millimetres would be large and coarse in centimetres, but possible. Only a user who names the unit knows. */
+/* The mesh looks as if it were in millimetres. It may also be a large and coarse mesh in centimetres, so a unit that the user
+ * names counts. */
 static void test_coarse_or_other_unit(void **state) {
   (void)state;
   assert_int_equal(

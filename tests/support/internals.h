@@ -135,7 +135,8 @@ void kernels_measure_triangles(int set, const double *vertices, const int64_t *v
  * second offset. */
 void kernels_place_points(int set, const double *first, const double *second, double scale, int64_t n,
                           const double *points, double *placed);
-/* Returns 0 if one of n triangles, up to 8, may have no area, also after its corners move by up to an eighth of `shift`. */
+/* Returns 0 if one of n triangles, up to 8, may have no area, either now or after its corners move by up to an eighth of
+ * `shift`. */
 int kernels_have_area(int set, const double *vertices, const int64_t *vertex_id, int32_t n, double shift);
 
 /* Makes a group of n <= 16 triangles corners(9, n), in the surface's frame, with one instruction set. The caller frees it. */

@@ -77,7 +77,7 @@ Edges edges_by_middles(int n_corners, const std::vector<Place> &places) {
     const Place p = place(a), q = place(b);
     return node_at(places, {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
   };
-  const auto opposite = [&](int corner, int a, int b) {  // in a parallelogram
+  const auto opposite = [&](int corner, int a, int b) {  // the fourth corner of a parallelogram
     const Place o = place(corner), p = place(a), q = place(b);
     return node_at(places, {p[0] + q[0] - o[0], p[1] + q[1] - o[1], p[2] + q[2] - o[2]});
   };

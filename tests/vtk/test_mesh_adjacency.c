@@ -187,7 +187,7 @@ static void test_polyhedra(void **state) {
     expect_same_rows("lists.vtu", &csr);
     riis_adjacency_destroy(&adjacency);
     riis_vtk_mesh_destroy(&mesh);
-    /* The file that riis writes again has the faces. */
+    /* When riis writes the mesh again, the file still has the faces. */
     mesh = read_mesh("lists.vtu");
     expect_fine(riis_vtk_mesh_write(mesh, scratch_path("again.vtu")));
     expect_fine(riis_vtk_mesh_create_adjacency(mesh, 1, &adjacency));
