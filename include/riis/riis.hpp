@@ -2,7 +2,7 @@
 //
 // riis.hpp - riis.h for C++17: handles that destroy themselves, errors as exceptions, structs with their defaults, spans.
 //
-// Every call stays that of riis.h. A handle stands where riis.h wants a pointer, out() where it wants the address of one:
+// All calls are the functions of riis.h. A handle can be passed as a pointer, and out() as the address of a pointer:
 //
 //   riis::Valve valve; riis::Surface surface; riis::Mesh mesh; riis::Marks marks;
 //   riis::check(riis_valve_create("mitral", valve.out()));
@@ -15,7 +15,8 @@
 //   const auto marked = riis::get<riis_mark_list>(riis_marks_get_list, marks, RIIS_LIST_MARKED);
 //   for (const std::int64_t node : riis::Span(marked.node_id, marked.n_nodes)) ...
 //
-// There is no code behind it: the library has a C interface only, so it fits every compiler and standard library.
+// This header needs no code in the library. The library has only a C interface, so it works with every compiler and standard
+// library.
 #ifndef RIIS_RIIS_HPP
 #define RIIS_RIIS_HPP
 
@@ -28,7 +29,7 @@
 namespace riis {
 inline namespace interface_1 {
 
-// A refused or failed call of the library. what() is riis_last_error().
+// A refused or failed call of the library. what() returns the message of riis_last_error().
 class Error : public std::runtime_error {
  public:
   Error(riis_status status, const char *message) : std::runtime_error(message), status_(status) {}
@@ -43,7 +44,7 @@ inline void check(riis_status status) {
   if (status != RIIS_OK) throw Error(status, riis_last_error());
 }
 
-// Owns an object of the library, or none. It moves, and cannot be copied.
+// Owns an object of the library, or none. It can be moved, but not copied.
 template <class Object, void (*destroy)(Object **)>
 class Handle {
  public:
@@ -58,7 +59,7 @@ class Handle {
 
   operator Object *() const noexcept { return object_; }
   Object *get() const noexcept { return object_; }
-  // Destroys the object, and gives the address for the call that makes the next one.
+  // Destroys the object, and returns the address for the call that makes the next object.
   Object **out() noexcept {
     reset();
     return &object_;
@@ -67,7 +68,7 @@ class Handle {
     destroy(&object_);
     object_ = object;
   }
-  // Gives the object to the caller, who destroys it.
+  // Releases the object to the caller, who destroys it.
   Object *release() noexcept { return std::exchange(object_, nullptr); }
 
  private:
@@ -134,12 +135,12 @@ Struct get(const Call &call, const Arguments &...arguments) {
   return filled;
 }
 
-// An array of the library's or of the caller's, which keeps it. As C++20's std::span, with signed sizes.
+// A view of an array of the library or of the caller, as C++20's std::span, but with signed sizes. The owner keeps the array.
 template <class T>
 class Span {
  public:
   Span() = default;
-  // An array that the library did not make is NULL, and has no entries.
+  // An array that the library did not make is NULL. Its span is empty.
   Span(T *data, std::int64_t size) noexcept : data_(data), size_(data ? size : 0) {}
 
   T *data() const noexcept { return data_; }

@@ -30,7 +30,7 @@ class InvalidParameterError(Error, ValueError):
 
 
 class UnknownParameterError(InvalidParameterError, KeyError):
-    """The valve has no parameter of the name that is read."""
+    """The valve has no parameter of this name."""
 
     __str__ = Exception.__str__  # KeyError's shows the message in quotes
 
@@ -123,7 +123,7 @@ _ARGUMENTS = {
     "options.point_ids": "ids",
     "options.point_mask": "mask",
 }
-# Python's words for C's numbers, by the argument.
+# Python's words for C's numbers, for each argument.
 WORDS = {
     "measure": ("triangles", "sampling", "minimization"),
     "instructions": ("auto", "baseline", "avx2", "avx512"),
@@ -162,7 +162,7 @@ _CHANGES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
 
 
 def in_python(message: str) -> str:
-    """Returns a message of the C library with Python's names for what it speaks of."""
+    """Returns a message of the C library with Python's names."""
     for pattern, change in _CHANGES:
         message = re.sub(pattern, change, message)
     return message

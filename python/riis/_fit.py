@@ -33,15 +33,15 @@ from riis._riis import Surface, Valve
 
 Reals = NDArray[numpy.float64]
 
-# An unknown is undetermined if its standard error is more than this share of its bounds, this part of a radian, of the
-# valve's size or of the scale.
+# An unknown is undetermined if its standard error exceeds this share of a reference. The reference is the width of its
+# bounds, a radian, the valve's size or the scale.
 _UNDETERMINED = 0.1
 _MOVES = ("rotation", "translation", "scale")
-# The search looks at so many of the points.
+# The rough search uses this number of points.
 _N_ROUGH = 400
-# So many of the search's ends are looked at again, with the width of the points' own scatter.
+# This number of the search's ends is refined, with a width from the scatter of the points.
 _N_ENDS = 3
-# Further starts choose among this many rotations.
+# Each further start chooses among this number of rotations.
 _N_ROTATIONS = 150
 
 
@@ -52,14 +52,14 @@ class FitResult:
     valve: Valve
     placement: dict[str, Any]  #: scale, rotation_axis, rotation_angle (degrees) and translation
     parameters: dict[str, float]  #: the free parameters
-    standard_errors: dict[str, float]  #: of these, by the data's own scatter; infinite where the data say nothing
+    standard_errors: dict[str, float]  #: for the free parameters, from the data's scatter; infinite without information
     undetermined: tuple[str, ...]  #: free parameters and parts of the placement that the data do not determine
     at_bounds: tuple[str, ...]  #: free parameters that ended at a bound
-    singular_values: Reals  #: of the Jacobian, descending: a row per point, a column per unknown, in sizes of the valve
-    rms: float  #: root mean square of the points' distances by these weights, lengths
-    percentile95: float  #: 95 % of all points are at most so far, lengths
+    singular_values: Reals  #: of the Jacobian (row: point, column: unknown), descending, in sizes of the valve
+    rms: float  #: root mean square of the distances with the weights below, a length
+    percentile95: float  #: 95 % of all points have at most this distance, a length
     distances: Reals = field(repr=False)  #: (n_points,), of all points
-    weights: Reals = field(repr=False)  #: (n_points,), 0 to 1 times the caller's: small for outliers
+    weights: Reals = field(repr=False)  #: (n_points,), the caller's weights times 0 to 1; small for outliers
 
     def report(self) -> str:
         """Returns a table of the parameters with their standard errors, and the measures of the fit below it."""
@@ -102,7 +102,7 @@ class FitResult:
 
 
 def _is_its_parameters(valve: Valve) -> bool:
-    """Returns if the parameters alone make the valve: it has no patches, and no open state that was given."""
+    """Tells whether the parameters alone define the valve: it has no patches, and the caller gave no open state."""
     if valve.kind == "patches":
         return False
     alone = Valve(valve.kind)
@@ -114,7 +114,7 @@ def _is_its_parameters(valve: Valve) -> bool:
 
 
 def _reals(data: Any, name: str, or_else: str = "") -> Reals:
-    """Returns an array of float64, and refuses all else as the calls in C++ do."""
+    """Returns an array of float64, and refuses other values as the calls in C++ do."""
     if isinstance(data, numpy.ma.MaskedArray):
         raise TypeError(
             f"{name}: is a masked array, and its mask would be lost; pass {name}.filled(...), or {name}.data if the mask "
@@ -128,13 +128,13 @@ def _reals(data: Any, name: str, or_else: str = "") -> Reals:
 
 
 def _points_of(data: Any) -> tuple[Reals, Reals | None]:
-    """Returns points, and the areas around them where they are vertices of a surface."""
+    """Returns points, and the areas around them if they are vertices of a surface."""
     pyvista = sys.modules.get("pyvista")
     if isinstance(data, Surface):
         points = numpy.array(data.vertices)
         return points, vertex_areas(points, data.triangles.vertex_id)
     if pyvista is not None and isinstance(data, pyvista.PolyData):
-        points = numpy.array(data.points, numpy.float64)  # PyVista's are often float32
+        points = numpy.array(data.points, numpy.float64)  # PyVista's points are often float32
         triangles = data.triangulate().faces.reshape(-1, 4)[:, 1:] if data.faces.size > 0 else None
         return points, None if triangles is None else vertex_areas(points, triangles)
     return _reals(data, "points", ", a riis.Surface or a pyvista.PolyData"), None
@@ -177,7 +177,7 @@ def _names_of(names: Any, argument: str) -> list[str]:
 
 
 def _default_bounds(parameter: Parameter, value: float, size: float) -> tuple[float, float]:
-    """Returns the bounds of the table. Those of lengths span many powers of ten, so they are narrowed around the value."""
+    """Returns the bounds of the table. The bounds of lengths span many powers of ten, so they are narrowed around the value."""
     if parameter.unit != "length":
         return parameter.minimum, parameter.maximum
     low, high = sorted((0.5 * value, 2.0 * value)) if value != 0.0 else (-0.25 * size, 0.25 * size)
@@ -282,7 +282,7 @@ def fit(
         raise TypeError(f"whole: must be True or False, not {whole!r}")
     given = {} if start is None else start
     place = _placed(given)
-    first = Surface(valve, **place)  # refuses a bad placement, and values that clash
+    first = Surface(valve, **place)  # this call refuses a bad placement, and values that clash
     pose = start_pose(place)
     used = points[weights > 0.0]
     n_unknowns = len(names) + sum({"rotation": 3, "translation": 3, "scale": 1}[move] for move in moves)
@@ -320,7 +320,7 @@ def _extent_of(surface: Surface) -> float:
 
 def _search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any_rotation: bool, n_starts: int,
             random: numpy.random.Generator) -> tuple[Pose, Reals]:
-    """Goes down from every start, roughly, and returns the base and the unknowns of the lowest end."""
+    """Minimizes roughly from every start. Returns the base and the unknowns of the best end."""
     n_names = len(problem.names)
     width = 0.05 * problem.size
     ends: list[tuple[float, Pose, Reals]] = []
@@ -339,12 +339,12 @@ def _search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, an
                 rotations = random_rotations(random, _N_ROTATIONS)
         problem.begin(pose)
         base = problem.best_rotation(x, rotations, middle)
-        if base is not None:  # else the values clash
+        if base is not None:  # None if the values clash
             go_down(base, x)
     if not ends:
         raise InvalidArgumentError("valve: no start has a surface; its values clash")
     if any_rotation and n_starts > 1:
-        # Valves look alike when a cusp lies where another was, or when back and front change places.
+        # A valve looks similar if it is turned by one cusp, or if back and front change places. So these turns are tried.
         _, found, x = ends[0]
         for angle in numpy.radians((120.0, 240.0, 180.0)):
             turn = matrix_of(numpy.array([0.0, 0.0, angle]))
@@ -370,12 +370,12 @@ def _result(problem: Problem, x: Reals) -> FitResult:
     distances = numpy.abs(seen.distance)
     robust = 1.0 / (1.0 + weights * (distances / width) ** 2)
     jacobian = problem.jacobian(x) * numpy.sqrt(numpy.append(robust, 1.0))[:, None]
-    surface, pose = problem.set_valve(x), problem.pose(x)  # the last difference moved the valve
+    surface, pose = problem.set_valve(x), problem.pose(x)  # the last derivative changed the valve
     assert surface is not None
     total = weights * robust
     n_free = total.sum() ** 2 / (total**2).sum() - problem.n
     variance = float(total @ distances**2) / total.sum() * (1.0 + problem.n / max(1.0, n_free))
-    variance = max(variance, (pose.scale * surface.info.error_bound) ** 2)  # triangles are no better than this
+    variance = max(variance, (pose.scale * surface.info.error_bound) ** 2)  # the triangles are no more accurate
     _, s, v = numpy.linalg.svd(jacobian, full_matrices=False)
     kept = s > max(1e-6 * s.max(), 1e-12 * problem.size)
     covariance = (v[kept].T / s[kept] ** 2) @ v[kept] * variance

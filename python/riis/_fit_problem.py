@@ -14,13 +14,15 @@ from riis._riis import Surface, Valve
 
 Reals = NDArray[numpy.float64]
 
-# Triangles lie within this share of the valve's size of the smooth valve.
+# Triangles lie within this distance of the smooth valve, as a share of the valve's size.
 FINE, ROUGH = 5e-4, 2e-3
-# The step of differences, in shares of a parameter's bounds. A smaller one would see the triangles change.
+# The step of differences, as a share of a parameter's bounds. With a smaller step, changes of the triangles would disturb
+# the difference.
 _STEP = 2e-3
 # Residuals of values that clash, in sizes of the valve: far more than any distance to a valve that lies near the points.
 _CLASH = 10.0
-# More points are worth threads. A fit makes many small surfaces, each in a few milliseconds: threads cost more than they gain.
+# Threads are used above this number of points. A fit makes many small surfaces, each in a few milliseconds, for which
+# threads cost more than they gain.
 _MANY = 20_000
 _N_UNKNOWNS = {"rotation": 3, "translation": 3, "scale": 1}
 
@@ -49,7 +51,7 @@ def axis_and_angle(rotation: Reals) -> tuple[tuple[float, float, float], float]:
 
 
 def random_rotations(random: numpy.random.Generator, n: int) -> Reals:
-    """Returns (n, 3, 3) rotations, evenly from all (quaternions of four normal numbers)."""
+    """Returns (n, 3, 3) uniformly random rotations (quaternions of four normal numbers)."""
     quaternions = random.normal(size=(4, n))
     w, x, y, z = quaternions / numpy.linalg.norm(quaternions, axis=0)
     rows = [
@@ -84,11 +86,11 @@ class Pose:
 
 
 class Seen(NamedTuple):
-    """The points' places relative to a valve. Directions make distances smooth where points change sides."""
+    """The points' places relative to a valve. The directions keep signed distances smooth if points change sides."""
 
     difference: Reals  # (n, 3), from the closest point
     direction: Reals  # (n, 3), unit, on the side of the normal
-    distance: Reals  # (n,), along that direction, so it has a sign
+    distance: Reals  # (n,), along the direction, with a sign
     local: Reals  # (n, 3), the closest points in the valve's frame
     log_area: float
 
@@ -109,13 +111,13 @@ class Problem:
             self.unknowns += [move] * _N_UNKNOWNS[move]
         self.n = len(self.unknowns)
         self.base = Pose(numpy.eye(3), numpy.zeros(3), 1.0)
-        self.noise = 0.0  # that of the points, for the share of the area
-        self.log_area = 0.0  # where a search begins
+        self.noise = 0.0  # noise of the points, for the residual of the area
+        self.log_area = 0.0  # log_area at the beginning of a search
         self.surface: Surface | None = None
         self.last: tuple[bytes, Seen | None] | None = None
 
     def begin(self, base: Pose) -> None:
-        """Makes a pose the one that placements start from."""
+        """Sets the pose from which placements start."""
         self.base, self.last = base, None
 
     def values(self, x: Reals) -> Reals:
@@ -150,7 +152,7 @@ class Problem:
         return self.surface
 
     def look(self, x: Reals) -> tuple[Reals, Reals, Reals, float] | None:
-        """Returns points less closest points, normals, closest points in the valve's frame, and the area's logarithm."""
+        """Returns points minus closest points, normals, closest points in the valve's frame, and the area's logarithm."""
         surface, pose = self.set_valve(x), self.pose(x)
         if surface is None:
             return None
@@ -162,7 +164,7 @@ class Problem:
         return pose.scale * (local - found.point) @ pose.rotation.T, found.normal @ pose.rotation.T, found.point, area
 
     def at(self, x: Reals) -> Seen | None:
-        """Returns what the points see at x, computed once."""
+        """Returns the points' places relative to the valve at x, computed once."""
         key = x.tobytes()
         if self.last is None or self.last[0] != key:
             found, seen = self.look(x), None
@@ -208,7 +210,7 @@ class Problem:
                 moved = x.copy()
                 moved[i] += step
                 other = self.look(moved)
-                if other is not None:  # else try the other side
+                if other is not None:  # otherwise try the other side
                     along = numpy.einsum("ij,ij->i", other[0], seen.direction)
                     result[:-1, i] = self.root_weights * (along - seen.distance) / step
                     result[-1, i] = area * (other[3] - seen.log_area) / step
@@ -241,14 +243,14 @@ class Problem:
         return float(numpy.log1p((self.residuals(x)[:-1] / width) ** 2).sum())
 
     def merit(self, x: Reals, noise: float) -> float:
-        """Returns what solve makes small, for a given noise."""
+        """Returns the cost that solve minimizes, for a given noise."""
         seen, width = self.at(x), 3.0 * noise
         if seen is None:
             return numpy.inf
         return width**2 * self.loss(x, width) + 0.5 * float(self.weights.sum()) * noise**2 * seen.log_area
 
     def solve(self, x: Reals, width: float, n_steps: int, change: float) -> Reals:
-        """Goes down from x until x or the cost changes by less. Residuals beyond the width lose weight, not that of the area."""
+        """Minimizes from x until x or the cost changes by less. Residuals of points beyond the width lose weight."""
         from scipy.optimize import least_squares
 
         seen = self.at(x)
@@ -269,7 +271,7 @@ class Problem:
         return numpy.asarray(result.x)
 
     def refine(self, x: Reals, n_rounds: int) -> Reals:
-        """Goes down again with a width that follows the scatter of the points."""
+        """Minimizes again with a width that follows the scatter of the points."""
         for _ in range(n_rounds):
             self.noise = self.scatter(x)
             before, x = x, self.solve(x, 3.0 * self.noise, 60, 1e-6)

@@ -44,7 +44,7 @@ _BAR = {
 
 
 def _look(plotter: Any, zoom: float) -> None:
-    """Looks at all that is drawn obliquely from above."""
+    """Aims the camera obliquely from above at everything drawn."""
     plotter.view_vector((1.0, -1.6, 1.5), viewup=(0.0, 0.0, 1.0))
     plotter.camera.zoom(zoom)
 

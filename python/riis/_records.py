@@ -30,7 +30,7 @@ class SurfaceInfo(NamedTuple):
 
     n_vertices: int
     n_triangles: int
-    n_zero_area: int  #: triangles that were skipped for want of area
+    n_zero_area: int  #: triangles that were skipped because they have no area
     half_thickness: float  #: mesh units, as all lengths here
     area: float
     lower: Reals  #: (3,), bounds of the triangles
@@ -38,7 +38,7 @@ class SurfaceInfo(NamedTuple):
     seconds_triangles: float
     seconds_scene: float
     error_bound: float  #: distances to the triangles and to the smooth valve differ by at most this
-    #: No triangle's velocity differs by more from that of the smooth valve, at the same patch, u and v.
+    #: velocities of the triangles and of the smooth valve, at the same patch, u and v, differ by at most this
     velocity_error_bound: float
 
 
@@ -76,7 +76,7 @@ class ClosestPoints(NamedTuple):
 
 
 class MarkStats(NamedTuple):
-    """How a marking went."""
+    """The statistics of a marking."""
 
     n_nodes: int  #: of the mesh
     n_marked: int
@@ -84,10 +84,10 @@ class MarkStats(NamedTuple):
     n_queries: int  #: closest-point queries
     seconds: float
     search: str  #: the search that ran
-    n_threads: int  #: the most that ran in any part
+    n_threads: int  #: the largest number that ran in any part
     complete: bool  #: every node within the limit was certainly found
-    instructions: str  #: those that were used
-    n_unreached: int  #: nodes that the neighbour search found by proof, not walk
+    instructions: str  #: the instructions that were used
+    n_unreached: int  #: nodes that the neighbour search's proof found, not its walk
 
 
 class Dense(NamedTuple):
@@ -102,7 +102,7 @@ class Dense(NamedTuple):
 class BandSums(NamedTuple):
     """Sums on either side of the surface: entry 0 is upstream, entry 1 downstream. The mean is sum / weight."""
 
-    sum: Reals  #: (2,), of weight * value
+    sum: Reals  #: (2,), the sum of weight * value
     weight: Reals  #: (2,)
     n_nodes: Ids  #: (2,), nodes in the band
 
@@ -114,8 +114,8 @@ class Leaks(NamedTuple):
     node_id: Ids  #: (n, 2), the lower one first
     length: Reals  #: (n,)
     distance: Reals  #: (n,): the half thickness that closes the edge
-    half_thickness: float  #: the smallest that gives each edge a marked node
-    longest_node_id: Ids  #: (2,), -1 without an edge
+    half_thickness: float  #: the smallest half thickness that gives each edge a marked node
+    longest_node_id: Ids  #: (2,), -1 if there is no edge
     longest_length: float
     longest_middle: Reals  #: (3,)
     seconds: float
@@ -125,7 +125,7 @@ class Passage(NamedTuple):
     """The widest passage from one set of nodes to another."""
 
     state: Literal["closed", "open", "none"]  #: "none": the mesh itself has no path
-    node_id: int  #: the place, -1 without a path
+    node_id: int  #: the node at the passage's narrowest place, -1 without a path
     distance: float  #: the smallest half thickness that closes the passage
     point: Reals  #: (3,), the node's coordinates
     seconds: float
@@ -138,11 +138,11 @@ class Crossings(NamedTuple):
     triangle_id: Ids  #: (n, 2), the lower one first
     point: Reals  #: (n, 3), the middle of the pair's intersection
     depth: Reals  #: (n,)
-    length: Reals  #: (n,), of the intersection
+    length: Reals  #: (n,), of the pair's intersection
     total_length: float
     deepest_depth: float
     deepest_point: Reals  #: (3,)
-    deepest_triangle_id: Ids  #: (2,), -1 without a pair
+    deepest_triangle_id: Ids  #: (2,), -1 if there is no pair
     deepest_leaflet_id: Integers  #: (2,)
     seconds: float
 

@@ -38,8 +38,8 @@ class _Timed:
 class OpeningTable(_Timed):
     """An opening by keys.
 
-    ``time`` and ``opening`` are (n_keys,) float64; times ascend strictly, openings are 0 to 1. With a ``period`` the table
-    repeats. Without one, the first opening counts before its key and the last one after it.
+    ``time`` and ``opening`` are (n_keys,) float64; times ascend strictly, and openings are 0 to 1.
+    With a ``period`` the table repeats. Without one, the first opening counts before its key and the last one after it.
     """
 
     time: NDArray[Any]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Views and resizes containers by int64_t, the type of every count and position here, which is never negative. The containers'
-// own functions take std::size_t: the conversions stand in this file.
+// Views and resizes containers by int64_t, the type of every count and position in this project. These numbers are never
+// negative. The containers' own functions take std::size_t, so this file has the conversions.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@
 
 namespace riis {
 
-// The elements of an array that somebody else owns and keeps while the view is used.
+// The elements of an array. The owner keeps the array while the view is used.
 template <class T>
 class ArrayView {
  public:
   constexpr ArrayView(T *data, std::int64_t size) : data_(data), size_(size) {}
 
   constexpr T &operator[](std::int64_t i) const {
-#if defined(_GLIBCXX_ASSERTIONS)  // then the containers check, and so does their view
+#if defined(_GLIBCXX_ASSERTIONS)  // with this macro the containers check positions, and so does the view
     if (i < 0 || i >= size_) std::abort();
 #endif
     return data_[i];
@@ -32,7 +32,7 @@ class ArrayView {
   std::int64_t size_;
 };
 
-// Views a std::vector, a std::array or an array of C. Do not use the view once the container has moved its elements.
+// Views a std::vector, a std::array or an array of C. Do not use the view after the container has moved its elements.
 template <class Container>
 constexpr auto view(Container &container) {
   return ArrayView<std::remove_pointer_t<decltype(std::data(container))>>(

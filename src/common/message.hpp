@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A message is put together from words and numbers in memory of a fixed size. It allocates nothing and depends on no locale.
+// A message is composed of words and numbers in memory of a fixed size. It allocates nothing and depends on no locale.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace riis {
 
-// A number with that many significant digits. Other numbers get as many digits as tell them from all others.
+// A number with a given number of significant digits. Other numbers get enough digits to differ from all other numbers.
 struct Rounded {
   double value;
   int n_digits;

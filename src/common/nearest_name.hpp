@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the existing name that a user may have meant by a wrong one. The program also needs it, so it is all in this header.
+// Finds the existing name that a user may have meant by a wrong one. The code is all in this header, because the program also
+// needs it.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +10,8 @@
 
 namespace riis {
 
-// Returns how many letters must be changed, added, left out, or swapped with the next one to turn one name into the other.
-// Capitals count as small letters. Only the first 80 letters are compared.
+// Returns the number of changes that turn one name into the other. A change replaces, adds or removes a letter, or swaps two
+// neighbouring letters. Capitals count as small letters. Only the first 80 letters are compared.
 inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   constexpr std::size_t longest = 80;
   a = a.substr(0, longest);
@@ -33,8 +34,7 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   return rows[a.size() % 3][b.size()];
 }
 
-// Takes candidates one after the other and keeps the nearest, the first of equally near ones. Names that are far off do not
-// count.
+// Compares candidates and keeps the nearest one, or the first of equally near ones. Very different names do not count.
 class NearestName {
  public:
   explicit NearestName(std::string_view name)

@@ -28,7 +28,7 @@ OpeningLaw law_of_command_line(const MarkOptions &options) {
   return OpeningLaw(std::move(table), series.cycle);
 }
 
-// MarkOptions of a series that mean nothing at one time.
+// Collects the options of a series that have no effect at one time.
 void check_one_time(const Case &all) {
   const SeriesOptions &series = all.options.series;
   const std::string why = " needs times: " + series.case_file + " has none, and --times is not given";
@@ -77,7 +77,7 @@ void print_case(const Case &all, const std::vector<MovingValve> &valves, const R
   write_text("-", text);
 }
 
-// Marks all valves and sets their arrays. Returns the most marked nodes of a valve.
+// Marks all valves and sets their arrays. Returns the largest number of marked nodes of any valve.
 int64_t mark_valves(const Case &all, std::vector<MovingValve> &valves, const riis_mesh *mesh, riis_vtk_mesh *file) {
   int64_t n_nodes = 0, most = 0;
   check(riis_vtk_mesh_get_nodes(file, &n_nodes, nullptr, nullptr));
@@ -131,7 +131,7 @@ Case case_of_command_line(const MarkOptions &options) {
   ValveSource source{options, nullptr, nullptr};
   if (options.surface.empty()) {
     source.law = law_of_command_line(options);
-    // A file of patches that cannot open so far is refused here.
+    // make_valve refuses a file of patches that cannot open as far as the law requires.
     source.options.opening = largest_opening(source.law, options.series.times);
     source.valve = make_valve(source.options);
     source.has_open_state = !options.params_open.empty();

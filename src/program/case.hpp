@@ -14,11 +14,11 @@ namespace riis::program {
 struct Case {
   MarkOptions options;  // the mesh, the times, the outputs; a prefix for the arrays that all valves share
   std::vector<ValveSource> valves;
-  std::vector<std::string> files;  // that were read, which no output may replace
+  std::vector<std::string> files;  // all files that were read; no output may replace them
 
   bool has_resistance() const;
   bool is_series() const { return !options.series.times.empty(); }
-  // What tells the valve's own files and columns apart: nothing, if it is the only one.
+  // Returns the name that the valve's own files and columns have, or "" if it is the only valve.
   std::string part_of(std::size_t valve) const { return valves.size() == 1 ? "" : valves[valve].options.prefix; }
 };
 

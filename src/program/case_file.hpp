@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a case file, the valves of a mesh with their placements and motions, in JSON. Out: the case. Paths in the file are relative
-// to it. Refusals name the file, the valve and the key.
+// In: a case file in JSON, which describes the valves of a mesh with their placements and motions. Out: the case. Paths in the
+// file are relative to it. Refusals name the file, the valve and the key.
 #pragma once
 
 #include <functional>
@@ -19,10 +19,10 @@ Case read_case(const MarkOptions &options);
 
 struct CaseOpening {
   OpeningLaw law;
-  std::string file;  // that was read; "": none
+  std::string file;  // the file that was read; "": none
 };
 
-// A number, or an object: {"file"}, {"times", "openings"}, each with "period" and "interpolation", or {"opening_start",
+// Reads a number, or an object: {"file"}, {"times", "openings"}, each with "period" and "interpolation", or {"opening_start",
 // "opening_duration", "closing_start", "closing_duration", "closed", "open", "period"}. in_folder makes a path relative to the
 // case.
 CaseOpening case_opening(const CaseValues &valve, const std::function<std::string(const std::string &)> &in_folder);

@@ -15,7 +15,14 @@
 namespace riis::program {
 namespace {
 
+<<<<<<< HEAD
 // Lists an option with the value that it takes. CLI11 would add what excludes it and what it needs, which fills a screen.
+=======
+[[noreturn]] void refuse(const std::string &text) { throw Refusal{exit_wrong_usage, text}; }
+
+// Lists an option with the value that it takes. CLI11 would also list the options that it excludes and needs, and these would
+// fill a screen.
+>>>>>>> h3-en1
 class BriefHelp : public CLI::Formatter {
  public:
   BriefHelp() { column_width(36); }
@@ -47,12 +54,13 @@ void check_equals_signs(int argc, char **argv) {
   }
 }
 
-// Explains words that are left over on the command line. Mostly they are a value in several words for an option that takes one.
+// Explains words that are left over on the command line. Mostly the user typed a value as several words, but the option takes
+// one word.
 std::string hint_of(const CLI::App &app) {
   const struct {
     const char *name;
     char mark;
-    int n_marks;  // in a whole value
+    int n_marks;  // the number of marks in a complete value
   } forms[] = {{"--set", '=', 1}, {"--rotate", ',', 3}, {"--translate", ',', 2}};
   for (const auto &form : forms) {
     const CLI::Option *option = app.get_option_no_throw(form.name);
@@ -74,8 +82,8 @@ std::string nearest_option(const CLI::App &app, const std::string &name) {
 
 bool looks_like_option(const std::string &argument) { return argument.size() > 1 && argument[0] == '-'; }
 
-// Returns the words that CLI11 did not understand, in the order in which they were typed, which is not CLI11's. The value of an
-// unknown option is also left over, or passes for the mesh. So only the options are named then.
+// Returns the words that CLI11 did not understand, in the order of typing. CLI11 has another order. The value of an unknown
+// option is also left over, or it is taken for the mesh. So in this case the result has only the options.
 std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
   std::vector<std::string> left = app.remaining();
   const bool has_options = std::any_of(left.begin(), left.end(), looks_like_option);
@@ -95,7 +103,7 @@ std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
   return text;
 }
 
-// Refuses a word that is no command where one must stand.
+// Refuses a word that is no command in a place that needs a command.
 void check_command(const CLI::App &app, const std::string &word) {
   const std::string hint = " (" + name_of(app) + " --help lists the commands)";
   if (looks_like_option(word)) refuse_usage(word + " stands before a command" + hint);

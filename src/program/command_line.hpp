@@ -9,11 +9,10 @@
 
 namespace riis::program {
 
-// What a command line asks for. riis surface and riis check are runs of MarkOptions.
+// The request of a command line. riis surface and riis check also have MarkOptions.
 using Request = std::variant<MarkOptions, StatesOptions, ExportOptions, ParamsOptions>;
 
-// Returns nothing if the command line asked only for help or the version, which it has then printed.
-// Throws a Refusal for wrong usage.
+// Prints help or the version and returns nothing if the command line requests only that. Throws a Refusal for wrong usage.
 std::optional<Request> parse_command_line(int argc, char **argv);
 
 }  // namespace riis::program

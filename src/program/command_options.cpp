@@ -25,7 +25,7 @@ std::int32_t position_of(const std::string &name, const std::vector<std::string>
   return static_cast<std::int32_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-// RIIS_AUTO is a negative number, and a user's number must not pass for it.
+// RIIS_AUTO is a negative number, so a user's negative number is refused.
 double parse_positive(const std::string &text, const std::string &subject) {
   const double number = parse_number(text, subject);
   if (!(number > 0)) refuse_usage(subject + ": " + text + " is not above 0");
@@ -93,7 +93,7 @@ void declare_tolerance(Command &command, ValveOptions &options) {
                 });
 }
 
-// A surface from a file, and how triangles are made of either.
+// Declares the options of a surface from a file, and of the triangles of any surface.
 void declare_file(Command &command, ValveOptions &options) {
   riis_surface_options &how = options.surface_options;
   command.group("Surface");
@@ -200,7 +200,7 @@ void declare_loudness(Command &command, ValveOptions &options) {
   command.flag("--strict", "Exit with status 4 if there was a warning", options.strict);
 }
 
-// A view is declared after the pictures, so its values come when these are known.
+// Views are declared after the pictures, so CLI11 sets them when the pictures are known.
 void declare_pictures(Command &command, MarkOptions &options) {
   CLI::Option *const pictures =
       command
@@ -252,7 +252,7 @@ void declare_series(Command &command, MarkOptions &options) {
              [&series](const std::string &text) { series.frame_rate = parse_positive_finite(text, "--frame-rate"); })
       ->needs(movie);
   command.choice("--movie-view", "side, top or oblique (default)", view_names, series.movie_view, "VIEW")->needs(movie);
-  // A case says these itself.
+  // A case file has its own values for these options.
   for (const char *name : {"--surface",        "--leaflets",       "--valve",        "--opening",
                            "--params",         "--params-open",    "--set",          "--tolerance",
                            "--triangulation",  "--skip-zero-area", "--flip-normals", "--scale",
@@ -295,7 +295,7 @@ void finish_units(ValveOptions &options) {
   apply_units(options);
 }
 
-// A time belongs to a motion, and a period to a motion or a cycle.
+// Requires a motion for a time, and a motion or a cycle for a period.
 void check_motion(const Command &command, const ValveOptions &options, bool has_times, bool has_cycle) {
   const bool is_motion = is_motion_file(options.surface);
   if (is_motion && !options.time && !has_times)
@@ -311,7 +311,7 @@ void check_open_state(const ValveOptions &options) {
     refuse_usage("--params-open has no effect with --valve " + options.valve + ": the open state is in that file");
 }
 
-// At the default opening of most valves the file would have no effect, and nobody would see it.
+// At the default opening of most valves the file would have no effect, and the user would not notice.
 void check_open_state_is_met(const ValveOptions &options, bool has_cycle) {
   if (!options.params_open.empty() && !sets_opening(options) && !has_cycle)
     refuse_usage("--params-open needs --opening or --cycle: without either the valve does not open to that state");
@@ -378,7 +378,7 @@ CLI::Option *Command::value(const std::string &names, const char *type, const ch
                         names, [take] { take(""); }, help),
                     nullptr);
   const auto taken = [take, name = option_name(names)](const std::string &text) {
-    // An empty value would pass for an option that was not given.
+    // An empty value would look like an option that was not given.
     if (text.empty()) refuse_empty(name);
     take(text);
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options of each command: declaring them, and checking what one option says of another.
+// Declares the options of each command, and checks that they fit each other.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@ class Option;
 
 namespace riis::program {
 
-// The most openings of riis states.
+// The largest number of openings of riis states.
 inline constexpr std::int32_t most_states = 100001;
 
-// Declares options of a command. CLI11 passes text on as it was typed; numbers are read here, whatever the locale.
+// Declares options of a command. CLI11 passes text on as it was typed. Numbers are read here and do not depend on the locale.
 class Command {
  public:
   explicit Command(CLI::App *app) : app_(app) {}
@@ -32,7 +32,7 @@ class Command {
   void group(const char *title) { group_ = title; }
 
   using Take = std::function<void(const std::string &)>;
-  // Each option has its names, such as "--scale" or "OUT" for a word without a name, what its value is, and its help.
+  // Each option has names, a word for its value, and a help text. A value without an option name has a name such as "OUT".
   CLI::Option *value(const std::string &names, const char *type, const char *help, const Take &take);
   CLI::Option *text(const std::string &names, const char *type, const char *help, std::string &to);
   using TakeAll = std::function<void(const std::vector<std::string> &)>;
@@ -61,7 +61,7 @@ void declare_states(Command command, StatesOptions &options);
 void declare_export(Command command, ExportOptions &options);
 void declare_params(Command command, ParamsOptions &options);
 
-// These refuse options that contradict each other or have no effect, and derive what is left to derive.
+// These refuse options that contradict each other or have no effect, and derive the remaining values.
 MarkOptions finish_mark(const Command &command, MarkOptions options);
 MarkOptions finish_surface(const Command &command, MarkOptions options);
 MarkOptions finish_crossings(const Command &command, MarkOptions options);

@@ -66,27 +66,27 @@ const Topic topics[] = {
      R"(
 The marked mesh is a copy of the input. Its nodes keep the input's order. It has the point arrays riis_marked (UInt8: 0 or
 1), riis_distance (Float64) and riis_leaflet (Int32: -1 for none). --prefix NAME names them NAME_marked and so on, so a mesh
-can take the marks of several valves. Only --replace replaces arrays that the mesh already has.
+can have the marks of several valves. An array that the mesh already has is replaced only with --replace.
 )"},
     {"units", "units of lengths, and the scale",
      R"(
-Lengths are in the mesh's unit. --unit names that unit, and the scale follows from it. The parameters of the kinds of
-valves are in centimetres. If a file holds the surface or the patches, --unit needs --surface-unit, the file's
-own unit. With --unit the half thickness is the paper's, 0.1 cm, unless --half-thickness says otherwise. Without --unit the
-program knows no units, and --scale is the factor from the surface's unit to the mesh's.
+Lengths are in the mesh's unit. --unit names that unit, and the program derives the scale from it. The parameters of the
+kinds of valves are in centimetres. If a file holds the surface or the patches, --unit needs --surface-unit, the unit of that
+file. With --unit the default half thickness is the paper's, 0.1 cm. Without --unit the program knows no units, and --scale
+is the factor from the surface's unit to the mesh's.
 )"},
     {"parameters", "names and files of parameters",
      R"(
 A name with a cusp (right.leaflet_angle) is a parameter of that cusp. A name without a cusp (leaflet_angle) stands for all
-cusps. A JSON file sets the names without a cusp first, whatever their order in the file. --set comes after the file, from
-left to right. --opening comes last, and excludes --set opening.
+cusps. A JSON file sets the names without a cusp first, in any order of the file. Then --set changes values, from left to
+right. --opening comes last, and cannot be combined with --set opening.
 )"},
     {"opening", "closed and open states",
      R"(
-The parameters of a kind of valve make it closed and open. The mitral valve is open unless --opening says otherwise, the
-others are at 0. With --params-open, the other options make the closed state. The defaults with that file's
-parameters make the open state; an opening in that file does not matter. The paper's aortic valve, at opening 0 with the
-default parameters, is not closed: along its axis 19 % of a disc of radius 1.2 cm stay open. --valve trileaflet closes.
+The parameters of a kind of valve make it closed and open. By default the mitral valve has opening 1, and the others have
+opening 0. With --params-open, the other options give the closed state. That file's parameters and the defaults give the open
+state. An opening in that file has no effect. The paper's aortic valve, at opening 0 with the default parameters, is not
+closed. Seen along its axis, 19 % of a disc of radius 1.2 cm stay open. --valve trileaflet closes.
 )"},
     {"patches", "a file of curves for a valve of your own",
      R"(
@@ -94,25 +94,26 @@ default parameters, is not closed: along its axis 19 % of a disc of radius 1.2 c
 {"curves":  {"hinge": [[0,0,0], [1,0,0]], "edge": [[0,1,0], [0.5,1,0.3], [1,1,0]],
              "left": [[0,0,0], [0,1,0]], "right": [[1,1,0], [1,0,0]]},
  "patches": [{"v0": "hinge", "v1": "edge", "u0": "left", "u1": "-right", "leaflet": 0}]}
-2, 3 or 4 points control a curve of degree 1, 2 or 3. One point is a side collapsed to it. A minus runs a curve the other
-way. v0 and v1 run from u0 to u1; u0 and u1 run from v0 to v1. "leaflet" is 0 if it is left out. "open": {"curves": {...}}
-beside "patches" holds all curves at --opening 1; without it the valve stays at 0. Its only parameter is opening.
+2, 3 or 4 points control a curve of degree 1, 2 or 3. One point stands for a side that collapses to a point. A minus reverses
+a curve. v0 and v1 run from u0 to u1; u0 and u1 run from v0 to v1. The default of "leaflet" is 0. "open": {"curves": {...}}
+beside "patches" holds all curves at --opening 1. Without it the valve stays at opening 0. The valve's only parameter is
+opening.
 )"},
     {"series", "many times: .pvd, movies, tables",
      R"(
---times marks the nodes at each time, and --cycle tells the opening: a line for each key, with a time and an opening from 0
-to 1, ascending in time. The first line may name the columns. --output beat.pvd writes beat/beat_0000.vtu and so on, and
-beat.pvd, which ParaView plays. --surface-output does the same with the triangles. With --triangulation fixed all times have
-the same triangles, so that K does not jump with them.
+--times marks the nodes at each time, and --cycle is a file with the opening. The file has a line for each key, with a time
+and an opening from 0 to 1. Times ascend. The first line may name the columns. --output beat.pvd writes beat/beat_0000.vtu
+and so on, and beat.pvd, which ParaView plays. --surface-output does the same with the triangles. With --triangulation fixed
+all times have the same triangles, so changes of the triangles cause no jumps of K.
 Each mesh has the point arrays of a marked mesh, and riis_normal, riis_side and riis_velocity of the closest point. With
---resistance it has riis_K and riis_K_u_surface, K times that velocity. Velocities are means since the time before;
-the first time takes the length of the first step. Without --all-cells the meshes are the cells near the valve's whole
-motion, with the arrays riis_node_id and riis_cell_id, ids of the input from 0. All times have the same cells.
-A line on stderr tells the size of all files before they are written. Ctrl-C ends a series after the present step. A line
-then says how many steps are written, and the .pvd lists them. If the process is killed, the list is at most a second behind
-the files. --series-table has a line for each time: opening, marked nodes, the largest speed of the surface, and the seconds for
-surface and marks. --picture draws the first time. --movie draws all times by one camera, and needs the program ffmpeg. The
-check for leaks runs at the time when the valve is least open, and for --surface at the first time.
+--resistance it has riis_K and riis_K_u_surface, K times that velocity. Velocities are means since the previous time. At the
+first time they are means over a step as long as the first one. Without --all-cells the meshes have only the cells near the
+valve's whole motion. Their arrays riis_node_id and riis_cell_id are ids of the input, from 0. All times have the same cells.
+A line on stderr gives the size of all files before they are written. Ctrl-C ends a series after the present step. A line
+then gives the number of steps written, and the .pvd lists them. If the process is killed, the list is at most a second
+behind the files. --series-table has a line for each time: opening, marked nodes, the largest speed of the surface, and the
+seconds for surface and marks. --picture draws the first time. --movie draws all times with one camera, and needs the program
+ffmpeg. The check for leaks runs at the time when the valve is least open. For --surface it runs at the first time.
 )"},
     {"cases", "several valves in one mesh, from a file",
      R"(
@@ -123,97 +124,99 @@ check for leaks runs at the time when the valve is least open, and for --surface
             {"name": "aortic", "valve": "trileaflet",
              "rotate": [1,0,0,-30], "translate": [0,3.8,1], "opening": 0.3, "half_thickness": 0.08}]}
 Paths are relative to the file. A MESH, --times and --distance-limit on the command line take the place of the file's.
-A valve has "valve", a kind or a file of patches, or "surface", a file. A surface stays at rest unless the file is a .pvd,
-with "period". A valve may have "parameters" and "open_parameters", each an object or a file, and "scale", "surface_unit",
-"rotate", "translate", "half_thickness", "resistance", "tolerance", "triangulation", "flip_normals", "leaflets" and
-"skip_zero_area", as the options of these names. "opening" is a number or one of
+A valve has "valve", a kind or a file of patches, or it has "surface", a file. A surface is at rest unless the file is a
+.pvd. Such a file may have a "period". A valve may have "parameters" and "open_parameters", each an object or a file, and
+"scale", "surface_unit", "rotate", "translate", "half_thickness", "resistance", "tolerance", "triangulation", "flip_normals",
+"leaflets" and "skip_zero_area", as the options of these names. "opening" is a number or one of
   {"file": "beat.csv", "period": 0.8, "interpolation": "cubic"}
   {"times": [0, 0.1, 0.4], "openings": [0, 1, 0], "period": 0.8, "interpolation": "linear"}
   {"opening_start": 0.4, "opening_duration": 0.05, "closing_start": 0.7, "closing_duration": 0.05, "closed": 0, "open": 1,
    "period": 0.8}
-Each of several valves has its own arrays, NAME_marked and so on; riis_K and riis_K_u_surface are sums over the valves.
-Without times there is one mesh, --output marked.vtu.
+If there are several valves, each one has its own arrays, NAME_marked and so on. riis_K and riis_K_u_surface are sums over
+the valves. Without times there is one mesh, --output marked.vtu.
 )"},
     {"motion", "a surface from a file that moves",
      R"(
---surface FILE.pvd is a ParaView collection of surface files, each with a time. All have the same points and faces, only the
-points move. --time T takes them there, linearly between two files, and --times to each of its times. --surface-output then
-has the velocities of the points, riis_velocity, in the mesh's unit over the unit of T. Triangles of .stl files must keep
-their order.
+--surface FILE.pvd is a ParaView collection of surface files, each with a time. All files have the same points and faces, and
+only the points move. --time T moves the surface to a time, linearly between two files. --times moves it to each of several
+times. --surface-output then has the velocities of the points, riis_velocity, in the mesh's unit over the unit of T.
+Triangles in .stl files must have the same order in all files.
 )"},
     {"warnings", "what they mean, and which comes first",
      R"(
-A line on stderr tells what looks wrong and what to write instead. It comes if no node is marked, if all or hardly any nodes
-are marked, and if the half thickness does not fit the surface or the edges of the mesh. --quiet does not silence it, because
-wrong marks look like right ones. --allow-none is for valves that are near no node at times.
-One thing may be the cause of all others, in this order: units, half thickness, places, leaks. Only the first cause comes with
-advice; run again once it is mended. A unit that you name by --unit or --scale counts as known, if the sizes allow it.
-With --strict the status is 4 if there was any warning, whatever its kind. Places have as many digits as an edge of the mesh
-there needs, and the unit of --unit.
+A line on stderr names a suspicious result and the options to write instead. It is printed if no node, all nodes or hardly
+any nodes are marked. It is also printed if the half thickness does not fit the surface or the edges of the mesh. --quiet
+does not silence it, because wrong marks look like right ones. --allow-none is for valves that are sometimes near no node.
+One fault may cause the others. The order is units, half thickness, places, leaks. Only the first warning in this order has
+advice. Mend that fault and run the program again. A unit that you name by --unit or --scale counts as known, if the sizes
+allow it. With --strict the status is 4 after a warning of any kind. Coordinates have enough digits for an edge of the mesh
+at that place. They have the unit of --unit.
 )"},
     {"leaks", "edges and passages through the band",
      R"(
-The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats say how many
-edges leak, and which half thickness closes them. Edges of at most two half thicknesses do not leak. Leaks are unknown in a
-mesh without volume cells, and at cells whose edges are not known, such as convex point sets. Edges do not show gaps between
-leaflets, nor ways round the valve. riis check leaks MESH --between FROM TO does: two points, one on either side, each as
-X,Y,Z in the mesh.
-The program says whether unmarked nodes join them, where the widest passage is, and which half thickness closes it. Take
-points farther from the valve than the passage is wide. A case has them as "check_leaks": [x,y,z, x,y,z]. All its valves
-count together, each where it is least open.
+The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats give the number
+of leaking edges, and the half thickness that closes them. Edges of at most two half thicknesses do not leak. Leaks are
+unknown in a mesh without volume cells, and at cells whose edges are not known, such as convex point sets. Leaking edges do
+not show gaps between leaflets, nor ways round the valve. riis check leaks MESH --between FROM TO finds these. FROM and TO
+are points of the mesh on either side of the valve, each as X,Y,Z.
+The program says whether unmarked nodes join the points. It also gives the place of the widest passage, and the half
+thickness that closes it. The distance of the points from the valve must be larger than the width of the passage. A case has
+the points as "check_leaks": [x,y,z, x,y,z]. The check uses all its valves together, each at its least opening.
 )"},
     {"crossings", "leaflets that go through each other",
      R"(
-riis check crossings looks at a valve's triangles at 101 openings from 0 to 1, and ends at the first one where two go through
-each other. A line on stderr tells that opening, the number of pairs, the length of their intersections, and depth and place
-of the deepest. The depth is how far one of the triangles must move until both only touch. Up to 1e-6 half thicknesses count
-as touching. A valve that does not open, a surface from a file and a valve with --opening are looked at as they are. It needs
-no MESH. riis mark looks at fewer: a valve whose shape is chosen by --set, --params, --params-open or a file is looked at only at
-openings 0, 0.5 and 1. Contacts of leaflets and of a housing with its hinges do not count then.
+riis check crossings checks a valve's triangles at 101 openings from 0 to 1. It ends at the first opening at which two
+triangles go through each other. A line on stderr gives that opening, the number of pairs, the length of their intersections,
+and the depth and place of the deepest pair. The depth is the distance by which one triangle must move so that both only
+touch. A depth up to 1e-6 half thicknesses counts as touching. A valve that does not open, a surface from a file and a valve
+with --opening are checked as they are. The command needs no MESH. riis mark checks only openings 0, 0.5 and 1, and only a
+valve whose shape is set by --set, --params, --params-open or a file. Then contacts of leaflets do not count, nor those of a
+housing with its hinges.
 )"},
     {"states", "what the table of riis states has",
      R"(
-riis states measures the valve in its own frame at 101 openings, or as many as --count says, and takes no MESH. The table
-has a line for each opening: the length of each free edge, the area of each leaflet, both also as a share of their closed
-values, and the area of the orifice. The summary on stdout names the free edges that leave 10 % of their closed length. Free
-edges are the sides v = 1 of the patches on a leaflet's rim. The orifice is the part of a disc that the leaflets leave
-uncovered along the axis z. The disc is that of root_radius when closed, or of the housing's radius. Valves that have neither
-take the inside of the free sides v = 0, such as the annulus. Columns that a valve has no measure for are left out. The
-tolerance is 0.01 unless --tolerance says otherwise. A valve without an open state has one line, at opening 0.
+riis states measures the valve in its own frame at 101 openings, or at the number of --count. It needs no MESH. The table has
+a line for each opening. A line has the length of each free edge, the area of each leaflet, both also as a share of their
+closed values, and the area of the orifice. The summary on stdout names the free edges whose length differs by more than 10 %
+from the closed length. Free edges are the sides v = 1 of the patches on a leaflet's rim. The orifice is the part of a disc
+that the leaflets leave uncovered, seen along the axis z. The disc has the closed valve's root_radius or the housing's
+radius. If a valve has neither, the outline is the free sides v = 0, such as the annulus. The table has no columns for
+measures that a valve lacks. The default tolerance is 0.01. A valve without an open state has one line, at opening 0.
 )"},
     {"export", "what riis export writes",
      R"(
-riis export FOLDER writes what the solver's Add_URIS_mesh reads: for each leaflet NAME.vtu, NAME_open.dat and
-NAME_close.dat. The same files of a face "box" widen the box in which the solver looks. normal.dat is the direction of flow.
-The folder must be new or empty. The block for the solver's input goes to stdout; it needs --resistance. The solver plays a
-frame in each of its time steps, so --time-step must be its own. The valve opens from 0 to 1 in --opening-seconds by a ramp
-of fifth degree, and closes in --closing-seconds. With --cycle it opens from the last key of its least opening to the first
-of its largest, and closes on the way back; --opening-span and --closing-span name other times. The solver measures to the
-middles of triangles. With --largest-edge 0.15 half thicknesses its sum of K is within 1 % of the exact one. Triangles
-without area in some frame are left out, and a line on stderr says so.
+riis export FOLDER writes the files that the solver's Add_URIS_mesh reads: for each leaflet NAME.vtu, NAME_open.dat and
+NAME_close.dat. The same files of a face "box" widen the box in which the solver looks for nodes. normal.dat is the direction
+of flow. The folder must be new or empty. The block for the solver's input goes to stdout; it needs --resistance. The solver
+plays a frame in each of its time steps, so --time-step must be the solver's step. The valve opens from 0 to 1 in
+--opening-seconds by a ramp of fifth degree, and closes in --closing-seconds. With --cycle it opens from the last key of its
+least opening to the next key of its largest. It closes from the last key of its largest opening to the next key of its
+least. --opening-span and --closing-span set other times. The solver measures distances to the middles of triangles. With a
+--largest-edge of 0.15 half thicknesses its sum of K is within 1 % of the exact sum. Triangles without area in some frame are
+left out, and a line on stderr says so.
 )"},
     {"searches", "how nodes are found",
      R"(
 exhaustive  queries the distance of every node near the valve
 neighbor    walks from marked nodes to their neighbours and then proves that the rest is far
-clusters    takes nodes that are near each other together
+clusters    handles nearby nodes together
 paper       the published search, for comparison: from one start, through marked nodes only
-The first three give the same marks. neighbor needs the neighbours, the mesh's adjacency; clusters needs the nodes sorted.
-Either costs more than it saves if a mesh is marked once, as here, so auto is exhaustive. paper misses nodes that are not
-connected to its start, so it is never complete, and a line on stderr says so. Neighbours are nodes joined by an edge of a
-volume cell.
+The first three give the same marks. neighbor needs the mesh's adjacency, which lists the neighbours; clusters needs sorted
+nodes. For one marking, either preparation costs more time than it saves, so auto is exhaustive. paper
+misses nodes that are not connected to its start, so it is never complete, and a line on stderr says so. Neighbours are nodes
+joined by an edge of a volume cell.
 )"},
     {"distances", "how distances are measured",
      R"(
---distance sampling takes the nearest of points on the valve's patches, as many as --distance-tolerance needs.
---distance minimization takes Powell's method on every patch, which may miss the closest point. Both are the paper's, slow,
-and here for comparison.
+--distance sampling measures to the nearest of many points on the valve's patches. --distance-tolerance sets their number.
+--distance minimization applies Powell's method to every patch, and this may miss the closest point. Both methods are the
+paper's. They are slow, and serve for comparison.
 )"},
     {"running", "progress, Ctrl-C, locks",
      R"(
-On a terminal, a line on stderr announces a stage that takes longer than a second, and counts the steps of a series, unless
---quiet is given. While a file is written, the first Ctrl-C waits until the file is whole; the second does not wait.
-An empty file .riis-NAME.lock beside each output NAME keeps other runs from writing that output meanwhile. A run that is
+On a terminal, a line on stderr announces a stage that takes longer than a second, and counts the steps of a series. --quiet
+silences this line. While a file is written, the first Ctrl-C waits until the file is complete; the second does not wait.
+During a run, an empty file .riis-NAME.lock beside each output NAME keeps other runs from writing that output. A run that is
 killed leaves the lock behind, and the next run takes it over.
 )"},
     {"status", "exit statuses",

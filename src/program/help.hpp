@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the program says of itself.
+// The texts of the program's help.
 #pragma once
 
 #include <string>
@@ -8,13 +8,14 @@ namespace riis::program {
 
 extern const char *const description;
 
-// What stands below the options of a command: examples, and where to read on. "riis" is the program's own.
+// Returns the text below the options of a command: examples, and the topics to read. "riis" is the name for the program's own
+// help.
 std::string help_of(const std::string &command);
 
-// The text of a topic, or the list of topics for "". Throws a Refusal for another name.
+// Returns the text of a topic, or the list of topics for "". Throws a Refusal for another name.
 std::string text_of_topic(const std::string &name);
 
-// The lines for a command line without arguments.
+// Returns the lines for a command line without arguments.
 std::string short_help();
 
 }  // namespace riis::program

@@ -12,13 +12,13 @@ namespace riis::program {
 
 namespace {
 
-// Refuses what the parser would let pass.
+// Refuses faults that the parser accepts.
 class Guard {
  public:
   Guard(const std::string &path, const std::string &content) : path_(path), content_(content) {}
 
   void operator()(int depth, Json::parse_event_t event, const Json &parsed) {
-    // Files need up to five levels below the root. Recursive code must not meet a value without a bottom.
+    // Files need up to five levels below the root. The limit protects recursive code from values that are nested too deeply.
     constexpr int deepest = 8;
     if (depth > deepest) refuse_file(path_, "is nested deeper than " + content_ + " can be");
     if (event == Json::parse_event_t::object_start) {
@@ -32,10 +32,11 @@ class Guard {
 
  private:
   void check_key(const std::string &key) {
-    // The library takes names up to a 0 byte.
+    // For the library a name ends at a 0 byte.
     const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
     if (std::any_of(key.begin(), key.end(), is_control)) refuse_file(path_, "a name holds a control character: " + key);
-    // The parser keeps the last of several equal keys. They are refused here, because the user cannot have meant both.
+    // The parser keeps the last of several equal keys. Equal keys are refused here, because the user cannot have meant all of
+    // them.
     if (!keys_.back().insert(key).second) refuse_file(path_, key + " is given twice");
   }
 

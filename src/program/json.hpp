@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a JSON file. Out: its value. Deep nesting, keys given twice and control characters in keys are refused, which the parser
-// would let pass.
+// In: a JSON file. Out: its value. Deep nesting, repeated keys and control characters in keys are refused, although the parser
+// accepts them.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -17,10 +17,12 @@ namespace riis::program {
 
 using Json = nlohmann::ordered_json;
 
-// content, such as "parameters", names what the file should hold. The refusal of a file that is nested too deep uses it.
+// content, such as "parameters", is the expected content of the file. It stands in the refusal of a file that is nested too
+// deep.
 Json parse_json_file(const std::string &path, const std::string &content);
 
-// Refuses a value that is not an object, and a key that is not among these, with the nearest of them. subject names the value.
+// Refuses a value that is not an object, and a key that is not in the list. The refusal of a key names the nearest one of the
+// list. subject names the value.
 void check_keys(const std::string &path, const std::string &subject, const Json &value,
                 const std::vector<std::string> &keys);
 
@@ -39,15 +41,15 @@ class CaseValues {
 
   bool has(const char *key) const { return value_.find(key) != value_.end(); }
   const Json &needed(const char *key) const;
-  std::string text(const char *key) const;  // "" if the key is not there
+  std::string text(const char *key) const;  // returns "" if the key is missing
   std::optional<double> number(const char *key) const;
   std::optional<double> above_zero(const char *key) const;
   std::optional<double> at_least_zero(const char *key) const;
   std::vector<double> numbers(const char *key) const;
   std::vector<double> numbers(const char *key, std::size_t n) const;
-  bool flag(const char *key) const;  // false if the key is not there
+  bool flag(const char *key) const;  // returns false if the key is missing
   std::optional<Unit> unit(const char *key) const;
-  // Returns the position of a text in the list, or 0 if the key is not there.
+  // Returns the position of a text in the list, or 0 if the key is missing.
   std::size_t choice(const char *key, const std::vector<std::string> &names) const;
 
   [[noreturn]] void refuse(const std::string &key, const std::string &reason) const;

@@ -17,7 +17,7 @@ namespace riis::program {
 
 namespace {
 
-// Examines the edges that may leak. longer_than is the argument of riis_vtk_mesh_create_long_edges.
+// Finds the leaks among the edges that may leak. longer_than is the argument of riis_vtk_mesh_create_long_edges.
 Leaks leaks_of(const MarkedMesh &marked, const riis_mark_options &options, double longer_than,
                int64_t *n_cells_left_out) {
   riis_adjacency *handle = nullptr;
@@ -31,12 +31,13 @@ Leaks leaks_of(const MarkedMesh &marked, const riis_mark_options &options, doubl
   check(riis_leaks_create(&leaks_handle));
   Leaks leaks(leaks_handle);
   const riis_status status = riis_find_leaks(marked.surface, marked.mesh, marked.result, &options, leaks.get());
-  check(riis_mesh_set_adjacency(marked.mesh, nullptr));  // before the rows go; changes no error message
+  check(riis_mesh_set_adjacency(marked.mesh,
+                                nullptr));  // before the rows are destroyed; this call changes no error message
   check(status);
   return leaks;
 }
 
-// Marks once more, with another half thickness, and finds what leaks then.
+// Marks once more with another half thickness, and returns the leaks of that marking.
 Leaks leaks_with(const MarkOptions &options, const MarkedMesh &marked, double half_thickness) {
   riis_surface_options surface_options = options.surface_options;
   surface_options.half_thickness = half_thickness;
@@ -55,7 +56,8 @@ Leaks leaks_with(const MarkOptions &options, const MarkedMesh &marked, double ha
                   is_by_triangles ? 2 * half_thickness : 0, nullptr);
 }
 
-// The triangles of a valve follow the half thickness, so the number is tried. The triangles of a file stay. 0: none was found.
+// Returns a half thickness that closes the leaks, or 0 if none is found. A valve's triangles depend on the half thickness, so
+// each candidate is tried. The triangles of a file do not change.
 double closing_half_thickness(const MarkOptions &options, const MarkedMesh &marked, const riis_leak_list &leaks) {
   constexpr int n_tries = 8;
   double wanted = rounded_up(leaks.half_thickness);
@@ -68,7 +70,7 @@ double closing_half_thickness(const MarkOptions &options, const MarkedMesh &mark
       wanted = rounded_up(std::max(left.half_thickness, 1.01 * wanted));
     }
   } catch (const Refusal &) {
-    // The marks and the warning are good without advice: some half thicknesses do not make a surface.
+    // Some half thicknesses do not make a surface. The marks and the warning are valid without advice.
   }
   return 0;
 }
@@ -107,7 +109,7 @@ double rounded_up(double x) {
 void look_for_leaks(const MarkOptions &options, const MarkedMesh &marked, Report &report) {
   const Stage stage("looking for leaks", options.quiet);
   LeakReport &leaks = report.leaks;
-  // Short edges may also leak if marks may be missing, or if distances are not those to the triangles.
+  // Short edges may also leak if marks may be missing, or if distances are not measured to the triangles.
   const bool is_by_triangles = options.surface_options.measure == RIIS_MEASURE_TRIANGLES;
   const bool only_long = report.marks.complete && is_by_triangles;
   const double half_thickness = report.surface.half_thickness;
@@ -132,7 +134,7 @@ void look_for_leaks(const MarkOptions &options, const MarkedMesh &marked, Report
 
 namespace {
 
-// The user's own numbers.
+// Returns the numbers as the user wrote them.
 std::string text_of(const double *point) {
   return shortest(point[0]) + " " + shortest(point[1]) + " " + shortest(point[2]);
 }
@@ -154,7 +156,8 @@ class JoinedNodes {
   JoinedNodes(const JoinedNodes &) = delete;
   JoinedNodes &operator=(const JoinedNodes &) = delete;
 
-  // Returns the nearest node that has a neighbour. name is FROM or TO. why_none says why no node may have one.
+  // Returns the nearest node that has a neighbour. name is FROM or TO. why_none is the reason for the case that no node has a
+  // neighbour.
   int64_t nearest(const MarkOptions &options, const char *name, const double *point,
                   const std::string &why_none) const {
     const LeakCheck &asked = *options.check_leaks;
@@ -197,7 +200,7 @@ class JoinedNodes {
   }
 
  private:
-  // A point inside a cell is at most an edge away from one of its nodes.
+  // A point inside a cell is at most one edge length away from one of the cell's nodes.
   static constexpr double edges_away = 2;
 
   riis_mesh *mesh_;
@@ -233,7 +236,8 @@ riis_passage passage_of(const LeakCheck &asked, const riis_surface *surface, con
   return passage;
 }
 
-// The triangles of a valve follow the half thickness, so the number is tried. 0: none was found.
+// Returns a half thickness that closes the passage, or 0 if none is found. A valve's triangles depend on the half thickness, so
+// each candidate is tried.
 double closing_half_thickness(const MarkOptions &options, const MarkedMesh &marked, const riis_passage &passage,
                               Ends ends) {
   constexpr int n_tries = 8;
@@ -252,7 +256,7 @@ double closing_half_thickness(const MarkOptions &options, const MarkedMesh &mark
       wanted = rounded_up(std::max(left.distance, 1.01 * wanted));
     }
   } catch (const Refusal &) {
-    // The answer is good without advice: an end may be in the thicker band.
+    // The answer is valid without advice: an end point may lie in the thicker band.
   }
   return 0;
 }

@@ -18,29 +18,30 @@ namespace riis::program {
 
 struct MarkedMesh {
   const riis_surface *surface;
-  const riis_valve *valve;  // that the surface was made of; null for a surface from a file
+  const riis_valve *valve;  // the valve of the surface; null for a surface from a file
   const riis_vtk_mesh *file;
-  riis_mesh *mesh;  // loses its adjacency
+  riis_mesh *mesh;  // the check removes its adjacency
   riis_marks *result;
-  std::string surface_name = "the surface";  // in the warning
+  std::string surface_name = "the surface";  // its name in the warning
 };
 
-// Rounds to three digits, never below x, so that the number that a user types closes the leaks.
+// Rounds up to three digits. So the rounded number also closes the leaks when the user types it.
 double rounded_up(double x);
 
-// Writes report.leaks and report.seconds.leaks, and warns on stderr if flow passes, or if that is not known. If two points are
-// checked, that check warns instead.
+// Writes report.leaks and report.seconds.leaks, and warns on stderr if the surface leaks or if leaks are unknown. If two points
+// are checked, that check warns instead.
 void look_for_leaks(const MarkOptions &options, const MarkedMesh &marked, Report &report);
 
-// In: a marked mesh and two points. Out: whether unmarked nodes join them, where, and the half thickness that would part them.
+// In: a marked mesh and two points. Out: whether unmarked nodes join the points, the place of the passage, and the half
+// thickness that closes it.
 
 // The two points of --between.
 LeakCheck leak_check_between(const std::vector<std::string> &points);
 
 // Both write report.leaks.passage, and warn on stderr if the points are joined. They do nothing unless the options have points.
-// The mesh loses its adjacency.
+// They remove the mesh's adjacency.
 void check_passage(const MarkOptions &options, const MarkedMesh &marked, Report &report);
-// All valves together where they are, which must have the same half thickness.
+// Checks all valves together at their present places. They must have the same half thickness.
 void check_passage_of(const Case &all, const std::vector<MovingValve> &valves, riis_mesh *mesh,
                       const riis_vtk_mesh *file, Report &report);
 

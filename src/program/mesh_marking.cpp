@@ -135,8 +135,13 @@ void set_opening(riis_valve *valve, double opening) {
   check(riis_valve_set_scalar(valve, "opening", opening), "--steps");
 }
 
+<<<<<<< HEAD
 // The opening goes up to 1 and down to 0 again, wherever it begins.
 class OpeningSteps {
+=======
+// The opening goes up to 1, then down to 0, and so on. It may begin anywhere.
+class Swing {
+>>>>>>> h3-en1
  public:
   explicit OpeningSteps(riis_valve *valve) { check(riis_valve_get(valve, "opening", 1, &opening_)); }
   double opening() const { return opening_; }
@@ -149,7 +154,7 @@ class OpeningSteps {
   double opening_ = 0, change_ = opening_of_step;
 };
 
-// Puts the valve's opening back, however the steps end.
+// Restores the valve's opening, even if the steps end by an exception.
 class KeptOpening {
  public:
   explicit KeptOpening(riis_valve *valve) : valve_(valve), opening_(OpeningSteps(valve).opening()) {}

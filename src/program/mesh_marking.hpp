@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One valve in one mesh: reading the mesh, marking it, and its arrays. Single runs and series share this.
+// Reads a mesh, marks it for one valve, and makes its arrays. Single runs and series share this code.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -15,7 +15,7 @@
 namespace riis::program {
 
 MeshFile read_mesh(const MarkOptions &options, Seconds &seconds);
-// Makes a mesh of the nodes of the file, which outlives the mesh. path names the file in refusals.
+// Makes a mesh of the nodes of the file. The file must outlive the mesh. path names the file in refusals.
 Mesh borrow_nodes(const riis_vtk_mesh *file, const std::string &path);
 Marks new_result();
 
@@ -28,7 +28,7 @@ void warn_of_incomplete_marks();
 // Refuses to replace an array of the mesh without --replace.
 void check_new_arrays(const MarkOptions &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh);
 
-// PREFIX_marked, PREFIX_distance, PREFIX_leaflet, and those of the fields.
+// Returns PREFIX_marked, PREFIX_distance, PREFIX_leaflet, and the names of the fields' arrays.
 std::vector<std::string> names_of_marks(const std::string &prefix, int32_t fields);
 void set_marks(const MarkOptions &options, const riis_marks *result, int32_t fields, riis_vtk_mesh *file);
 
@@ -38,7 +38,7 @@ class ResistanceSum {
   enum class WithVelocity { no, yes };
   ResistanceSum(int64_t n_nodes, WithVelocity with_velocity);
   void add(const MarkOptions &options, const riis_marks *result);
-  // PREFIX_K and PREFIX_K_u_surface; none if no valve had a resistance.
+  // Sets PREFIX_K and PREFIX_K_u_surface, or no array if no valve had a resistance.
   void set_arrays(const std::string &prefix, riis_vtk_mesh *file) const;
 
  private:
@@ -47,10 +47,10 @@ class ResistanceSum {
   bool has_any_ = false;
 };
 
-// --steps: the cost of a time step of a moving valve, once the mesh is prepared for many markings.
+// --steps: the cost of a time step of a moving valve in a mesh that is prepared for many markings.
 
-// Moves the opening to and fro between 0 and 1 and marks the nodes of the file after each step. Afterwards the valve is as
-// before. Other surfaces and results do not change. Throws a Refusal for a valve that cannot move.
+// Moves the opening back and forth between 0 and 1, and marks the nodes of the file after each step. Afterwards the valve has
+// its old opening. Other surfaces and results do not change. Throws a Refusal for a valve that cannot move.
 StepTimes time_steps(const MarkOptions &options, riis_valve *valve, const riis_vtk_mesh *file);
 
 }  // namespace riis::program

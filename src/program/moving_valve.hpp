@@ -17,13 +17,13 @@ namespace riis::program {
 
 class MovingValve {
  public:
-  // Borrows the source. The surface is that of the time.
+  // Borrows the source, and makes the surface at the time.
   MovingValve(ValveSource &source, double time);
 
-  // Moves the surface to a time. The second form gives it velocities: the mean since the time before.
+  // Moves the surface to a time. The second form also gives mean velocities since the earlier time.
   void move_to(double time);
   void move_to(double time, double since);
-  // Marks with these RIIS_FIELD_*. The last form of move_to must have been the second for velocities.
+  // Marks with these RIIS_FIELD_*. Velocities need the second form of move_to as the last move.
   void mark(const riis_mesh *mesh, int32_t fields);
 
   const MarkOptions &options() const { return source_.options; }
@@ -46,16 +46,16 @@ class MovingValve {
   bool is_at_rest_ = false, has_velocities_ = false;
 };
 
-// Looks for leaks of each valve where it is and was last marked, in all nodes of the file. Warns on stderr.
+// Looks for leaks of each valve at its last marked place, in all nodes of the file. Warns on stderr.
 void look_for_leaks_of(const Case &all, const std::vector<MovingValve> &valves, riis_mesh *mesh,
                        const riis_vtk_mesh *file);
 
-// Makes the valves of a case at its first time, if it has one, and tries each with its options.
+// Makes the valves of a case, at the first time of a series, and tries each one with its options.
 std::vector<MovingValve> moving_valves(Case &all);
 
 // In: the surfaces of several valves. Out: their triangles in one surface, with leaflets numbered on from valve to valve.
 
-// One more than the largest id.
+// Returns one more than the largest id.
 int32_t n_leaflets_of(const riis_surface *surface);
 // Returns each valve's first leaflet among the leaflets of all valves, and the number of all.
 std::vector<int32_t> first_leaflets(const std::vector<MovingValve> &valves);

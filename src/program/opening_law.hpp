@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the way a user describes how a valve opens. Out: the opening at any time, by the library's laws.
+// In: the user's description of a valve's motion. Out: the opening at any time, by the library's laws.
 #pragma once
 
 #include <riis/riis.h>
@@ -11,7 +11,7 @@
 
 namespace riis::program {
 
-// Keys in time. A period of 0 is none.
+// A table of keys in time. A period of 0 stands for none.
 struct OpeningTable {
   std::vector<double> times, openings;
   double period = 0;
@@ -20,7 +20,7 @@ struct OpeningTable {
 
 class OpeningLaw {
  public:
-  // Stays as it is.
+  // The opening is constant.
   explicit OpeningLaw(double opening) : law_(opening) {}
   // subject, such as a file's name, goes before the library's refusals of a law.
   OpeningLaw(OpeningTable table, const std::string &subject);
@@ -30,7 +30,7 @@ class OpeningLaw {
   bool is_constant() const { return std::holds_alternative<double>(law_); }
 
  private:
-  // Asks the law once, so that the library refuses it before any work.
+  // Evaluates the law once, so that the library refuses a bad law before any other work.
   void rehearse() const;
 
   std::variant<double, OpeningTable, riis_opening_times> law_;

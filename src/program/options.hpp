@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user asks of a command, with its form checked. The library decides whether the values are good.
+// The user's options of each command, with their form checked. The library checks the values.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -14,25 +14,25 @@
 
 namespace riis::program {
 
-// Which surface, and where it lies. Every command has these, or some of them.
+// The options for the surface and its placement. Every command has some or all of them.
 struct ValveOptions {
   ValveOptions() { check(riis_surface_options_init(&surface_options, sizeof surface_options)); }
 
-  std::string valve = "aortic";       // kind, or a file that ends in .json; used without surface
-  std::string surface;                // file; "": the valve
-  std::string leaflets;               // of that file: "connected", the name of a cell array, or "" for riis_leaflet
-  std::optional<double> time;         // of a surface that moves
-  double period = 0;                  // of its motion, or of the cycle; 0: none
+  std::string valve = "aortic";  // a kind, or a .json file; used if there is no surface
+  std::string surface;           // file; "": the valve
+  std::string leaflets;          // leaflets of that file: "connected", the name of a cell array, or "" for riis_leaflet
+  std::optional<double> time;    // for a surface that moves
+  double period = 0;             // period of its motion or of the cycle; 0: none
   std::string params, params_open;    // JSON files; "": none
-  std::vector<std::string> settings;  // NAME=VALUE, in order
+  std::vector<std::string> settings;  // NAME=VALUE, in the order of typing
   std::optional<double> opening;      // from 0 to 1
   riis_surface_options surface_options;
-  std::optional<Unit> unit, surface_unit;  // of the mesh, and of a file with the surface; the scale is made of them
+  std::optional<Unit> unit, surface_unit;  // units of the mesh and of a file with the surface; they give the scale
   // The user gave them as numbers.
   bool has_scale = false, has_half_thickness = false, has_tolerance = false;
-  std::int32_t n_threads = 0;  // 0: as many as the work feeds
+  std::int32_t n_threads = 0;  // 0: as many as are useful
   bool quiet = false;
-  bool strict = false;  // a warning is an exit status
+  bool strict = false;  // a warning changes the exit status
 };
 
 struct Picture {
@@ -52,27 +52,27 @@ struct SeriesOptions {
   bool all_cells = false;
 };
 
-// Two points, which a valve is to part, and what refusals say of them.
+// Two points that a valve is to separate, and the words for refusals of them.
 struct LeakCheck {
   double from[3], to[3];
   std::string subject;
   ExitCode exit_code = exit_wrong_usage;
 };
 
-// riis mark. riis surface and riis check are the same run with less: the first has no mesh.
+// The options of riis mark. riis surface and riis check use some of them: riis surface has no mesh.
 struct MarkOptions : ValveOptions {
   MarkOptions() { check(riis_mark_options_init(&mark_options, sizeof mark_options)); }
 
   std::string mesh;  // "": none
   riis_mark_options mark_options;
   double far_distance = RIIS_FAR_DISTANCE;
-  std::optional<double> resistance;           // R, for an array of K
+  std::optional<double> resistance;           // resistance R, for an array of K
   std::string output, surface_output, stats;  // "": not wanted
   std::string surface_output_option = "--surface-output";
   std::vector<Picture> pictures;
-  std::int32_t n_steps = 0;     // to be timed
-  std::string prefix = "riis";  // of the arrays in the output
-  bool replace = false;         // arrays of these names
+  std::int32_t n_steps = 0;     // steps whose time is measured
+  std::string prefix = "riis";  // prefix of the arrays in the output
+  bool replace = false;         // replaces existing arrays of these names
   bool allow_none = false;
   bool check_crossing = false;
   std::optional<LeakCheck> check_leaks;
@@ -82,7 +82,7 @@ struct MarkOptions : ValveOptions {
 // riis states
 struct StatesOptions : ValveOptions {
   std::string output;           // the table; "-": stdout
-  std::int32_t n_states = 101;  // openings in it
+  std::int32_t n_states = 101;  // number of openings in the table
 };
 
 struct TimeSpan {
@@ -96,8 +96,8 @@ struct ExportOptions : ValveOptions {
   std::optional<double> opening_duration, closing_duration;  // without a cycle
   std::string cycle;                                         // file
   std::int32_t interpolation = RIIS_INTERPOLATION_LINEAR;
-  std::optional<TimeSpan> opening_span, closing_span;  // of the cycle
-  double largest_edge = 0;                             // 0: as the library cuts
+  std::optional<TimeSpan> opening_span, closing_span;  // times of the cycle
+  double largest_edge = 0;                             // 0: the library's own triangles
 };
 
 // riis params
@@ -105,7 +105,7 @@ struct ParamsOptions : ValveOptions {
   bool describe = false;  // a table in place of JSON
 };
 
-// At the position of their RIIS_TRIANGULATION_*.
+// Returns the names, each at the position of its RIIS_TRIANGULATION_*.
 const std::vector<std::string> &triangulation_names();
 
 // Derives the scale from the units, and the half thickness unless the user gave one.
@@ -114,7 +114,7 @@ void apply_units(ValveOptions &options);
 // Returns whether the user gave the valve's opening, by --opening or --set.
 bool sets_opening(const ValveOptions &options);
 
-// Whether arrays can be named so.
+// Tells whether arrays can have this name.
 bool is_prefix(const std::string &name);
 
 }  // namespace riis::program

@@ -16,7 +16,7 @@ struct Span {
   double begin, end;
 };
 
-// Lines along x at the middles of equal strips of the outline.
+// The lines along x in the middle of equal strips of the outline.
 class ScanLines {
  public:
   ScanLines(const Outline &outline, std::int64_t n) : n_(n) {
@@ -30,7 +30,7 @@ class ScanLines {
   std::int64_t n() const { return n_; }
   double spacing() const { return (top_ - bottom_) / static_cast<double>(n_); }
   double y(std::int64_t i) const { return bottom_ + (static_cast<double>(i) + 0.5) * spacing(); }
-  // The first line at or above y; n if there is none.
+  // Returns the first line at or above y, or n if there is none.
   std::int64_t first_from(double y) const {
     const double place = std::ceil((y - bottom_) / spacing() - 0.5);
     return static_cast<std::int64_t>(std::clamp(place, 0.0, static_cast<double>(n_)));
@@ -45,8 +45,8 @@ double x_at(const PlanePoint &a, const PlanePoint &b, double y) {
   return a[0] + (b[0] - a[0]) * ((y - a[1]) / (b[1] - a[1]));
 }
 
-// Calls visit(i, x) for each line that the edge meets, its upper end left out. Both directions give the same x, so that
-// neighbours leave no gap.
+// Calls visit(i, x) for each line that the edge meets. The edge's upper end does not count. Both directions give the same x, so
+// that neighbours leave no gap.
 template <class Visit>
 void for_each_crossing(const ScanLines &lines, PlanePoint a, PlanePoint b, const Visit &visit) {
   if (b[1] < a[1]) std::swap(a, b);
@@ -79,7 +79,7 @@ SpansOfLines inside(const Outline &outline, const ScanLines &lines) {
   return spans;
 }
 
-// A line meets a triangle in one span, or not at all.
+// A line meets a triangle in at most one span.
 SpansOfLines covered(const std::vector<PlaneTriangle> &triangles, const ScanLines &lines) {
   SpansOfLines spans(static_cast<std::size_t>(lines.n()));
   std::vector<std::int64_t> of_triangle(spans.size(), -1);
@@ -105,7 +105,7 @@ double total(const std::vector<Span> &spans) {
   return sum;
 }
 
-// The length of the first spans, which are apart, without the others.
+// Returns the length of the disjoint spans that the covers leave uncovered.
 double length_without(const std::vector<Span> &spans, std::vector<Span> covers) {
   std::sort(covers.begin(), covers.end(), [](const Span &a, const Span &b) { return a.begin < b.begin; });
   double length = 0;
@@ -125,7 +125,7 @@ double length_without(const std::vector<Span> &spans, std::vector<Span> covers) 
 
 namespace {
 
-// Lines seen edge on enclose nothing but rounding.
+// Lines that are seen edge on enclose only an area by rounding.
 bool has_area(const Outline &outline) {
   const double height = ScanLines(outline, 1).spacing();
   return height > 0 && area_of(outline) > 1e-9 * height * height;

@@ -92,7 +92,8 @@ NamedFiles outputs_of(const MarkOptions &options) {
   return outputs;
 }
 
-// Returns a text that all paths to a file share: its device and inode if it exists, otherwise its place.
+// Returns a text that is the same for all paths to a file. It has the device and inode, or the place if the file does not
+// exist.
 std::string identity_of(const std::string &path) {
   struct stat status {};
   if (stat(path.c_str(), &status) == 0) return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
@@ -101,7 +102,7 @@ std::string identity_of(const std::string &path) {
   return error ? path : place.string();
 }
 
-// The option that named a file, by the file's identity.
+// Maps the identity of a file to the option that named the file.
 using KnownFiles = std::map<std::string, std::string>;
 
 KnownFiles known(const NamedFiles &files) {
@@ -111,7 +112,7 @@ KnownFiles known(const NamedFiles &files) {
   return known;
 }
 
-// A step's file must not replace an input. An input may stand in the folder under its own name, or be linked to from there.
+// A step's file must not replace an input. The folder may contain an input or a link to one.
 void check_folder_of_steps(const std::string &option, const std::string &folder, const KnownFiles &inputs) {
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
@@ -144,7 +145,7 @@ OutputLocks locks_of(const NamedFiles &outputs) {
   return OutputLocks(written);
 }
 
-// The component refuses the same, but only when it draws, after all other work.
+// The component also refuses a picture without a display, but only when it draws, after all other work.
 void check_display() {
   const char *display = std::getenv("DISPLAY");
   if (display && *display) return;
@@ -166,7 +167,7 @@ int replace_file(const std::string &path, const std::string &text) {
   const UnbrokenWrite unbroken;
   const fs::path place = place_of(path);
   const std::string temporary = (folder_of(place) / (".riis-" + std::to_string(getpid()) + "-text.tmp")).string();
-  std::remove(temporary.c_str());  // a file of this name belongs to a process that has ended
+  std::remove(temporary.c_str());  // a file of this name is left from a process that has ended
   int error = write_through(temporary, "wx", text);
   if (!error && std::rename(temporary.c_str(), place.c_str()) != 0) error = errno;
   if (error) std::remove(temporary.c_str());
@@ -248,7 +249,7 @@ void write_text(const std::string &path, const std::string &text) {
 
 namespace {
 
-// The lock files that this process holds. Only the first object has any. It fills the list before it sets the handlers.
+// The lock files of this process. Only its first object has lock files. That object fills the list before it sets the handlers.
 std::vector<std::string> held;
 
 constexpr int ending_signals[] = {SIGINT, SIGTERM, SIGHUP};
@@ -257,7 +258,7 @@ void remove_held() {
   for (const std::string &path : held) unlink(path.c_str());
 }
 
-// The default action follows: the signal stays blocked until the handler returns.
+// The default action follows when the handler returns, because the signal is blocked until then.
 void remove_and_end(int signal) {
   remove_held();
   std::raise(signal);
@@ -274,7 +275,8 @@ void set_handlers(void (*from)(int), void (*to)(int)) {
   }
 }
 
-// Ending signals wait while one of these lives, so a lock file always has the handlers that remove it.
+// Signals that end the process wait while one of these lives. So no signal comes between making a lock file and setting its
+// handlers.
 class SignalsWait {
  public:
   SignalsWait() {
@@ -291,7 +293,7 @@ class SignalsWait {
   sigset_t before_{};
 };
 
-// A lock's name has only the end of an output's name that is too long.
+// If the output's name is too long, the lock's name has only its end.
 std::string lock_of(const std::string &output) {
   constexpr std::size_t longest = 200;
   const std::filesystem::path place = std::filesystem::absolute(place_of(output));
@@ -321,7 +323,7 @@ int take(const std::string &output, const std::string &lock) {
       refuse_lock(output, "its lock " + lock + " cannot be made: " + std::generic_category().message(errno));
     if (flock(file, LOCK_EX | LOCK_NB) == 0) {
       if (is_at(file, lock)) return file;
-      close(file);  // the run that held it has just removed it
+      close(file);  // the run that held the lock has just removed the file
       continue;
     }
     const int error = errno;
@@ -360,7 +362,7 @@ OutputLocks::~OutputLocks() { release(); }
 
 void OutputLocks::release() {
   if (files_.empty()) return;
-  remove_held();  // before the locks end: a file that another run has locked since would be lost
+  remove_held();  // before the locks end: later, another run could hold them
   set_handlers(remove_and_end, SIG_DFL);
   for (const int file : files_) close(file);
   files_.clear();

@@ -11,11 +11,11 @@
 
 namespace riis::program {
 
-// Locks on the program's outputs: of two runs that would replace one file, only the first goes on.
+// Locks on the program's outputs. If two runs would replace the same file, only the first one goes on.
 
-// Holds an empty file .riis-NAME.lock beside each output NAME, locked by flock. The kernel ends the lock with its process,
-// however that ends. The file is removed when the object ends, and by SIGINT, SIGTERM and SIGHUP. A run that is killed leaves
-// the file behind; the next run takes it over.
+// Holds an empty file .riis-NAME.lock beside each output NAME, locked by flock. The kernel ends the lock when its process ends
+// for any reason. The file is removed when the object ends, and by SIGINT, SIGTERM and SIGHUP. A run that is killed leaves the
+// file behind; the next run takes it over.
 class OutputLocks {
  public:
   // Throws a Refusal if another run holds the lock of one of these files. The paths name no devices or pipes.
@@ -28,16 +28,15 @@ class OutputLocks {
  private:
   void release();
 
-  std::vector<int> files_;  // empty once moved from
+  std::vector<int> files_;  // empty after a move
 };
 
-// Ctrl-C and its like while a file is written. Every file is written beside its place and then moved. A process that ends in
-// between leaves the unfinished file behind.
+// Handles Ctrl-C and similar signals while a file is written. Every file is written beside its place and then moved. A process
+// that ends in between leaves the unfinished file behind.
 
 // While an object of this type lives, the first SIGINT, SIGTERM or SIGHUP waits. It ends the process when the object ends. A
-// second signal, from a user who will not wait, acts at once. Signals that were ignored stay ignored. Only the first of
-// several objects counts: objects made while it lives do nothing. Other threads make
-// objects only while it lives.
+// second signal acts at once. Signals that were ignored stay ignored. Objects that are made while another one lives do nothing.
+// Other threads may make objects only while one lives.
 class UnbrokenWrite {
  public:
   UnbrokenWrite();
@@ -45,7 +44,7 @@ class UnbrokenWrite {
   UnbrokenWrite(const UnbrokenWrite &) = delete;
   UnbrokenWrite &operator=(const UnbrokenWrite &) = delete;
 
-  // Whether a signal waits. Work in several parts ends after the part.
+  // Tells whether a signal waits. Work in several parts then ends after the present part.
   static bool has_signal();
 
  private:
@@ -54,25 +53,24 @@ class UnbrokenWrite {
 };
 
 // Throws a Refusal for an output that would replace an input or another output, that has a wrong ending, or whose folder is
-// missing or not writable. Throws one also for a picture without a display, and for an output that another run is writing. The
-// caller holds the locks until all is written.
-// more_inputs are further files that were read.
+// missing or not writable. It also throws one for a picture without a display, and for an output that another run is writing.
+// The caller holds the locks until all is written. more_inputs are further files that were read.
 [[nodiscard]] OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::string> &more_inputs = {});
 [[nodiscard]] OutputLocks check_outputs(const StatesOptions &options);
 
-// Whether the path ends so, in capitals or not.
+// Tells whether the path has this ending, in small letters or capitals.
 bool has_ending(const std::string &path, const std::string &ending);
-// place_of returns the place of the file itself: links to existing files are followed. folder_of returns its folder, or "." if
-// it names none.
+// place_of follows links to existing files and returns the place of the file itself. folder_of returns its folder, or "." if it
+// names none.
 std::filesystem::path place_of(const std::string &path);
 std::filesystem::path folder_of(const std::filesystem::path &place);
 
-// Throws a Refusal for an output that is one of these files, and says what they are.
+// Throws a Refusal for an output that is one of these files. `what` describes the files in the message.
 void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const MarkOptions &options);
 
-// Whether a later text can take an earlier one's place: not on stdout, in a device or in a pipe.
+// Tells whether a later text can replace an earlier one. It cannot on stdout, in a device or in a pipe.
 bool can_be_replaced(const std::string &path);
-// "-" is stdout. Afterwards a file is complete or as it was before.
+// Writes a file, or stdout for "-". Afterwards the file is complete or unchanged.
 void write_text(const std::string &path, const std::string &text);
 
 }  // namespace riis::program

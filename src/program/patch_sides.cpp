@@ -35,7 +35,7 @@ double distance_to_line(const Point &p, const Line &line) {
   return nearest;
 }
 
-// Both lines go through the same points. One may have more vertices on its edges.
+// Tells whether both lines go through the same points. One line may have additional vertices on its edges.
 bool coincide(const Line &a, const Line &b) {
   const double tolerance = 1e-9 * line_length(a);
   for (std::size_t i = 1; i < a.size(); ++i)
@@ -47,8 +47,8 @@ bool is_corner(const riis_triangles &surface, std::int64_t id) {
   return surface.uv[2 * id] == 0 && surface.uv[2 * id + 1] == 0;
 }
 
-// A patch's vertices follow each other and begin at u = v = 0. Those of triangles without area are in no triangle, and belong
-// to the patch that begins before them.
+// A patch's vertices are consecutive and begin at u = v = 0. A vertex that is in no triangle belongs to the patch that begins
+// before it. Such vertices come from triangles without area.
 std::vector<std::int64_t> triangles_of_vertices(const riis_triangles &surface) {
   std::vector<std::int64_t> triangle(static_cast<std::size_t>(surface.n_vertices), nowhere);
   for (std::int64_t i = 0; i < 3 * surface.n_triangles; ++i) view(triangle)[surface.vertex_id[i]] = i / 3;
@@ -89,7 +89,7 @@ using LineEnds = std::pair<Point, Point>;
 
 LineEnds ends_of(const Line &line) { return std::minmax(line.front(), line.back()); }
 
-// The sides by their ends. Sides that are one curve have the same ends.
+// Finds sides by their ends. Sides on the same curve have the same ends.
 class SidesByEnds {
  public:
   explicit SidesByEnds(const std::vector<PatchSides> &patches) : patches_(patches) {

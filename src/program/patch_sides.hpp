@@ -24,7 +24,7 @@ enum PatchSide : std::int32_t { side_v0, side_v1, side_u0, side_u1, n_sides };
 
 struct PatchSides {
   std::int32_t patch_id, leaflet_id;
-  std::array<Line, n_sides> lines;  // by ascending u or v
+  std::array<Line, n_sides> lines;  // vertices by ascending u or v
 };
 
 // Ascending by patch.
@@ -34,10 +34,11 @@ double line_length(const Line &line);
 
 std::map<std::int32_t, double> areas_of_leaflets(const riis_triangles &surface);
 
-// The patches whose side v = 1 is a free edge: it has a length, and no other patch of its leaflet has it for a side.
+// Returns the patches whose side v = 1 is a free edge. A free edge has a length and is not a side of another patch of its
+// leaflet.
 std::set<std::int32_t> free_edges(const std::vector<PatchSides> &patches);
 
-// The sides v = 0 that have a length and are no side of another patch: where the leaflets hang.
+// Returns the sides v = 0 at which the leaflets are attached. They have a length and are not a side of another patch.
 std::vector<Line> attachment(const std::vector<PatchSides> &patches);
 
 }  // namespace riis::program

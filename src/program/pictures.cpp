@@ -33,7 +33,7 @@ namespace riis::program {
 
 namespace {
 
-// Says whether the valve is the paper's aortic valve, which nobody should take for a closed one (docs/meshes.md).
+// Says whether the valve is the paper's aortic valve, whose title says that it is not closed (docs/meshes.md).
 bool is_papers_aortic_valve(const ValveOptions &options, const riis_valve *valve) {
   if (!valve || options.valve != "aortic") return false;
   int64_t n_parameters = 0;
@@ -113,7 +113,7 @@ void draw_pictures(const MarkOptions &options, const std::string &title, const s
 
 namespace {
 
-// Returns the most digits behind the point that one of the times has. So the numbers of a movie do not jump.
+// Returns the largest number of decimals of the times. So all numbers in a movie have the same length.
 int decimals_of(const std::vector<double> &times) {
   constexpr std::size_t most = 6;
   std::size_t n = 0;
@@ -131,7 +131,7 @@ std::string fixed(double number, int decimals) {
   return text;
 }
 
-// Marks of several valves in one: a node has the leaflet of its nearest valve.
+// Merges the marks of several valves. A node has the leaflet of its nearest valve.
 struct JoinedMarks {
   explicit JoinedMarks(std::size_t n) : marked(n, 0.0), distance(n, RIIS_FAR_DISTANCE), leaflet(n, -1.0) {}
 
@@ -262,14 +262,14 @@ std::string program_on_path(const std::string &name) {
   throw Refusal{exit_bad_data, path + ": the movie cannot be made: " + reason};
 }
 
-// Returns the name of a frame's file, in which ffmpeg counts.
+// Returns the name of a frame's file, with the frame's number for ffmpeg.
 std::string frame_name(std::size_t number) {
   char text[32];
   std::snprintf(text, sizeof text, "frame_%06zu.png", number);
   return text;
 }
 
-// Returns ffmpeg's pattern for the frames. A % of the folder is doubled, because it has a meaning there.
+// Returns ffmpeg's pattern for the frames. A % of the folder is doubled, because % has a meaning in the pattern.
 std::string frame_pattern(const std::string &folder) {
   std::string pattern;
   for (const char c : folder) pattern += c == '%' ? std::string("%%") : std::string(1, c);
@@ -278,7 +278,7 @@ std::string frame_pattern(const std::string &folder) {
 
 std::vector<std::string> encoding_of(const std::string &path) {
   if (has_ending(path, ".gif")) {
-    // The palette has the colours of the whole movie, which loops without end.
+    // One palette has the colours of the whole movie. The movie repeats for ever.
     return {
         "-filter_complex",
         "scale='min(800,iw)':-2:flags=lanczos,split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=bayer:bayer_scale=5",
@@ -287,7 +287,7 @@ std::vector<std::string> encoding_of(const std::string &path) {
         "-f",
         "gif"};
   }
-  // Every player knows this kind of H.264.
+  // Every player can play this kind of H.264.
   return {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart", "-f", "mp4"};
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of a run: what stands over them, and drawing them.
+// Draws the pictures of a run with their titles.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -18,13 +18,14 @@
 
 namespace riis::program {
 
-// Returns the names of a valve's leaflets, or none for files, whose leaflets have numbers.
+// Returns the names of a valve's leaflets, or no names for a file, whose leaflets have numbers.
 std::vector<const char *> leaflet_names(const ValveOptions &options);
 
-// Returns a title such as "Mitral valve", or a file's name without folders.
+// Returns a title such as "Mitral valve". A file's title is its base name.
 std::string title_of_valve(const ValveOptions &options);
 
-// A file has its name without folders as title. A kind of valve has its name with a capital, like the other captions.
+// Returns the picture's title. A file's title is its base name. The title of a kind of valve begins with a capital, as the
+// other captions do.
 std::string picture_title(const ValveOptions &options, const riis_valve *valve, const Report &report);
 
 // Draws options.pictures. mesh and result may be NULL; leaks are shown with a result.
@@ -33,12 +34,12 @@ void draw_pictures(const MarkOptions &options, const std::string &title, const s
 
 // In: frames, as files in a folder of their own. Out: a movie, by the program ffmpeg.
 
-// Refuses a movie of another kind than .mp4 and .gif, and one on a machine without ffmpeg. Does nothing for "".
+// Refuses a movie that is neither .mp4 nor .gif, and any movie on a machine without ffmpeg. Does nothing for "".
 void check_movie(const std::string &path);
 
 class Movie {
  public:
-  // Makes a temporary folder, which goes with the object.
+  // Makes a temporary folder, which the destructor removes.
   Movie(const std::string &path, double frame_rate);
   ~Movie();
   Movie(const Movie &) = delete;
@@ -46,7 +47,7 @@ class Movie {
 
   // Returns the path of the next frame, a .png file for the caller to write.
   std::string next_frame();
-  // Makes the movie of the frames. Afterwards it is complete or as it was before.
+  // Makes the movie of the frames. Afterwards the movie's file is complete or unchanged.
   void encode() const;
 
  private:
@@ -55,16 +56,17 @@ class Movie {
   std::size_t n_frames_ = 0;
 };
 
-// Pictures of valves at one time, and the movie of a series: all valves in one surface, and their marks in the whole mesh.
+// Draws the pictures at one time and the movie of a series. They show all valves in one surface, and their marks in the whole
+// mesh.
 
 class SeriesPictures {
  public:
-  // The mesh gets the arrays that pictures show, so it is not written. box holds the surfaces at all times.
+  // The mesh gets the arrays that pictures show, so this mesh is not written to a file. box contains the surfaces at all times.
   SeriesPictures(const Case &all, MeshFile mesh, const Box &box);
-  // Whether the user wants a picture or a movie.
+  // Tells whether the user wants a picture or a movie.
   static bool are_wanted(const MarkOptions &options);
-  // Draws the pictures at the first step, and a frame of the movie at each. The valves are where they are to be drawn; their
-  // marks change.
+  // Draws the pictures at the first step, and a frame of the movie at each step. The valves are at the step's time. Their marks
+  // change.
   void draw(std::size_t step, std::vector<MovingValve> &valves, Report &report);
   void encode(Report &report);
 

@@ -13,7 +13,7 @@ namespace riis::program {
 
 class Stage {
  public:
-  // what, such as "reading mesh.vtu", is announced on stderr after a second if stderr is a terminal and not quiet.
+  // Prints `what`, such as "reading mesh.vtu", on stderr after a second. Prints nothing if quiet, or if stderr is no terminal.
   Stage(const std::string &what, bool quiet);
   ~Stage();
   Stage(const Stage &) = delete;
@@ -29,10 +29,10 @@ class Stage {
   std::thread watcher_;
 };
 
-// Counts the steps of a long stage on one line of the terminal, from its second second on.
+// Counts the steps of a long stage on one line of the terminal. The line appears after one second.
 class StepProgress {
  public:
-  // what, such as "writing", stands before "step 12 of 81". Shows nothing if stderr is no terminal, or quiet.
+  // Prints `what`, such as "writing", before "step 12 of 81". Prints nothing if quiet, or if stderr is no terminal.
   StepProgress(const std::string &what, std::size_t n_steps, bool quiet);
   ~StepProgress();
   StepProgress(const StepProgress &) = delete;

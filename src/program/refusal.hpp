@@ -16,9 +16,13 @@ struct Refusal {
   std::string text;
 };
 
+<<<<<<< HEAD
 [[noreturn]] inline void refuse_usage(const std::string &text) { throw Refusal{exit_wrong_usage, text}; }
 
 // Returns the library's message with the command line's option in place of the struct field that it begins with.
+=======
+// Returns the library's message. If it begins with a struct field, the command line's option replaces the field.
+>>>>>>> h3-en1
 inline std::string with_option_named(const std::string &text) {
   static const std::pair<std::string, std::string> options[] = {{"options.scale ", "--scale "},
                                                                 {"options.rotation_axis ", "--rotate: the axis "},
@@ -41,8 +45,8 @@ inline std::string with_option_named(const std::string &text) {
   return text;
 }
 
-// Throws the library's own message. Files, arrays and parameters are data. An argument that the library refuses is an option of
-// the command line that is out of range. subject, such as a file's name, goes before messages that do not name it themselves.
+// Throws the library's own message. Faults of files, arrays and parameters are bad data. A refused argument is wrong usage, an
+// option out of range. subject, such as a file's name, goes before messages that do not name it themselves.
 inline void check(riis_status status, const std::string &subject = "") {
   if (status == RIIS_OK) return;
   const bool data = status == RIIS_INVALID_SURFACE || status == RIIS_INVALID_MESH || status == RIIS_INVALID_PARAMETER ||

@@ -241,7 +241,7 @@ std::string table_of(const Report &report) {
   out << "surface   " << surface_title(report) << ": " << counted(report.surface.n_triangles, "triangle");
   if (report.n_leaflets > 0) out << ", " << counted(report.n_leaflets, "leaflet");
   out << ", area " << report.surface.area;
-  // A valve always has such triangles at a collapsed side; a file should have none.
+  // A valve has such triangles at every collapsed side. A file should have none.
   if (!report.opening && report.surface.n_zero_area > 0)
     out << ", " << grouped(report.surface.n_zero_area) << " without area left out";
   out << "\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: what a run found and how long it took. Out: JSON for programs, a short table for people.
+// In: the results and the times of a run. Out: JSON for programs, a short table for people.
 #pragma once
 
 #include <riis/riis.h>
@@ -10,7 +10,7 @@
 
 namespace riis::program {
 
-// The opening's way in a step: the valve opens within 50 steps.
+// The change of the opening in a step: the valve opens within 50 steps.
 inline constexpr double opening_of_step = 0.02;
 
 // The medians of the steps.
@@ -27,17 +27,17 @@ struct Seconds {
   double mesh = 0;     // checking the nodes
   double adjacency = 0;
   double search = 0;
-  double leaks = 0;  // edges and the half thickness that would close them
+  double leaks = 0;  // finding the edges, and the half thickness that closes them
   double write = 0;  // files
   double picture = 0;
 };
 
 struct PassageReport {
   riis_passage found{};
-  bool is_end = false;                // the place is the node of a point: the passage may be wider
+  bool is_end = false;                // the place is an end of the path: the passage may be wider
   double closing_half_thickness = 0;  // for the user to type; 0: none, or not open
   std::string place{};                // the point, in text
-  bool is_unknown = false;            // closed along the known edges; others may open it
+  bool is_unknown = false;            // closed along the known edges; unknown edges may open it
 };
 
 struct LeakReport {
@@ -52,8 +52,8 @@ struct LeakReport {
 };
 
 struct CrossingReport {
-  int n_openings = 0;             // that were looked at; 0: the surface as it is
-  std::optional<double> opening;  // of what was found
+  int n_openings = 0;             // number of openings checked; 0: the surface as it is
+  std::optional<double> opening;  // opening of the crossing found
   riis_crossing_list found{};     // its arrays are not kept
 };
 
@@ -65,11 +65,11 @@ struct Report {
   int64_t n_cells = 0;
   double distance_limit = 0;
   int32_t distance = RIIS_MEASURE_TRIANGLES;
-  int64_t n_leaflets = 0;  // of a surface from a file, if --leaflets makes them; 0: not printed
+  int64_t n_leaflets = 0;  // leaflets that --leaflets makes of a file; 0: not printed
   riis_surface_info surface{};
   riis_mark_stats marks{};
   LeakReport leaks;
-  std::optional<CrossingReport> crossings;  // if they were looked for
+  std::optional<CrossingReport> crossings;  // present if crossings were looked for
   Seconds seconds;
   std::vector<std::string> written;  // files
   std::optional<StepTimes> step;
@@ -82,7 +82,7 @@ std::string counted(int64_t n, const char *singular);
 std::string surface_title(const Report &report);
 // Says why leaks are unknown, such as "MESH has no volume cells"; "" if all edges of the mesh are known.
 std::string why_unknown(const LeakReport &leaks, const std::string &mesh);
-// A line of the table; "" if no points were checked.
+// Returns a line of the table, or "" if no points were checked.
 std::string line_of_passage(const LeakReport &leaks);
 std::string json_of(const Report &report);
 std::string table_of(const Report &report);

@@ -51,7 +51,7 @@ std::vector<std::string> names_of_arrays(const MarkOptions &options) {
   return names;
 }
 
-// Returns the marks, because pictures may need them under other names than the output.
+// Returns the marks, because pictures may need them under other names than the output has.
 Marks mark(const MarkOptions &options, const riis_surface *surface, const riis_valve *valve, riis_vtk_mesh *file,
            Report &report) {
   Adjacency adjacency;  // outlives the mesh, which borrows it
@@ -102,7 +102,7 @@ void print_table(const MarkOptions &options, const Report &report) {
   if (!options.quiet && options.stats != "-") write_text("-", table_of(report));
 }
 
-// Outputs are written when all frames have been read, and would replace them unnoticed.
+// Outputs are written after all frames are read. So an output could replace a frame unnoticed.
 Keyframes keyframes_of_run(const MarkOptions &options, Seconds &seconds) {
   KeyframeFiles read = read_keyframes(options, seconds);
   check_no_output_is("a frame of --surface " + options.surface, read.files, options);
@@ -137,13 +137,13 @@ ExitCode run_single(const MarkOptions &options) {
   if (options.n_steps > 0) report.step = time_steps(options, source.valve.get(), mesh.get());
   write_files(options, surface.get(), mesh.get(), report);
   try {
-    // The component draws the marks under these names. The file with the other names is written by now.
+    // The component draws the marks under these names. The output, with its own names, is written already.
     if (result && !options.pictures.empty())
       check(riis_vtk_mesh_set_marks(mesh.get(), result.get(), options.far_distance, nullptr));
     draw_pictures(options, picture_title(options, valve, report), leaflet_names(options), surface.get(), mesh.get(),
                   result.get(), report);
   } catch (const Refusal &) {
-    // The marks are still good.
+    // The marks are still valid.
     write_stats(options, report);
     throw;
   }
@@ -155,7 +155,7 @@ ExitCode run_single(const MarkOptions &options) {
 ExitCode run_command(const MarkOptions &options) {
   const bool has_case = !options.series.case_file.empty();
   if (!has_case && options.series.times.empty()) return run_single(options);
-  // This comes before the case's own files are read, which may be many.
+  // This check comes first, because a case may have many files to read.
   check_movie(options.series.movie);
   Case all = has_case ? read_case(options) : case_of_command_line(options);
   return run_case(all);

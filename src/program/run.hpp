@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: the user's request. Out: the files, and the report on stdout. The stages of a single marking are, in order: surface, mesh,
-// marks, files, pictures, report. Series and cases have theirs in series.hpp and case.hpp.
+// marks, files, pictures, report. series.hpp and case.hpp describe the stages of series and cases.
 #pragma once
 
 #include "program/command_line.hpp"

@@ -34,7 +34,7 @@ int64_t n_nodes_of(const riis_vtk_mesh *file) {
   return n;
 }
 
-// Returns the names of a series' arrays. The part of a mesh also tells the ids of its nodes in the whole mesh.
+// Returns the names of a series' arrays. A part of a mesh also has an array of its nodes' ids in the whole mesh.
 std::vector<std::string> names_of_series(const Case &all) {
   std::vector<std::string> names;
   for (const ValveSource &valve : all.valves) {
@@ -59,7 +59,7 @@ std::string bytes_text(double n) {
   return text;
 }
 
-// The second pass, and the files that it leaves.
+// The second pass, and the files that it writes.
 class Writing {
  public:
   // pictures may be NULL.
@@ -73,7 +73,7 @@ class Writing {
         surfaces_(all.options.surface_output, ".vtp", times().size()),
         table_(all) {}
 
-  // Prints the size of all files, by the files of the first step.
+  // Prints the size of all files, estimated from the files of the first step.
   void announce(int64_t n_nodes_of_mesh) {
     if (all_.options.quiet || !meshes_.is_wanted()) return;
     set_arrays(0);
@@ -114,7 +114,7 @@ class Writing {
  private:
   const std::vector<double> &times() const { return all_.options.series.times; }
 
-  // Returns the time before a step. The first time takes the length of the first step.
+  // Returns the time before a step. Before the first time, this is the time one first step earlier.
   double time_before(std::size_t step) const {
     return step == 0 ? times()[0] - (times()[1] - times()[0]) : times()[step - 1];
   }
@@ -181,7 +181,7 @@ double time_of_least_opening(const OpeningLaw &law, const std::vector<double> &t
   return *std::min_element(times.begin(), times.end(), [&](double a, double b) { return law.at(a) < law.at(b); });
 }
 
-// Warns of leaks at the time when each valve is least open: only then can it be meant to stop the flow.
+// Warns of leaks at the time when each valve is least open, since an open valve does not stop the flow.
 void look_for_closed_leaks(const Case &all, std::vector<MovingValve> &valves, riis_mesh *mesh,
                            const riis_vtk_mesh *file, Report &report) {
   for (MovingValve &valve : valves) {
@@ -192,7 +192,7 @@ void look_for_closed_leaks(const Case &all, std::vector<MovingValve> &valves, ri
   check_passage_of(all, valves, mesh, file, report);
 }
 
-// Warns of marks that look wrong, by the times at which each valve marks most nodes.
+// Warns of marks that look wrong. It judges each valve at the time when it marks most nodes.
 void warn_of_sweep(const Case &all, const Sweep &sweep, const riis_vtk_mesh *file) {
   riis_mark_stats marks{};
   std::vector<Warning> warnings;
@@ -207,7 +207,7 @@ void warn_of_sweep(const Case &all, const Sweep &sweep, const riis_vtk_mesh *fil
   warn(warnings);
 }
 
-// Prints the summary that a user reads at the end.
+// Prints the summary at the end.
 void print_summary(const Case &all, const Writing &writing, int64_t n_nodes, int64_t n_written, Report &report) {
   if (all.options.quiet) return;
   const std::vector<double> &times = all.options.series.times;
@@ -243,7 +243,7 @@ ExitCode run_series(Case &all) {
     warn_of_sweep(all, sweep, file.get());
     look_for_closed_leaks(all, valves, mesh.get(), file.get(), report);
   }
-  // From here on a signal waits for the end of a step; the lists are then written, and the movie's frames removed.
+  // From here on a signal waits for the end of a step. Then the lists are written, and the movie's frames are removed.
   const UnbrokenWrite unbroken;
   const MeshFile part = options.series.all_cells ? nullptr : part_of(file.get(), sweep.node_ids);
   std::optional<SeriesPictures> pictures;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A series in time: the mesh is read once, and the nodes near the valves' sweep are found in a first pass over the times. A
-// second pass marks and writes.
+// A series in time. The mesh is read once. A first pass over the times finds the nodes near the valves' sweep, and a second
+// pass marks and writes.
 #pragma once
 
 #include <riis/riis.h>
@@ -18,12 +18,12 @@ namespace riis::program {
 // Returns exit_fine, or exit_none_marked if no node is marked at any time and the user did not allow that. Throws a Refusal.
 ExitCode run_series(Case &all);
 
-// In: valves that move through a mesh. Out: the nodes that are near one of them at any time, and the space that they move in.
+// In: valves that move through a mesh. Out: the nodes that are near a valve at some time, and the box in which the valves move.
 
 struct Sweep {
   std::vector<std::int64_t> node_ids;  // within the distance limit at some time, ascending
-  Box box;                             // of all surfaces at all times
-  // For each valve, where it marked most nodes.
+  Box box;                             // contains all surfaces at all times
+  // For each valve, the values at the time when it marked most nodes.
   std::vector<std::int64_t> most_marked;
   std::vector<riis_surface_info> surface;
 };

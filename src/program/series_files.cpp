@@ -86,7 +86,7 @@ void SeriesLists::end() {
   write_(true);
 }
 
-// A pause follows each writing, twenty times as long, so that lists take little of the run's time.
+// A pause follows each writing and lasts twenty times as long. So lists take little of the run's time.
 void SeriesLists::follow() {
   using Clock = std::chrono::steady_clock;
   constexpr Clock::duration longest_pause = std::chrono::milliseconds(500);

@@ -17,10 +17,10 @@
 
 namespace riis::program {
 
-// cycle.pvd stands for cycle.pvd, cycle/cycle_0000.vtu, cycle/cycle_0001.vtu, ...
+// The files of cycle.pvd are cycle.pvd, cycle/cycle_0000.vtu, cycle/cycle_0001.vtu, ...
 class SeriesFiles {
  public:
-  // ending is that of the files, such as ".vtu".
+  // ending is the ending of the steps' files, such as ".vtu".
   SeriesFiles(const std::string &pvd, const std::string &ending, std::size_t n_times);
 
   const std::string &pvd() const { return pvd_; }
@@ -28,40 +28,40 @@ class SeriesFiles {
   bool is_wanted() const { return !pvd_.empty(); }
   // Refuses a folder that cannot be written to, or that is a file.
   void check_folder() const;
-  // Makes the folder if it is not there.
+  // Makes the folder if it does not exist.
   void make_folder() const;
-  // Returns the path of a step's file. part, a valve's name or "", tells several files of one step apart.
+  // Returns the path of a step's file. part, a valve's name or "", distinguishes several files of one step.
   std::string path_of(std::size_t step, const std::string &part) const;
-  // Notes a file that is whole.
+  // Adds a complete file to the list.
   void add(double time, std::size_t part_number, const std::string &path);
   std::size_t n_written() const { return entries_.size(); }
-  // Writes the list of the files that are there.
+  // Writes the list of the complete files.
   void write_list() const;
 
  private:
   struct Entry {
     double time;
     std::size_t part_number;
-    std::string name;  // as seen from the .pvd
+    std::string name;  // relative to the .pvd
   };
   std::string pvd_, folder_, stem_, ending_;
   std::size_t n_digits_;
   std::vector<Entry> entries_;
 };
 
-// The lists of a series, which follow its files within half a second, however long the next step takes. So a process that is
-// killed leaves lists of nearly all that it wrote. Writing a long list takes longer than
-// writing a file, so the lists are not written for each file.
+// Writes the lists of a series within half a second after its files, even during a long step. So a killed process leaves lists
+// of nearly all its files. The lists are not written for each file, because writing a long list takes longer than writing a
+// file.
 
 class SeriesLists {
  public:
-  // write writes all lists. A thread of the object calls it, and end() calls it with true.
+  // `write` writes all lists. A thread of the object calls it with false, and end() calls it with true.
   explicit SeriesLists(std::function<void(bool is_last)> write);
   ~SeriesLists();
   SeriesLists(const SeriesLists &) = delete;
   SeriesLists &operator=(const SeriesLists &) = delete;
 
-  // Calls note, which adds to the lists, while nobody writes them. Throws what write threw.
+  // Calls `note`, which adds to the lists, while no thread writes them. Rethrows an exception of `write`.
   void add(const std::function<void()> &note);
   // Ends the thread and writes the lists a last time.
   void end();
@@ -86,7 +86,7 @@ class SeriesTable {
   explicit SeriesTable(const Case &all);
   void add(double time, const std::vector<MovingValve> &valves, double seconds);
   const std::string &text() const { return text_; }
-  // Returns the most marked nodes of all valves and times.
+  // Returns the largest number of marked nodes of any valve at any time.
   int64_t most_marked() const;
   // Returns a line for each valve: its openings, marked nodes and speed.
   std::string summary() const;

@@ -27,20 +27,20 @@ namespace riis::program {
 
 namespace {
 
-// At the program's usual tolerance the triangles change the prosthesis' orifice by up to 0.3 %. At this one they change it by
-// less than 0.1 %, and the aortic valve's by 0.1 %.
+// At the program's usual tolerance the triangles change the prosthesis' orifice by up to 0.3 %. At this tolerance the change is
+// below 0.1 %, and 0.1 % for the aortic valve.
 constexpr double fine_tolerance = 0.01;
 
 riis_surface_options own_frame(const StatesOptions &options) {
-  riis_surface_options own = options.surface_options;  // placement by scale alone, the command has no other
+  riis_surface_options own = options.surface_options;  // the scale is the command's only placement
   if (!options.has_tolerance) own.tolerance = fine_tolerance;
   return own;
 }
 
 struct Disc {
-  std::string parameter{};  // its name, such as root_radius
+  std::string parameter{};  // the parameter's name, such as root_radius
   double radius = 0;
-  PlanePoint centre{};  // the mean of the translations, of the valve or of its cusps
+  PlanePoint centre{};  // the mean translation of the valve or of its cusps
 };
 
 bool ends_in_translation(const std::string &name) {
@@ -66,7 +66,7 @@ class OpeningValve {
 
   std::string why_closed() { return program::why_closed(valve_.get(), own_frame(options_)); }
 
-  // The disc of the root, or of a housing, about the axis; none if the valve has no radius.
+  // Returns the disc of the root or of a housing about the axis, or nothing if the valve has no such radius.
   std::optional<Disc> disc() const {
     Disc disc;
     std::size_t n_shifts = 0;
@@ -121,7 +121,7 @@ std::vector<std::string> names_of_leaflets(const StatesOptions &options,
   return names;
 }
 
-// Edges that meet when the valve is closed are free if they part when it opens.
+// Edges that meet in the closed valve are free if they separate when it opens.
 std::set<std::int32_t> free_edges_of(OpeningValve &valve, bool can_open) {
   std::set<std::int32_t> free = free_edges(sides_of_patches(valve.arrays()));
   if (!can_open) return free;
@@ -130,7 +130,7 @@ std::set<std::int32_t> free_edges_of(OpeningValve &valve, bool can_open) {
   return free;
 }
 
-// Leaflets that turn keep all lengths.
+// Rigid leaflets that turn keep all lengths.
 bool is_rigid(const std::string &valve) { return valve == "bileaflet"; }
 
 class Measures {
@@ -221,12 +221,12 @@ namespace {
 
 // A free edge may gain or lose this share of its closed length.
 constexpr double fair_change = 0.1;
-// Lengths and areas that differ by this share are the same but for rounding.
+// Lengths and areas that differ by at most this share count as equal, since they differ by rounding.
 constexpr double same = 1e-9;
 
 using Value = std::function<double(const State &)>;
 
-// The states of the least and of the greatest value. Of equal states the first one counts.
+// Finds the states of the least and of the greatest value, and the first one of equal states.
 struct Extremes {
   const State *least, *most;
 };
@@ -260,7 +260,7 @@ Value area_of_leaflet(std::size_t leaflet) {
   return [=](const State &state) { return state.leaflets[leaflet].area; };
 }
 
-// The lines of the summary, with texts below each other.
+// Collects the lines of the summary, with their texts aligned.
 class Summary {
  public:
   explicit Summary(const States &states) {
@@ -296,7 +296,7 @@ std::string text_of_orifice(const States &states) {
   return text + "; " + states.disc + " has " + rounded(states.disc_area);
 }
 
-// The free edges that gain or lose more than a tenth, and where they begin to.
+// Lists the free edges that gain or lose more than a tenth, and the opening at which this begins.
 std::string text_of_changes(const States &states) {
   std::string text;
   for (std::size_t i = 0; i < states.names.size(); ++i) {
@@ -314,7 +314,7 @@ std::string text_of_changes(const States &states) {
   return text.empty() ? "all " + range : "not " + range + ": " + text;
 }
 
-// The names in words of letters, digits and _, or numbers if a name has other characters, such as "x > 0".
+// Returns the names with letters, digits and _ only. Numbers replace them if a name has other characters, as "x > 0" has.
 std::vector<std::string> columns_of(const States &states) {
   std::vector<std::string> columns = states.names;
   bool are_words = true;

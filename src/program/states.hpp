@@ -23,18 +23,18 @@ struct State {
 };
 
 struct States {
-  std::vector<std::int32_t> ids;  // of the leaflets, ascending
+  std::vector<std::int32_t> ids;  // ids of the leaflets, ascending
   std::vector<std::string> names;
   std::string why_no_edges;   // "": the leaflets have free edges
   std::string disc;           // such as "the disc of root_radius 1.29"; "": the valve has no orifice
   double disc_area;           // when closed
   std::vector<State> states;  // ascending by opening; the first is closed
-  std::string why_closed;     // the library's refusal of other openings, "" if the valve opens
+  std::string why_closed;     // the library's refusal of other openings; "" if the valve opens
 
   bool has_edges() const { return why_no_edges.empty(); }
 };
 
-// Measures the valve of the options at n_states openings, or at 0 alone if it has no state to open to.
+// Measures the valve of the options at n_states openings, or only at 0 if the valve does not open.
 States measure_states(const StatesOptions &options);
 
 // Measures, writes the table, and prints the summary.
@@ -42,8 +42,8 @@ void run_states(const StatesOptions &options);
 
 // In: the states of a valve. Out: the table as CSV, and a summary for people.
 
-// opening, then NAME_edge, NAME_edge_ratio, NAME_area and NAME_area_ratio of each leaflet, then orifice_area. Ratios are to
-// the closed state.
+// The columns are opening, then NAME_edge, NAME_edge_ratio, NAME_area and NAME_area_ratio of each leaflet, then orifice_area.
+// Ratios are relative to the closed state.
 std::string csv_of(const States &states);
 
 std::string summary_of(const States &states, const StatesOptions &options);

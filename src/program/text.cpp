@@ -17,7 +17,7 @@ namespace {
 
 template <class Number>
 Number parse(const std::string &text, const std::string &subject, const char *kind) {
-  // from_chars knows no plus sign.
+  // from_chars refuses a plus sign.
   const char *first = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
   const char *last = text.data() + text.size();
   Number number{};
@@ -132,7 +132,7 @@ std::vector<std::string> pieces_between(const std::string &text, char mark) {
   return pieces;
 }
 
-// 0.07000000000000001, a sum of steps, becomes 0.07, which was meant.
+// Rounding turns a sum of steps such as 0.07000000000000001 into the intended 0.07.
 double tidied(double time, double step) {
   char text[32];
   double tidy = time;
@@ -144,7 +144,7 @@ double tidied(double time, double step) {
 std::vector<double> stepped(double start, double stop, double step, const std::string &subject) {
   if (!(step > 0)) refuse_times(subject, "the step " + shortest(step) + " is not above 0");
   if (stop < start) refuse_times(subject, "the stop " + shortest(stop) + " is before the start " + shortest(start));
-  // A step that divides the span is not lost to rounding.
+  // Rounding must not lose the last step of a span that the step divides.
   const double n = std::floor((stop - start) / step * (1 + 1e-12) + 1e-9) + 1;
   if (n > static_cast<double>(most_times)) refuse_count(subject, n);
   std::vector<double> times;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Units of length, as --unit and --surface-unit name them.
+// The units of length of --unit and --surface-unit.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@ namespace riis::program {
 
 enum class Unit { metre, centimetre, millimetre };
 
-// Units as an option has them, "m", and in words, "metres".
+// Return the names in options, such as "m", and in words, such as "metres".
 const std::vector<std::string> &unit_names();
 const char *name_of(Unit unit);
 const char *words_of(Unit unit);
@@ -22,14 +22,14 @@ double factor_between(Unit from, Unit to);
 // Returns the paper's half thickness, 0.1 cm, in that unit.
 double paper_half_thickness(Unit unit);
 
-// Returns the unit to which the factor leads from a unit, or none.
+// Returns the unit that is the given unit times the factor, or none.
 std::optional<Unit> unit_reached(Unit from, double factor);
-// The pair of units, surface and mesh, for a factor from one to the other. None for other factors and for 1.
+// Returns the pair of units, surface and mesh, that the factor relates. Returns none for other factors and for 1.
 struct UnitPair {
   Unit surface, mesh;
 };
 std::optional<UnitPair> units_of_factor(double factor);
-// Returns the unit in which a heart valve has this size, 1 to 10 centimetres or so.
+// Returns the unit in which this size is a heart valve's, about 1 to 10 centimetres.
 std::optional<Unit> unit_of_valve(double largest_side);
 
 }  // namespace riis::program

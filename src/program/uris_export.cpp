@@ -29,7 +29,7 @@ namespace {
 // The longest edge, in half thicknesses, at which the solver's sum of delta is within 1 % of the exact one (docs/export.md).
 constexpr double fine_edges = 0.15;
 
-// A file that is written as it grows, because a long motion does not fit memory.
+// A file that is written piece by piece, because a long motion does not fit in memory.
 class TextFile {
  public:
   explicit TextFile(std::string path) : path_(std::move(path)), file_(path_) { check_written(); }
@@ -56,7 +56,7 @@ class TextFile {
 void append_point(const std::vector<double> &xyz, std::int64_t vertex, std::string &text) {
   char digits[32];
   for (std::int64_t k = 0; k < 3; ++k) {
-    // The shortest text that reads back as the same double.
+    // Returns the shortest text that reads back as the same double.
     text.append(digits, std::to_chars(digits, digits + sizeof digits, view(xyz)[3 * vertex + k]).ptr);
     text += k < 2 ? ' ' : '\n';
   }
@@ -89,7 +89,7 @@ std::string vtu_text(const std::vector<double> &xyz, const UrisLeaflet &leaflet)
          "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
-// Ends the export between two frames. The signal ends the process once the files are removed, so nobody reads the text.
+// Ends the export between two frames. The signal ends the process after the files are removed, so nobody reads the message.
 void stop_if_interrupted() {
   if (UnbrokenWrite::has_signal()) throw Refusal{exit_bad_data, "riis export: interrupted, and nothing is left"};
 }
@@ -134,11 +134,11 @@ void write_export(const ExportOptions &options, const UrisMotion &motion, UrisLe
   folder.take_place();
 }
 
-// The solver puts it into names of files.
+// The solver uses this name in names of files.
 std::string block_name(const ExportOptions &options) {
   if (!is_valve_file(options.valve)) return options.valve;
   std::string name = std::filesystem::path(options.valve).stem().string();
-  // A comment of XML holds no two dashes in a row.
+  // A comment in XML must not contain two dashes in a row.
   for (char &c : name) c = c != '-' && is_prefix(std::string(1, c)) ? c : '_';
   return name;
 }

@@ -12,20 +12,20 @@ namespace riis::program {
 // Writes the folder, and prints the block on stdout.
 void export_uris(const ExportOptions &options);
 
-// The files of an export, in a folder that is whole or not there.
+// The folder of an export, which is complete or not there.
 
-// A folder that gets its files when all of them are written. Until then they stand in a folder inside it, whose name begins with
-// a dot. Without take_place() everything is removed again.
+// A folder that gets its files when all of them are written. Until then the files are in a folder inside it, whose name begins
+// with a dot. Without take_place() the destructor removes everything.
 class WholeFolder {
  public:
-  // Makes the folder, or takes an empty one. Throws a Refusal that names the option for any other, and for one that cannot be
-  // made or written to.
+  // Makes the folder, or takes an empty one. Throws a Refusal for any other folder, and for one that cannot be made or written
+  // to. The Refusal names the option.
   WholeFolder(const std::string &path, const std::string &option);
   ~WholeFolder();
   WholeFolder(const WholeFolder &) = delete;
   WholeFolder &operator=(const WholeFolder &) = delete;
 
-  // Returns where to write the file of this name. The file must be new.
+  // Returns the path at which the caller writes the file of this name. The file must be new.
   std::string new_file(const std::string &name);
   void take_place();
 

@@ -18,7 +18,7 @@ namespace riis::program {
 
 namespace {
 
-// A text file of so many triangles, in any number of frames, is beyond use.
+// A text file with more triangles is too large for any use, even with few frames.
 constexpr std::int64_t most_triangles = 2000000;
 
 std::string name_of_leaflet(const std::string &valve, std::int32_t id) {
@@ -91,7 +91,7 @@ void UrisLeaflets::open_to(double opening) {
   check(riis_surface_update(surface_.get(), valve_.get(), nullptr), subject_);
 }
 
-// A triangle without area has no normal, and the solver would divide by zero there.
+// A triangle without area has no normal, so the solver would divide by zero.
 std::vector<FinerTriangles::Triangle> UrisLeaflets::lasting_triangles(const UrisMotion &motion) {
   struct Seen {
     FinerTriangles::Triangle triangle;
@@ -161,7 +161,7 @@ void UrisLeaflets::part(const ExportOptions &options) {
   }
 }
 
-// For a housing the solver looks only in the housing's own box.
+// A housing gets a box of its own, because the solver uses a separate box for it.
 void UrisLeaflets::add_boxes(const UrisMotion &motion) {
   std::vector<Corners> moving, resting;
   for (const auto &[corners, leaflet] : net_.triangles()) (leaflet == housing_ ? resting : moving).push_back(corners);
@@ -186,7 +186,7 @@ void UrisLeaflets::add_boxes(const UrisMotion &motion) {
 
 namespace {
 
-// The share by which the solver widens its box, and the end of its pressure bands in half thicknesses. The factor keeps a node at
+// The solver widens its box by the first share. Its pressure bands end at so many half thicknesses. The factor keeps a node at
 // the very end inside.
 constexpr double solver_share = 0.1, end_of_bands = 5 * (1 + 1e-6);
 
@@ -244,7 +244,7 @@ void UrisBox::append_nodes(std::vector<double> &xyz) const {
       const double sum = sum_of(triangles_[chosen_[axis]], xyz, k), middle = sum / 3;
       const double half = (box[k].upper - box[k].lower) / 2,
                    wanted = std::max(half, (half + end_of_bands * half_thickness_) / (1 + 2 * solver_share));
-      // Along its axis the triangle reaches equally far to both sides. Across the axis it has a width, for its area.
+      // Along its axis the triangle reaches equally far to both sides. It has a width across the axis, so that it has an area.
       const double reach = wanted + std::abs(middle - box[k].middle());
       const bool is_along = k == axis, is_across = k == (axis + 1) % 3;
       const double offsets[2] = {is_along    ? reach
@@ -289,7 +289,7 @@ void FinerTriangles::measure(const std::vector<double> &xyz) {
 }
 
 bool FinerTriangles::halve_longer(double length) {
-  // The middle of each edge, or -1.
+  // The vertex in the middle of each edge, or -1.
   std::vector<std::int64_t> middle;
   for (const Edge &edge : edges_) {
     middle.push_back(edge.length > length ? n_given_ + view(middles_).size() : -1);
@@ -315,7 +315,7 @@ bool FinerTriangles::halve_longer(double length) {
       add(corners[k], middles[k], corners[other]);
       add(middles[k], corners[next], corners[other]);
     } else if (n_cut == 2) {
-      // The edge from a to b stays. A line to the middle of the longer halved edge is the shorter one of the two diagonals.
+      // The edge from a to b is not halved. Of the two diagonals, the one to the middle of the longer halved edge is shorter.
       const std::size_t k = whole, next = (k + 1) % 3, other = (k + 2) % 3;
       const std::int64_t a = corners[k], b = corners[next], c = corners[other], bc = middles[next], ca = middles[other];
       add(ca, bc, c);

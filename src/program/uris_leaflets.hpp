@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a valve and the openings of its frames. Out: leaflets whose nodes and triangles stay the same in all frames, and a face
-// that widens the box in which the solver looks.
+// In: a valve and the openings of its frames. Out: leaflets with the same nodes and triangles in all frames, and a face that
+// widens the solver's box.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@
 
 namespace riis::program {
 
-// Triangles that move, and their cutting into smaller ones: the same cuts at all times.
+// Moving triangles, which are cut into smaller ones. The cuts are the same at all times.
 
 using Corners = std::array<std::int64_t, 3>;
 
-// Triangles over given vertices and over middles of edges. A middle follows its two ends wherever they move.
+// Triangles with given vertices and middles of edges as corners. A middle moves with the two ends of its edge.
 class FinerTriangles {
  public:
   struct Triangle {
@@ -30,15 +30,15 @@ class FinerTriangles {
   FinerTriangles(std::int64_t n_given, std::vector<Triangle> triangles);
 
   const std::vector<Triangle> &triangles() const { return triangles_; }
-  // The longest of the edges as measured since the last cut.
+  // Returns the length of the longest edge measured since the last cut.
   double longest_edge() const;
 
-  // Appends the middles to the given vertices, xyz(3, n_given).
+  // Appends the middles of edges to the given vertices, xyz(3, n_given).
   void append_middles(std::vector<double> &xyz) const;
-  // Measures all edges at one time, by all vertices. A length is the largest of all times.
+  // Measures all edges, with all vertices at one time. The length of an edge is the largest of all times.
   void measure(const std::vector<double> &xyz);
-  // Halves every edge that was measured to be longer than this, once. Returns whether there was one. Triangles that share an edge
-  // share its middle, so no gap opens between them.
+  // Halves each edge once whose measured length is larger than the limit. Returns true if it halved any. Triangles that share
+  // an edge share its middle, so no gap opens between them.
   bool halve_longer(double length);
 
  private:
@@ -47,7 +47,7 @@ class FinerTriangles {
   };
   struct Edge {
     Ends ends;
-    double length;  // the largest measured
+    double length;  // the largest measured so far
   };
 
   // Returns the number of the edge from corner k to the next.
@@ -56,21 +56,21 @@ class FinerTriangles {
 
   std::int64_t n_given_;
   std::vector<Triangle> triangles_;
-  std::vector<Ends> middles_;  // of vertices n_given_, n_given_ + 1, ...
+  std::vector<Ends> middles_;  // the edges of vertices n_given_, n_given_ + 1, ...
   std::vector<Edge> edges_;
   std::vector<Corners> triangle_edges_;
 };
 
-// svMultiPhysics looks at a mesh only in the box of the valve's nodes, widened by a tenth. A flat valve's box is too thin: it
-// leaves out marks, and the bands in which the solver takes its pressures. In: the triangles. Out: three more,
-// which widen the box.
+// svMultiPhysics looks at a mesh only in the box of the valve's nodes, widened by a tenth. A flat valve's box is too thin. It
+// excludes nodes to mark, and the bands in which the solver measures pressures. In: the triangles. Out: three more, which widen
+// the box.
 
-// Returns the power of two to whose multiples coordinates are rounded; `largest` is the largest of them. Sums of three are then
-// exact, even in a box some ten times larger.
+// Returns a power of two. Coordinates are rounded to its multiples, and `largest` is the largest coordinate. Then sums of three
+// coordinates are exact, even in a box about ten times larger.
 double uris_grid(double largest);
 
-// A triangle along each axis. Its middle is exactly that of a triangle of the valve, so the solver never finds it nearer. Its
-// corners reach beyond the box at both ends.
+// A triangle along each axis. A triangle of the valve has exactly the same middle, so the solver never finds the box's triangle
+// nearer. Its corners reach beyond the box at both ends.
 class UrisBox {
  public:
   static constexpr std::int64_t n_nodes = 9;
@@ -98,19 +98,19 @@ struct UrisLeaflet {
 
 class UrisLeaflets {
  public:
-  // Looks at all frames, and cuts the triangles as the options say.
+  // Uses all frames, and cuts the triangles as the options require.
   UrisLeaflets(const ExportOptions &options, const UrisMotion &motion);
 
   const riis_valve *valve() const { return valve_.get(); }
   const std::vector<UrisLeaflet> &leaflets() const { return leaflets_; }
   // Returns all vertices at an opening, xyz(3, n): multiples of a power of two, so that the solver's sums of them are exact.
   std::vector<double> vertices_at(double opening);
-  // The mean normal of the leaflets, without a housing, in the first frame: forward flow.
+  // Returns the direction of forward flow: the mean normal of the leaflets in the first frame, without a housing.
   const std::array<double, 3> &forward() const { return forward_; }
   double half_thickness() const { return half_thickness_; }
   double longest_edge() const { return longest_edge_; }
   std::int64_t n_triangles() const;
-  // Triangles that have an area in some frames only, and are left out.
+  // Returns the number of triangles that are left out, because they have no area in some frame.
   std::int64_t n_left_out() const { return n_left_out_; }
 
  private:

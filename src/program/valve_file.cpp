@@ -21,7 +21,7 @@ constexpr std::array<const char *, 4> side_keys = {"v0", "v1", "u0", "u1"};
 
 std::string quoted(const std::string &text) { return "\"" + text + "\""; }
 
-// A value as it stands in the file. refuse_file cuts long ones.
+// Returns a value as it stands in the file. refuse_file shortens long values.
 std::string json_text(const Json &value) { return value.dump(); }
 
 // The curves of one state, and the arrays that the library needs of them.
@@ -40,7 +40,7 @@ class Reader {
  public:
   explicit Reader(const std::string &path) : path_(path) {}
 
-  // where, "" or "open: ", goes before names in refusals.
+  // `where`, "" or "open: ", goes before names in refusals.
   Curves curves_of(const Json &root, const std::string &where) const {
     const Json &list = member(root, "curves", where);
     if (!list.is_object())
@@ -163,7 +163,7 @@ class Reader {
 
   std::int32_t leaflet_of(const Json &value, const std::string &subject) const {
     constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
-    // A negative number is also too large, as an unsigned one.
+    // A negative number is refused as well, because it is too large as an unsigned number.
     if (!value.is_number_integer() || value.get<std::uint64_t>() > static_cast<std::uint64_t>(most)) {
       refuse(subject + ": leaflet is " + json_text(value) + "; it must be a whole number from 0 to " +
              std::to_string(most));
@@ -174,7 +174,7 @@ class Reader {
   const std::string &path_;
 };
 
-// Puts the file's names into the library's message, which counts curves and names sides by their parameter.
+// Puts the file's names into the library's message. The library uses numbers of curves, and its own names of sides.
 std::string with_names(std::string text, const Curves &curves, const Patches &patches) {
   std::smatch match;
   if (std::regex_search(text, match, std::regex("curve ([0-9]+)"))) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a JSON file of boundary curves and patches. Out: a valve made of them, and its open state if the file has one.
+// In: a JSON file of boundary curves and patches. Out: a valve, with an open state if the file has one.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace riis::program {
 
-// Tells whether --valve is a file, which ends in .json, and not a kind.
+// Tells whether --valve is a file, which ends in .json, rather than a kind.
 bool is_valve_file(const std::string &valve);
 
 // {"curves": {"edge": [[0, 0, 0], [1, 0, 0]], ...},
@@ -22,7 +22,7 @@ class ValveFile {
   explicit ValveFile(const std::string &path);
   riis_valve *valve() const { return valve_.get(); }
   Valve take_valve() { return std::move(valve_); }
-  // Refuses an opening that needs an open state if the file has none. The library would name another valve as the cure.
+  // Refuses an opening that needs an open state if the file has none. The library's own message would recommend another valve.
   void check_opening() const;
 
  private:

@@ -42,7 +42,7 @@ Valve make_valve_of_file(const ValveOptions &options, OpeningCheck opening) {
   return file.take_valve();
 }
 
-// Adds to the component's refusal of a file the command that makes a readable one.
+// Adds a command to the component's refusal of a file. The command makes a readable file.
 void check_read(riis_status status, const std::string &path, Content content) {
   try {
     check(status);
@@ -101,7 +101,7 @@ Valve copy_of(const riis_valve *valve) {
   return Valve(copy);
 }
 
-// A valve that is sound at 0 and refused at 1 has one state. What else fails is said where the surface is wanted.
+// A valve that is valid at 0 and refused at 1 has only one state. Other faults are reported when the surface is made.
 std::string why_closed(riis_valve *valve, const riis_surface_options &how) {
   check(riis_valve_set_scalar(valve, "opening", 1));
   riis_surface *surface = nullptr;
@@ -199,7 +199,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Every ending here was tried. tests/cli/test_cli_conversions.c tries it again if the tool is installed.
+// Each ending was tested. tests/cli/test_cli_conversions.c tests it again if the tool is installed.
 const std::set<std::string> meshes_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh"};
 const std::set<std::string> meshes_of_meshio = {".inp", ".su2"};
 const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply", ".ply2", ".vtk"};
@@ -212,7 +212,7 @@ std::string ending_of(const std::string &path) {
   return ending;
 }
 
-// Quotes the path so that a shell takes it for one word, and a program does not take it for an option.
+// Quotes the path. So a shell reads it as one word, and a program does not read it as an option.
 std::string shell_word(std::string path) {
   if (path[0] == '-') path.insert(0, "./");
   const auto is_plain = [](unsigned char c) {

@@ -18,9 +18,9 @@ namespace riis::program {
 namespace {
 
 std::int64_t n_printed = 0;
-Cause first_cause = Cause::leaks;  // of the advice that was printed
+Cause first_cause = Cause::leaks;  // the cause of the advice that was printed
 
-// With fewer nodes, all of them may well lie near the surface.
+// In a mesh with fewer nodes, it is not suspicious if all of them lie near the surface.
 constexpr int64_t fewest_judged_nodes = 100;
 
 Box box_of(int64_t n_nodes, const double *xyz) {
@@ -35,7 +35,7 @@ Box box_of(int64_t n_nodes, const double *xyz) {
 
 // Returns a coordinate, rounded to a tenth of the edge or finer. It has no trailing zeros, and 0 has no sign.
 std::string coordinate_text(double x, double edge) {
-  constexpr int most_digits = 17;  // of any double
+  constexpr int most_digits = 17;  // the length of any double as text
   int n_digits = 6;
   if (edge > 0) n_digits = static_cast<int>(std::floor(std::log10(std::abs(x))) - std::floor(std::log10(edge)) + 2);
   if (x == 0 || n_digits < 1) return "0";
@@ -60,7 +60,7 @@ std::string text_of(const Box &box, double edge) {
 
 bool has_all(const Situation &s) { return s.n_marked == s.n_nodes && s.n_nodes >= fewest_judged_nodes; }
 
-// A single layer of nodes all over the surface would have about area / edge^2 nodes.
+// A single layer of nodes on the whole surface has about area / edge^2 nodes.
 bool has_hardly_any(const Situation &s) {
   if (s.n_marked == 0 || s.n_nodes < fewest_judged_nodes || s.median_edge == 0) return false;
   return static_cast<double>(s.n_marked) * s.median_edge * s.median_edge < 0.1 * s.area;
@@ -78,7 +78,7 @@ std::string marked_text(const Situation &s) {
   return has_hardly_any(s) ? "only " + text : text + ", which looks wrong";
 }
 
-// Tells the places, for the case that sizes explain nothing.
+// Gives the places of mesh and surface, for the case that sizes explain nothing.
 Warning warning_of_places(const Situation &s) {
   return {Cause::place,
           "the mesh is in " + text_of(s.mesh, s.median_edge) + ", the surface in " + text_of(s.surface, s.median_edge) +
@@ -140,17 +140,19 @@ std::string place_text(const ValveOptions &options, const double *point, double 
 
 namespace {
 
-// A mesh fits its valve under three conditions. It is half as large to 40 times as large, its edges are up to 0.3 of the valve,
-// and both overlap.
+// A mesh fits its valve under three conditions: its size is 0.5 to 40 times the valve's, its edges are up to 0.3 times the
+// valve's size, and both overlap.
 constexpr double smallest_mesh = 0.5, largest_mesh = 40, usual_mesh = 3, longest_edge = 0.3;
-// Shares of the surface's largest side. The paper's 0.1 cm is 0.04 of its aortic valve.
+// These are shares of the surface's largest side. The paper's 0.1 cm is 0.04 of its aortic valve.
 constexpr double usual_half_thickness = 0.04, largest_half_thickness = 0.25;
-// A share of an edge of the mesh. Below it, the band between two layers of nodes holds few of either.
+// This is a share of the mesh's edge length. With a smaller half thickness the band falls between two layers of nodes and
+// contains few nodes.
 constexpr double smallest_half_thickness = 0.3;
 
 constexpr std::array<double, 6> factors = {0.1, 10, 0.01, 100, 0.001, 1000};
 
-// Compares the boxes as if the surface had been scaled by 1 / factor. Its translation is in the mesh's unit and stays.
+// Compares the boxes as if the surface were scaled by 1 / factor. The translation is not scaled, because it is in the mesh's
+// unit.
 bool overlap_at(double factor, const Situation &s) {
   for (int k = 0; k < 3; ++k) {
     const double shift = s.options.surface_options.translation[k];
@@ -171,22 +173,23 @@ bool sizes_fit_at(double factor, const Situation &s) {
 
 bool is_parametric(const MarkOptions &options) { return options.surface.empty() && !is_valve_file(options.valve); }
 
-// The default half thickness belongs to a parametric valve. Edges that are much longer suggest that the mesh has another unit or,
-// if the user named the unit, that it is coarse.
+// The default half thickness belongs to a parametric valve. Much longer edges suggest that the mesh has another unit. If the
+// user named the unit, they suggest that the mesh is coarse.
 bool edges_fit_at(double factor, const Situation &s) {
   return s.options.has_half_thickness || s.options.unit || s.options.has_scale || !is_parametric(s.options) ||
          !is_too_small(s.half_thickness / factor, s);
 }
 
-// Returns the factor by which the mesh's lengths must grow to fit the surface's, or none if they fit or no power of ten helps.
+// Returns the factor that makes the mesh's lengths fit the surface's. Returns none if they fit already, or if no power of ten
+// helps.
 std::optional<double> missing_factor(const Situation &s) {
   const bool sizes_fit = sizes_fit_at(1, s);
   if (sizes_fit && edges_fit_at(1, s)) {
-    // Sizes that are alike, or that fit in the units that the user named, are in these units. Then the place is wrong.
+    // Similar sizes have the same unit, and sizes that fit in the user's units have those units. Then the place is wrong.
     const bool are_alike = mesh_in_surfaces(s) > 1.0 / 3 && mesh_in_surfaces(s) < 3;
     if (overlap_at(1, s) || are_alike || s.options.unit || s.options.has_scale) return std::nullopt;
   }
-  // Sizes that differ this much are not in one unit, whatever the places.
+  // Sizes that differ this much have different units, even if the places fit.
   const bool differ_widely = mesh_in_surfaces(s) < 0.1 || mesh_in_surfaces(s) > 100;
   std::optional<double> best;
   // A mesh in another unit may also be too coarse.
@@ -211,7 +214,7 @@ std::optional<double> missing_factor(const Situation &s) {
   return best;
 }
 
-// Returns the situation after the surface was scaled to go with the mesh.
+// Returns the situation with the surface scaled to fit the mesh.
 Situation rescaled(const Situation &s, double factor) {
   Situation changed = s;
   for (int k = 0; k < 3; ++k) {
@@ -222,8 +225,8 @@ Situation rescaled(const Situation &s, double factor) {
   return changed;
 }
 
-// Returns a power of ten times the half thickness that fits. If none fits, it returns the edge of the mesh, or 0 if that also
-// does not fit.
+// Returns the half thickness times a power of ten that makes it fit. If none does, it returns the edge length of the mesh, or 0
+// if that does not fit.
 double better_half_thickness(const Situation &s) {
   const auto fits = [&](double half_thickness) {
     return !is_too_large(half_thickness, s) && !is_too_small(half_thickness, s);
@@ -241,7 +244,7 @@ double better_half_thickness(const Situation &s) {
 
 std::string option(const char *name, Unit unit) { return std::string(name) + " " + name_of(unit); }
 
-// Two phrases of a warning: which unit the sizes suggest, and which options make the scale.
+// Two phrases of a warning: the unit that the sizes suggest, and the options that set the scale.
 struct Cure {
   std::string look, write;
 };
@@ -267,7 +270,7 @@ Cure cure_for_scale(const MarkOptions &options, double scale) {
   return {"the mesh and the surface look as if they were in different units", "--scale " + shown(scale)};
 }
 
-// Names the user's own options for the scale, which must go.
+// Names the user's own options for the scale, which the user must remove.
 std::string in_place_of(const MarkOptions &options) {
   if (options.unit) {
     const std::string unit = " in place of " + option("--unit", *options.unit);
@@ -316,7 +319,7 @@ std::optional<Warning> warning_of_half_thickness(const Situation &s) {
   Warning warning{Cause::half_thickness, "the half thickness is " + shown(s.half_thickness), ""};
   warning.text += is_large ? ", the largest side of the surface " + shown(s.surface.largest_side())
                            : ", the median edge of the mesh " + shown(s.median_edge);
-  // Nobody has named the file's unit, and the half thickness is the default for centimetres.
+  // The user did not name the file's unit, and the half thickness is the default for centimetres.
   const bool is_unknown =
       !is_parametric(s.options) && !s.options.unit && !s.options.has_scale && !s.options.has_half_thickness;
   const auto unit = is_unknown ? unit_of_valve(s.surface.largest_side()) : std::nullopt;

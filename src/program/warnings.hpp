@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All warnings of the program. In: the number of marks and all sizes. Out: the lines that tell what looks wrong and what to write
-// instead.
+// All warnings of the program. In: the number of marks and all sizes. Out: lines that name the suspicious values and the
+// options to use instead.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -24,18 +24,19 @@ struct Situation {
   const MarkOptions &options;
   int64_t n_nodes, n_marked;
   Box mesh, surface;
-  double median_edge;  // of the mesh; 0 if unknown
-  double area;         // of the surface
+  double median_edge;  // median edge of the mesh; 0 if unknown
+  double area;         // area of the surface
   double half_thickness;
 };
 
 Situation situation_of(const MarkOptions &options, const riis_surface_info &surface, const riis_mark_stats &marks,
                        const riis_vtk_mesh *mesh);
 
-// What may be wrong, in the order in which to mend it: a wrong unit also makes the half thickness wrong, and either makes leaks.
+// The possible causes, in the order in which to mend them. A wrong unit also makes the half thickness wrong, and both cause
+// leaks.
 enum class Cause { units, half_thickness, place, leaks };
 
-// Texts without line breaks. The advice begins with the punctuation after the text, such as ": write --unit m".
+// Texts without line breaks. The advice begins with the punctuation that joins it to the text, such as ": write --unit m".
 struct Warning {
   Cause cause;
   std::string text, advice;
@@ -46,27 +47,27 @@ std::optional<Warning> warning_of(const Situation &situation);
 
 // Prints the line on stderr and counts it for --strict. --quiet does not silence it, because wrong marks look like right ones.
 void warn(const std::string &text);
-// Prints the texts of all warnings, but the advice of the first cause only. Later calls leave out the advice on later causes:
-// two pieces of advice could contradict each other, and the first may mend all.
+// Prints the texts of all warnings, but only the advice of the first cause. Later calls leave out the advice on later causes.
+// Two pieces of advice could contradict each other, and the first may mend all faults.
 void warn(std::vector<Warning> warnings);
 std::int64_t n_warnings();
 
-// Returns the coordinates of a place for a warning, with the unit if the user named it. They are rounded to
-// a tenth of the edge's length or finer, so that they tell its ends apart. If the length is 0, they have six digits.
+// Returns the coordinates of a place for a warning, with the unit if the user named it. They are rounded to a tenth of the
+// edge's length or finer, so the ends of the edge differ. If the length is 0, they have six digits.
 std::string place_text(const ValveOptions &options, const double *point, double edge);
 
-// In: sizes that do not fit each other. Out: what they look like, and the options that would make them fit.
+// In: sizes that do not fit each other. Out: the units that they suggest, and the options that make them fit.
 
 // These tell whether the half thickness is larger than a quarter of the surface, or so small that it falls between the mesh's
 // nodes.
 bool is_too_large(double half_thickness, const Situation &situation);
 bool is_too_small(double half_thickness, const Situation &situation);
 
-// Says which units the sizes of a mesh and a surface look like, if these differ, and what to write, such as "the mesh looks as if
-// it were in metres, ...: write --unit m".
+// Names the units that the sizes of a mesh and a surface suggest, if these differ, and the options to write, such as "the mesh
+// looks as if it were in metres, ...: write --unit m".
 std::optional<Warning> warning_of_units(const Situation &situation);
 
-// Says whether the half thickness is too large or too small, and what to write.
+// Says whether the half thickness is too large or too small, and names the option to write.
 std::optional<Warning> warning_of_half_thickness(const Situation &situation);
 
 // Returns a number as a user would write it.

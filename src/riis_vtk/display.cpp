@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens the X display. This file is apart from drawing.cpp, since X11's headers make macros of names in VTK's headers.
+// Opens the X display. This code is not in drawing.cpp, because X11's headers define names of VTK's headers as macros.
 #include <chrono>
 #include <cstdlib>
 #include <thread>

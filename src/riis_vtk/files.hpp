@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files are checked, read as bytes, lines and words, and written beside the final place. VTK does the rest. The names of the
-// arrays in files are also here.
+// Checks files, reads them as bytes, lines and words, and writes them beside the final place. VTK does the rest. This header
+// also has the names of the arrays in files.
 #pragma once
 
 #include <charconv>
@@ -45,7 +45,7 @@ vtkSmartPointer<Array> named_array(const std::string &name, vtkIdType n_tuples, 
 // Returns "; there are: a, b", for messages about an array that is missing.
 std::string list_of_arrays(vtkFieldData *data);
 
-// Lines and words of the files that are scanned before VTK sees them. Only ASCII counts, whatever the locale.
+// Lines and words of the files that are scanned before VTK reads them. Blanks and capitals are those of ASCII in any locale.
 bool is_blank(char c);
 
 std::string lower_case(std::string_view text);
@@ -66,7 +66,8 @@ bool read_number(std::string_view text, Number &number) {
 // Returns the path's ending in lower case without the dot, or "" if it has none.
 std::string ending_of(const std::string &path);
 
-// Returns the file's size. Fails unless the path is a regular, readable, non-empty file: VTK's own messages do not say why.
+// Returns the file's size. Fails unless the path is a regular, readable, non-empty file. VTK's own messages do not give the
+// reason.
 std::int64_t check_readable(const std::string &path);
 
 // A file's bytes, readable while this object lives.
@@ -99,8 +100,8 @@ class ReplacingFile {
   const std::string &temporary() const { return temporary_; }
   // Writes content that is in memory.
   void write(const unsigned char *bytes, std::int64_t n_bytes);
-  // Fails unless the temporary file ends with the closing bytes, which a format writes last. A full disk stops a stream early,
-  // and not every writer notices.
+  // Fails unless the temporary file ends with the closing bytes, which are the last of a format. On a full disk the stream ends
+  // early, and not every writer notices this.
   void commit(const std::string &closing);
 
  private:

@@ -15,7 +15,8 @@
 namespace riis::vtk {
 namespace {
 
-// The cells of the first file as they are there. Faces are made of them by places of vertices, which differ in other files.
+// The cells of the first file, unchanged. Faces are made from cells by the places of vertices, and these places differ in other
+// files.
 class FirstCells {
  public:
   explicit FirstCells(vtkPointSet *data) : n_points_(data->GetNumberOfPoints()) {
@@ -59,14 +60,14 @@ class FirstCells {
   vtkIdType n_points_;
   std::vector<int> types_;
   std::vector<vtkIdType> ids_;
-  std::vector<std::size_t> ends_;  // of each cell, in ids_
+  std::vector<std::size_t> ends_;  // the end of each cell in ids_
 };
 
-// The corners of triangles without vertices of their own, as in .stl files. Corners at one place in the first file are one
+// The corners of triangles in files without shared vertices, such as .stl files. Corners at one place in the first file are one
 // vertex.
 class MergedCorners {
  public:
-  // Merges the vertices of the faces, which are numbered by their first corners.
+  // Merges the vertices of the faces. A vertex is numbered by its first corner.
   explicit MergedCorners(Faces &faces) {
     const std::vector<std::size_t> places = places_of(faces);
     std::vector<std::int64_t> vertex_at(places.size(), -1);
@@ -84,7 +85,8 @@ class MergedCorners {
     faces.xyz = std::move(xyz);
   }
 
-  // Returns the places of the vertices from those of all corners. Fails if corners of one vertex lie apart.
+  // Returns the places of the vertices, from the places of all corners. Fails if corners of the same vertex have different
+  // places.
   std::vector<double> merged(const std::string &path, const std::vector<double> &corners) const {
     for (std::size_t corner = 0; corner < vertex_of_.size(); ++corner) {
       const std::size_t first = corner_of_[vertex_of_[corner]];
@@ -100,14 +102,14 @@ class MergedCorners {
   }
 
  private:
-  std::vector<std::size_t> vertex_of_;  // of each corner
-  std::vector<std::size_t> corner_of_;  // the first of each vertex
+  std::vector<std::size_t> vertex_of_;  // the vertex of each corner
+  std::vector<std::size_t> corner_of_;  // the first corner of each vertex
 };
 
 struct Displacement {
   std::int64_t number;
   std::string name;
-  vtkDataArray *array;  // of the data set
+  vtkDataArray *array;  // an array of the data set
 };
 
 // Returns the number in a name of the form PREFIX_12 or PREFIX12, or -1 for another name.
@@ -126,7 +128,7 @@ vtkDataArray *displacements_in(const std::string &path, vtkAbstractArray *abstra
   return array;
 }
 
-// Returns the arrays by their numbers, which are all different.
+// Returns the arrays by their numbers, and these numbers are all different.
 std::vector<Displacement> displacements_of(const std::string &path, vtkPointSet *data, const std::string &prefix) {
   std::vector<Displacement> found;
   for (int i = 0; i < data->GetPointData()->GetNumberOfArrays(); ++i) {
@@ -169,7 +171,7 @@ std::vector<double> times_in_file(const std::string &path, vtkPointSet *data, co
   return times;
 }
 
-// Fails for a coordinate that riis.h does not take. `after` stands behind the point in the message.
+// Fails for a coordinate that riis.h refuses. In the message `after` follows the point.
 void check_places(const std::string &path, const std::vector<double> &xyz, const std::string &after) {
   constexpr double largest = 1e60;  // as riis.h has it
   constexpr std::array<const char *, 3> axes{"x", "y", "z"};
@@ -181,7 +183,7 @@ void check_places(const std::string &path, const std::vector<double> &xyz, const
 
 // Appends a frame. The times are those of all frames.
 void add_frame(Frames &frames, const std::vector<double> &xyz) {
-  // All at once: a doubled array would take twice its memory.
+  // The memory is taken at once, because an array that grows by doubling may take twice its memory.
   if (frames.xyz.empty()) frames.xyz.reserve(xyz.size() * frames.times.size());
   frames.xyz.insert(frames.xyz.end(), xyz.begin(), xyz.end());
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: files of a surface at several times, or one file with displacements. Out: its faces, as in the first file, and the places
-// of its vertices at all times.
+// In: files of a surface at several times, or one file with displacements. Out: the faces of the first file, and the places of
+// the vertices at all times.
 #pragma once
 
 #include <cmath>
@@ -19,13 +19,14 @@ struct Frames {
   std::vector<double> xyz;    // (3, n_vertices, n_keys)
 };
 
-// Reads a file for each time. Fails for a file with other cells than the first one's, and for coordinates that are not finite.
-// Corners in .stl files that are at one place in the first file become one vertex, and are at one place in all files.
+// Reads a file for each time. Fails for a file with other cells than the first one, and for coordinates that are not finite. In
+// .stl files, corners with the same place in the first file become one vertex. They must have the same place in every other
+// file.
 Frames frames_of_files(const std::vector<std::string> &paths, std::vector<double> times, const LeafletArray &leaflets,
                        const CaughtOutput &caught);
 
-// Reads the frames from the point arrays of displacements in one file, whose names are the prefix, "_" or nothing, and a number.
-// They are in ascending order of their numbers. Without times these come from the field array TimeValue.
+// Reads the frames from the point arrays of displacements in one file. Their names are the prefix, "_" or nothing, and a
+// number. The frames ascend by these numbers. If there are no times, the field array TimeValue has them.
 Frames frames_of_displacements(const std::string &path, const std::string &prefix, const std::vector<double> *times,
                                const LeafletArray &leaflets, const CaughtOutput &caught);
 

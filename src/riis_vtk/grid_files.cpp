@@ -50,7 +50,7 @@ void check_data_set(const std::string &path, vtkPointSet *data) {
   check_array_lengths(path, data->GetCellData(), "cell", data->GetNumberOfCells());
 }
 
-// The offsets must be sound before any cell is read.
+// The offsets must be checked before any cell is read.
 void check_offsets(const std::string &path, vtkCellArray *cells) {
   if (cells && cells->GetNumberOfCells() > 0 && !cells->IsValid()) fail_file(path, "has broken cell offsets");
 }
@@ -94,7 +94,7 @@ std::array<int, 256> points_of_cell_types() {
   return n_points;
 }
 
-// VTK's cells do not check the number of their points.
+// VTK does not check the number of points of its cells.
 void check_cell_sizes(const std::string &path, vtkUnstructuredGrid *grid) {
   static const std::array<int, 256> points_of_type = points_of_cell_types();
   for (vtkIdType cell_id = 0; cell_id < grid->GetNumberOfCells(); ++cell_id) {
@@ -112,7 +112,8 @@ void check_cell_sizes(const std::string &path, vtkUnstructuredGrid *grid) {
   fail_file(path, "cell ", cell, " has broken polyhedron faces");
 }
 
-// Checks a polyhedron's faces. The array has, from the cell's location on, the number of faces, then each face's size and points.
+// Checks a polyhedron's faces. From the cell's location on, the array has the number of faces, then each face's size and
+// points.
 void check_polyhedron(const std::string &path, vtkIdType cell_id, vtkIdType location, vtkIdTypeArray *faces,
                       vtkIdType n_points) {
   const vtkIdType n_values = faces->GetNumberOfValues();
@@ -147,7 +148,7 @@ void check_grid(const std::string &path, vtkUnstructuredGrid *grid) {
   check_polyhedra(path, grid);
 }
 
-// Runs steps that VTK calls. No exception may pass through VTK, so the first one is kept for rethrow().
+// Runs steps that VTK calls. Exceptions must not pass through VTK, so the first one is kept for rethrow().
 class Steps {
  public:
   template <class Step>
@@ -168,15 +169,15 @@ class Steps {
   std::exception_ptr failure_;
 };
 
-// Returns a value as an id. Values that no file can hold become -1 or a large id.
+// Returns a value as an id. Impossible values become -1 or a large id.
 vtkIdType id_at(vtkDataArray *array, vtkIdType i) {
   constexpr double most = 1e15;
   const double value = array->GetTuple1(i);
   return value >= 0 ? static_cast<vtkIdType>(std::min(value, most)) : -1;
 }
 
-// Makes public what VTK's XML readers know about their own failure. Refuses an array before VTK reads it if the file holds less
-// than VTK would read.
+// Makes the failures public that VTK's XML readers record. Refuses an array before VTK reads it if the file holds less than VTK
+// would read.
 template <class Reader>
 class WatchedReader : public Reader {
  public:
@@ -263,11 +264,11 @@ class WatchedReader : public Reader {
   std::string path_;
   std::optional<XmlSizes> sizes_;
   Steps steps_;
-  std::vector<vtkIdType> face_ends_;  // of the piece's cells, -1 for other cells than polyhedra
+  std::vector<vtkIdType> face_ends_;  // ends of the faces of the piece's cells; -1 for a cell that is no polyhedron
 };
 
-// Also reads the faces of polyhedra as VTK writes them since 9.4, which older releases pass over. There each polyhedron names
-// faces of one list, and each face names its corners.
+// Also reads the faces of polyhedra in the layout that VTK writes since 9.4. Older releases of VTK ignore this layout. In it
+// each polyhedron names faces of one list, and each face names its corners.
 class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
  public:
   static GridReader *New() { VTK_STANDARD_NEW_BODY(GridReader); }
@@ -291,7 +292,7 @@ class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
     const vtkIdType n_faces = faces.empty() ? 0 : 1 + *std::max_element(faces.begin(), faces.end());
     const Ids corner_ends = offsets_in(cells, "face_offsets", n_faces);
     const Ids corners = ids_in(cells, "face_connectivity", n_faces == 0 ? 0 : corner_ends.back());
-    // VTK has filled in -1 for this piece's cells if a piece before had polyhedra.
+    // VTK has filled in -1 for this piece's cells if an earlier piece had polyhedra.
     if (!grid->GetFaces()) {
       grid->InitializeFacesRepresentation(StartCell);
       for (vtkIdType i = 0; i < n_cells; ++i) grid->GetFaceLocations()->InsertNextValue(-1);
@@ -342,7 +343,7 @@ class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
 };
 
 // VTK 9.1 crashes while it writes the message about an array that it cannot read. So the first reader runs with messages off. A
-// second reader, which leaves the arrays out, then names the fault of the rest.
+// second reader, which leaves the arrays out, then reports any other fault.
 template <class Watched>
 [[noreturn]] void explain_failure(const std::string &path, const CaughtOutput &caught) {
   vtkNew<Watched> reader;
@@ -370,7 +371,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_legacy(const std::string &path, const 
   const std::int64_t n_cells = check_legacy(path);
   vtkNew<vtkUnstructuredGridReader> reader;
   reader->SetFileName(path.c_str());
-  // The reader's default is to keep only one array of each kind.
+  // By default the reader keeps only one array of each kind.
   reader->ReadAllScalarsOn();
   reader->ReadAllVectorsOn();
   reader->ReadAllNormalsOn();

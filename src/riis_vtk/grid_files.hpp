@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: a path. Out: a VTK data set that has the sizes that the file promised and whose cells name only points that exist. VTK
-// reads on after many errors and returns the part that it has. Here a file is whole or an error. The scans below find most errors
-// before VTK sees the file.
+// continues after many errors and returns an incomplete data set. Here an incomplete file is an error. The scans below find
+// most errors before VTK reads the file.
 #pragma once
 
 #include <map>
@@ -24,26 +24,26 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const Ca
 vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const CaughtOutput &caught);
 
 // Returns the number of cells of a legacy .vtk file. Fails for a file that is not an unstructured grid or not complete. VTK's
-// legacy reader believes every count, takes a short file for a smaller one, and ends the process on some files. So the sections
-// are walked here before VTK sees them.
+// legacy reader believes every count, reads a truncated file as a smaller one, and ends the process on some files. So the
+// sections are checked here before VTK reads them.
 std::int64_t check_legacy(const std::string &path);
 
-// Fails for a file of another kind than a VTK XML file of the wanted type, and for a file that is cut off. VTK's parser stops at
-// appended data without looking for the end of the file. It crashes on a field array whose type it does not know. Sizes are for
-// XmlSizes. wanted_type is the type attribute of the file, such as "PolyData".
+// Fails for a file that is no VTK XML file of the wanted type, and for a truncated file. VTK's parser stops at appended data
+// and does not look for the end of the file. It crashes on a field array of unknown type. Sizes are for XmlSizes. wanted_type
+// is the type attribute of the file, such as "PolyData".
 void check_xml(const std::string &path, const std::string &wanted_type);
 
-// In: a VTK XML file, and VTK's tree of its elements. Out: nothing, or an error where the file claims more than it holds. VTK
-// believes each number of points, cells, values, bytes and blocks: it takes memory for all that is claimed before it reads.
+// In: a VTK XML file, and VTK's tree of its elements. Out: nothing, or an error if the file claims more than it holds. VTK
+// believes each number of points, cells, values, bytes and blocks, and allocates that much memory before it reads.
 class XmlSizes {
  public:
   explicit XmlSizes(const std::string &path);
 
-  // Fails unless the arrays of all pieces, and those of the field, hold as many values as are promised. The parser must have
-  // read the elements.
+  // Fails unless the arrays of all pieces and of the field hold as many values as the file claims. The parser must have read
+  // the elements.
   void check_pieces(vtkXMLDataParser *parser);
-  // Fails unless the file holds n values for an element, of the size that the array's values have. It also fails if a block of
-  // binary data claims to be larger than the file.
+  // Fails unless the file holds n values of the array's type for an element. It also fails if a block of binary data claims to
+  // be larger than the file.
   void check_values(vtkXMLDataParser *parser, vtkXMLDataElement *element, std::int64_t n, vtkAbstractArray *array);
 
  private:
@@ -67,7 +67,7 @@ class XmlSizes {
   const std::string &path_;
   MappedFile file_;
   std::string_view bytes_;
-  // What each element that was looked at holds: bytes, or numbers of a text.
+  // The size of each checked element: its bytes, or the numbers in its text.
   struct Held {
     std::uint64_t n = 0;
     bool is_text = false;

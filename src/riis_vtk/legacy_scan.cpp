@@ -32,8 +32,8 @@ int size_of_type(std::string_view type) {
   return is_in({"string", "utf8_string"}) ? 0 : -1;
 }
 
-// Tells whether VTK takes the whole word for a number of the type. VTK reads by streams, which refuse infinite and too large
-// numbers, and take too small ones.
+// Tells whether VTK reads the whole word as a number of the type. VTK reads by streams. Streams refuse infinite and too large
+// numbers, and accept too small ones.
 bool is_number(std::string_view word, const std::string &type) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   if (type == "float" || type == "double") {
@@ -45,7 +45,7 @@ bool is_number(std::string_view word, const std::string &type) {
     return error == std::errc() && std::isfinite(value) &&
            (type == "double" || std::isfinite(static_cast<float>(value)));
   }
-  // Single bytes are written, and read, as larger numbers.
+  // In text, VTK writes and reads single bytes as larger numbers.
   const bool is_unsigned = type.rfind("unsigned", 0) == 0 || type == "vtktypeuint64";
   const int n_bits = type == "short" || type == "unsigned_short" ? 16 : size_of_type(type) == 8 ? 64 : 32;
   if (is_unsigned && size_of_type(type) > 1) {
@@ -57,7 +57,7 @@ bool is_number(std::string_view word, const std::string &type) {
   return read_number(word, value) && value <= most && value >= -most - 1;
 }
 
-// Returns the number that big-endian bytes are.
+// Returns the number in big-endian bytes.
 std::uint64_t big_endian(std::string_view bytes) {
   std::uint64_t bits = 0;
   for (const char byte : bytes) bits = bits << 8 | static_cast<unsigned char>(byte);
@@ -66,10 +66,10 @@ std::uint64_t big_endian(std::string_view bytes) {
 
 bool begins_with(std::string_view text, std::string_view what) { return text.substr(0, what.size()) == what; }
 
-// A row of whole numbers that the scan has passed already, so they are known to be there and to be numbers.
+// A row of whole numbers. The scan has passed them already, so they exist and are numbers.
 class Numbers {
  public:
-  // size is the bytes of each number in a binary file, 4 or 8, or 0 in an ASCII file.
+  // size is the number of bytes of each number in a binary file, 4 or 8, or 0 for an ASCII file.
   Numbers(std::string_view from, int size) : rest_(from), size_(size) {}
 
   std::int64_t next() {
@@ -102,7 +102,7 @@ class Scan {
   std::int64_t file() {
     header();
     for (std::string keyword = word(); !keyword.empty(); keyword = word()) section(keyword);
-    // The format has no end mark: a file cut after its points would pass for a grid without cells.
+    // The format has no end mark: a file that ends after its points would look like a grid without cells.
     if (n_cells_ < 0) refuse("holds no cells (is it truncated?)");
     if (n_types_ != n_cells_)
       refuse("has ", std::max<std::int64_t>(n_types_, 0), " types for ", n_cells_, " cells",
@@ -120,7 +120,7 @@ class Scan {
 
   std::string_view line() { return take_line(rest_); }
 
-  // Returns "" at the end. VTK takes a longer word for two.
+  // Returns "" at the end. VTK reads a longer word as two words.
   std::string_view word_as_it_is() {
     constexpr std::size_t longest = 255;
     const std::string_view text = take_word(rest_);
@@ -131,7 +131,7 @@ class Scan {
   // Returns the word in lower case, since the format mostly ignores case, or "" at the end.
   std::string word() { return lower_case(word_as_it_is()); }
 
-  // These two return words that must be there.
+  // These two return words, and fail if there is none.
   std::string_view next_as_it_is() {
     const std::string_view text = word_as_it_is();
     if (text.empty()) refuse_end();
@@ -145,7 +145,7 @@ class Scan {
     return n;
   }
 
-  // Returns a count. Each counted thing takes at least a bit of the file, so a count beyond the file's number of bits is wrong.
+  // Returns a count. Each counted item takes at least one bit, so a count above the file's number of bits is wrong.
   std::int64_t count() {
     const std::int64_t n = number_of(next());
     if (n < 0) refuse("has the count ", n);
@@ -161,7 +161,7 @@ class Scan {
     if (first.rfind(magic, 0) != 0) refuse("is not a legacy VTK file");
     std::string version = first.substr(magic.size());
     while (!version.empty() && is_blank(version.back())) version.pop_back();
-    // VTK takes a version that it cannot read for an old one.
+    // VTK reads an unknown version as an old one.
     const std::size_t dot = version.find('.');
     if (dot == std::string::npos) refuse("has the version '", version.substr(0, 40), "'");
     version_ = number_of(version.substr(0, dot));
@@ -180,7 +180,7 @@ class Scan {
     rest_.remove_prefix(static_cast<std::size_t>(n));
   }
 
-  // Skips n words of an ASCII file and refuses any that is no number of the type. VTK would close the file there and read on.
+  // Skips n words of an ASCII file and refuses any that is no number of the type. VTK would close the file there and continue.
   void skip_words(std::int64_t n, const std::string &type) {
     for (std::int64_t i = 0; i < n; ++i) {
       const std::string_view word = take_word(rest_);
@@ -193,7 +193,7 @@ class Scan {
     if (!is_number(word, type)) refuse("has '", word.substr(0, 40), "' for a number of type ", type);
   }
 
-  // Skips a string in a binary file. The upper two bits of its first byte tell how many bytes hold its length.
+  // Skips a string in a binary file. The upper two bits of its first byte give the number of bytes of its length.
   void skip_binary_string() {
     const int n_length_bytes = 8 >> (static_cast<unsigned char>(rest_[0]) >> 6);
     const std::uint64_t word = big_endian(rest_.substr(0, static_cast<std::size_t>(n_length_bytes)));
@@ -208,7 +208,7 @@ class Scan {
     }
   }
 
-  // Skips n values that begin on the next line. n must not be larger than the number of bits left.
+  // Skips n values that begin on the next line. n must not exceed the number of bits left in the file.
   void skip_values(std::int64_t n, const std::string &type) {
     line();
     if (type == "bit") return binary_ ? skip_bytes((n + 7) / 8) : skip_words(n, "int");
@@ -228,8 +228,8 @@ class Scan {
     skip_metadata(width);
   }
 
-  // Skips a block of METADATA behind its keyword. The block ends with a blank line. But each name of a component has a line,
-  // which is blank for a component without a name. VTK reads only the beginning of a keyword: INFORMATION8 1 promises 8 keys.
+  // Skips a block of METADATA behind its keyword. The block ends with a blank line. But each component has a line for its name,
+  // and this line may be blank. VTK reads only the beginning of a keyword, so INFORMATION8 1 promises 8 keys.
   void skip_metadata(std::int64_t n_components) {
     line();
     while (!rest_.empty()) {
@@ -247,8 +247,8 @@ class Scan {
     }
   }
 
-  // Skips the rest of a block of METADATA: the keys, each with a NAME line and a DATA line. VTK looks for as many keys as are
-  // promised, even past the blank line. It never stops once it has met a number that it cannot read.
+  // Skips the rest of a block of METADATA: the keys, each with a NAME line and a DATA line. VTK looks for the promised number
+  // of keys, even beyond the blank line. After an unreadable number it never stops.
   void skip_information(std::int64_t n_keys) {
     std::int64_t n_found = 0;
     vtkInformationKey *key = nullptr;
@@ -274,7 +274,7 @@ class Scan {
     if (n_found != n_keys || key) refuse("has INFORMATION of ", n_keys, " keys and gives ", n_found);
   }
 
-  // Skips the values of a key that VTK knows: a string, a number, or a count and so many strings or numbers.
+  // Skips the values of a key that VTK knows: a string, a number, or a count followed by that many strings or numbers.
   void skip_data(vtkInformationKey *key, std::string_view text) {
     if (vtkInformationStringKey::SafeDownCast(key)) return;
     const bool are_texts = vtkInformationStringVectorKey::SafeDownCast(key) != nullptr;
@@ -328,7 +328,7 @@ class Scan {
     const std::int64_t first = count();
     const std::int64_t second = count();
     if (version_ >= 5) {
-      // Here the two numbers count offsets and corners.
+      // In version 5 the two numbers count offsets and corners.
       n_cells_ = std::max<std::int64_t>(first - 1, 0);
       if (first == 0) return;
       if (next() != "offsets") refuse("has CELLS without OFFSETS");
@@ -346,7 +346,8 @@ class Scan {
     }
   }
 
-  // Skips the cells of files up to version 4: each cell's number of corners, then its corners. n_values counts both.
+  // Skips the cells of files up to version 4: each cell's number of corners, then its corners. n_values counts all these
+  // numbers.
   void counted_cells(std::int64_t n_cells, std::int64_t n_values) {
     line();
     corners_ = rest_;
@@ -373,7 +374,7 @@ class Scan {
     return {values, binary_ ? size : 0};
   }
 
-  // VTK also keeps each type in a byte.
+  // VTK keeps each type in a byte, so only the low byte counts.
   bool has_polyhedra() const {
     Numbers types = numbers(types_, "int");
     for (std::int64_t i = 0; i < n_types_; ++i)
@@ -482,11 +483,11 @@ class Scan {
   std::int64_t n_cells_ = -1;  // unknown
   std::int64_t n_types_ = -1;
   std::int64_t n_points_ = 0;
-  // The beginnings of the arrays. Up to version 4 there are no offsets: each cell's corners stand behind their number.
+  // The beginnings of the arrays. Up to version 4 there are no offsets, and the number of a cell's corners precedes them.
   std::string_view types_, offsets_, corners_;
   std::string type_of_offsets_ = "int", type_of_corners_ = "int";
   std::int64_t n_corners_ = 0;
-  std::int64_t n_tuples_ = 0;  // of each array in the POINT_DATA or CELL_DATA that the scan is in
+  std::int64_t n_tuples_ = 0;  // tuples of each array in the present POINT_DATA or CELL_DATA
 };
 
 }  // namespace

@@ -19,23 +19,23 @@ namespace riis::vtk {
 
 struct VolumeCounts {
   std::int64_t n_volumes = 0;
-  std::int64_t n_linear = 0;   // of these, the cells that volume_cells_of returns
-  std::int64_t n_unknown = 0;  // of these, the cells whose edges are not known
+  std::int64_t n_linear = 0;   // the volume cells that volume_cells_of returns
+  std::int64_t n_unknown = 0;  // the volume cells whose edges are not known
 };
 VolumeCounts count_volumes(vtkUnstructuredGrid *grid);
 
 struct VolumeCells {
   std::vector<std::int64_t> node_ids;
-  std::vector<std::int64_t> offsets = {0};  // one more than cells
+  std::vector<std::int64_t> offsets = {0};  // one entry more than there are cells
 };
 
 // Returns tetrahedra, pyramids, wedges and hexahedra, and voxels as hexahedra. Other cells are left out.
 VolumeCells volume_cells_of(vtkUnstructuredGrid *grid);
 
-// Edges of cells of volume, as pairs of nodes. An edge of several cells is listed several times.
+// Edges of volume cells, as pairs of nodes. The list repeats an edge for each of its cells.
 struct VolumeEdges {
   std::vector<std::int64_t> node_ids;  // (2, n)
-  std::int64_t n_cells_left_out = 0;   // cells of volume whose edges are not known
+  std::int64_t n_cells_left_out = 0;   // volume cells whose edges are not known
 };
 VolumeEdges volume_edges_of(vtkUnstructuredGrid *grid);
 

@@ -36,7 +36,8 @@ void check_adjacency(riis_status status, const std::string &structure) {
   fail(status, text.rfind(structure, 0) == 0 ? text.substr(structure.size()) : text);
 }
 
-// The core makes adjacencies from cells and the faces that join them. Here nodes stand for the cells and edges for the faces.
+// The core makes adjacencies from cells and the faces between them. This call passes nodes as the cells, and edges as the
+// faces.
 riis_adjacency *adjacency_of_edges(std::int64_t n_nodes, const std::vector<std::int64_t> &edges,
                                    std::int32_t n_threads) {
   riis_mesh_faces faces;
@@ -59,7 +60,7 @@ riis_adjacency *adjacency_of(vtkUnstructuredGrid *grid, std::int32_t n_threads) 
   const VolumeCounts counts = count_volumes(grid);
   if (counts.n_linear == 0 || counts.n_linear < counts.n_volumes)
     return adjacency_of_edges(grid->GetNumberOfPoints(), volume_edges_of(grid).node_ids, n_threads);
-  // Lists of cells are a third of the lists of their edges.
+  // A list of cells is a third as long as the list of their edges.
   const VolumeCells volumes = volume_cells_of(grid);
   riis_mesh_cells cells;
   check_core(riis_mesh_cells_init(&cells, sizeof cells));
@@ -83,7 +84,7 @@ const double *points_of(vtkUnstructuredGrid *grid) {
   return vtkDoubleArray::SafeDownCast(grid->GetPoints()->GetData())->GetPointer(0);
 }
 
-// The functions from here on make point arrays of a grid, by the names that riis_vtk.h promises. The values are the result of a
+// The functions from here on make point arrays of a grid. riis_vtk.h promises their names. The values are the result of a
 // marking, or the caller's numbers.
 
 void check_are_of_mesh(const riis_marks *marks, vtkIdType n_nodes) {
@@ -94,7 +95,7 @@ void check_are_of_mesh(const riis_marks *marks, vtkIdType n_nodes) {
   }
 }
 
-// Refuses a name that some file format or some reader does not take.
+// Refuses a name that some file format or reader cannot handle.
 void check_name(const char *argument, const std::string &name) {
   constexpr std::size_t longest = 64;
   const auto is_good = [](char c) {

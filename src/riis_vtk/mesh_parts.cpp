@@ -59,7 +59,7 @@ std::vector<vtkIdType> ids_of(const Chosen &chosen) {
   return ids;
 }
 
-// Copies the values of some nodes or cells, and adds an array that tells their ids in the whole mesh.
+// Copies the values of some nodes or cells, and adds an array with their ids in the whole mesh.
 void copy_data(vtkDataSetAttributes *from, const std::vector<vtkIdType> &ids, const char *id_array,
                vtkDataSetAttributes *to) {
   const auto n = static_cast<vtkIdType>(ids.size());
@@ -71,8 +71,7 @@ void copy_data(vtkDataSetAttributes *from, const std::vector<vtkIdType> &ids, co
   to->AddArray(array);
 }
 
-// Numbers the corners anew. A polyhedron's stream of faces holds its corners: number of faces, then each face's size and
-// nodes.
+// Renumbers the corners. A polyhedron's stream of faces has the number of faces, then each face's size and nodes.
 void add_cell(vtkUnstructuredGrid *grid, vtkIdType cell, const std::vector<vtkIdType> &new_id, vtkIdList *nodes,
               vtkUnstructuredGrid *part) {
   const int type = grid->GetCellType(cell);

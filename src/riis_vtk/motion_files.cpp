@@ -20,7 +20,7 @@
 struct riis_vtk_motion {
   riis::vtk::Frames frames;
   std::vector<std::string> files;
-  std::vector<const char *> paths;  // of the files
+  std::vector<const char *> paths;  // times of the files
 };
 
 namespace riis::vtk {
@@ -31,15 +31,15 @@ struct NamedDataSet {
   std::optional<std::string> file, timestep;
 };
 
-// Collects the elements /VTKFile/Collection/DataSet. It builds no tree, whose destruction would recurse as deep as a hostile
-// file nests.
+// Collects the elements /VTKFile/Collection/DataSet. It builds no tree, because the tree of a deeply nested hostile file would
+// overflow the stack when it is destroyed.
 class CollectionParser : public vtkXMLParser {
  public:
   static CollectionParser *New();
   vtkTypeMacro(CollectionParser, vtkXMLParser);
 
   std::vector<NamedDataSet> data_sets;
-  std::exception_ptr failure;  // in one of the functions below, whose caller is in C
+  std::exception_ptr failure;  // in one of the functions below, which C code calls
 
  protected:
   void StartElement(const char *name, const char **attributes) override {
@@ -68,7 +68,7 @@ class CollectionParser : public vtkXMLParser {
     }
   }
 
-  std::int64_t depth_ = 0, n_right_ = 0;  // of the open elements, the outermost that are on the way
+  std::int64_t depth_ = 0, n_right_ = 0;  // open elements; the outermost of them that match the path
 };
 vtkStandardNewMacro(CollectionParser);
 
@@ -95,12 +95,12 @@ std::vector<NamedDataSet> data_sets_of(const std::string &path, const CaughtOutp
 
 // The files and their times.
 struct Collection {
-  std::vector<std::string> paths;  // those of relative files begin with the collection's folder
+  std::vector<std::string> paths;  // relative names begin with the collection's folder
   std::vector<double> times;       // finite and strictly ascending
 };
 
-// Reads a .pvd file, ParaView's collection of files in time. Fails for a file that is no collection, names no files, or whose
-// timesteps are no ascending numbers.
+// Reads a .pvd file, ParaView's collection of files in time. Fails for a file that is no collection or names no files, and for
+// timesteps that are no ascending numbers.
 Collection read_collection(const std::string &path, const CaughtOutput &caught) {
   if (ending_of(path) != "pvd") fail_file(path, "a collection of files in time must be a .pvd file");
   const std::vector<NamedDataSet> data_sets = data_sets_of(path, caught);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of riis_vtk.h: a surface and a marked mesh, seen by one camera, to .png files. The caller's picture options may be of
-// any release. They become those of this release, checked: a failure names the field and its value.
+// Pictures of riis_vtk.h: a surface and a marked mesh, seen by one camera, to .png files. The caller's picture options may have
+// the struct of any release. They are converted to this release's struct and checked. A failure names the field and its value.
 #include <riis/riis_vtk.h>
 
 #include <cmath>
@@ -94,7 +94,7 @@ void check_png(const std::string &path) {
   if (ending_of(path) != "png") fail_file(path, "the file's ending must be .png");
 }
 
-// Writes what the window last rendered. Fails if VTK reported an error.
+// Writes the last picture of the window. Fails if VTK reported an error.
 void write_png(vtkRenderWindow *window, const std::string &path, const CaughtOutput &caught) {
   caught.check(path);
   ReplacingFile file(path);
@@ -141,7 +141,7 @@ struct riis_vtk_film {
   riis::vtk::HeldDisplay display;  // held for as long as the scene's window
   std::int32_t view;
   riis::vtk::Bounds bounds;
-  riis_vtk_mesh mesh;  // shares the grid with the caller's mesh; its grid is NULL without one
+  riis_vtk_mesh mesh;  // shares the grid with the caller's mesh; NULL grid: no mesh
   riis::vtk::Scene scene;
 };
 

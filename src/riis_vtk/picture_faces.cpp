@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// VTK's own filters for this, vtkDataSetSurfaceFilter and vtkGeometryFilter, take longer than the rest of a picture together.
+// VTK's own filters for this task, vtkDataSetSurfaceFilter and vtkGeometryFilter, take longer than all other steps of a
+// picture.
 #include "riis_vtk/picture_faces.hpp"
 
 #include <algorithm>
@@ -46,7 +47,7 @@ const FaceTable *faces_of_type(int type) {
   }
 }
 
-// A grid's cells as polygons of corners. Types that have no table above are described by VTK.
+// A grid's cells as polygons of corners. VTK gives the faces of types that have no table above.
 class Polygons {
  public:
   explicit Polygons(vtkUnstructuredGrid *grid) : grid_(grid) {}
@@ -94,7 +95,7 @@ class Polygons {
     return generic_;
   }
 
-  // A polygon has as many corners as edges, and they come first.
+  // A polygon has as many corners as edges. Its corners come first.
   void add_corners(vtkCell *polygon) {
     for (int i = 0; i < polygon->GetNumberOfEdges(); ++i) corners_.push_back(polygon->GetPointIds()->GetId(i));
   }
@@ -110,12 +111,13 @@ struct Face {
   int number;  // the face's position in its cell
 };
 
-// The faces that only one cell has had so far. Neighbours mostly follow each other in a mesh, so these are few at any time.
+// The faces that only one cell has had so far. Neighbouring cells are mostly near each other in the list, so there are few such
+// faces at any time.
 class LoneFaces {
  public:
   explicit LoneFaces(vtkIdType n_points) : first_(static_cast<std::size_t>(n_points), -1) {}
 
-  // Adds a face. A face that is there already is removed, since two cells share it.
+  // Adds a face, or removes it if it exists already, since two cells then share it.
   void toggle(const Corners &corners, Face face) {
     Key key = {-1, -1, -1, -1};
     std::partial_sort_copy(corners.begin(), corners.end(), key.begin(), key.end());
@@ -163,7 +165,7 @@ class LoneFaces {
     return view(entries_).size() - 1;
   }
 
-  std::vector<std::int64_t> first_;  // for each least corner
+  std::vector<std::int64_t> first_;  // the faces of each least corner
   std::vector<Entry> entries_;
   std::int64_t free_ = -1;
 };
@@ -199,7 +201,7 @@ class Collected {
   vtkNew<vtkCellArray> polygons_;
 };
 
-// Turns over a face whose corners run clockwise seen from outside its cell. A cell that is inside out has such faces.
+// Reverses a face whose corners run clockwise, seen from outside its cell. An inverted cell has such faces.
 void turn_outwards(vtkUnstructuredGrid *grid, vtkIdType cell, Corners &corners) {
   vtkNew<vtkIdList> nodes;
   grid->GetCellPoints(cell, nodes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a grid and its wanted cells. Out: the faces that the wanted cells do not share, as polydata.
+// In: a grid and its wanted cells. Out: polydata of the faces that belong to only one wanted cell.
 #pragma once
 
 #include <vtkSmartPointer.h>
@@ -16,7 +16,7 @@ class vtkUnstructuredGrid;
 
 namespace riis::vtk {
 
-// The dimensions of a grid's cells. In a grid with volumes, flat cells repeat the boundary and are not drawn.
+// The dimensions of a grid's cells. In a grid with volumes, flat cells repeat the boundary, so they are not drawn.
 class CellDimensions {
  public:
   explicit CellDimensions(vtkUnstructuredGrid *grid);

@@ -81,7 +81,7 @@ std::vector<std::uint8_t> marked_nodes(vtkUnstructuredGrid *grid) {
   return nodes;
 }
 
-// Returns one value per cell. Cells of less than the largest dimension count as not marked.
+// Returns one value per cell. Cells below the largest dimension count as not marked.
 std::vector<std::uint8_t> marked_parts(vtkUnstructuredGrid *grid, const std::vector<std::uint8_t> &marked) {
   const CellDimensions dimensions(grid);
   std::vector<std::uint8_t> parts(static_cast<std::size_t>(grid->GetNumberOfCells()), not_marked);
@@ -110,7 +110,7 @@ std::vector<vtkIdType> leaflets_of(vtkUnstructuredGrid *grid, const std::vector<
     grid->GetCellPoints(cell, nodes);
     vtkIdType closest = -1;
     for (const vtkIdType node : *nodes) {
-      // The distance of an unmarked node may be the far distance, which may be any number.
+      // An unmarked node may have the far distance, which may be any number.
       if (marked->GetComponent(node, 0) == 0) continue;
       if (closest < 0 || distance->GetComponent(node, 0) < distance->GetComponent(closest, 0)) closest = node;
     }
@@ -133,7 +133,7 @@ double mean_edge_length(vtkPolyData *faces) {
   return sum / std::max(1.0, static_cast<double>(faces->GetNumberOfCells()));
 }
 
-// There is no perspective, so this only changes which parts hide which.
+// Without perspective the shift only changes which parts are in front.
 void move_away(vtkActor *actor, const View &view, double length) {
   actor->SetPosition(length * view.away()[0], length * view.away()[1], length * view.away()[2]);
 }
@@ -158,7 +158,7 @@ void SurfacePanel::show(vtkPolyData *surface) {
   colour_faces(surface, leaflets, 0);
   renderer_->RemoveAllViewProps();
   renderer_->AddActor(coloured_actor(smoothed(surface)));
-  // Patches of a leaflet have vertices of their own on the sides that they share.
+  // Patches of a leaflet do not share vertices on their common sides.
   vtkNew<vtkCleanPolyData> joined;
   joined->SetInputData(surface);
   joined->SetTolerance(0);
@@ -204,7 +204,8 @@ void MarksPanel::add_marks(vtkUnstructuredGrid *grid) {
   colour_faces(partly.faces, leaflets_of(grid, partly.cell_id), pale);
   partly_length_ = mean_edge_length(partly.faces);
   partly_ = coloured_actor(partly.faces);
-  // Faces towards the eye would hide the whole cells. The other faces show around whole cells and in gaps between them.
+  // Faces that look towards the eye would hide the whole cells. The other faces are visible around whole cells and in gaps
+  // between them.
   partly_->GetProperty()->SetFrontfaceCulling(partly.of_volumes);
   partly_->GetProperty()->SetAmbient(0.6);
   partly_->GetProperty()->SetDiffuse(0.45);

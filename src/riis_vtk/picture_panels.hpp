@@ -20,14 +20,14 @@ Colour colour_of_leaflet(vtkIdType leaflet);
 constexpr Colour leak_colour = {0.86, 0.0, 0.0};
 constexpr Colour grey = {0.2, 0.2, 0.2};
 
-// The surface, each leaflet in its colour. The rims are lines, because faces that the view meets edge on have no pixels.
+// The surface, with a colour for each leaflet. The rims are drawn as lines, because faces that are seen edge on have no pixels.
 class SurfacePanel {
  public:
   // pixels is the width of a line.
   explicit SurfacePanel(double pixels);
   // Replaces the surface shown before.
   void show(vtkPolyData *surface);
-  // Turns to a view: the lines are a little behind the faces, which hide them wherever they can.
+  // Turns to a view. The lines are drawn slightly behind the faces, so that faces in front hide them.
   void look(const View &view, const Sight &sight);
   vtkRenderer *renderer() const { return renderer_; }
   const std::set<vtkIdType> &leaflets() const { return leaflets_; }
@@ -46,17 +46,17 @@ struct MarkCounts {
 };
 
 // Marked cells in the faint boundary of the mesh. A cell has the colour of its closest node's leaflet; a partly marked
-// cell is paler. Edges that leak are red. Cells of less than the grid's largest dimension are left out.
+// cell is paler. Edges that leak are red. Cells below the grid's largest dimension are left out.
 class MarksPanel {
  public:
   // pixels is the width of a line.
   MarksPanel(vtkUnstructuredGrid *grid, double pixels);
-  // Replaces the marks shown before by the present marks of the grid's point arrays. leaking_edges(2, n_leaking_edges) holds
-  // checked node ids.
+  // Replaces the old marks by the present marks in the grid's point arrays. leaking_edges(2, n_leaking_edges) holds checked
+  // node ids.
   void show(vtkUnstructuredGrid *grid, std::int64_t n_leaking_edges, const std::int64_t *leaking_edges);
   vtkRenderer *renderer() const { return renderer_; }
   const MarkCounts &counts() const { return counts_; }
-  // Turns to a view: cuts a mesh that goes on beyond the panel, and moves leaking edges in front of everything else.
+  // Turns to a view. Cuts a mesh that extends beyond the panel, and moves leaking edges in front of everything else.
   void look(const View &view, const Sight &sight);
 
  private:
@@ -68,7 +68,7 @@ class MarksPanel {
   MarkCounts counts_;
   double pixels_;
   double partly_length_ = 0;                                                 // mean edge length of partly marked cells
-  vtkSmartPointer<vtkActor> partly_, whole_, leaks_, skin_, outline_, cut_;  // leaks_ NULL without any
+  vtkSmartPointer<vtkActor> partly_, whole_, leaks_, skin_, outline_, cut_;  // leaks_ is NULL without leaking edges
 };
 
 }  // namespace riis::vtk

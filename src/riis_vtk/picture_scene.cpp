@@ -43,7 +43,7 @@ std::string counted(vtkIdType n, const std::string &singular) {
   return grouped(n) + " " + singular + (n == 1 ? "" : "s");
 }
 
-// Returns the largest 1, 2 or 5 times a power of ten that is not above the limit.
+// Returns the largest number up to the limit that is 1, 2 or 5 times a power of ten.
 double round_length(double limit) {
   const double power = std::pow(10, std::floor(std::log10(limit)));
   for (const double digit : {5.0, 2.0}) {
@@ -52,7 +52,7 @@ double round_length(double limit) {
   return power;
 }
 
-// Returns the part of a text that VTK can draw in one line. VTK knows letters other than ASCII only as UTF-8.
+// Returns the part of a text that VTK can draw in one line. VTK reads letters outside ASCII only as UTF-8.
 std::string drawable(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
@@ -78,7 +78,7 @@ void add_text(vtkRenderer *renderer, const std::string &text, double x, double y
   renderer->AddViewProp(actor);
 }
 
-// Uses smaller letters for a text that is too long. A text that is too long even with the smallest letters loses its end.
+// Uses smaller letters for a text that is too long. If even the smallest letters do not help, the text loses its end.
 void add_fitting_text(vtkRenderer *renderer, std::string text, double x, double y, double width, int letter) {
   while (letter > least_letter && width_of(text, letter) > width) --letter;
   if (width_of(text, letter) > width) {
@@ -115,7 +115,7 @@ void add_lines(vtkRenderer *renderer, const std::vector<Line> &lines, double wid
   renderer->AddViewProp(actor);
 }
 
-// Adds a bar of a round length, with the length and its unit beside it.
+// Adds a bar whose length is a round number, with the length and its unit beside it.
 void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double y, const Sight &sight,
                    const std::string &unit, bool has_plural) {
   const double pixels_per_length = layout.panel_height() / (2 * sight.shown[1].half());
@@ -134,7 +134,7 @@ void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double
   add_fitting_text(renderer, text.str(), after, y, right - after, layout.letter());
 }
 
-// Adds the directions of x, y and z, each as long as the view shows it. An axis that points at the eye is named at the middle.
+// Adds arrows for x, y and z with their lengths in the view. The name of an axis that points at the eye stands in the middle.
 void add_axes(vtkRenderer *renderer, const Layout &layout, double x, double y, double length, const View &view) {
   const char *const names[3] = {"x", "y", "z"};
   std::vector<Line> lines;
@@ -188,8 +188,8 @@ void add_key(vtkRenderer *renderer, const Layout &layout, int panel, double left
   }
 }
 
-// Draws all texts of a picture behind its panels. unit follows the number at the scale bar. It gets an s unless the number is 1,
-// or the unit has no plural, as a symbol.
+// Draws all texts of a picture behind its panels. unit follows the number at the scale bar. It gets an s unless the number is 1
+// or the unit is a symbol.
 vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &panels,
                                               const View &view, const Sight &sight, const std::string &unit,
                                               bool has_plural) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window of a picture has panels, and bands above and below them with captions, the key of colours, axes and a scale bar. It
-// shows one surface and the marks of one grid after the other, and each from any side.
+// The window of a picture has panels, and bands above and below them with captions, the key of colours, axes and a scale bar.
+// It can show several surfaces and marks one after the other, each from any side.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -17,7 +17,8 @@ class vtkRenderWindow;
 
 namespace riis::vtk {
 
-// The places of a picture's parts, in pixels from the lower left corner. A picture too low for bands has neither bands nor texts.
+// The places of a picture's parts, in pixels from the lower left corner. A picture that is too low for bands has neither bands
+// nor texts.
 class Layout {
  public:
   Layout(int width, int height, int n_panels);
@@ -28,11 +29,12 @@ class Layout {
   double panel_left(int panel) const { return width_ * static_cast<double>(panel) / n_panels_; }
   double panel_width() const { return width_ / static_cast<double>(n_panels_); }
   double panel_height() const { return height_ - top_ - bottom_; }
-  // The lower end of a line of text. The caption's lines count from the top, the key's lines from the panels downwards.
+  // Return the lower end of a line of text. The caption's lines are counted from the top, the key's lines from the panels
+  // downwards.
   double caption_line(int line) const { return height_ - 1.6 * letter_ * (line + 1); }
   double key_line(int line) const { return bottom_ - 1.6 * letter_ * (line + 1); }
   double bottom() const { return bottom_; }
-  // Left, lower, right and upper end, each from 0 to 1 across the picture.
+  // The left, lower, right and upper end, as shares of the picture's size.
   std::array<double, 4> viewport(int panel) const;
   double line_width() const;
 
@@ -51,7 +53,7 @@ struct PanelTexts {
   std::vector<KeyEntry> key;         // as many as fit
 };
 
-// Edges to draw red. NULL: no word of leaks.
+// Edges to draw red. NULL: the texts do not mention leaks.
 struct Leaks {
   std::int64_t n_edges = 0;
   const std::int64_t *edges = nullptr;
@@ -67,14 +69,19 @@ class Scene {
   ~Scene();
   // Shows the surface, and the marks that the grid has now. title NULL: "Surface".
   void show(const riis_surface *surface, const char *title, const Leaks &leaks);
+<<<<<<< HEAD
   // The box that the camera sees, or nothing for the surface.
   vtkRenderWindow *render(std::int32_t of, const std::optional<Bounds> &seen);
+=======
+  // The box that the camera shows, or nothing for the surface's box.
+  vtkRenderWindow *render(std::int32_t view, const std::optional<Bounds> &seen);
+>>>>>>> h3-en1
 
  private:
   void add_panel(vtkRenderer *renderer, int panel);
 
   Layout layout_;
-  std::string unit_;  // "" if the caller named none
+  std::string unit_;  // "" if the caller gave none
   std::vector<std::string> leaflet_names_;
   vtkSmartPointer<vtkUnstructuredGrid> grid_;
   vtkSmartPointer<vtkPolyData> triangles_;

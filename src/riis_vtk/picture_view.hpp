@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the direction of view and the extents of the surface and the mesh. Out: the space in sight, for the camera, the cut and the
-// scale bar; and planes and dashed lines that show that a mesh goes on beyond the panel.
+// In: the direction of view and the extents of the surface and the mesh. Out: the visible space, for the camera, the cut and
+// the scale bar; and planes and dashed lines at the cuts of a mesh that extends beyond the panel.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ using Extents = std::array<Extent, 3>;
 // Extents along x, y and z.
 using Bounds = std::array<Extent, 3>;
 
-// A view without perspective, so that lengths can be compared: right, up, away are unit vectors, perpendicular to each other.
+// A view without perspective, so that lengths can be compared. right, up and away are perpendicular unit vectors.
 struct View {
   std::array<Vector, 3> axes;
 
@@ -39,21 +39,21 @@ struct View {
   const Vector &up() const { return axes[1]; }
   const Vector &away() const { return axes[2]; }
   Extents extents_of(vtkPointSet *data) const;
-  // Those of the whole box.
+  // Returns the extents of the whole box.
   Extents extents_of(const Bounds &bounds) const;
 };
 
 // The part of space that a panel shows, along the axes of its view.
 struct Sight {
   Extents shown;                  // x and y to the panel's edges; the depth of surface and mesh
-  std::array<Extent, 2> uncut;    // x and y at which a mesh that goes on further is cut
-  std::array<bool, 2> cut_below;  // whether it goes on to the left, downwards
-  std::array<bool, 2> cut_above;  // to the right, upwards
+  std::array<Extent, 2> uncut;    // x and y at which a mesh that extends further is cut
+  std::array<bool, 2> cut_below;  // whether it is cut on the left and below
+  std::array<bool, 2> cut_above;  // whether it is cut on the right and above
   bool is_cut() const { return cut_below[0] || cut_below[1] || cut_above[0] || cut_above[1]; }
 };
 
-// The sight holds the surface. Along each axis where the mesh is not much larger, it also holds the mesh. So pictures of
-// a valve that moves in one mesh can be compared. Along other axes it holds the surface's neighbourhood.
+// The sight contains the surface. Along an axis on which the mesh is not much larger, it also contains the mesh. So pictures of
+// a valve that moves in one mesh can be compared. Along other axes it contains the surface's neighbourhood.
 //   mesh    NULL: none
 //   aspect  the panel's width over its height
 Sight sight_of(const Extents &surface, const Extents *mesh, double aspect);
@@ -63,7 +63,7 @@ void aim_camera(vtkCamera *camera, const View &view, const Sight &sight);
 // Returns planes for the mapper of the mesh. There are none if the whole mesh is in sight.
 std::vector<vtkSmartPointer<vtkPlane>> cutting_planes(const View &view, const Sight &sight);
 
-// Returns dashed lines where the planes cut the boundary. They are nearer to the eye than everything else.
+// Returns dashed lines at which the planes cut the boundary. They are nearer to the eye than everything else.
 vtkSmartPointer<vtkPolyData> dashes_where_cut(const View &view, const Sight &sight, vtkPolyData *boundary);
 
 }  // namespace riis::vtk

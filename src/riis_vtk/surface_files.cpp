@@ -41,8 +41,8 @@ std::int64_t ascii_count(const std::string &path, std::string_view text) {
   return n;
 }
 
-// Returns how many triangles the file must give. VTK ignores the count in a binary file and the end mark of an ASCII one, so it
-// reads a truncated file as a smaller surface.
+// Returns how many triangles the file must give. VTK ignores the count in a binary file and the end mark in an ASCII file. So
+// it reads a truncated file as a smaller surface.
 std::int64_t promised_triangles(const std::string &path, std::string_view bytes) {
   const std::int64_t n = binary_count(bytes);
   const std::int64_t n_behind =
@@ -56,8 +56,8 @@ std::int64_t promised_triangles(const std::string &path, std::string_view bytes)
   fail_file(path, "is truncated or not an STL file: ", bytes.size(), " bytes, ", n, " triangles in its header");
 }
 
-// Reads an .stl file, ASCII or binary. Its triangles are polydata in the file's order, each with three points of its own. Merging
-// points would drop triangles and shift the ids of the others.
+// Reads an .stl file, ASCII or binary. The result is polydata with the triangles in the file's order, each with three points of
+// its own. Merging points would remove triangles and shift the ids of the others.
 vtkSmartPointer<vtkPolyData> read_stl(const std::string &path, const CaughtOutput &caught) {
   const std::int64_t n_promised = promised_triangles(path, MappedFile(path, check_readable(path)).bytes());
   if (n_promised == 0) fail_file(path, "holds no faces");

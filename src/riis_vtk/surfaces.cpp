@@ -31,7 +31,7 @@ void add_triangle(std::vector<std::int64_t> &triangles, const vtkIdList *ids, vt
 }
 
 void cut_strip(const vtkIdList *ids, std::vector<std::int64_t> &triangles) {
-  // Every other triangle of a strip runs the other way round.
+  // Every second triangle of a strip has the opposite winding.
   for (vtkIdType i = 0; i + 2 < const_cast<vtkIdList *>(ids)->GetNumberOfIds(); ++i) {
     add_triangle(triangles, ids, i, i % 2 == 0 ? i + 1 : i + 2, i % 2 == 0 ? i + 2 : i + 1);
   }
@@ -51,7 +51,7 @@ void cut_polygon(const std::string &path, vtkPointSet *data, vtkIdType cell_id, 
   }
 }
 
-// Twice the vector area of the triangle of three corners.
+// Returns twice the vector area of a triangle.
 std::array<double, 3> area_of(vtkPointSet *data, const vtkIdList *ids, vtkIdType a, vtkIdType b, vtkIdType c) {
   auto *list = const_cast<vtkIdList *>(ids);
   double p[3], q[3], r[3], area[3];
@@ -71,8 +71,8 @@ bool is_inner_diagonal(vtkPointSet *data, const vtkIdList *ids, vtkIdType i) {
   return vtkMath::Dot(one.data(), other.data()) > 0;
 }
 
-// Quads are cut from their first corner to their third, here and in the core. If that line runs outside a concave quad and the
-// other diagonal runs inside, the corners move on by one.
+// Quads are cut from their first corner to their third, here and in the core. If that diagonal is outside a concave quad and
+// the other one is inside, the list of corners is rotated by one.
 void put_inner_diagonal_first(vtkPointSet *data, vtkIdList *ids) {
   if (!is_inner_diagonal(data, ids, 0) && is_inner_diagonal(data, ids, 1)) {
     std::rotate(ids->begin(), ids->begin() + 1, ids->end());
@@ -130,7 +130,7 @@ std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet
   return leaflets;
 }
 
-// Returns a vertex's place as bits, which can be sorted even if the file holds NaN. 0 and -0 are the same place.
+// Returns a vertex's place as bits, so that places can be sorted even if the file contains NaN. 0 and -0 are the same place.
 std::array<std::uint64_t, 3> place_of(const Faces &faces, std::size_t vertex) {
   std::array<std::uint64_t, 3> bits;
   for (std::size_t k = 0; k < 3; ++k) {

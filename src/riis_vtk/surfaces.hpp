@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the path of a file with a surface, or a surface of the core. Out: its data set; and from a data set, plain arrays for the
-// core, with a leaflet id for each face, and the connected pieces of faces.
+// Reads a file with a surface, or a surface of the core, into a data set. From a data set it makes plain arrays for the core,
+// with a leaflet id for each face, and the connected pieces of faces.
 #pragma once
 
 #include <vector>
@@ -13,13 +13,13 @@ class vtkPolyData;
 
 namespace riis::vtk {
 
-// Reads a .vtp, .vtu or .stl file. All cells have been checked, for faces_of.
+// Reads a .vtp, .vtu or .stl file. All cells have been checked, as faces_of requires.
 vtkSmartPointer<vtkPointSet> read_surface_data(const std::string &path, const CaughtOutput &caught);
 
 // Returns exactly the triangles of the surface, with double points and the arrays that riis_vtk.h names.
 vtkSmartPointer<vtkPolyData> polydata_of(const riis_surface *surface);
 
-// Triangles as plain arrays, or quads where the data set holds nothing else.
+// Triangles as plain arrays, or quads if the data set has only quads.
 struct Faces {
   std::vector<double> xyz;               // (3, n_vertices): all points, used or not
   std::vector<std::int64_t> vertex_ids;  // (corners_per_face, n_faces); a quad's corners 1 and 3 end an inner diagonal
@@ -30,7 +30,7 @@ struct Faces {
 // Returns the places of all points, (3, n).
 std::vector<double> coordinates_of(vtkPointSet *data);
 
-// The cell array that gives the faces' leaflet ids. It must be there if it is required.
+// The cell array with the faces' leaflet ids, and whether it is required.
 struct LeafletArray {
   // given is the caller's name for it. NULL: riis_leaflet, which may be missing.
   explicit LeafletArray(const char *given) : name(given ? given : leaflet_array), is_required(given != nullptr) {}
@@ -39,9 +39,15 @@ struct LeafletArray {
   bool is_required;
 };
 
+<<<<<<< HEAD
 // Takes a data set of triangles, quads, polygons and triangle strips, whose cells have been checked. The path is only for the
 // message.
 Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &wanted);
+=======
+// Converts a data set of triangles, quads, polygons and triangle strips, whose cells have been checked. The path is only for
+// the message.
+Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &leaflets);
+>>>>>>> h3-en1
 
 // Returns the number of each vertex's place, which is below the number of vertices. Vertices at exactly the same coordinates have
 // the same place.

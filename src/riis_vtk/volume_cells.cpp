@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Knows the edges of all types of cells, and lists edges and cells of volume.
+// Has the edges of all types of cells, and lists volume cells and their edges.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -40,7 +40,8 @@ void sort_edges(std::vector<Edge> &edges) {
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
 }
 
-// Adds the edges of a face. A side of higher order has a node in its middle, and the face may have one also, its last node.
+// Adds the edges of a face. A side of higher order has a node in its middle. The face may also have a node in its middle, its
+// last one.
 void add_face(vtkCell *face, std::vector<Edge> &edges) {
   std::vector<vtkIdType> middles;
   const int n_sides = face->GetNumberOfEdges();
@@ -57,7 +58,7 @@ void add_face(vtkCell *face, std::vector<Edge> &edges) {
   }
   const int last = static_cast<int>(face->GetNumberOfPoints()) - 1;
   if (last == n_sides + view(middles).size()) {
-    // Four quads meet at the middle of a quad, six triangles at that of a triangle.
+    // Four quads meet at the middle of a quad, and six triangles meet at the middle of a triangle.
     for (int i = n_sides == 3 ? 0 : n_sides; i < last; ++i)
       edges.push_back(edge_between(face->GetPointId(i), face->GetPointId(last)));
   } else if (!middles.empty()) {
@@ -66,18 +67,18 @@ void add_face(vtkCell *face, std::vector<Edge> &edges) {
   }
 }
 
-// Adds the edges that are on no face.
+// Adds the edges inside the cell, which are on no face.
 void add_inner_edges(int type, std::vector<Edge> &edges) {
   const auto add_star = [&](vtkIdType centre, vtkIdType first) {
     for (vtkIdType i = first; i < centre; ++i) edges.push_back(edge_between(i, centre));
   };
   if (type == VTK_TRIQUADRATIC_HEXAHEDRON) add_star(26, 20);
   if (type == VTK_TRIQUADRATIC_PYRAMID) add_star(18, 13);
-  // The middles of the quads are the corners of a triangle half way up.
+  // The middles of the quads are the corners of a triangle at half height.
   if (type == VTK_BIQUADRATIC_QUADRATIC_WEDGE) edges.insert(edges.end(), {{15, 16}, {16, 17}, {15, 17}});
 }
 
-// What all cells of a type have in common.
+// The common properties of all cells of a type.
 struct Shape {
   int dimension = 0;
   std::vector<Edge> edges;  // pairs of positions in the cell's list of nodes; none if they depend on the cell
@@ -108,11 +109,11 @@ const Shape &known_shape(int type) {
   return view(shapes)[type];
 }
 
-// Nodes on a lattice have edges along the lines of the lattice.
-using Orders = std::array<int, 4>;  // along three axes, and the number of nodes, as VTK has them
+// Nodes on a lattice have edges along its lines.
+using Orders = std::array<int, 4>;  // the orders along three axes, then the number of nodes, as in VTK
 
 void add_tetrahedron_lattice(int order, std::vector<Edge> &edges) {
-  // Each place of a lattice of one order less stands for a small tetrahedron.
+  // Each place of the lattice with one order less belongs to a small tetrahedron.
   for (vtkIdType i = 0; i < order; ++i)
     for (vtkIdType j = 0; i + j < order; ++j)
       for (vtkIdType k = 0; i + j + k < order; ++k) {
@@ -154,7 +155,7 @@ void add_wedge_lattice(const Orders &orders, std::vector<Edge> &edges) {
       }
 }
 
-// Returns the number of nodes of a lattice, as a double because the orders may be any.
+// Returns the number of nodes of a lattice, as a double because the orders may be arbitrarily large.
 double n_lattice_nodes(int type, const Orders &orders) {
   const double n[3] = {orders[0] + 1.0, orders[1] + 1.0, orders[2] + 1.0};
   if (type == VTK_LAGRANGE_TETRAHEDRON || type == VTK_BEZIER_TETRAHEDRON) return n[0] * (n[0] + 1) * (n[0] + 2) / 6;
@@ -179,8 +180,8 @@ std::vector<Edge> lattice_edges(int type, const Orders &orders) {
   return edges;
 }
 
-// Finds the orders of a cell of n_nodes. They are given, or the same along all axes. Returns false if neither fits: such a cell
-// has other nodes than those of a lattice.
+// Finds the orders of a cell of n_nodes. The orders are given, or they are equal along all axes. Returns false if neither fits,
+// because the cell's nodes are then no lattice.
 bool find_orders(int type, vtkIdType n_nodes, const double *given, Orders &orders) {
   orders[3] = static_cast<int>(n_nodes);
   const auto fit = [&] {
@@ -199,7 +200,7 @@ bool find_orders(int type, vtkIdType n_nodes, const double *given, Orders &order
   return false;
 }
 
-// Checks the length first: in fine meshes no edge is long.
+// Checks the length first, because few edges of a fine mesh are long.
 bool is_long_and_near(const double *a, const double *b, double least_square, const double *lower, const double *upper) {
   const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
   if (x * x + y * y + z * z < least_square) return false;
@@ -208,15 +209,15 @@ bool is_long_and_near(const double *a, const double *b, double least_square, con
   return true;
 }
 
-// The edges of cells with straight sides are their sides. A cell of higher order has the edges of the linear cells that its nodes
-// cut it into. A face without a node in its middle has edges between the middles of neighbouring sides.
+// The edges of cells with straight sides are their sides. The nodes of a cell of higher order cut it into linear cells, and it
+// has their edges. A face without a node in its middle has edges between the middles of neighbouring sides.
 class CellEdges {
  public:
   explicit CellEdges(vtkUnstructuredGrid *grid) : grid_(grid), degrees_(grid->GetCellData()->GetHigherOrderDegrees()) {
     if (degrees_ && degrees_->GetNumberOfComponents() != 3) degrees_ = nullptr;
   }
 
-  // Tells whether the cell is one of volume. Others bound volumes, or stand alone.
+  // Tells whether the cell is a volume. Other cells bound volumes, or stand alone.
   bool is_volume(vtkIdType cell) const { return known_shape(grid_->GetCellType(cell)).dimension == 3; }
 
   // Calls visit with both nodes of each edge of a face or a volume. Returns false if the edges are not known.
@@ -229,7 +230,7 @@ class CellEdges {
   }
 
  private:
-  // Returns each edge once, as a pair of positions in the list of nodes ids. If ids stays NULL the pairs are nodes.
+  // Returns each edge once, as a pair of positions in the list of nodes ids. If ids is NULL, the pairs are nodes.
   const std::vector<Edge> &pairs_of(vtkIdType cell, const vtkIdType *&ids) {
     const int type = grid_->GetCellType(cell);
     if (type == VTK_POLYHEDRON) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way of a failure out of this library: fail() throws, and guarded() turns any exception into a status and the core's last
-// error. While a body runs, VTK's messages are caught instead of printed.
+// Reports the failures of this library. fail() throws, and guarded() turns any exception into a status and the core's last
+// error. While a body runs, VTK's messages are caught and not printed.
 #pragma once
 
 #include <locale.h>
@@ -27,7 +27,7 @@ struct Failure {
 
 [[noreturn]] void fail(riis_status status, std::string text);
 
-// Returns words and numbers as one text. A real number has the shortest text that stands for it, such as "nan" and "0.1".
+// Returns words and numbers as one text. A real number has its shortest exact text, such as "nan" and "0.1".
 template <class... Parts>
 std::string joined(const Parts &...parts) {
   std::string text;
@@ -43,13 +43,14 @@ std::string joined(const Parts &...parts) {
   return text;
 }
 
-// Throws RIIS_INVALID_ARGUMENT. The message is made of the parts.
+// Throws RIIS_INVALID_ARGUMENT with a message of these parts.
 template <class... Parts>
 [[noreturn]] void refuse_argument(const Parts &...parts) {
   fail(RIIS_INVALID_ARGUMENT, joined(parts...));
 }
 
-// Throws a RIIS_FILE_ERROR with the message "PATH: reason". A path too long for the message loses its beginning, not the reason.
+// Throws a RIIS_FILE_ERROR with the message "PATH: reason". A path that is too long for the message loses its beginning. The
+// reason stays complete.
 [[noreturn]] void fail_reason(const std::string &path, const std::string &reason);
 template <class... Parts>
 [[noreturn]] void fail_file(const std::string &path, const Parts &...parts) {
@@ -69,8 +70,8 @@ auto naming(const std::string &path, const Work &work) {
 }
 // Passes on an error of the core, with the core's message.
 void check_core(riis_status status);
-// Fails unless a struct has the size of some release: first_size is that of the first release that had it, size_here that of this
-// one.
+// Fails unless a struct has the size of some release. first_size is its size in the first release that had it, and size_here
+// its size in this release.
 void check_struct_size(std::int64_t size, std::int64_t first_size, std::int64_t size_here, const char *name);
 
 template <class T>
@@ -79,8 +80,9 @@ T *require(T *pointer, const char *argument) {
   return pointer;
 }
 
-// Takes the place of VTK's process-wide output window while it lives, and silences VTK's log on stderr, which repeats every
-// error. VTK does not tell the level of the log's stderr part, only the highest level of its parts. So that level is put back.
+// Replaces VTK's process-wide output window while it lives, and silences VTK's log on stderr, which repeats every error. VTK
+// does not give the level of the log on stderr, only the highest level of all logs. So the destructor restores this highest
+// level.
 class CaughtOutput {
  public:
   CaughtOutput();
@@ -89,7 +91,7 @@ class CaughtOutput {
   CaughtOutput &operator=(const CaughtOutput &) = delete;
 
   // Fails with RIIS_FILE_ERROR for the path if VTK reported an error. The message is the first error since the scope began, in
-  // one line without VTK's source positions. The first error is the cause. Later ones come from VTK's layers above.
+  // one line without VTK's source positions. The first error is the cause. Later errors come from higher layers of VTK.
   void check(const std::string &path) const;
 
  private:
@@ -100,9 +102,9 @@ class CaughtOutput {
   int caller_log_level_;
 };
 
-// Decimal points while this object lives: under a caller's setlocale(LC_ALL, "de_DE.UTF-8") VTK's readers would take "1.5" for 1.
-// Only this thread's locale changes. VTK's legacy reader also sets the process's locale to "C" and leaves it there, so the
-// caller's locale is put back.
+// Numbers have decimal points while this object lives. After a caller's setlocale(LC_ALL, "de_DE.UTF-8") VTK's readers would
+// read "1.5" as 1. Only this thread's locale changes. VTK's legacy reader also sets the process's locale to "C" and leaves it
+// there, so the destructor restores the caller's locale.
 class NumericLocale {
  public:
   NumericLocale() : callers_(setlocale(LC_ALL, nullptr)), points_(newlocale(LC_NUMERIC_MASK, "C", nullptr)) {
@@ -123,7 +125,7 @@ class NumericLocale {
   locale_t threads_;
 };
 
-// Records the message of the exception that is being handled, and returns its status.
+// Records the message of the current exception, and returns its status.
 riis_status record_current_exception() noexcept;
 
 // Every public function's body runs in this function and receives the caught output.

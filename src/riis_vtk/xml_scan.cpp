@@ -56,15 +56,15 @@ class Tags {
   }
 
  private:
-  // Takes the text before the first of these characters.
+  // Removes and returns the text before the first of these characters.
   std::string_view take_until(std::string_view characters) {
     const std::string_view text = rest_.substr(0, rest_.find_first_of(characters));
     rest_.remove_prefix(text.size());
     return text;
   }
 
-  // Goes on to the value of the tag's next attribute. Sets attribute_ to its name and returns its quotation mark, or 0 where the
-  // tag ends.
+  // Moves to the value of the tag's next attribute. Sets attribute_ to its name and returns its quotation mark, or 0 at the
+  // tag's end.
   char next_attribute() {
     attribute_ = take_until("=\"'<>");
     if (rest_.empty() || rest_[0] == '<' || rest_[0] == '>') return 0;
@@ -77,7 +77,7 @@ class Tags {
   std::string_view attribute_;
 };
 
-// VTK looks for a name of each component, even before it knows where the array is.
+// VTK looks for a name of each component before it looks for the data.
 void check_components(const std::string &path, std::string_view text, std::string_view given) {
   const std::string_view number = take_word(given);
   std::int64_t n = 0;
@@ -107,7 +107,7 @@ std::string xml_type(std::string_view head) {
   return "";
 }
 
-// Returns the fewest bits that a value takes. A string takes at least the byte that ends it.
+// Returns the least number of bits of a value. A string takes at least its final byte.
 std::uint64_t bits_of(const char *type) {
   static const std::map<std::string_view, std::uint64_t> sizes = {{"Bit", 1},    {"Int16", 16},  {"UInt16", 16},
                                                                   {"Int32", 32}, {"UInt32", 32}, {"Float32", 32},
@@ -122,14 +122,14 @@ std::uint64_t bits_of(vtkAbstractArray *array) {
   return 8 * static_cast<std::uint64_t>(array->GetDataTypeSize());
 }
 
-// The most bytes that a byte of compressed data stands for. Runs of zeros take 1/1032 of their size by zlib, 1/255 by LZ4. LZMA
-// has no such bound: 1/7000 was measured.
+// The largest number of bytes that one byte of compressed data can stand for. Runs of zeros shrink to 1/1032 of their size in
+// zlib and to 1/255 in LZ4. LZMA has no such bound, and 1/7000 was measured.
 std::uint64_t most_from_a_byte(vtkDataCompressor *compressor) {
   return std::strcmp(compressor->GetClassName(), "vtkLZMADataCompressor") == 0 ? 20'000 : 1'100;
 }
 
-// Returns the six bits of a character of base64, and 0 for the filling behind the data. Its other characters do not matter here:
-// VTK stops at them.
+// Returns the six bits of a character of base64, and 0 for the padding behind the data. Other characters also give 0, since VTK
+// stops at them.
 std::uint32_t bits_of_character(char c) {
   if (c >= 'A' && c <= 'Z') return static_cast<std::uint32_t>(c - 'A');
   if (c >= 'a' && c <= 'z') return static_cast<std::uint32_t>(c - 'a' + 26);
@@ -167,7 +167,7 @@ void XmlSizes::refuse(vtkXMLDataElement *element, const Parts &...parts) const {
   fail_file(path_, "is damaged: array ", name ? std::string(name).substr(0, 40) : "without a name", " ", parts...);
 }
 
-// Finds the data as VTK does: appended data if there is an offset, whatever the format is.
+// Finds the data as VTK does. With an offset the data is appended, whatever the format says.
 XmlSizes::ArrayData XmlSizes::data_of(vtkXMLDataParser *parser, vtkXMLDataElement *element) const {
   const std::size_t size = bytes_.size();
   if (element->GetAttribute("offset")) {
@@ -176,7 +176,7 @@ XmlSizes::ArrayData XmlSizes::data_of(vtkXMLDataParser *parser, vtkXMLDataElemen
     vtkXMLDataElement *appended = parser->GetRootElement()->FindNestedElementWithName("AppendedData");
     const char *encoding = appended ? appended->GetAttribute("encoding") : nullptr;
     const vtkTypeInt64 start = parser->GetAppendedDataPosition();
-    // A sum that might overflow is not made.
+    // This comparison avoids a sum that might overflow.
     const bool is_inside = offset >= 0 && start >= 0 && start <= static_cast<vtkTypeInt64>(size) &&
                            offset <= static_cast<vtkTypeInt64>(size) - start;
     return {encoding && std::strcmp(encoding, "raw") == 0 ? ArrayData::raw : ArrayData::base64,
@@ -189,7 +189,7 @@ XmlSizes::ArrayData XmlSizes::data_of(vtkXMLDataParser *parser, vtkXMLDataElemen
           std::min(bytes_.find('<', begin), size)};
 }
 
-// Returns the first n words, which must be there.
+// Returns the first n words, and fails if there are fewer.
 std::vector<std::uint64_t> XmlSizes::words(const ArrayData &data, int size, bool is_big, std::uint64_t n) const {
   const auto byte = [&](std::uint64_t i) -> std::uint64_t {
     if (data.form == ArrayData::raw) return static_cast<unsigned char>(bytes_[data.begin + i]);
@@ -206,9 +206,9 @@ std::vector<std::uint64_t> XmlSizes::words(const ArrayData &data, int size, bool
   return made;
 }
 
-// Returns how many bytes of values a block of binary data claims. An uncompressed block begins with that number. A compressed
-// one begins with the number of its parts, the size of each, that of the last if it is smaller, and the compressed sizes. In
-// base64 these numbers are written apart.
+// Returns how many bytes of values a block of binary data claims. An uncompressed block begins with this number. A compressed
+// block begins with the number of its parts, the size of a part, the size of a smaller last part, and the compressed sizes. In
+// base64 these numbers are encoded separately from the data.
 std::uint64_t XmlSizes::n_bytes_in(vtkXMLDataParser *parser, vtkXMLDataElement *element, const ArrayData &data) const {
   vtkXMLDataElement *root = parser->GetRootElement();
   const char *header_type = root->GetAttribute("header_type"), *byte_order = root->GetAttribute("byte_order");
@@ -280,7 +280,7 @@ void XmlSizes::check_array(vtkXMLDataParser *parser, vtkXMLDataElement *element,
   check_bits(parser, element, n * n_components, bits_of(element->GetAttribute("type")));
 }
 
-// Returns 0 for an attribute that is missing or is no number. VTK takes it for 0 also, or refuses the file.
+// Returns 0 for an attribute that is missing or is no number. VTK also reads it as 0, or refuses the file.
 std::int64_t XmlSizes::count(vtkXMLDataElement *element, const char *attribute) const {
   vtkIdType n = 0;
   if (!element->GetScalarAttribute(attribute, n)) return 0;

@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/* The area of a circle, and the part that triangles leave uncovered.
+/* Gives the area of a circle, and the part that triangles leave uncovered.
  *   corners  (2, 3, n_triangles) */
 double shim_circle_area(double radius, const double centre[2], int64_t n_lines);
 double shim_uncovered_circle(double radius, const double centre[2], int64_t n_triangles, const double *corners,

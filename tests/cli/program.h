@@ -20,18 +20,18 @@ extern char program_out[longest_output], program_err[longest_output];
 extern char program_leaks[longest_output];     /* the warning about leaks, not in program_err; "" if there was none */
 extern char program_crossings[longest_output]; /* the warning about crossings, likewise */
 
-/* The place for the program's stdout instead of program_out: the path of a file, or "" for a closed stdout. NULL at first. */
+/* The path of a file for the program's stdout, or "" for a closed stdout. NULL, the default, keeps stdout in program_out. */
 extern const char *program_stdout;
 
 /* Runs the program with these arguments; the last one is NULL. */
 void run_program(const char *argument, ...);
-/* The same in two steps, for one run at a time. */
+/* Start the program and wait for it, for one run at a time. */
 pid_t start_program(const char *argument, ...);
 void finish_program(pid_t process);
 
 /* Runs the program, and fails the test unless it succeeds with nothing on stderr. */
 #define RUN_FINE(...) (run_program(__VA_ARGS__, NULL), expect_run_fine(__FILE__, __LINE__))
-/* The same for a mesh without volume cells, whose leaks the run calls unknown. */
+/* Does the same for a mesh without volume cells, whose leaks the run reports as unknown. */
 #define RUN_WITHOUT_CELLS(...) (run_program(__VA_ARGS__, NULL), expect_run_without_cells(__FILE__, __LINE__))
 /* Runs the program, and fails the test unless it ends with this exit code, nothing on stdout, and one line on stderr with this
  * text. */
@@ -46,14 +46,14 @@ void expect_run_refused(int exit_code, const char *part_of_text, const char *fil
 double json_number(const char *json, const char *key);
 int json_has_text(const char *json, const char *key, const char *value);
 
-/* Fails unless the text begins with this place and goes on with `follows`. The place may be off by a tenth of an edge, and must
- * have no digits below a hundredth of one. */
+/* Fails unless the text begins with this place and continues with `follows`. The place may be off by a tenth of an edge, and
+ * must have no digits below a hundredth of an edge. */
 void expect_place(const char *text, const double point[3], double edge, const char *follows);
 
 /* Writes in.vtu, a box around the valve with n_box nodes, into the scratch folder. CMocka group set-up. */
 enum { n_box_side = 13, n_box = n_box_side * n_box_side * n_box_side };
 int make_box(void **state);
-/* The same box with other corners. */
+/* Writes the same box with other corners. */
 int make_box_of(void **state, const double lower[3], const double upper[3]);
 
 #endif

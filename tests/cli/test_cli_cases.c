@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --case: valves from a file. The example gives the arrays of single runs with the same options, and the sums over the valves. */
+ * --case: valves from a file. The example has the same arrays as single runs with the same options, and the sums over the
+ * valves. */
 #include <math.h>
 #include <riis/riis.h>
 #include <stdio.h>
@@ -27,7 +28,7 @@ static int has_array(const char *path, const char *name) {
   return shim_read_array(path, 'p', name, NULL, NULL, NULL, NULL);
 }
 
-/* The array of the series' part, and of the single run at the part's nodes. */
+/* Compares an array of the series' part with the single run's array at the part's nodes. */
 static void expect_same_array(const char *part, const char *single, const char *name) {
   static double ids[n_nodes], values[3 * n_nodes], whole[3 * n_nodes];
   const int64_t n = read_array(part, "riis_node_id", ids);
@@ -77,7 +78,7 @@ static void test_example(void **state) {
   expect_same_array(part, scratch_path("a.vtu"), "aortic_marked");
   expect_same_array(part, scratch_path("a.vtu"), "aortic_leaflet");
   assert_false(has_array(part, "mitral_K"));
-  /* K is the sum, and the momentum that of K u. */
+  /* K is the sum over the valves, and K_u_surface is the sum of K u. */
   const int64_t n = read_array(part, "riis_node_id", ids);
   read_array(part, "riis_K", K);
   read_array(part, "riis_K_u_surface", momentum);
@@ -88,7 +89,7 @@ static void test_example(void **state) {
   int n_resisting = 0, n_moving = 0;
   for (int64_t i = 0; i < n; ++i) {
     const int64_t node = (int64_t)ids[i];
-    /* The cubic table gives 0.5 but for rounding. */
+    /* The cubic table gives 0.5 up to rounding. */
     assert_true(fabs(K[i] - (of_mitral[node] + of_aortic[node])) <= 1e-9 * K[i]);
     n_resisting += K[i] > 0;
     for (int k = 0; k < 3; ++k) {
@@ -104,7 +105,7 @@ static void test_example(void **state) {
   free(list);
 }
 
-/* The mitral valve of the example opens by times, as the library says. */
+/* The mitral valve of the example has the openings of the library's law of times. */
 static void test_ramps(void **state) {
   (void)state;
   riis_opening_times ramps;
@@ -168,7 +169,7 @@ static void test_one_time(void **state) {
   assert_false(has_array(out, "riis_K_u_surface"));
 }
 
-/* A surface from a file is at rest among valves that move. */
+/* A surface from a file is at rest beside moving valves. */
 static void test_surface_at_rest(void **state) {
   (void)state;
   static double velocity[3 * n_box], marked[n_box];

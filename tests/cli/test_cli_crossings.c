@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --check-crossing: against a valve whose crossing is known, against the C interface, and on the valves that come with the
- * library. */
+ * --check-crossing, compared with a known crossing and with the C interface, and tested on the library's own valves. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +10,7 @@
 #include "program.h"
 #include "scratch.h"
 
-/* A unit square lies at z = 0. Another stands at x = 0.5. Its lower side is at 0.245 closed and at -0.755 open. */
+/* A unit square lies at z = 0. Another stands at x = 0.5. Its lower side is at 0.245 when closed and at -0.755 when open. */
 static const char squares[] =
     "{\"curves\": {\"a\": [[0,0,0],[1,0,0]], \"b\": [[0,1,0],[1,1,0]], \"c\": [[0,0,0],[0,1,0]], \"d\": "
     "[[1,0,0],[1,1,0]],\n"
@@ -28,7 +27,7 @@ static const char *write_squares(void) {
   return scratch_path("squares.json");
 }
 
-/* Checks that the program succeeds, with this as the beginning of one line on stderr. */
+/* Checks that the program succeeds and prints one line on stderr that begins with this text. */
 static void expect_warning(const char *begins) {
   assert_int_equal(program_exit_code, 0);
   assert_string_equal(program_err, "");
@@ -61,12 +60,12 @@ static void a_given_opening_is_the_only_one(void **state) {
   RUN_FINE("check", "crossings", "--valve", file, "--set", "opening=0.2");
   run_program("check", "crossings", "--valve", file, "--opening", "0.5", NULL);
   expect_warning("riis: leaflets 0 and 1 cross at opening 0.5: ");
-  /* Without the option the state that the user gave does not count. */
+  /* Without the option the user's open state has no effect. */
   run_program("surface", "--valve", file, "--opening", "0.5", "--output", scratch_path("crossed.vtp"), NULL);
   expect_warning("riis: leaflets 0 and 1 cross at opening 0.5: ");
   run_program("surface", "--valve", file, "--opening", "0.1", "--output", scratch_path("sound.vtp"), NULL);
   expect_warning("riis: leaflets 0 and 1 cross at opening 0.5: ");
-  /* A file has one state. */
+  /* A surface from a file has only one state. */
   run_program("check", "crossings", "--surface", scratch_path("crossed.vtp"), NULL);
   expect_warning("riis: leaflets 0 and 1 cross: ");
   assert_non_null(strstr(program_crossings, "along a length of 1; "));
@@ -124,7 +123,7 @@ static void the_library_s_valves_do_not_cross(void **state) {
     RUN_FINE("check", "crossings", "--valve", "trileaflet", "--params", parameters[file]);
     assert_non_null(strstr(program_out, all));
   }
-  /* Between two states, as README.md has them. */
+  /* The valve opens between the two states of README.md. */
   scratch_write_text("open.json", "{\"leaflet_radius_in\": 1, \"bending_radius_in\": 1.1}");
   RUN_FINE("check", "crossings", "--params-open", scratch_path("open.json"));
   assert_non_null(strstr(program_out, all));
@@ -142,7 +141,7 @@ static void expect_tall(const char *begins) {
   assert_non_null(strstr(program_crossings, advice));
 }
 
-/* Numbers are those of the C interface, and the opening at which the valve is marked does not matter. */
+/* The numbers equal those of the C interface. They do not depend on the opening at which the valve is marked. */
 static void a_chosen_shape_is_looked_at(void **state) {
   (void)state;
   riis_valve *valve = NULL;
@@ -170,7 +169,7 @@ static void a_chosen_shape_is_looked_at(void **state) {
   }
   run_program("mark", scratch_path("in.vtu"), TALL, "--strict", NULL);
   assert_int_equal(program_exit_code, 4);
-  /* --check-crossing looks in its own way, and gives no advice to use it. */
+  /* --check-crossing does its own check, and its warning does not recommend --check-crossing. */
   run_program("check", "crossings", TALL, NULL);
   expect_warning(tall_crosses);
   assert_null(strstr(program_crossings, advice));
@@ -185,7 +184,7 @@ static void every_run_looks(void **state) {
   expect_tall(tall_crosses);
   run_program("surface", "--valve", write_squares(), "--output", scratch_path("half_open.vtp"), NULL);
   expect_tall("riis: leaflets 0 and 1 cross at opening 0.5: ");
-  /* The open state alone makes another shape. Closed it is the paper's. */
+  /* Only the open state has another shape. The closed state is the paper's. */
   scratch_write_text("turned.json", "{\"right.rotation\": [0, 0, 60]}");
   run_program("mark", in, "--valve", "aortic", "--params-open", scratch_path("turned.json"), "--opening", "0", NULL);
   expect_tall("riis: leaflets right and left cross at opening ");
@@ -206,7 +205,7 @@ static void every_run_looks(void **state) {
   expect_tall("riis: a: leaflets right and non-coronary cross at opening 0: ");
 }
 
-/* Placement and opening choose no shape. Hinges reach into a housing, which is sound. */
+/* Placement and opening do not choose a shape. Hinges reach into a housing, and this is no fault. */
 static void sound_shapes_are_not_named(void **state) {
   (void)state;
   static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet"};

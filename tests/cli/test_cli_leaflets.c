@@ -64,7 +64,7 @@ static void test_leaflets(void **state) {
   assert_non_null(strstr(program_out, "squares.stl: 6 triangles, 3 leaflets, area 12\n"));
   RUN_LEAFLETS("squares.stl", "--leaflets", "connected", "--stats", "-");
   assert_true(json_number(program_out, "n_leaflets") == 3);
-  /* The written surface keeps the leaflets and has other arrays: riis_triangle is the triangle's own number. */
+  /* The written surface keeps the leaflets. Its array riis_triangle has the triangles' own numbers. */
   RUN_FINE("surface", "--surface", scratch_path("squares.stl"), "--leaflets", "connected", "--output",
            scratch_path("squares.vtp"));
   RUN_LEAFLETS("squares.vtp", "--quiet");

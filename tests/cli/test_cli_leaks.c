@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The warning about edges that cross the valve between unmarked nodes, against the C interface and all edges of the mesh. */
+ * The warning about edges that cross the valve between unmarked nodes, compared with the C interface for all edges of the
+ * mesh. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdlib.h>
@@ -80,7 +81,8 @@ static void expect_advice(const char *name, const char *kind) {
            "riis: the surface leaks: %d edges cross it between two unmarked nodes, the longest (%.3g) at ",
            (int)leaks.n_edges, leaks.longest_length);
   assert_int_equal(strncmp(program_leaks, expected, strlen(expected)), 0);
-  /* In the coarsest meshes the half thickness does not fit the edges at all. That warning comes first, and gives the advice. */
+  /* In the coarsest meshes the half thickness does not fit the edges at all. The warning about this comes first, and it alone
+   * has advice. */
   const char *const earlier = strstr(program_err, "the median edge of the mesh ");
   expect_place(program_leaks + strlen(expected), leaks.longest_middle, leaks.longest_length,
                earlier ? "\n" : "; --half-thickness ");
@@ -173,10 +175,10 @@ static void test_searches_and_distances(void **state) {
   assert_int_equal(program_exit_code, 0);
   assert_non_null(strstr(program_leaks, "--half-thickness"));
   run_program("mark", scratch_path("coarse.vtu"), "--valve", "mitral", "--opening", "0", "--search", "paper", NULL);
-  assert_int_equal(program_exit_code, 3); /* the search's single start is not marked, so it finds no node */
+  assert_int_equal(program_exit_code, 3); /* the search's only start node is not marked, so the search finds no node */
   assert_non_null(strstr(program_err, "may be incomplete"));
   assert_non_null(strstr(program_leaks, " between two unmarked nodes"));
-  assert_null(strstr(program_leaks, "--half-thickness")); /* none helps if nodes are missed */
+  assert_null(strstr(program_leaks, "--half-thickness")); /* no half thickness helps if nodes are missed */
 }
 
 static void test_one_edge(void **state) {
@@ -197,7 +199,8 @@ static void test_one_edge(void **state) {
       strstr(program_out, "leaks     1 edge between unmarked nodes across the surface, length up to 0.75\n"));
 }
 
-/* A small mesh far from the origin, and the same in another unit: digits follow the edge, and the unit stands behind a place. */
+/* A small mesh far from the origin, in two units. The digits of a place depend on the edge length, and the unit follows the
+ * place. */
 static void test_places(void **state) {
   (void)state;
   const struct {
@@ -248,7 +251,8 @@ static riis_leak_list leaks_of_mitral(const char *name) {
   return leaks;
 }
 
-/* Quadratic cells leak where the linear cells leak that their nodes cut them into. These have one edge more inside each. */
+/* Quadratic cells leak like the linear cells into which their nodes cut them. Inside each quadratic cell these have one more
+ * edge. */
 static void test_quadratic_cells(void **state) {
   (void)state;
   plain_mesh hexahedra = box_of_mitral(9), quadratic = plain_quadratic_tetrahedra(&hexahedra),
@@ -280,7 +284,7 @@ static void keep(const char *key, char said[1000]) {
   snprintf(said, 1000, "%.600s %.300s", program_leaks, found);
 }
 
-/* Polyhedra leak as the hexahedra do that they are, in both layouts, and the passage is the same. */
+/* Hexahedra that are stored as polyhedra have the same leaks and the same passage, in both layouts. */
 static void test_polyhedra(void **state) {
   (void)state;
   static const char *const names[3] = {"cells.vtu", "streams.vtu", "lists.vtu"};
@@ -301,7 +305,8 @@ static void test_polyhedra(void **state) {
   plain_free(&hexahedra);
 }
 
-/* Runs the program on this mesh, far from the valve or around it, and expects that it calls leaks unknown for this reason. */
+/* Runs the program on this mesh, far from the valve or around it, and expects that it reports leaks as unknown for this
+ * reason. */
 static void expect_unknown(const char *name, const char *place, int exit_code, const char *reason) {
   char text[512];
   run_program("mark", scratch_path(name), "--translate", place, "--quiet", "--stats", scratch_path("stats.json"), NULL);
@@ -341,7 +346,7 @@ static void test_unknown(void **state) {
       RUN_REFUSED(2, reasons[i], "check", "leaks", scratch_path("other.vtk"), "--translate", "50,0,0", "--allow-none",
                   "--between", "0.1,0,0.6", "0,0.1,0.6");
   }
-  /* The tetrahedron joins its nodes, whatever else joins them. It does not join the others. */
+  /* The tetrahedron joins its own nodes, also if other cells join them. It does not join the other nodes. */
   run_program("check", "leaks", scratch_path("other.vtk"), "--translate", "50,0,0", "--allow-none", "--between",
               "0.1,0,0.6", "0,0.1,0.6", NULL);
   assert_non_null(strstr(program_out, "\npassage   open: at "));
@@ -391,7 +396,7 @@ static void expect_warned(int exit_code) {
     expect_warned(4);                           \
   } while (0)
 
-/* Warnings of every kind, with --quiet and without. The outputs are there all the same. */
+/* Warnings of every kind, with --quiet and without. The outputs are written in all cases. */
 static void test_strict(void **state) {
   (void)state;
   char fine[256], coarse[256];
@@ -422,7 +427,7 @@ static void test_strict(void **state) {
     expect_warned(strict ? 4 : 0);
     assert_true(scratch_exists(strict ? "strict/normal.dat" : "lenient/normal.dat"));
   }
-  /* Without a warning the status is 0, and a mesh without marks keeps its own status. */
+  /* Without a warning the status is 0. A run without marks has its own status also with --strict. */
   RUN_FINE("mark", fine, CLOSED, "--strict");
   assert_string_equal(program_leaks, "");
   RUN_FINE("params", "--strict");

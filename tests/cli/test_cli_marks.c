@@ -119,7 +119,7 @@ static void test_one_of_each(void **state) {
   assert_non_null(strstr(program_out, "1 thread\n"));
 }
 
-/* A run without marks has an exit code of its own, unless that was expected. All requested files are written. */
+/* A run without marks has its own exit code, unless the user allows it. All requested files are written. */
 static void test_no_marks(void **state) {
   (void)state;
   run_program("mark", scratch_path("in.vtu"), "--translate", "9,9,9", "--stats", scratch_path("none.json"), "--output",
@@ -134,7 +134,7 @@ static void test_no_marks(void **state) {
   free(json);
   assert_int_equal(shim_read_array(scratch_path("none.vtu"), 'p', "riis_marked", NULL, NULL, NULL, NULL), 1);
   RUN_FINE("mark", scratch_path("in.vtu"), "--translate", "9,9,9", "--allow-none");
-  /* A search that may miss nodes missed all. Both are reported. */
+  /* A search that may miss nodes finds none. The program reports both facts. */
   run_program("mark", scratch_path("in.vtu"), "--translate", "9,9,9", "--search", "paper", NULL);
   assert_int_equal(program_exit_code, 3);
   assert_non_null(strstr(program_err, "riis: the marks may be incomplete"));

@@ -30,7 +30,7 @@ static int make_frames(void **state) {
   return 0;
 }
 
-/* Checks the vertices of a file and their velocities, against the sheet's at a time, placed by a factor. */
+/* Compares the vertices of a file and their velocities with the sheet's at a time, scaled by a factor. */
 static void expect_sheet(const char *path, double time, double speed, double scale) {
   double xyz[3 * sheet_n_vertices], velocity[3 * sheet_n_vertices];
   int64_t n = 0;
@@ -58,7 +58,7 @@ static void test_times(void **state) {
   expect_sheet(moved, 0.75, 1, 2);
   RUN_FINE("surface", "--surface", scratch_path("sheet.pvd"), "--time", "-7", "--output", moved);
   expect_sheet(moved, 0, 0, 1);
-  /* The period takes it back to the first frame in half a second. */
+  /* With the period, the surface returns to the first frame in half a second. */
   RUN_FINE("surface", "--surface", scratch_path("sheet.pvd"), "--time", "9.25", "--period", "1.5", "--output", moved);
   expect_sheet(moved, 0.5, -2, 1);
   RUN_FINE("surface", "--surface", scratch_path("closed.pvd"), "--time", "2.75", "--period", "1", "--output", moved);
@@ -113,7 +113,7 @@ static void test_usage(void **state) {
               moved);
   RUN_REFUSED(2, "--period: the time of key 2 is 3, beyond the period of 0.75", "surface", "--surface", motion,
               "--time", "0", "--period", "0.75", "--output", moved);
-  /* A frame is an input. */
+  /* A frame is an input, so no output may replace it. */
   RUN_REFUSED(2, "b.vtp is a frame of --surface ", "surface", "--surface", motion, "--time", "2", "--output",
               scratch_path("b.vtp"));
 }

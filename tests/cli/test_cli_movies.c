@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --movie: as many frames as times, all by one camera. The frames are read back by ffmpeg; where it is missing, a small program
- * by its name takes its place, which counts the frames. */
+ * --movie: as many frames as times, all with one camera. ffmpeg reads the frames back. If it is missing, a small program with
+ * the same name takes its place and counts the frames. */
 #include <dirent.h>
 #include <signal.h>
 #include <stdio.h>
@@ -25,7 +25,7 @@ static void run_movie(const char *movie) {
            "--movie-view", "side", "--picture", scratch_path("first.png"), "--view", "side", "--quiet");
 }
 
-/* TMPDIR is the scratch folder: nothing of the frames is left there. */
+/* TMPDIR is the scratch folder, and no frame may be left there. */
 static void expect_no_frames(void) {
   const char *place = getenv("TMPDIR");
   DIR *folder = opendir(place);
@@ -42,7 +42,7 @@ static void use_scratch_for_frames(void) {
   setenv("TMPDIR", place, 1);
 }
 
-/* A program by the name of ffmpeg that does what the lines say. */
+/* Makes a program named ffmpeg that runs these lines. */
 static char *put_program(const char *lines) {
   char path[8192], place[4096];
   mkdir(scratch_path("bin"), 0700);
@@ -67,7 +67,7 @@ static void expect_whole_picture(const char *name) {
   assert_true(n_coloured[0] > 20000 && n_coloured[1] > 20000);
 }
 
-/* The frames that the encoder gets: a false encoder copies them. */
+/* A false encoder copies the frames that it gets. */
 static void test_frames(void **state) {
   (void)state;
   static const char *const names[n_frames] = {"f/frame_000000.png", "f/frame_000001.png", "f/frame_000002.png",
@@ -97,7 +97,7 @@ static void test_frames(void **state) {
   free(first);
 }
 
-/* An encoder that fails: its last words, no movie, and nothing left. */
+/* If the encoder fails, the refusal has its last words, and neither a movie nor frames are left. */
 static void test_failing_encoder(void **state) {
   (void)state;
   use_scratch_for_frames();
@@ -126,7 +126,7 @@ static int n_frames_there(void) {
   return n;
 }
 
-/* Ctrl-C between two frames: no movie, no frames, and the meshes that there are. */
+/* After Ctrl-C between two frames there is no movie and no frame. The meshes written so far stay. */
 static void test_interruption(void **state) {
   (void)state;
   use_scratch_for_frames();
@@ -146,7 +146,7 @@ static void test_interruption(void **state) {
   assert_true(scratch_exists("cut.pvd") && scratch_exists("cut/cut_0001.vtu"));
 }
 
-/* The real ffmpeg, if it is there: it decodes as many frames as there are times. */
+/* The real ffmpeg, if it is installed, decodes as many frames as there are times. */
 static void test_movie(void **state) {
   (void)state;
   char command[1024], words[64] = "";

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Valves that open, in riis and in the C interface: the mitral valve by itself, and any valve between two files. */
+ * Valves that open, compared between riis and the C interface: the mitral valve alone, and other valves between two files. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -93,7 +93,7 @@ static void test_bileaflet(void **state) {
   riis_valve_destroy(&valve);
 }
 
-/* Kinds that open by themselves. */
+/* Kinds that open without a second file. */
 static void test_own_open_states(void **state) {
   (void)state;
   static const char *const kinds[2] = {"aortic", "trileaflet"};
@@ -188,7 +188,7 @@ static void test_refusals(void **state) {
   RUN_REFUSED(1, "missing.json: cannot be read", "mark", mesh, "--params-open", scratch_path("missing.json"),
               "--opening", "0");
   RUN_REFUSED(1, "missing.json: cannot be read", "mark", mesh, "--params-closed", scratch_path("missing.json"));
-  /* A file's parameters must be the valve's. */
+  /* A file may only have parameters of the valve. */
   RUN_REFUSED(1, "p.json: 'root_radius' is not a parameter of the mitral valve", "mark", mesh, "--valve", "mitral",
               "--params-open", file, "--opening", "0");
   RUN_REFUSED(1, "'left.leaflet_angle' is not a parameter of the mitral valve", "mark", mesh, "--valve", "mitral",

@@ -120,7 +120,7 @@ static void test_skip_zero_area(void **state) {
   assert_true(json_number(program_out, "area") == 0.5);
 }
 
-/* The program's name alone prints a few lines on what to type, not on what was wrong. */
+/* The program's name alone prints a few lines with commands to type, and no error message. */
 static void test_no_arguments(void **state) {
   (void)state;
   run_program(NULL);

@@ -82,7 +82,7 @@ static void test_json_forms(void **state) {
   assert_true(in_cusp(program_out, "non_coronary", "leaflet_angle") == 60.5);
 }
 
-/* A cusp's own value wins over one for all cusps, wherever it stands in the file. */
+/* A cusp's own value overrides a value for all cusps, in any order of the file. */
 static void test_json_order(void **state) {
   (void)state;
   const char *files[3] = {"{\"right.translation\": [1, 2, 3], \"translation\": [7, 8, 9]}",
@@ -97,7 +97,7 @@ static void test_json_order(void **state) {
   }
 }
 
-/* --set comes after the file and goes strictly from left to right. */
+/* --set comes after the file, strictly from left to right. */
 static void test_set_order(void **state) {
   (void)state;
   scratch_write_text("p.json", "{\"right.translation\": [1, 2, 3]}");
@@ -110,7 +110,7 @@ static void test_set_order(void **state) {
   assert_true(first_in_cusp(program_out, "left", "translation") == 4);
 }
 
-/* The parameters reach the surface. */
+/* The parameters change the surface. */
 static void test_surface_changes(void **state) {
   (void)state;
   RUN_FINE("mark", scratch_path("in.vtu"), "--stats", "-");
@@ -163,7 +163,7 @@ static void test_json_refusals(void **state) {
   RUN_REFUSED(1, ": cannot be read", "mark", scratch_path("in.vtu"), "--params", scratch_path("."));
 }
 
-/* A file that is nested deeply or has long strings is refused in one line, like any other. */
+/* A file that is nested deeply or has long strings is refused with one line. */
 static void test_json_sizes(void **state) {
   (void)state;
   enum { depth = 1000000, length = 100000 };

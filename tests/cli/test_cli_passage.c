@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --check-leaks, against the C interface. The mesh is a box inside the valve's annulus, so that nothing goes round the valve. */
+ * --check-leaks, compared with the C interface. The mesh is a box inside the valve's annulus, so no path goes round the
+ * valve. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdlib.h>
@@ -13,7 +14,7 @@
 #include "vtk_shim.h"
 
 static const double below[3] = {0.01, 0, -1.2}, above[3] = {0, 0.02, 0.9};
-static const double longest_edge = 0.1345; /* of the box: the diagonal of a small box */
+static const double longest_edge = 0.1345; /* longest edge of the box: the diagonal of a small box */
 #define ENDS "0.01,0,-1.2", "0,0.02,0.9"
 #define SEALED "--set", "leaflet_radius_in=0.02"
 
@@ -33,7 +34,7 @@ static int64_t nearest(int64_t n, const double *xyz, const double *point) {
   return found;
 }
 
-/* Of the default valve. */
+/* The library's passage for the default valve. */
 static riis_passage passage_by_c(void) {
   riis_vtk_mesh *file = NULL;
   riis_adjacency *adjacency = NULL;
@@ -134,7 +135,7 @@ static void test_pieces(void **state) {
               "0,0,8.5");
 }
 
-/* Two valves in a row: either one alone closes the way. */
+/* Two valves in a row. Either one alone closes the passage. */
 static void test_cases(void **state) {
   (void)state;
   scratch_write_text("one.json",
@@ -165,7 +166,7 @@ static void test_cases(void **state) {
   assert_non_null(strstr(program_err, "the valves must have one half thickness; that of a is 0.2, that of b 0.1"));
 }
 
-/* Looked for where the valve is least open. */
+/* The check uses the time at which the valve is least open. */
 static void test_series(void **state) {
   (void)state;
   scratch_write_text("beat.csv", "0,0.5\n1,0\n2,1\n");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --picture: without a display there is one line and exit code 1, not an abort. With a display there is a file for each option,
- * each with its view. */
+ * --picture: without a display the program prints one line and ends with exit code 1. With a display it writes a file for each
+ * option, each with its view. */
 #include <riis/riis_vtk.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,13 +20,13 @@ static void test_without_display(void **state) {
   unsetenv("DISPLAY");
   RUN_REFUSED(1, "DISPLAY is not set", "mark", scratch_path("in.vtu"), "--picture", scratch_path("none.png"));
   assert_int_equal(scratch_exists("none.png"), 0);
-  /* The refusal comes before any work: the mesh is also missing, but is not named. */
+  /* The refusal comes before any work. The mesh is also missing, but the message does not name it. */
   RUN_REFUSED(1, "DISPLAY is not set", "mark", scratch_path("missing.vtu"), "--picture", scratch_path("none.png"));
   setenv("DISPLAY", ":7654", 1);
   RUN_REFUSED(1, "DISPLAY :7654 cannot be opened", "mark", scratch_path("in.vtu"), "--picture",
               scratch_path("none.png"));
   assert_int_equal(scratch_exists("none.png"), 0);
-  /* The marks are good, so the other requested files are there. */
+  /* The marks are valid, so the other requested files are written. */
   RUN_REFUSED(1, "DISPLAY :7654 cannot be opened", "mark", scratch_path("in.vtu"), "--picture",
               scratch_path("none.png"), "--output", scratch_path("out.vtu"), "--stats", scratch_path("stats.json"));
   assert_true(scratch_exists("out.vtu"));
@@ -78,7 +78,7 @@ static void expect_title(const char *title, const char *setting, const char *val
   static const char *const names[3] = {"right", "left", "non-coronary"};
   RUN_FINE("surface", "--picture", scratch_path("by_program.png"), setting, value);
   expect_fine(riis_valve_create("aortic", &valve));
-  /* The title belongs to the value; the valve that is drawn has it too. */
+  /* The title contains the value, and the valve in the picture has the same value. */
   const char *const number = strchr(value, '=') + 1;
   char name[64];
   snprintf(name, sizeof name, "%.*s", (int)(number - 1 - value), value);
@@ -94,7 +94,7 @@ static void expect_title(const char *title, const char *setting, const char *val
   riis_valve_destroy(&valve);
 }
 
-/* The title must not let anyone take the paper's aortic valve for a closed one. */
+/* The title must say that the paper's aortic valve is not closed. */
 static void test_titles(void **state) {
   (void)state;
   expect_title("Aortic valve, opening 0 (the paper's, not closed)", "--set", "opening=0");
@@ -146,7 +146,8 @@ static int have_same_title(const char *a, const char *b) {
   return is_same;
 }
 
-/* A surface from a file has no opening: neither the picture's title, which movies share, nor the summary tells one. */
+/* A surface from a file has no opening. Neither the picture's title nor the summary contains one, and movies have the same
+ * title. */
 static void test_case_titles(void **state) {
   (void)state;
   riis_vtk_surface *file = NULL;

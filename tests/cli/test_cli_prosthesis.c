@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * The example of a valve of one's own, as prosthesis.json, .c and .f90. All three are the same valve. Its leaflets never cross
- * each other, and closed it has no hole. */
+ * each other, and the closed valve has no hole. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 #include "test_support.h"
 #include "vtk_shim.h"
 
-/* The example's own control points, and its valve_with(). */
+/* This file has the example's own control points and its valve_with(). */
 #define main prosthesis_main
 #define xyz prosthesis_xyz
 #include RIIS_EXAMPLE_C
@@ -68,9 +68,9 @@ static void difference(const double *a, const double *b, long double *c) {
   for (int k = 0; k < 3; ++k) c[k] = (long double)a[k] - b[k];
 }
 
-/* The depth at which the segment from p to q goes through the triangle. It is the least of three kinds of distance: of each end
- * from the triangle's plane, and of the point in between from the triangle's edges. It is at most 0 if the segment does not go
- * through. */
+/* Returns the depth at which the segment from p to q goes through the triangle. The depth is the least of these distances: of
+ * each end from the triangle's plane, and of the point in the plane from the triangle's edges. It is at most 0 if the segment
+ * does not go through. */
 static long double depth_of_segment(const double *p, const double *q, double triangle[3][3]) {
   long double ab[3], ac[3], normal[3], ap[3], aq[3];
   difference(triangle[1], triangle[0], ab);
@@ -103,7 +103,7 @@ static int boxes_are_apart(double a[3][3], double b[3][3]) {
   return 0;
 }
 
-/* The greatest depth at which triangles of different leaflets go through each other, over all pairs and all edges. */
+/* Returns the greatest depth at which triangles of different leaflets go through each other, over all pairs and all edges. */
 static double deepest_crossing(void) {
   long double deepest = 0;
   for (int64_t i = 0; i < shown.n_triangles; ++i) {
@@ -119,8 +119,8 @@ static double deepest_crossing(void) {
   return (double)deepest;
 }
 
-/* The greatest distance of a vertex from its leaflet's third of the ring. Half planes through the axis and the commissures bound
- * a third. Thirds are convex, so triangles are as far inside as their corners. */
+/* Returns the greatest distance of a vertex from its leaflet's third of the ring. Half planes through the axis and the
+ * commissures bound a third. Thirds are convex, so a triangle with all corners inside is inside. */
 static double farthest_outside(void) {
   static const double commissure[3][2] = {{0.60, -1.04}, {0.60, 1.04}, {-1.20, 0.00}};
   double farthest = 0;
@@ -151,8 +151,9 @@ static int is_covered(double x, double y, double tolerance) {
   return 0;
 }
 
-/* The number of vertical lines through a grid on the disc inside the ring that meet no triangle. The ring has radius 1.2, and its
- * polygon comes within 0.01 of that. The grid's middle is on the axis. Each line where leaflets meet has a row of its own. */
+/* Returns the number of vertical lines through a grid that meet no triangle. The grid covers the disc inside the ring. The ring
+ * has radius 1.2, and its polygon is off by at most 0.01. The grid's middle is on the axis. Each line at which leaflets meet
+ * has its own row. */
 static int n_uncovered(void) {
   const double radius = 1.19, tolerance = 1e-9;
   int n_missed = 0;
@@ -165,7 +166,7 @@ static int n_uncovered(void) {
   return n_missed;
 }
 
-static const double rounding = 1e-13; /* cm; leaflets that meet may overlap by the rounding of coordinates */
+static const double rounding = 1e-13; /* cm; meeting leaflets may overlap by the rounding of coordinates */
 
 static void test_no_crossing(void **state) {
   (void)state;
@@ -204,7 +205,7 @@ static void write_with_end(const char *end) {
   free(text);
 }
 
-/* The checks above find the faults that they are for. */
+/* The checks above find the faults that they are made for. */
 static void test_faults_are_found(void **state) {
   (void)state;
   char file[256];

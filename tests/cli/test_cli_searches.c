@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * riis --search: the search that runs, the marks, which are always the same, and the message about a search that may be
- * incomplete. */
+ * riis --search: the search that runs, its marks, and the message about a search that may be incomplete. All searches here give
+ * the same marks. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +22,7 @@ static void mark_default_valve(double half_thickness, double distance_limit) {
   riis_valve_destroy(&valve);
 }
 
-/* This includes auto, which reports its choice. */
+/* auto is included, and it reports its choice. */
 static void test_marks_are_equal(void **state) {
   (void)state;
   mark_default_valve(0.2, 0.3);
@@ -46,7 +46,7 @@ static void test_marks_are_equal(void **state) {
   }
 }
 
-/* The distances equal those of C with the same options. They differ from the triangles', and the output says so. */
+/* The distances equal those of C with the same options. They differ from distances to the triangles, and the output says so. */
 static void test_distances(void **state) {
   (void)state;
   const char *methods[] = {"triangles", "sampling", "minimization"};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --times: the files of a series, their times, and their arrays, against single runs and the C interface. */
+ * --times: the files of a series, their times, and their arrays, compared with single runs and the C interface. */
 #include <math.h>
 #include <riis/riis.h>
 #include <stdio.h>
@@ -57,7 +57,7 @@ static void run_single(int step) {
            "--opening", opening_texts[step], "--output", scratch_path("single.vtu"), "--quiet");
 }
 
-/* All arrays of a single run, with the same bits at the nodes of the part. */
+/* The part has all arrays of a single run, with the same bits at its nodes. */
 static void expect_as_single(int step, const char *part) {
   static double whole[3 * n_box], values[3 * n_box], ids[n_box];
   static const char *const names[] = {"riis_marked", "riis_distance", "riis_leaflet", "riis_K", "pressure", "velocity"};
@@ -121,7 +121,7 @@ static void test_files(void **state) {
   expect_as_single(4, step_path("beat", 4, "vtu"));
 }
 
-/* The cells of the part are those of the input, by their ids, with their data. */
+/* Each cell of the part is the input's cell with the same id, with the same data. */
 static void test_cells(void **state) {
   (void)state;
   static double node_ids[n_box], region[most_cells], part_region[most_cells], cell_ids[most_cells];
@@ -144,8 +144,8 @@ static void test_cells(void **state) {
   }
 }
 
-/* The fields of each step, by the C interface: the state before is that of the time before, and the first step's length leads
- * to the state before the first. */
+/* The fields of each step, from the C interface. The earlier state is the state at the previous time. Before the first time, it
+ * is the state one first step earlier. */
 static void expect_fields(int step, const char *path) {
   static double xyz[3 * n_box], normal[3 * n_box], velocity[3 * n_box], momentum[3 * n_box], side[n_box], K[n_box];
   riis_valve *now = NULL, *before = NULL;
@@ -235,7 +235,7 @@ static void test_table(void **state) {
   free(text);
 }
 
-/* Behind its last key a cycle stays or, with a period, begins anew; cubic openings are the library's. */
+/* After its last key a cycle is constant, or it begins again if it has a period. Cubic openings equal the library's. */
 static double opening_at(const char *line_of_time, const char *option, const char *value, const char *more,
                          const char *interpolation) {
   double time = 0, opening = -1;
@@ -269,7 +269,7 @@ static void test_cycles(void **state) {
   assert_true(fabs(expected - 0.25) > 0.01);
 }
 
-/* The first time's velocity is that from a step before it, where a cycle with a period has another opening. */
+/* The velocity at the first time is the mean since one step earlier. There a cycle with a period has another opening. */
 static void test_first_velocity(void **state) {
   (void)state;
   double time = -1, opening = -1, n_marked = 0, speed = 0;
@@ -279,7 +279,7 @@ static void test_first_velocity(void **state) {
            scratch_path("v.csv"), "--quiet");
   char *text = scratch_read(scratch_path("v.csv"), NULL);
   assert_int_equal(sscanf(strchr(text, '\n'), "\n%lf,%lf,%lf,%lf", &time, &opening, &n_marked, &speed), 4);
-  /* From 0.5 to 0 in 0.1. */
+  /* The opening goes from 0.5 to 0 in a time of 0.1. */
   riis_valve *now = NULL, *before = NULL;
   riis_surface *surface = NULL;
   riis_surface_options options;
@@ -312,7 +312,7 @@ static int64_t read_triangles(const char *path, int64_t *corners) {
   return n;
 }
 
-/* Triangles that stay, but for those without area, and triangles that change. */
+/* The first series keeps its triangles, except those without area. The second one changes them. */
 static void test_triangulations(void **state) {
   (void)state;
   static const char *const hows[] = {"fixed", "adapted"};
@@ -340,7 +340,7 @@ static void test_triangulations(void **state) {
   }
 }
 
-/* A surface by frames, which rises by 0.5 in a time of 1: its marks are those of a single run at the time, and its velocity is
+/* A surface by frames rises by 0.5 in a time of 1. Its marks equal those of a single run at the same time, and its velocity is
  * that of the frames. */
 static void test_motion(void **state) {
   (void)state;
@@ -354,7 +354,7 @@ static void test_motion(void **state) {
   RUN_FINE("mark", scratch_path("in.vtu"), "--surface", scratch_path("move.pvd"), "--half-thickness", "0.3", "--times",
            "0,0.5,1", "--output", scratch_path("mv.pvd"), "--all-cells", "--series-table", scratch_path("mv.csv"),
            "--quiet");
-  /* A surface has no opening to tell. */
+  /* A surface from a file has no opening to print. */
   run_program("mark", scratch_path("in.vtu"), "--surface", scratch_path("move.pvd"), "--half-thickness", "0.3",
               "--times", "0,1", NULL);
   assert_int_equal(program_exit_code, 0);
@@ -385,7 +385,7 @@ static void test_motion(void **state) {
   free(table);
 }
 
-/* A name that XML does not take as it is. */
+/* This name must be escaped in XML. */
 static void test_names(void **state) {
   (void)state;
   run_series("a & <b>.pvd", NULL, NULL);

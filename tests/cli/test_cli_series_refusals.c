@@ -41,7 +41,7 @@ static void test_times(void **state) {
   assert_false(scratch_exists("s.pvd"));
 }
 
-/* The most times that there may be, which end where they should. */
+/* The largest number of times is accepted, and the last time is exact. */
 static void test_many_times(void **state) {
   (void)state;
   write_cycle("0 0\n1 2\n");
@@ -110,7 +110,7 @@ static void test_options(void **state) {
               cycle);
 }
 
-/* A valve that cannot open so far is refused before the mesh is read. */
+/* A valve that cannot open that far is refused before the mesh is read. */
 static void test_valves(void **state) {
   (void)state;
   write_cycle("0,0\n1,0.5\n");
@@ -131,7 +131,7 @@ static void test_places(void **state) {
               "/nowhere/s.pvd");
   RUN_REFUSED(1, "the folder /nowhere does not exist", "mark", mesh, "--cycle", cycle, "--times", "0,1",
               "--series-table", "/nowhere/s.csv");
-  /* A file where the folder would be. */
+  /* A file exists in the place of the folder. */
   scratch_write_text("full", "text");
   RUN_REFUSED(1, "full: the folder cannot be made", "mark", mesh, "--valve", "mitral", "--half-thickness", "0.3",
               "--cycle", cycle, "--times", "0,1", "--output", scratch_path("full.pvd"), "--quiet");
@@ -140,7 +140,7 @@ static void test_places(void **state) {
   assert_int_equal(symlink("../in.vtu", scratch_path("in/in_0000.vtu")), 0);
   RUN_REFUSED(2, "holds the file of MESH", "mark", scratch_path("in/in_0000.vtu"), "--cycle", cycle, "--times", "0,1",
               "--output", scratch_path("in.pvd"));
-  /* Arrays of the user's. */
+  /* The mesh already has arrays of these names. */
   RUN_FINE("mark", mesh, "--valve", "mitral", "--half-thickness", "0.3", "--output", scratch_path("marked.vtu"));
   RUN_REFUSED(2, "already has an array riis_marked", "mark", scratch_path("marked.vtu"), "--valve", "mitral",
               "--half-thickness", "0.3", "--cycle", cycle, "--times", "0,1", "--output", scratch_path("s.pvd"));
@@ -176,7 +176,7 @@ static void test_none_marked(void **state) {
            "--allow-none");
 }
 
-/* The size is announced before the files, and not with --quiet. */
+/* The size is printed before the files are written, but not with --quiet. */
 static void test_announcement(void **state) {
   (void)state;
   struct stat status;
@@ -209,7 +209,7 @@ static int n_listed(const char *pvd) {
   return n;
 }
 
-/* A signal ends the series after a whole step: every listed file can be read, and there is no other. */
+/* A signal ends the series after a whole step. Every listed file can be read, and there are no other files. */
 static void interrupt_series(int signal_number) {
   static const char *const files[] = {"long/long_0000.vtu", "long/long_0001.vtu"};
   const pid_t process =
@@ -221,8 +221,8 @@ static void interrupt_series(int signal_number) {
   finish_program(process);
 }
 
-/* The main thread stands still in the middle of a step, as in a very long one: the list follows all the same. Then the process is
- * killed. The thread may stand between a file and its note, so the list may lack one. */
+/* The main thread is stopped in the middle of a step, as if the step were very long. The list is still written. Then the
+ * process is killed. The thread may have stopped between a file and its entry, so the list may lack one file. */
 static void test_killed(void **state) {
   (void)state;
   write_cycle("0,0\n1,1\n");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * riis --states: free edges against the curves of the valves, areas and orifices against the surface's triangles. */
+ * riis --states: free edges are compared with the curves of the valves, areas and orifices with the surface's triangles. */
 /* clang-format off: test_support.h checks statuses if riis.h came before */
 #include <riis/riis.h>
 
@@ -71,7 +71,7 @@ static void expect_said(const char *text) {
   if (!strstr(program_out, text)) fail_msg("no '%s' in:\n%s", text, program_out);
 }
 
-/* Ratios are to the first row. */
+/* Ratios are relative to the first row. */
 static void check_ratios(void) {
   for (int i = 0; i < table.n_columns; ++i) {
     char ratio[80];
@@ -90,7 +90,7 @@ static riis_valve *make_valve(const char *kind) {
   return valve;
 }
 
-/* The orifice by points on a grid, from the triangles of a surface of its own, and the area of a leaflet. */
+/* Computes the orifice by points on a grid, and the area of a leaflet, from the triangles of a separate surface. */
 typedef struct {
   double orifice, area[3];
 } measured;
@@ -179,7 +179,7 @@ static void test_mitral(void **state) {
     mitral_oracle_destroy(oracle);
   }
   annulus_of = NULL;
-  /* The numbers: what is not physiological. */
+  /* The summary gives the values that are not physiological. */
   CHECK_NEAR(cell(0, "anterior_edge"), 3.91, 0.005);
   CHECK_NEAR(cell(4, "anterior_edge"), 4.58, 0.005);
   CHECK_NEAR(cell(4, "posterior_edge"), 7.28, 0.005);
@@ -193,7 +193,7 @@ static void test_mitral(void **state) {
   riis_valve_destroy(&valve);
 }
 
-/* Without a number there are 101 openings, and the table on stdout is the whole output. */
+/* Without --count there are 101 openings. With the table on stdout, the table is the whole output. */
 static void test_stdout(void **state) {
   (void)state;
   RUN_STATES("--valve", RIIS_EXAMPLES "/prosthesis.json", "--quiet");
@@ -208,7 +208,7 @@ static void test_stdout(void **state) {
 
 /* ---- The aortic valve ---- */
 
-/* The length of a cubic by chords. */
+/* Returns the length of a cubic by chords. */
 static double cubic_length(double p[4][3]) {
   enum { n = 20000 };
   double length = 0, last[3];
@@ -222,7 +222,7 @@ static double cubic_length(double p[4][3]) {
   return length;
 }
 
-/* Half the free edge of a cusp with a power above 1 (docs/theory.md, section 3). */
+/* Returns half the free edge of a cusp with a power above 1 (docs/theory.md, section 3). */
 static void free_edge(double r_in, double r_out, double degrees, double power, double t0, double t3, double p[4][3]) {
   const double x = r_out * cos(degrees * pi / 180), y = r_out * sin(degrees * pi / 180);
   const double made[4][3] = {
@@ -301,8 +301,8 @@ static void test_prosthesis(void **state) {
   CHECK_NEAR(cell(1, "orifice_area"), 3.79, 0.01);
 }
 
-/* A flat triangle with a side that is one point. The point's triangles have no area, so its end of the edge is in no triangle.
- * The sides along the axes have the lengths 1 and 2, the slanted one the length sqrt(5). */
+/* One side of this flat triangle is a point. The triangles at the point have no area, so that end of the edge is in no
+ * triangle. The sides along the axes have the lengths 1 and 2, the slanted one the length sqrt(5). */
 static void run_flat_triangle(const char *sides) {
   char text[512];
   snprintf(text, sizeof text,
@@ -331,8 +331,8 @@ static void test_collapsed_sides(void **state) {
   expect_said("edges     not measured: a leaflet has no side v = 1 on its rim\n");
 }
 
-/* Two patches above each other share a side, which is v = 1 of one of them and no free edge. Their other curves bend
- * differently, so they cut the common side into different parts. One side is straight, one curved. */
+/* Two patches above each other share a side. It is v = 1 of one patch, but no free edge. Their other curves bend differently,
+ * so the patches cut the common side into different parts. One side is straight, one curved. */
 static void test_shared_sides(void **state) {
   (void)state;
   static const char *const middles[2] = {"[0, 1, 0], [2, 1, 0]", "[0, 1, 0], [1, 1.5, 0], [2, 1, 0]"};

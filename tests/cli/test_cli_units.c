@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --unit and --surface-unit: the marks are the same whatever the unit. For sizes that do not go together, the test takes the
- * options that the warning names, and they mend it. */
+ * --unit and --surface-unit: the marks are the same in all units. If sizes do not fit each other, the warning names options.
+ * The test applies them, and the warning disappears. */
 #include <riis/riis_vtk.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,7 +16,7 @@ enum { n_units = 3 };
 static const char *const units[n_units] = {"m", "cm", "mm"};
 static const double factors[n_units] = {0.01, 1, 10}; /* from centimetres */
 static char meshes[n_units][256], surfaces[n_units][256];
-static int n_wanted; /* marked nodes of the valve in the box */
+static int n_wanted; /* number of marked nodes of the valve in the box */
 
 /* The same box with finer cells than in.vtu, and the same valve, in every unit. */
 static int make_files(void **state) {
@@ -163,7 +163,8 @@ static void expect_one_advice(void) {
   assert_null(strstr(program_leaks, "half thicknesses"));
 }
 
-/* A mesh in millimetres would be large and coarse in centimetres, but possible. Only a user who names the unit knows. */
+/* The mesh looks as if it were in millimetres. It may also be a large and coarse mesh in centimetres, so a unit that the user
+ * names counts. */
 static void test_coarse_or_other_unit(void **state) {
   (void)state;
   assert_int_equal(
@@ -179,7 +180,7 @@ static void test_coarse_or_other_unit(void **state) {
   expect_one_advice();
   run_program("mark", scratch_path("large.vtu"), "--scale", "1", NULL);
   expect_warning(program_exit_code, ": write --half-thickness 0.6");
-  /* The unit of a file is not known, so its default half thickness tells nothing. */
+  /* The unit of a file is not known, so its default half thickness gives no hint of the unit. */
   run_program("mark", scratch_path("large.vtu"), "--surface", surfaces[2], NULL);
   expect_warning(0, "both look as if they were in millimetres: write --unit mm --surface-unit mm\n");
 }
@@ -199,7 +200,7 @@ static void test_coarse_and_other_unit(void **state) {
   }
 }
 
-/* A surface that is beside the mesh in the unit of both is not in another unit: sizes that are alike say so. */
+/* A surface beside the mesh may have the same unit. Similar sizes show that the unit is the same. */
 static void test_beside_the_mesh(void **state) {
   (void)state;
   for (int named = 0; named < 2; ++named) {
@@ -211,7 +212,7 @@ static void test_beside_the_mesh(void **state) {
   }
 }
 
-/* In a case the likelier cause comes first, whatever the order of the valves, and it alone gives advice. */
+/* In a case the likelier cause comes first in any order of the valves. Only this cause has advice. */
 static void test_order_of_causes(void **state) {
   (void)state;
   scratch_write_text("two.json",
@@ -282,7 +283,7 @@ static void test_half_thickness(void **state) {
                    1);
   run_program("mark", scratch_path("coarse.vtu"), "--half-thickness", "0.075", NULL);
   expect_warning(program_exit_code, ": write --half-thickness 0.4");
-  /* The surface of this file has no valve's size in any unit. */
+  /* In no unit does the surface of this file have the size of a valve. */
   run_program("mark", meshes[1], "--surface", surfaces[1], "--half-thickness", "7", NULL);
   expect_warning(0, ": write --half-thickness 0.07\n");
 }

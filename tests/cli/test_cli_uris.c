@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * riis --export-uris: the files, read back as svMultiPhysics reads them, against the library's own vertices at the openings
- * of the frames, and marked by the solver's rule. */
+ * riis --export-uris: the test reads the files back as svMultiPhysics does. It compares them with the library's vertices at the
+ * openings of the frames, and marks by the solver's rule. */
 /* clang-format off: test_support.h checks statuses if riis.h came before */
 #include <riis/riis.h>
 #include <riis/riis_vtk.h>
@@ -62,7 +62,7 @@ static double *corners_of(const riis_surface *surface, int leaflet, int *n_found
   return corners;
 }
 
-/* n_more triangles, which only widen the solver's box, come after those of the library. */
+/* n_more triangles follow those of the library. They only widen the solver's box. */
 static void check_frame(const uris_face *face, const double *frame, const riis_surface *surface, int leaflet,
                         int n_more, double scale) {
   int n = 0;
@@ -87,7 +87,7 @@ static double ramp(double s) { return s * s * s * (10 + s * (-15 + 6 * s)); }
 static uris_valve exported;
 
 static void check_positions(const char *kind, const place *where, riis_valve *valve) {
-  enum { n_open = 6, n_close = 4 }; /* 0.01 s are 2.5 steps, and the last frame is that of the end */
+  enum { n_open = 6, n_close = 4 }; /* 0.01 s are 2.5 steps, and the last frame is at the end */
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
   riis_surface *surface = surface_at(where, valve);
   for (int k = 0; k < n_open + n_close; ++k) {
@@ -124,7 +124,7 @@ static void turned(const double turn[4], const double from[3], double to[3]) {
   }
 }
 
-/* Blood flows along z; in the mitral valve against z, within 5 degrees since the closed annulus is a saddle. */
+/* Blood flows along z, and against z in the mitral valve. The tolerance is 5 degrees, since the closed annulus is a saddle. */
 static void check_normal(const char *kind, const place *where) {
   const double along[3] = {0, 0, strcmp(kind, "mitral") == 0 ? -1 : 1};
   double flow[3], dot = 0, length = 0;
@@ -171,7 +171,7 @@ static void test_positions(void **state) {
   }
 }
 
-/* VTK reads the .vtu with the same nodes in the same order, which are those of the first frame. */
+/* VTK reads the same nodes in the same order from the .vtu. They are those of the first frame. */
 static void test_vtk(void **state) {
   (void)state;
   EXPORT("by_vtk", RAMPS, "--valve", "mitral");
@@ -193,8 +193,8 @@ static void test_vtk(void **state) {
   uris_free(&exported);
 }
 
-/* The solver's velocity of a node, by two frames, is that of the library's vertex. Nodes of the mitral valve also slide along
- * their leaflet, with the joints of the annulus. */
+/* The solver's velocity of a node, from two frames, equals the velocity of the library's vertex. Nodes of the mitral valve also
+ * slide along their leaflet, with the joints of the annulus. */
 static void test_velocity(void **state) {
   (void)state;
   riis_valve *valve = NULL, *before = NULL;
@@ -256,7 +256,7 @@ static double longest_edge_of(const uris_face *face, const double *xyz) {
   return longest;
 }
 
-/* Edges of one triangle only, which are the leaflet's outline: halving must leave none inside. */
+/* Edges of only one triangle form the leaflet's outline. Halving must leave no such edge inside. */
 static double outline_of(const uris_face *face, const double *xyz) {
   double outline = 0;
   for (int i = 0; i < 3 * face->n_triangles; ++i) {
@@ -271,7 +271,7 @@ static double outline_of(const uris_face *face, const double *xyz) {
   return outline;
 }
 
-/* No edge is longer in any frame, and the leaflets are where they were: area and outline stay, and all old nodes are there. */
+/* No edge is longer in any frame. The leaflets keep their place: area and outline are the same, and no old node is missing. */
 static void test_largest_edge(void **state) {
   (void)state;
   const char *const valves[] = {"mitral", "bileaflet"};
@@ -379,10 +379,10 @@ static void test_marking_rule(void **state) {
 
 /* ---- The solver's box ---- */
 
-/* A frame with the face that widens the box, and without. */
+/* The same frame with the face that widens the box, and without it. */
 typedef struct {
   int is_closing, n_marked, n_marked_outside, n_of_side[2];
-  uris_state all, leaflets; /* n_marked_outside: outside the box of the leaflets alone */
+  uris_state all, leaflets; /* n_marked_outside: marked nodes outside the box of the leaflets alone */
 } frame;
 
 static random_source rng;
@@ -462,8 +462,8 @@ static void check_box_of_scaffold(void) {
   uris_state_free(&state);
 }
 
-/* All kinds, along the axes and oblique, with thick and thin bands; a flat prosthesis; a flat patch, whose box has no thickness,
- * and one that opens into a plane of another axis. */
+/* The valves are all kinds, along the axes and oblique, with thick and thin bands; a flat prosthesis; a flat patch, whose box
+ * has no thickness; and a patch that opens into a plane of another axis. */
 static void test_box(void **state) {
   (void)state;
   rng = random_start("test_cli_uris");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * riis FOLDER: the frames of cycles and of other valves, and what is refused. A refusal leaves no file. */
+ * riis FOLDER: the frames of cycles and of other valves, and refusals. A refusal leaves no file. */
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,7 +26,7 @@ static void remove_folder(void) {
 
 #define REFUSED(exit_code, text, ...) (RUN_REFUSED(exit_code, text, __VA_ARGS__), expect_nothing_left())
 
-/* Runs an export that is fine, returns it, and removes its folder. */
+/* Runs an export that succeeds, returns its data, and removes its folder. */
 #define EXPORTED(...) (RUN_FINE(EXPORT, __VA_ARGS__), take_export())
 static uris_valve take_export(void) {
   const uris_valve valve = uris_read(program_out);
@@ -175,7 +175,7 @@ static void expect_openings(const char *text) {
 
 static void test_cycles(void **state) {
   (void)state;
-  /* The way up is 0.22:0.29, and the way down 0.29:0.66: from the largest key to the next of the least. */
+  /* The valve opens in 0.22:0.29 and closes in 0.29:0.66, from the largest key to the next least key. */
   scratch_write_text("mitral.csv", "0,0\n0.22,0\n0.29,1\n0.40,0.62\n0.50,0.55\n0.57,0.85\n0.66,0\n");
   uris_valve valve = EXPORTED("--time-step", "0.01", "--valve", "mitral", "--cycle", scratch_path("mitral.csv"));
   assert_int_equal(valve.face[0].n_open, 8);
@@ -183,14 +183,14 @@ static void test_cycles(void **state) {
   expect_openings("opening: 8 frames, from opening 0 to 1\n");
   expect_openings("closing: 38 frames, from opening 1 to 0\n");
   uris_free(&valve);
-  /* The period takes the way over its end. */
+  /* With the period, the span crosses the end of the cycle. */
   scratch_write_text("over.csv", "0,0.5\n0.25,1\n0.5,0\n");
   valve = EXPORTED("--time-step", "0.125", "--cycle", scratch_path("over.csv"), "--period", "1", "--interpolation",
                    "cubic");
   assert_int_equal(valve.face[0].n_open, 7);
   assert_int_equal(valve.face[0].n_close, 3);
   uris_free(&valve);
-  /* A part of the way down: the leaflets jump, and the program says so. */
+  /* The span is only a part of the closing. So the leaflets jump, and the program says so. */
   run_program(EXPORT, "--time-step", "0.01", "--valve", "mitral", "--cycle", scratch_path("mitral.csv"),
               "--closing-span", "0.57:0.66", "--quiet", NULL);
   assert_int_equal(program_exit_code, 0);

@@ -101,7 +101,7 @@ static void test_marks(void **state) {
   assert_true(json_number(program_out, "opening") == 0);
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", file);
   assert_non_null(strstr(program_out, "v.json, opening 0: "));
-  /* The file's ending may be in capitals. */
+  /* The ending of the file's name may be in capitals. */
   char *text = scratch_read(file, NULL);
   scratch_write_text("V.JSON", text);
   free(text);
@@ -175,7 +175,7 @@ static void test_bad_files(void **state) {
     scratch_write_text("v.json", files[i].json);
     RUN_REFUSED(1, files[i].text, "mark", scratch_path("in.vtu"), "--valve", scratch_path("v.json"));
   }
-  /* Only making the surface shows this fault. */
+  /* This fault appears only when the surface is made. */
   scratch_write_text("v.json",
                      "{\"curves\": {\"p\": [[0,0,0]]}, \"patches\": [{\"v0\": \"p\", \"v1\": \"p\", \"u0\": \"p\", "
                      "\"u1\": \"-p\"}]}");
@@ -237,7 +237,7 @@ static void test_changed_files(void **state) {
     write_flap(changes[i].can_open, changes[i].found, changes[i].replacement);
     RUN_REFUSED(1, changes[i].text, "mark", scratch_path("in.vtu"), "--valve", scratch_path("v.json"));
   }
-  /* A curve without length becomes a side that opens, and the other way round. */
+  /* A curve without length becomes a side with a length, and the reverse. */
   write_flap(1, "[[1, 0.5, -1]]", "[[1, 0.5, -1], [1, 0.5, -1]]");
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", scratch_path("v.json"), "--opening", "1");
   /* No input is replaced. */

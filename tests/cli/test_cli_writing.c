@@ -37,7 +37,7 @@ static void test_same_file_twice(void **state) {
   RUN_REFUSED(2, "is also the file of --output", "mark", mesh, "--output", out, "--stats", out);
   RUN_REFUSED(2, "is also the file of --picture", "mark", mesh, "--picture", "a.png", "--picture", "./a.png");
   RUN_REFUSED(2, "is also the file of --surface-output", "mark", mesh, "--surface-output", "a.vtp", "--stats", "a.vtp");
-  /* The file has another name here. */
+  /* This is another name of the file. */
   assert_int_equal(symlink("in.vtu", scratch_path("link.vtu")), 0);
   assert_int_equal(link(params, scratch_path("hard.json")), 0);
   RUN_REFUSED(2, "is also the file of MESH", "mark", mesh, "--stats", scratch_path("link.vtu"));
@@ -53,7 +53,7 @@ static void test_same_file_twice(void **state) {
   free(after);
 }
 
-/* An output that is the input itself, by any name, is refused, and the input keeps its bytes. */
+/* An output that is the input, under any name, is refused. The input keeps its bytes. */
 static void expect_kept(const char *name, const char *before) { assert_true(scratch_is_same(name, before)); }
 
 static void copy_file(const char *from, const char *to) {
@@ -87,7 +87,7 @@ static void test_in_place(void **state) {
   expect_kept("place.vtp", "kept.vtp");
 }
 
-/* A motion is its list and the frames that it lists. No output replaces either, nor does a step of a series. */
+/* A motion consists of its list and the listed frames. Neither an output nor a step of a series replaces one of these files. */
 static void test_motion_in_place(void **state) {
   (void)state;
   RUN_FINE("surface", "--valve", "mitral", "--output", scratch_path("a.vtp"), "--quiet");
@@ -116,7 +116,7 @@ static void test_motion_in_place(void **state) {
               scratch_path("beat.pvd"));
   RUN_REFUSED(2, "is a frame of --surface", "mark", mesh, MOTION, "--times", "0,1", "--series-table",
               scratch_path("beat/other.vtp"));
-  /* A step that would go through a link to an input, and an input that is a link to a step. */
+  /* A step is a link to an input, or an input is a link to a step. */
   assert_int_equal(symlink("../beat/other.vtp", scratch_path("out/out_0001.vtp")), 0);
   RUN_REFUSED(2, "holds the file of --surface", "mark", mesh, MOTION, "--times", "0,1", "--surface-output",
               scratch_path("out.pvd"));
@@ -125,7 +125,7 @@ static void test_motion_in_place(void **state) {
   assert_int_equal(symlink("out/out_0000.vtu", scratch_path("mesh.vtu")), 0);
   RUN_REFUSED(2, "holds the file of MESH", "mark", scratch_path("mesh.vtu"), MOTION, "--times", "0,1", "--output",
               scratch_path("out.pvd"));
-  /* A case has other inputs. */
+  /* The files of a case are also inputs. */
   scratch_write_text("case.json",
                      "{\"mesh\": \"in.vtu\", \"times\": [0, 1], \"half_thickness\": 0.3,\n"
                      " \"valves\": [{\"surface\": \"beat.pvd\"}]}\n");
@@ -139,7 +139,7 @@ static void test_motion_in_place(void **state) {
   expect_kept("out/out_0000.vtu", "kept.vtu");
 }
 
-/* Waits until the run holds its locks: it then waits for a reader of its stats, a pipe. */
+/* Waits until the run holds its locks. Then the run waits for a reader of its stats, which go to a pipe. */
 static pid_t start_held_run(const char *output) {
   const pid_t process = start_program("mark", scratch_path("in.vtu"), "--output", output, "--stats",
                                       scratch_path("pipe"), "--half-thickness", "0.6", "--quiet", NULL);
@@ -160,7 +160,8 @@ static void expect_locked(const char *mesh, const char *option, const char *outp
   free(text);
 }
 
-/* The second run of one output is refused, whatever the option and the name; a run that ends or is killed hinders none. */
+/* A second run with the same output is refused for any option and any name of the file. A run that has ended or was killed
+ * blocks no other run. */
 static void test_second_run(void **state) {
   (void)state;
   char mesh[256], held[256];
@@ -186,7 +187,7 @@ static void test_second_run(void **state) {
   assert_int_equal(program_exit_code, 128 + SIGINT);
   assert_false(scratch_exists(".riis-held.vtu.lock"));
 }
-/* Stats replace a file, also through a link, but are written into a device. */
+/* Stats replace a file, also through a link. They are written into a device. */
 static void test_stats_places(void **state) {
   (void)state;
   scratch_write_text("s.json", "before");
@@ -225,7 +226,7 @@ static void test_closed_folder(void **state) {
   expect_text("closed/a.json", "before");
 }
 
-/* If a file may not grow to its full size, that is an error like any other. */
+/* If a file may not grow to its full size, the program reports an error and is not killed. */
 static void test_limited_size(void **state) {
   (void)state;
   scratch_write_text("limit.vtu", "before");

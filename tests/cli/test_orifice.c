@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The orifice as riis --states measures it, against closed forms, and against points that are counted. */
+ * The orifice of riis --states, compared with closed forms and with counts of points. */
 #include "orifice_shim.h"
 #include "test_support.h"
 
@@ -46,14 +46,14 @@ static void test_ring(void **state) {
       rotated(hole, 0, b, centre, corners[2 * i + 1] + 4);
     }
     const double area = 0.5 * m * hole * hole * sin(step), spacing = 2 * radius / n_lines;
-    /* A circle has the first error, by the lines that cross it. Two edges along the lines may be half a spacing off. */
+    /* The first tolerance is for a circle, which all lines cross. Two edges along the lines may be off by half a spacing. */
     const double bound = area * pow(2 * hole / spacing, -1.5) + spacing * hole * step;
     CHECK_NEAR(shim_uncovered_circle(radius, centre, 2 * m, corners[0], n_lines), area, bound);
   }
 }
 
 /* A half plane through the centre covers half the circle, in any direction. The program's lines run along x: an edge along them
- * is the worst that there is. */
+ * is the worst case. */
 static void test_half(void **state) {
   (void)state;
   random_source random = random_start("test_orifice");

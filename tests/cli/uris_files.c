@@ -166,7 +166,8 @@ static void add_to_box(uris_state *state, const double *xyz, int n_nodes) {
   }
 }
 
-/* Sums of corners begin at 0, in the order of the corners, and are divided: the bits decide which of two middles is nearer. */
+/* The solver adds the corners to 0 in their order, then divides. The same bits are needed here, because they decide which of
+ * two middles is nearer. */
 static void add_triangles(uris_state *state, const uris_face *face, const double *xyz) {
   const size_t n = (size_t)(state->n + face->n_triangles);
   state->middle = realloc(state->middle, 3 * n * sizeof *state->middle);
@@ -190,7 +191,7 @@ static uris_state empty_state(void) {
   return (uris_state){.lower = {INFINITY, INFINITY, INFINITY}, .upper = {-INFINITY, -INFINITY, -INFINITY}};
 }
 
-/* A tenth on each side; a box without thickness gets a tenth of its diagonal. */
+/* The box grows by a tenth on each side, or by a tenth of its diagonal if it has no thickness. */
 static void widen(uris_state *state) {
   double side[3], square = 0;
   for (int j = 0; j < 3; ++j) side[j] = state->upper[j] - state->lower[j], square += side[j] * side[j];

@@ -17,7 +17,7 @@ typedef struct {
   double *xyz, *open, *close; /* of the .vtu, (3, n_nodes), and of the motions */
 } uris_face;
 
-/* What the solver's input says of a valve. */
+/* The description of a valve in the solver's input. */
 typedef struct {
   char name[64];
   int n_faces, n_leaflets, has_scaffold; /* faces: leaflets, then the one that widens the box */
@@ -32,10 +32,10 @@ void uris_free(uris_valve *valve);
 /* The number behind <element>. Fails the test without it. */
 double uris_number(const char *block, const char *element);
 
-/* Frame k of a motion, (3, n_nodes). */
+/* Returns frame k of a motion, (3, n_nodes). */
 const double *uris_frame(const uris_face *face, const double *motion, int k);
 
-/* One frame as the solver sees it: its box, and all triangles of the faces in turn. */
+/* One frame as the solver uses it: the box, and all triangles of one face after the other. */
 typedef struct {
   int n;
   double lower[3], upper[3];
@@ -44,15 +44,16 @@ typedef struct {
 
 /* Frame k of the closing, or of the opening, with the first n_faces faces. The caller frees it. */
 uris_state uris_state_of(const uris_valve *valve, int n_faces, int is_closing, int k);
-/* The same of the scaffold, at rest. */
+/* Returns the same for the scaffold, which is at rest. */
 uris_state uris_scaffold_of(const uris_valve *valve);
 void uris_state_free(uris_state *state);
 
 /* The first triangle whose middle is nearest to a point, and its distance. */
 int uris_nearest(const uris_state *state, const double point[3], double *distance);
-/* Whether the solver looks at a node there at all. */
+/* Tells whether the point is in the box in which the solver looks for nodes. */
 int uris_is_in_box(const uris_state *state, const double point[3]);
-/* The sign that the solver gives to a distance: that of a triangle's face, and in a valve that closes also that of the flow. */
+/* Returns the sign that the solver gives to a distance. It depends on the side of the triangle, and in a closing valve also on
+ * the flow. */
 int uris_sign(const uris_valve *valve, const uris_state *state, int triangle, int is_closing, const double point[3]);
 
 #endif

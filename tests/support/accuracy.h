@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Points of known distance (bench/accuracy), for tests in C. */
+ * Makes points of known distance (bench/accuracy), for tests in C. */
 #ifndef RIIS_TEST_ACCURACY_H
 #define RIIS_TEST_ACCURACY_H
 
@@ -25,7 +25,7 @@ int truth_of(const riis_patches *patches, const char *kind, int64_t n, uint64_t 
              known_truth *truth);
 void truth_free(known_truth *truth);
 
-/* Offsets are in half thicknesses. Point i has offset i modulo n_offsets, if it is not left out. */
+/* Offsets are in half thicknesses. Point i has offset i modulo n_offsets, unless the point is left out. */
 enum { n_offsets = 6 };
 double truth_offset(int64_t i);
 double truth_largest_share_of_radius(void);

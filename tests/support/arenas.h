@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Walks of src/riis/parallel by several callers, with a C interface: a failed assertion leaves by longjmp, which must not cross
- * TBB's frames. A walk here takes 32 numbers and adds 32 more. It is right if it met each number once. */
+ * Walks of src/riis/parallel by several callers. The interface is C, because a failed assertion leaves by longjmp, which must
+ * not cross TBB's frames. A walk here visits 32 numbers and adds 32 more. It is correct if it visits each number once. */
 #ifndef RIIS_TEST_ARENAS_H
 #define RIIS_TEST_ARENAS_H
 
@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-/* Each handle of the library has such a keeper. Arenas are kept as long as there is one. */
+/* Each handle of the library has such a keeper. Arenas exist while there is a keeper. */
 typedef struct arenas_keeper arenas_keeper;
 arenas_keeper *arenas_keep(void);
 void arenas_let_go(arenas_keeper **keeper);
@@ -18,21 +18,21 @@ int arenas_made(void);
 
 typedef struct walk_seen {
   int is_right;
-  int arena; /* the most threads that the bodies' arena may have; -1 if two bodies differ */
+  int arena; /* the largest number of threads of the bodies' arena; -1 if two bodies differ */
 } walk_seen;
 
 walk_seen walk_once(int n_threads);
 /* Walks while the caller limits the process to `limit` threads. */
 walk_seen walk_under_limit(int limit, int n_threads);
-/* Every body throws. Returns 1 if the exception arrives. */
+/* Every body throws. Returns 1 if the caller gets the exception. */
 int walk_that_throws(int n_threads);
-/* The caller has n_callers threads, and each makes n_walks walks with 2 and 3 threads by turns. All are inside their first walk,
- * which has 2 threads, at the same time. Returns 1 if all walks are right. */
+/* The caller has n_callers threads, and each makes n_walks walks with 2 and 3 threads by turns. All are inside their first
+ * walk, which has 2 threads, at the same time. Returns 1 if all walks are correct. */
 int walk_at_once(int n_callers, int n_walks);
-/* Each of n_tasks tasks of the caller's own TBB walks, in an arena of four threads. Returns 1 if all walks are right and the
- * tasks stay in their arena. */
+/* The caller's own TBB has n_tasks tasks in an arena of four threads, and each task makes a walk. Returns 1 if all walks are
+ * correct and the tasks stay in their arena. */
 int walk_in_tasks(int n_tasks);
-/* Returns 1 if TBB can be ended. TBB refuses that while there are arenas. */
+/* Returns 1 if TBB can be ended. TBB refuses this while there are arenas. */
 int end_tbb(void);
 
 #ifdef __cplusplus

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The bileaflet valve in closed form: where a leaflet's points are at an angle, and how far a point is from a leaflet. Include
- * after riis.h, test_support.h and handles.h. */
+ * The bileaflet valve in closed form: the places of a leaflet's points at an angle, and the distance of a point from a leaflet.
+ * Include after riis.h, test_support.h and handles.h. */
 #ifndef RIIS_TEST_BILEAFLET_ORACLE_H
 #define RIIS_TEST_BILEAFLET_ORACLE_H
 
@@ -41,7 +41,7 @@ static inline riis_surface *bileaflet_surface(const bileaflet *of, const riis_su
   return surface;
 }
 
-/* A valve whose values go together, with leaflets that close to an angle below most_closed. */
+/* Makes a valve with random consistent values, whose leaflets close to an angle below most_closed. */
 static inline bileaflet random_bileaflet(random_source *random, double most_closed) {
   bileaflet made = bileaflet_defaults();
   made.radius = random_between(random, 0.5, 2);
@@ -58,7 +58,7 @@ static inline double angle_of(const bileaflet *of, double opening) {
   return degree * (of->closed_angle + opening * (of->open_angle - of->closed_angle));
 }
 
-/* Turns a point of the leaflet at x < 0 half round the axis, to the one at x > 0; a second turn takes it back. */
+/* Turns a point by half a turn round the axis, from one leaflet to the other. */
 static inline void half_turn(int32_t leaflet_id, double *p) {
   if (leaflet_id != RIIS_LEAFLET_NEGATIVE) return;
   p[0] = -p[0], p[1] = -p[1];
@@ -85,14 +85,16 @@ static inline void from_leaflet(const bileaflet *of, int32_t leaflet_id, double 
   half_turn(leaflet_id, p);
 }
 
-/* The squared distance from a point of the plane to the rim at an angle round the axis. `stretch` is that along the slope. */
+/* The squared distance from a point of the plane to the rim at an angle round the axis. `stretch` is the stretch along the
+ * slope. */
 static inline double to_rim_sq(const bileaflet *of, double stretch, double x, double y, double around) {
   const double dx = stretch * (of->radius * cos(around) - x), dy = of->radius * sin(around) - y;
   return dx * dx + dy * dy;
 }
 
-/* The distance to a leaflet's outline in its plane, of a point outside. (x, y) is its place, seen along the axis, on the closed
- * leaflet. The middle edge is a segment, the rim an ellipse, searched by golden sections between samples. */
+/* The distance of a point outside a leaflet to the leaflet's outline, in the leaflet's plane. (x, y) is the point's place on
+ * the closed leaflet, seen along the axis. The middle edge is a segment. The rim is an ellipse, which is searched by golden
+ * sections between samples. */
 static inline double to_outline(const bileaflet *of, double x, double y) {
   const double stretch = 1 / cos(degree * of->closed_angle), x0 = of->gap / 2, R = of->radius;
   const double y_end = sqrt(R * R - x0 * x0), whole = atan2(y_end, x0);
@@ -130,8 +132,8 @@ static inline double to_bileaflet(const bileaflet *of, const double *p) {
   return fmin(to_bileaflet_leaflet(of, RIIS_LEAFLET_POSITIVE, p), to_bileaflet_leaflet(of, RIIS_LEAFLET_NEGATIVE, p));
 }
 
-/* The distance from a half disc in the plane of its hinge, which is at slope 0: the half of x >= 0 of the disc of this radius
- * whose centre is at slope -offset. */
+/* The distance from a half disc, the half x >= 0 of a disc of this radius. The disc's plane holds the hinge, which is at slope
+ * 0, and its centre is at slope -offset. */
 static inline double to_half_disc(double radius, double offset, in_leaflet at) {
   const double x = at.slope + offset, from_centre = hypot(x, at.y);
   if (x >= 0) return hypot(at.off, fmax(from_centre - radius, 0));

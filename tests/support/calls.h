@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Calls of riis whose structs are filled from plain arguments, and what handles give as structs. Calls return the status of
- * riis. */
+ * Calls of riis with plain arguments in place of structs, and functions that return the content of handles as structs. Calls
+ * return the status of riis. */
 #ifndef RIIS_TEST_CALLS_H
 #define RIIS_TEST_CALLS_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Programs by riis.hpp, for test_cpp_header.c. */
+ * Programs that use riis.hpp, for test_cpp_header.c. */
 #ifndef RIIS_TEST_CPP_HEADER_H
 #define RIIS_TEST_CPP_HEADER_H
 
@@ -14,7 +14,7 @@ extern "C" {
 int64_t cpp_mark(int64_t n, const double *xyz, double half_thickness, int64_t *node_id);
 /* Makes a valve. Returns the status of the exception and writes its text, or returns 0. */
 int32_t cpp_refusal(const char *kind, char *text, size_t length);
-/* These return "", or say what is wrong. */
+/* These return "", or a description of the fault. */
 const char *cpp_wrong_with_handles(void);
 const char *cpp_wrong_with_defaults(void);
 const char *cpp_wrong_with_spans(void);

@@ -12,7 +12,7 @@ static inline riis_valve *valve_at(const char *kind, double opening) {
   return valve;
 }
 
-/* Adds up the edges on the sides v = 1 of the top patches. */
+/* Adds the lengths of the edges on the sides v = 1 of the top patches. */
 static inline void free_edge_lengths(const riis_surface *surface, double *lengths) {
   const riis_triangles all = triangles_of(surface);
   for (int cusp = 0; cusp < 3; ++cusp) lengths[cusp] = 0;
@@ -25,7 +25,7 @@ static inline void free_edge_lengths(const riis_surface *surface, double *length
     }
 }
 
-/* The part of a disc about the axis that no triangle covers, seen along the axis, by a grid of n x n squares. */
+/* Returns the area of a disc about the axis that no triangle covers, seen along the axis. It uses a grid of n x n squares. */
 static inline double orifice_area(const riis_surface *surface, double radius, int n) {
   const riis_triangles all = triangles_of(surface);
   const double h = 2 * radius / n;
@@ -79,7 +79,7 @@ static inline double reach_out_of_sectors(const riis_surface *surface, const dou
   return worst;
 }
 
-/* Returns the least cosine between a triangle's normal and the way outwards and up. A fold would turn it over. */
+/* Returns the least cosine between a triangle's normal and the direction outwards and up. A fold would reverse the normal. */
 static inline double least_uprightness(const riis_surface *surface, const double *turn) {
   const riis_triangles all = triangles_of(surface);
   double least = 1;
@@ -97,7 +97,7 @@ static inline double least_uprightness(const riis_surface *surface, const double
   return least;
 }
 
-/* 101 openings: free edges stay within a share of their length at opening 0, the orifice grows, cusps neither cross nor
+/* Checks 101 openings. Free edges keep their length at opening 0 up to a share, the orifice grows, and cusps neither cross nor
  * fold. Returns the orifice at opening 1. */
 static inline double check_opening(riis_valve *valve, double radius, const double *turn, const double *half_angle,
                                    double share, const char *name) {

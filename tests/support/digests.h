@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The content of objects as a number: equal content, bit by bit, has an equal number. Include after searches.h. */
+ * The content of objects as a number. Content with equal bits has an equal number. Include after searches.h. */
 #ifndef RIIS_TEST_DIGESTS_H
 #define RIIS_TEST_DIGESTS_H
 
-static riis_surface_options coarse; /* few triangles, quickly made; set this before making a digest */
+static riis_surface_options coarse; /* few triangles, for speed; set this before making a digest */
 
 static inline uint64_t add_bytes(uint64_t digest, const void *data, size_t n) {
   const unsigned char *bytes = data;

@@ -63,7 +63,7 @@ struct Objects {
     return library.has(address) ? Owner::library : embree.has(address) ? Owner::embree : Owner::other;
   }
 };
-std::atomic<const Objects *> objects{nullptr};  // null until the program starts: earlier allocations are others'
+std::atomic<const Objects *> objects{nullptr};  // null until the program starts: earlier allocations have no owner
 alignas(Objects) char objects_place[sizeof(Objects)];
 [[gnu::constructor]] void find_objects() { objects = new (objects_place) Objects; }
 
@@ -96,13 +96,13 @@ Owner owner_of(void *return_address) {
   return known->standard_library.has(address) ? owner_behind_standard_library() : known->owner(address);
 }
 
-std::atomic<int> failing{-1};  // the owner whose memory fails, or -1
+std::atomic<int> failing{-1};  // the owner whose allocations fail, or -1
 std::atomic<std::int64_t> n_left{0}, n_failed{0};
 std::atomic<bool> fails_on{false};
 std::atomic<const void *> calling_thread{nullptr};
 std::atomic<std::int64_t> live_of_library{0}, live_of_embree{0}, live_bytes_of_embree{0};
 
-// Its address is this thread's own.
+// Its address identifies this thread.
 const void *this_thread() {
   thread_local char mark;
   return &mark;
@@ -118,7 +118,7 @@ bool is_to_fail() {
 
 // This header is in front of every object of operator new.
 struct alignas(16) Header {
-  std::uint32_t offset;  // of the object in its block
+  std::uint32_t offset;  // place of the object in its block
   Owner owner;
 };
 
@@ -191,7 +191,7 @@ void operator delete[](void *p, std::align_val_t, const std::nothrow_t &) noexce
 
 extern "C" {
 
-// Replaces Embree's function of this name, which is the same in both versions. So neither header is needed.
+// Replaces Embree's function of this name. It is the same in both versions, so neither header is needed.
 void *rtcNewDevice(const char *config) {
   const auto find = [](const char *name) {
     void *const function = dlsym(RTLD_NEXT, name);

@@ -13,12 +13,12 @@ extern "C" {
 
 enum {
   MEMORY_OF_LIBRARY = 0, /* operator new called by the library's code, on any thread */
-  MEMORY_OF_WORKERS = 1, /* the same on all threads but the one that calls memory_fail */
+  MEMORY_OF_WORKERS = 1, /* the same, except on the thread that calls memory_fail */
   MEMORY_OF_EMBREE = 2,  /* requests of Embree to its memory monitor */
-  MEMORY_OF_ALL = 3      /* also malloc, whoever calls it; not with sanitizers, which have their own */
+  MEMORY_OF_ALL = 3      /* also malloc of any caller; not with sanitizers, which have their own */
 };
 
-/* Sets the object that counts as the library: the one with this function. The default is the core. */
+/* Sets the object that counts as the library to the one with this function. The default is the core. */
 void memory_library_is_that_of(const char *function);
 
 /* From now on allocation number n (1, 2, ...) fails. If and_all_after is not 0, all later ones also fail. */

@@ -3,7 +3,7 @@
 #ifndef RIIS_TEST_FLOOD_FILL_H
 #define RIIS_TEST_FLOOD_FILL_H
 
-/* The rows both ways, without ghosts: the test owns the arrays. */
+/* Makes the rows in both directions, without ghosts. The test owns the arrays. */
 static inline test_mesh both_ways(const test_mesh *mesh) {
   test_mesh made = {.n = mesh->n, .xyz = mesh->xyz};
   int64_t *pairs = malloc((size_t)(2 * mesh->offsets[mesh->n] + 1) * sizeof *pairs), n_pairs = 0;
@@ -15,8 +15,8 @@ static inline test_mesh both_ways(const test_mesh *mesh) {
   return made;
 }
 
-/* Walks from each node that is open and not yet labelled, in ascending order. rows must go both ways. Returns the number of
- * regions. */
+/* Walks from each node that is open and not yet labelled, in ascending order. rows must have both directions of each edge.
+ * Returns the number of regions. */
 static inline int64_t flood_fill(const test_mesh *rows, const uint8_t *is_open, int64_t *label) {
   int64_t *stack = malloc((size_t)(rows->n + 1) * sizeof *stack), n_regions = 0;
   for (int64_t i = 0; i < rows->n; ++i) label[i] = -1;
@@ -37,8 +37,8 @@ static inline int64_t flood_fill(const test_mesh *rows, const uint8_t *is_open, 
   return n_regions;
 }
 
-/* Nodes anywhere in a cube, and rows of any nodes: one way or both, with repeats, the node itself and ghosts, which go up to
- * n + 5. */
+/* Random nodes in a cube, and random rows. Edges have one or both directions. Rows have repeats, the node itself and ghosts up
+ * to n + 5. */
 static inline test_mesh random_graph(int64_t n, double edges_per_node) {
   test_mesh mesh = {.n = n};
   mesh.xyz = own(malloc((size_t)n * 3 * sizeof *mesh.xyz));

@@ -10,13 +10,13 @@
 extern "C" {
 #endif
 
-/* Bézier curves have degree 2 or 3 and control[3 * (degree + 1)]. */
+/* Bézier curves have degree 2 or 3, and 3 * (degree + 1) numbers in control. */
 void bezier_evaluate(int degree, const double *control, double t, double *point);
 void bezier_derivative(int degree, const double *control, double t, double *vector);
 double bezier_arc_length(int degree, const double *control, double t0, double t1);
 void bezier_split(int degree, const double *control, double t, double *left, double *right);
 double bezier_flatness(int degree, const double *control);
-/* t has one entry per point, errors one fewer. */
+/* t has one entry per point, and errors has one entry less. */
 riis_status bezier_flatten(int degree, const double *control, double max_error, int64_t *n_points, double **points,
                            double **t, double **errors);
 
@@ -60,15 +60,15 @@ int segment_triangle_meet(const double *a, const double *b, const double *abc);
 /* The aortic valve's curves and patches at its default parameters, changed by one (name may be NULL). */
 typedef struct patch_set {
   int64_t n_curves, n_patches, n_images;
-  int32_t *degree;                           /* one per curve */
-  double *control;                           /* 12 per curve, in the cusp's frame */
-  int64_t *sides;                            /* 4 per patch: v0, v1, u0, u1 */
-  int64_t *patch;                            /* for each image, its patch */
-  int32_t *leaflet_id, *patch_id, *mirrored; /* one per image */
-  double *frame;                             /* 12 per image: rows of its rotation, then its translation */
+  int32_t *degree;                           /* one entry per curve */
+  double *control;                           /* 12 numbers per curve, in the cusp's frame */
+  int64_t *sides;                            /* 4 curves per patch: v0, v1, u0, u1 */
+  int64_t *patch;                            /* the patch of each image */
+  int32_t *leaflet_id, *patch_id, *mirrored; /* one entry per image */
+  double *frame;                             /* 12 numbers per image: rows of its rotation, then its translation */
 } patch_set;
 riis_status aortic_patches(const char *name, double value, patch_set *set);
-/* Places a point of the cusp's frame as an image does. */
+/* Transforms a point of the cusp's frame as an image does. */
 void patch_image_place(const patch_set *set, int64_t image, const double *p, double *placed);
 void patch_set_free(patch_set *set);
 
@@ -87,7 +87,7 @@ riis_status bounded_quads(const char *kind, int n_parameters, const char *const 
 typedef struct deviating {
   int64_t n_triangles;
   double bound, bound_of_patches;
-  int is_within; /* by the plan; 1 without one */
+  int is_within; /* 1 if the plan keeps its bound, or without a plan */
 } deviating;
 riis_status triangulate_deviating(const char *kind, double deviation, double max_error, int is_fixed, deviating *made);
 
@@ -97,11 +97,11 @@ riis_status triangulate_deviating(const char *kind, double deviation, double max
 int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t n_points, const double *points,
                                 double limit);
 
-/* The kernels that are compiled for each instruction set (kernels/kernels.hpp): 0 baseline, 1 AVX2, 2 AVX-512; and 3, the
- * baseline of processors without any of these, which is there on others. */
+/* The kernels that are compiled for each instruction set (kernels/kernels.hpp): 0 baseline, 1 AVX2, 2 AVX-512. 3 is the
+ * baseline of processors that have none of these sets, and exists also on other processors. */
 enum { baseline_set = 0, portable_set = 3, n_kernel_sets = 4 };
 int kernels_there(int set);
-/* Whether this build's flags leave the baseline without instructions that round a product and a sum once. */
+/* Tells whether this build's flags keep fused multiply-add instructions out of the baseline. */
 int kernels_baseline_rounds_twice(void);
 const char *kernels_name(int set);
 
@@ -114,16 +114,17 @@ void kernels_decide(int set, int32_t n, const int32_t *point, const int32_t *tri
 void kernels_locate(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
                     const double *corners, double *distance_sq, double *closest, double *barycentric);
 
-/* Takes the corners (9, n) of triangles given by the ids of vertices (3, n), and bounds them. */
+/* Collects the corners (9, n) of triangles that are given by ids of vertices (3, n), and bounds them. */
 void kernels_take_corners(int set, const double *vertices, const int64_t *vertex_id, int64_t n, double *corners,
                           double *lower, double *upper);
-/* Takes n of them, up to 16, to a frame: framed(16, 9). */
+/* Transforms n triangles, up to 16, to a frame: framed(16, 9). */
 void kernels_frame_group(int set, const double *centre, double scale, const double *corners, const int32_t *triangle,
                          int32_t n, double *framed);
 /* For fields: mixes the numbers (8, n_vertices) at the vertices (3, 8) of 8 triangles by weights (3, 8); mixed(8, 8). */
 void kernels_mix_at_vertices(int set, int64_t n_vertices, const double *numbers, const int64_t *vertex_id,
                              const double *barycentric, double *mixed);
-/* For fields: the sides of 8 points (3, 8) of planes through points (3, 8) with normals (3, 8). */
+/* For fields: computes on which side of planes 8 points (3, 8) lie. The planes go through points (3, 8) and have normals (3,
+ * 8). */
 /* key and n_less have room for 64. */
 void kernels_rank(int set, const int32_t *key, int32_t n, int32_t *n_less);
 void kernels_find_sides(int set, const double *points, const double *on, const double *normals, int32_t *side);
@@ -134,19 +135,20 @@ void kernels_measure_triangles(int set, const double *vertices, const int64_t *v
  * second offset. */
 void kernels_place_points(int set, const double *first, const double *second, double scale, int64_t n,
                           const double *points, double *placed);
-/* Returns 0 if one of n triangles, up to 8, may have no area, or none after its corners move by up to an eighth of `shift`. */
+/* Returns 0 if one of n triangles, up to 8, may have no area, either now or after its corners move by up to an eighth of
+ * `shift`. */
 int kernels_have_area(int set, const double *vertices, const int64_t *vertex_id, int32_t n, double shift);
 
-/* A group of n <= 16 triangles corners(9, n), in the surface's frame, made with one set; to be freed. */
+/* Makes a group of n <= 16 triangles corners(9, n), in the surface's frame, with one instruction set. The caller frees it. */
 typedef struct kernel_group kernel_group;
 kernel_group *kernels_group(int set, int n, const double *corners);
 void kernels_group_free(kernel_group *group);
 /* Returns 1 if all bits of two groups and of their bounds are the same. */
 int kernels_groups_equal(const kernel_group *a, const kernel_group *b);
-/* Single precision's squares of the distances of a point to its 16 lanes. */
+/* Gives the squares of distances of a point to the group's 16 lanes, in single precision. */
 void kernels_group_distances(int set, const kernel_group *group, const float *point, double margin, float *distance_sq);
 
-/* Returns the error that the library allows for. Points are scaled by a ratio, moved by a shift, and up to a reach from the
+/* Returns the library's bound of the error. Points are scaled by `ratio`, moved by `shift`, and at most `reach` from the
  * surface. */
 double kernels_error(double ratio, double shift, double reach, double longest_edge);
 
@@ -157,7 +159,7 @@ typedef struct kernel_pair {
 } kernel_pair;
 typedef struct kernel_filter {
   double ratio, shift[3], limit;
-  uint32_t wanted; /* one bit per node */
+  uint32_t wanted; /* one bit for each node */
   int n_groups;
   const kernel_group *const *groups;
   int n_nodes;
@@ -176,11 +178,11 @@ int kernels_near_boxes(int set, const kernel_filter *filter, uint16_t *near);
  * order decides between equally near ones. */
 int64_t samples_of(const riis_surface *surface, const double **xyz);
 
-/* Runs Powell's method from (0.5, 0.5) on [0,1]^2, with line searches right to `step`. Returns the final value, and its place in
- * uv. */
+/* Runs Powell's method from (0.5, 0.5) on [0,1]^2, with line searches that are accurate to `step`. Returns the final value, and
+ * its place in uv. */
 double powell_minimum(double (*f)(double u, double v), double enough, double step, double *uv);
 
-/* Returns the status that the exception wall makes of:
+/* Returns the status that the exception wall makes of an exception:
  *   "error"     a riis Error of RIIS_INVALID_MESH with the message "error 7"
  *   "memory"    std::bad_alloc
  *   "standard"  another standard exception, "boom"

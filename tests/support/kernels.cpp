@@ -29,7 +29,7 @@ const Kernels &of(int set) {
   return kernels(static_cast<InstructionSet>(set));
 }
 
-// The filter's task, made as in cluster_search.cpp.
+// Makes the filter's task as cluster_search.cpp does.
 struct Filter {
   std::vector<TriangleGroup> groups;
   std::vector<GroupBounds> bounds;

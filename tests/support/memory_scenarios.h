@@ -13,7 +13,7 @@ typedef struct world {
   const struct scenario *scenario;
 } world;
 
-/* One call. Each time a fresh world is made, the call runs, and the world is destroyed. */
+/* A scenario of one call. For each run a new world is made, the call runs, and the world is destroyed. */
 typedef struct scenario {
   const char *name;
   void (*make)(world *w);
@@ -111,7 +111,7 @@ static void patches_and_open(world *w) {
   CHECK_OK(make_patches(w));
   CHECK_OK(patches_valve(0.8, &w->open));
 }
-/* The valve has an open state and gets another. */
+/* The valve already has an open state and gets another one. */
 static void patches_opened(world *w) {
   patches_and_open(w);
   CHECK_OK(open_valve(w));
@@ -225,7 +225,7 @@ static riis_status closest_points(world *w) {
   return status;
 }
 
-/* The right cusp is turned into its neighbours. */
+/* The right cusp is turned, so that it crosses its neighbours. */
 static void crossing(world *w) {
   const double turned[3] = {0, 0, 60};
   aortic(w);
@@ -318,7 +318,7 @@ static riis_status mark_masked_and_wide(world *w) {
   options.node_mask = mask;
   return riis_mark_nodes(w->surface, w->mesh, &options, w->result);
 }
-/* The result was marked with before. Now it needs more room than it has, or it has room for everything after many markings. */
+/* An earlier marking used the result. Now the result needs more room than it has, or it has enough room after many markings. */
 static void marked_before(world *w) {
   ready_to_mark(w);
   CHECK_OK(mark(w));
@@ -352,7 +352,7 @@ static void minimized_and_ready(world *w) {
   ready_to_mark(w);
   CHECK_OK(by_minimization(w));
 }
-/* The mesh has its balls or clusters, which have to be enclosed again. */
+/* The mesh has its balls or clusters, and they must be computed again. */
 static void marked_and_moved(world *w) {
   marked_often(w);
   CHECK_OK(riis_mesh_update(w->mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));

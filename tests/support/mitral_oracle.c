@@ -6,7 +6,9 @@
 
 typedef long double real;
 
-enum { STEPS = 256 }; /* of the arc length table: more of them move no point of the paper's valve by more than 3e-16 */
+enum {
+  STEPS = 256
+}; /* steps of the arc length table; more steps move no point of the paper's valve by more than 3e-16 */
 
 typedef struct cubic {
   real point[4][3];
@@ -95,7 +97,7 @@ static real parameter_at(const cubic *c, real s) {
   return t;
 }
 
-/* Gives the curve's control points between parameters a and b: its blossom at (a,a,a), (a,a,b), (a,b,b), (b,b,b). */
+/* Gives the control points of the curve between parameters a and b, by its blossom at (a,a,a), (a,a,b), (a,b,b), (b,b,b). */
 static void restrict_to(const cubic *c, real a, real b, real part[4][3]) {
   for (int i = 0; i < 4; ++i)
     for (int k = 0; k < 3; ++k) {
@@ -267,7 +269,7 @@ static void posterior(const mitral_oracle *o, real v, real *point) {
   by_length(&o->scallop[scallop], 3 * v - scallop, point);
 }
 
-/* L(u), the case distinction of "Leaflet surfaces". 1 - r_at = 2 u_pm. */
+/* L(u), by the cases of "Leaflet surfaces". 1 - r_at = 2 u_pm. */
 static void leaflet_at(const mitral_oracle *o, real u, real *point) {
   const real first = o->u_pm + o->triangle, last = o->u_al - o->triangle;
   if (u < o->u_pm)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * An independent answer to "where is the smooth mitral valve": the paper's appendix as mended in docs/theory.md,
- * section 4 ("row" is a row of its table), evaluated point by point in extended precision. It has no polylines
- * and no tolerance, and shares no code with the library. */
+ * An independent evaluation of the smooth mitral valve. It follows the paper's appendix as mended in docs/theory.md, section 4
+ * ("row" is a row of its table), point by point in extended precision. It has no polylines and no tolerance, and shares no code
+ * with the library. */
 #ifndef RIIS_TEST_MITRAL_ORACLE_H
 #define RIIS_TEST_MITRAL_ORACLE_H
 

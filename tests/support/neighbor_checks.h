@@ -3,7 +3,7 @@
 #ifndef RIIS_TEST_NEIGHBOR_CHECKS_H
 #define RIIS_TEST_NEIGHBOR_CHECKS_H
 
-/* Marks by both searches and compares. The neighbour search marks with the result, or with a new one if it is NULL. */
+/* Marks with both searches and compares. The neighbour search uses the result, or a new one if it is NULL. */
 static inline riis_mark_stats check_same_as_exhaustive(const riis_surface *surface, const riis_mesh *mesh,
                                                        riis_mark_options options, riis_marks *result) {
   const int owned_before = n_owned();

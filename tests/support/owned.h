@@ -28,7 +28,7 @@ static inline void own_object(void *object, void (*destroy)(void *)) {
 
 static inline int n_owned(void) { return owned.n; }
 
-/* Frees what came after the first n, the last one first. */
+/* Frees all objects after the first n, the last one first. */
 static inline void free_owned_after(int n) {
   while (owned.n > n) {
     const owned_object last = owned.at[--owned.n];

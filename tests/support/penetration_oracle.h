@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * The penetration depth and the common segment of two triangles in 113 bits. The depth is the distance from the origin to the
- * hull of the nine differences of corners, by trying a plane through each three of them. The segment has the two farthest of the
- * points where an edge goes through the other triangle. The library instead compares overlaps along normals, and clips. */
+ * hull of the nine differences of corners. A plane through each three of them is tried. The segment ends at the two farthest
+ * points at which an edge goes through the other triangle. The library instead compares overlaps along normals, and clips. */
 #ifndef RIIS_TEST_PENETRATION_ORACLE_H
 #define RIIS_TEST_PENETRATION_ORACLE_H
 
@@ -55,7 +55,7 @@ static inline quad_pair quad_pair_of(const double *a, const double *b) {
   return pair;
 }
 
-/* True if the points are on one side of the triangle's plane, or on it. */
+/* Returns true if all points are on one side of the triangle's plane, or on it. */
 static inline int is_beside(const quad3 *points, const quad3 *triangle) {
   const quad3 n = quad_cross(quad_difference(triangle[1], triangle[0]), quad_difference(triangle[2], triangle[0]));
   int n_above = 0, n_below = 0;
@@ -100,7 +100,7 @@ static inline double oracle_depth(const double *a, const double *b) {
   return (double)depth;
 }
 
-/* Adds to points where the edge from p to q goes through the triangle. */
+/* Adds the point at which the edge from p to q goes through the triangle. */
 static inline int add_piercing(quad3 p, quad3 q, const quad3 *t, quad3 *points, int n) {
   const quad3 normal = quad_cross(quad_difference(t[1], t[0]), quad_difference(t[2], t[0]));
   const quad at_p = quad_dot(normal, quad_difference(p, t[0])), at_q = quad_dot(normal, quad_difference(q, t[0]));

@@ -23,7 +23,7 @@ static inline int64_t *pairs_of_rows(const test_mesh *mesh, int64_t *n_pairs) {
   return pairs;
 }
 
-/* Keeps the nodes that are wanted, and the pairs of these. */
+/* Keeps the wanted nodes, and the pairs of wanted nodes. */
 static inline void keep(test_mesh *mesh, const uint8_t *wanted) {
   int64_t n_pairs, m = 0, n = 0, *number = own(malloc((size_t)mesh->n * sizeof *number)),
                    *pairs = pairs_of_rows(mesh, &n_pairs);
@@ -39,7 +39,7 @@ static inline void keep(test_mesh *mesh, const uint8_t *wanted) {
   set_rows(mesh, m, pairs);
 }
 
-/* Another order of the nodes. */
+/* Shuffles the nodes. */
 static inline void shuffle(test_mesh *mesh) {
   int64_t n_pairs, *pairs = pairs_of_rows(mesh, &n_pairs), *number = own(malloc((size_t)mesh->n * sizeof *number));
   double *xyz = own(malloc((size_t)mesh->n * 3 * sizeof *xyz));
@@ -139,7 +139,7 @@ static inline test_mesh random_mesh(int kind, int64_t n_wanted, const double *lo
   for (int c = 0; c < 3; ++c) counts[c] = 2 + (int64_t)((upper[c] - lower[c]) / *spacing);
   test_mesh mesh = lattice(counts, lower, upper);
   if (kind == tetrahedra || (kind == jittered && one_in(2))) join_by_tetrahedra(&mesh, counts);
-  if (kind == graded) { /* finer towards one place, up to a hundredfold */
+  if (kind == graded) { /* finer towards one place, up to a hundred times */
     double centre[3];
     for (int c = 0; c < 3; ++c) centre[c] = random_between(&rng, 0, 1);
     const double power = random_between(&rng, 1.2, 4);

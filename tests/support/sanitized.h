@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Defines IS_SANITIZED where the address or the thread sanitizer owns the memory: gcc and clang tell it differently. A sanitizer
- * looks at memory and at undefined operations, which a third of the random trials reach as well. */
+ * Defines IS_SANITIZED if the address or the thread sanitizer owns the memory; gcc and clang report this differently. A
+ * sanitizer checks memory and undefined operations, and a third of the random trials is enough for that. */
 #ifndef RIIS_TEST_SANITIZED_H
 #define RIIS_TEST_SANITIZED_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Meshes with an adjacency made by hand, and what searches found in them, compared bit by bit. Include after riis.h,
- * test_support.h and handles.h. */
+ * Meshes with an adjacency made by hand, and comparisons of search results bit by bit. Include after riis.h, test_support.h and
+ * handles.h. */
 #ifndef RIIS_TEST_SEARCHES_H
 #define RIIS_TEST_SEARCHES_H
 
@@ -45,14 +45,14 @@ static inline int same_results(const riis_marks *a, const riis_marks *b) {
   return same_nodes(marked_in(a), marked_in(b)) && same_nodes(within_in(a), within_in(b));
 }
 
-/* Nodes and which are neighbours: n + 1 offsets and their columns, from 0. The test owns the arrays. */
+/* Nodes and their neighbours: n + 1 offsets and their columns, from 0. The test owns the arrays. */
 typedef struct test_mesh {
   int64_t n;
   double *xyz;
   int64_t *offsets, *columns;
 } test_mesh;
 
-/* Rows from pairs, (2, n_pairs): each joins both ways. Rows that the mesh has are freed. */
+/* Makes rows from pairs, (2, n_pairs). Each pair joins its nodes in both directions. The mesh's old rows are freed. */
 static inline void set_rows(test_mesh *mesh, int64_t n_pairs, const int64_t *pairs) {
   const size_t n = (size_t)mesh->n;
   int64_t *next = calloc(n + 1, sizeof *next);

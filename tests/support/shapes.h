@@ -38,7 +38,7 @@ static inline riis_valve *valve_from(const shape *from) {
   arrays_from(from, &arrays);
   CHECK_OK(riis_valve_create_from_patches(&arrays.patches, &valve));
   own(valve);
-  memset(&arrays, -1, sizeof arrays); /* nothing stays borrowed */
+  memset(&arrays, -1, sizeof arrays); /* the valve borrows nothing */
   return valve;
 }
 

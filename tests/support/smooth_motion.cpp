@@ -13,7 +13,7 @@ using namespace riis;
 
 namespace {
 
-// A curve by the share of its length. The length up to 64 places of each piece comes from Gauss's sums of five terms.
+// A curve with the share of its length as parameter. Gauss's sums of five terms give the length up to 64 places of each piece.
 class MeasuredCurve {
  public:
   explicit MeasuredCurve(const Curve &curve) : pieces_(curve.pieces().begin(), curve.pieces().end()) {

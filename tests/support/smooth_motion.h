@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 typedef struct smooth_motion smooth_motion;
-/* Both states are without placement. */
+/* Both states have no placement. */
 smooth_motion *smooth_motion_create(const riis_valve *now, const riis_valve *before, double seconds);
 void smooth_motion_destroy(smooth_motion *motion);
 /* Gives the places of the label (patch_id, u, v) in both states. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * TBB as a caller of the library uses it, with a C interface: a failed assertion leaves by longjmp, which must not cross TBB's
- * frames. */
+ * TBB as a caller of the library uses it. The interface is C, because a failed assertion leaves by longjmp, which must not
+ * cross TBB's frames. */
 #ifndef RIIS_TEST_TBB_REGION_H
 #define RIIS_TEST_TBB_REGION_H
 
@@ -15,7 +15,7 @@ enum tbb_region { TBB_OWN_ARENA, TBB_ARENA_OF_FOUR, TBB_ARENA_OF_ONE, TBB_LIMIT_
 typedef struct tbb_seen {
   int n_changed; /* changed settings: the allowed threads, compared around the whole and in the region, and the arena,
                     compared around the whole, in the region and around each task */
-  int most_at_once; /* the most tasks under way at the same time */
+  int most_at_once; /* the largest number of tasks that ran at the same time */
 } tbb_seen;
 
 /* Runs body(data, task) for 0 <= task < n_tasks as tasks of a tbb::parallel_for. In the arena of four the first task waits at

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * An independent answer to "what velocity does the surface have near p": a loop over all triangles in extended precision, leaflet
- * by leaflet. Include after riis.h, test_support.h, handles.h and oracle.h. */
+ * An independent velocity of the surface near p, by a loop over all triangles in extended precision, leaflet by leaflet.
+ * Include after riis.h, test_support.h, handles.h and oracle.h. */
 #ifndef RIIS_TEST_TIE_ORACLE_H
 #define RIIS_TEST_TIE_ORACLE_H
 
@@ -13,9 +13,9 @@ typedef struct tied_place {
 } tied_place;
 
 typedef struct tied_velocity {
-  int n_leaflets, n_places; /* that are equally near */
-  double mean[3];           /* of the leaflets */
-  int is_clear;             /* 0 where rounding decides which places these are */
+  int n_leaflets, n_places; /* counts of the equally near leaflets and places */
+  double mean[3];           /* mean velocity of the leaflets */
+  int is_clear;             /* 0 if rounding decides which places these are */
 } tied_velocity;
 
 /* Writes the weights of the closest point of the triangle a b c, and returns its distance. */
@@ -51,7 +51,7 @@ static inline long double closest_weights(const double *p, const double *abc, lo
   return sqrtl(best);
 }
 
-/* The largest component of the velocities of all vertices. A part at rest has velocities that are rounding alone. */
+/* The largest component of the velocities of all vertices. The velocities of a part at rest are only rounding. */
 static inline double largest_velocity(const riis_triangles *s, const double *velocity) {
   double largest = 0;
   for (int64_t i = 0; i < 3 * s->n_vertices; ++i) largest = fmax(largest, fabs(velocity[i]));
@@ -63,7 +63,7 @@ static inline long double rounding_near(const double *p, double half_thickness) 
   return 1e-13L * (half_thickness + fabs(p[0]) + fabs(p[1]) + fabs(p[2]));
 }
 
-/* Finds the closest point of each patch, of those at most `reach` away. Sets *is_clear to 0 where a patch has two. */
+/* Finds the closest point of each patch that is at most `reach` away. Sets *is_clear to 0 if a patch has two closest points. */
 static inline int places_near(const riis_triangles *s, const double *velocity, const double *p, double reach,
                               double half_thickness, tied_place *places, int *is_clear) {
   const long double rounding = rounding_near(p, half_thickness);

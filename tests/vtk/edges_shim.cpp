@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The edges of cells of higher order, found by the places of their nodes in VTK's unit cells.
+// Finds the edges of cells of higher order from the places of their nodes in VTK's unit cells.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,7 +30,7 @@ using Edges = std::set<std::pair<int, int>>;
 
 struct Kind {
   int type, n_nodes, n_corners,
-      order;  // order 0: has nodes at the middles of sides and perhaps of faces, but no whole lattice
+      order;  // order 0: nodes in the middles of sides and perhaps of faces, but no complete lattice
 };
 constexpr Kind kinds[] = {{VTK_QUADRATIC_TETRA, 10, 4, 0},         {VTK_QUADRATIC_HEXAHEDRON, 20, 8, 0},
                           {VTK_QUADRATIC_WEDGE, 15, 6, 0},         {VTK_QUADRATIC_PYRAMID, 13, 5, 0},
@@ -49,7 +49,7 @@ const Kind *kind_of(int type, int n_nodes) {
   return nullptr;
 }
 
-// Nodes one step of the lattice apart. A tetrahedron's and a triangle's lines run along all their sides.
+// Joins nodes that are one step of the lattice apart. In a tetrahedron or a triangle, steps along every side count.
 bool is_step(int n_corners, int order, const Place &a, const Place &b) {
   int d[3];
   for (std::size_t c = 0; c < 3; ++c) d[c] = static_cast<int>(std::lround(order * (a[c] - b[c])));
@@ -77,7 +77,7 @@ Edges edges_by_middles(int n_corners, const std::vector<Place> &places) {
     const Place p = place(a), q = place(b);
     return node_at(places, {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
   };
-  const auto opposite = [&](int corner, int a, int b) {  // in a parallelogram
+  const auto opposite = [&](int corner, int a, int b) {  // the fourth corner of a parallelogram
     const Place o = place(corner), p = place(a), q = place(b);
     return node_at(places, {p[0] + q[0] - o[0], p[1] + q[1] - o[1], p[2] + q[2] - o[2]});
   };
@@ -96,7 +96,7 @@ Edges edges_by_middles(int n_corners, const std::vector<Place> &places) {
         const int centre = is_quad ? middle(a, b) : -1;
         if (m >= 0 && n >= 0 && centre < 0) add(m, n);
         if (m >= 0 && n >= 0 && centre >= 0) add(m, centre), add(n, centre);
-        // Only two sides of the quad have a middle, opposite ones.
+        // Only two opposite sides of the quad have a middle.
         if (is_quad && m >= 0 && n < 0) add(m, middle(b, d));
         if (is_quad && m < 0 && n >= 0) add(n, middle(a, d));
       }

@@ -36,7 +36,7 @@ Polygon polygon_of(vtkPolyData *faces, vtkIdType face) {
   return polygon;
 }
 
-// Puts corners and polygons into an order that does not depend on their origin.
+// Sorts corners and polygons, so that their order does not depend on their source.
 std::vector<Polygon> sorted(std::vector<Polygon> polygons) {
   for (Polygon &polygon : polygons) std::sort(polygon.begin(), polygon.end());
   std::sort(polygons.begin(), polygons.end());

@@ -9,19 +9,19 @@
 
 enum { sheet_n_vertices = 20, sheet_n_triangles = 24 };
 
-/* The vertex at a time, and its velocity. */
+/* Gives a vertex at a time, and its velocity. */
 void sheet_vertex(int64_t vertex, double time, double xyz[3], double velocity[3]);
-/* The corners of a triangle, and the leaflet that the files give it, 3 or 7. */
+/* Gives the corners of a triangle, and its leaflet in the files, 3 or 7. */
 void sheet_triangle(int64_t triangle, int64_t corners[3], int32_t *leaflet);
 
 /* Writes the sheet at a time into the scratch folder. Text goes between the elements of a .vtp or .vtu file.
  *   name  ends in .vtp, .vtu or .stl (binary), or .STL (ASCII) */
 typedef struct sheet_extras {
-  const char *point_data, *field_data; /* XML, or NULL */
+  const char *point_data, *field_data; /* XML text to insert, or NULL */
 } sheet_extras;
 void sheet_write(const char *name, double time, const sheet_extras *extras);
 
-/* Appends a point array with the displacements from the sheet at time 0 to that at a time. Returns the end of the text. */
+/* Appends a point array with the displacements of the sheet from time 0 to another time. Returns the end of the text. */
 char *sheet_displacement(char *text, const char *name, double time);
 
 #endif

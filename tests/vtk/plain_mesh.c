@@ -7,7 +7,7 @@
 
 #include "scratch.h"
 
-/* Looking out of the cell. */
+/* The faces look out of the cell. */
 static const int hexahedron_faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
                                            {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
@@ -113,7 +113,7 @@ static int is_same_face(const int64_t *a, const int64_t *b) {
   return n == 4;
 }
 
-/* Neighbours name the same face. */
+/* Neighbours refer to the same face. */
 static void write_lists(FILE *file, const plain_mesh *mesh, int64_t first, int64_t n, int64_t *numbers, int64_t *ends) {
   int64_t *corners = numbers, *of_cells = numbers + 24 * n, n_faces = 0, at = 0;
   for (int64_t i = 0; i < n; ++i) {

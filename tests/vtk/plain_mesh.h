@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Meshes as plain arrays, and .vtu files of them that are written without VTK. So they may have layouts that the machine's VTK
- * does not write. */
+ * Meshes as plain arrays, and .vtu files of them. The files are written without VTK, so they can have layouts that the
+ * installed VTK does not write. */
 #ifndef RIIS_TESTS_PLAIN_MESH_H
 #define RIIS_TESTS_PLAIN_MESH_H
 
@@ -17,15 +17,15 @@ typedef struct plain_mesh {
 
 /* A box of n x n x n nodes: hexahedra. */
 plain_mesh plain_hexahedra(int n, const double lower[3], const double upper[3]);
-/* Each of these hexahedra cut into six tetrahedra, all around one of its diagonals, with a node in the middle of each side. */
+/* Cuts each hexahedron into six tetrahedra around one of its diagonals, with a node in the middle of each side. */
 plain_mesh plain_quadratic_tetrahedra(const plain_mesh *hexahedra);
-/* Each quadratic tetrahedron cut into eight by its nodes: one at each corner, and four around a line between the middles of two
- * opposite sides. With n_parts 4 the four are left out. */
+/* Cuts each quadratic tetrahedron by its nodes into eight: one at each corner, and four around a line between the middles of
+ * two opposite sides. With n_parts 4 the latter four are left out. */
 plain_mesh plain_cut(const plain_mesh *quadratic, int n_parts);
 void plain_free(plain_mesh *mesh);
 
-/* How hexahedra are written: as they are, or two of three as polyhedra. These have their faces in a stream for each cell, or in a
- * list that all cells share, as VTK writes since 9.4. */
+/* The layout of hexahedra in the file: unchanged, or two of three as polyhedra. The faces of polyhedra are in a stream for each
+ * cell, or in a list that all cells share. VTK writes such a list since 9.4. */
 enum plain_layout { PLAIN_CELLS, PLAIN_STREAMS, PLAIN_LISTS };
 /* Writes NAME into the scratch folder. Each piece has all nodes, and its share of the cells. */
 void plain_write(const char *name, const plain_mesh *mesh, enum plain_layout layout, int n_pieces);

@@ -54,7 +54,7 @@ static void remove_folder(const char *path) {
 
 int scratch_teardown(void **state) {
   (void)state;
-  scratch_end_watch(); /* a failed assertion leaves the watch on, and CMocka's report in it: this prints it */
+  scratch_end_watch(); /* a failed assertion leaves the watch on, so the file has CMocka's report, and this call prints it */
   remove_folder(folder);
   return 0;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * XML files of meshes and surfaces that claim more than they hold. They are refused before memory is taken for it. Files with
- * random damage are read or refused, each by a process of its own, whose memory is limited. */
+ * XML files of meshes and surfaces that claim more than they hold. They are refused before memory is allocated for the claimed
+ * data. Files with random damage are read or refused, each in a separate process with limited memory. */
 #include <riis/riis_vtk.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -14,7 +14,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-enum { most_kilobytes = 400 * 1024 }; /* of a process that reads a file of at most some hundred kilobytes */
+enum { most_kilobytes = 400 * 1024 }; /* memory of a process that reads a file of at most a few hundred kilobytes */
 
 static int is_surface(const char *name) { return strstr(name, ".vtp") != NULL; }
 
@@ -29,8 +29,8 @@ static riis_status read_any(const char *name) {
   return status;
 }
 
-/* Reads a file in another process. Fails the test unless it is read or refused by its name, in little memory. Returns 1 if it was
- * read. */
+/* Reads a file in another process. Fails the test unless the file is read, or refused by its name, in little memory. Returns 1
+ * if it was read. */
 static int read_apart(const char *name, const char *what) {
   fflush(NULL);
   const pid_t child = fork();
@@ -66,7 +66,7 @@ static void replace_text(const char *name, const char *from, const char *to, con
   free(text);
 }
 
-/* Numbers in the text: of points, cells and faces, of components and tuples. */
+/* The numbers of points, cells, faces, components and tuples in the text. */
 static void test_promised_numbers(void **state) {
   (void)state;
   static const struct {
@@ -209,7 +209,7 @@ static void test_last_offsets(void **state) {
                  "array connectivity must have 1000000000000 values and has at most ");
 }
 
-/* Damage as of a bad disk or a bad transfer: some bytes get other values, mostly characters of base64 and digits. */
+/* Damages a file like a bad disk or a bad transfer: some bytes get other values, mostly characters of base64 and digits. */
 static void damage(random_source *random, char *bytes, size_t size) {
   const int n = 1 + (int)(random_bits(random) % 3);
   for (int i = 0; i < n; ++i) {

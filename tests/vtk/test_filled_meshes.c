@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The demo's meshes that valves fill, made by gmsh: the attachment lies on the wall, so closed valves part inflow from outflow.
- * Flow is a flood fill over unmarked nodes. In the cylinders, which are wider, it passes around the outside. */
+ * The demo's meshes that valves fill, made by gmsh. The attachment lies on the wall, so closed valves separate inflow from
+ * outflow. Flow is a flood fill over unmarked nodes. In the wider cylinders it passes around the outside. */
 #include <riis/riis_vtk.h>
 
 #include "../support/test_support.h"
@@ -48,7 +48,7 @@ static riis_surface *surface_in_file(const char *path) {
   return surface;
 }
 
-/* The mesh of a .geo file, as ./run demo makes it. `numbers` are options of gmsh. */
+/* Makes the mesh of a .geo file, as ./run demo does. `numbers` are options of gmsh. */
 static filled_mesh mesh_by_gmsh(const char *path, const char *numbers) {
   char arguments[1024];
   const char *surface = scratch_path("surface.msh"), *skin = scratch_path("skin.stl"),
@@ -81,7 +81,7 @@ static filled_mesh mesh_by_gmsh(const char *path, const char *numbers) {
 
 /* --- Valves ------------------------------------------------------------------------------------------------------------ */
 
-/* The vertices at which a valve is attached. */
+/* Returns the vertices at which a valve is attached. */
 typedef enum attachment { side_u1, side_v0, housing } attachment;
 
 typedef struct test_valve {
@@ -138,7 +138,7 @@ static void range_of_z(const filled_mesh *in, double *lowest, double *highest) {
   }
 }
 
-/* Labels each unmarked node with the lowest id of its region, by one flood fill after the other. Others get -1. */
+/* Labels each unmarked node with the lowest id of its region, by a flood fill for each region. Others get -1. */
 static void flood_fill(const filled_mesh *in, const uint8_t *marks, int64_t *label) {
   int64_t *stack = own(malloc((size_t)in->n_nodes * sizeof *stack));
   for (int64_t i = 0; i < in->n_nodes; ++i) label[i] = -1;
@@ -191,7 +191,7 @@ static int is_joined(const filled_mesh *in, const riis_surface *surface, const r
   return joined;
 }
 
-/* The longest edge with a node near the surface. */
+/* Returns the length of the longest edge with a node near the surface. */
 static double longest_near(const filled_mesh *in, const double *distance) {
   double longest = 0;
   for (int64_t i = 0; i < in->n_nodes; ++i)
@@ -232,8 +232,8 @@ static flow flow_through(const filled_mesh *in, test_valve valve, const char *na
   return found;
 }
 
-/* The valve fills the mesh, and the edges are short enough for the half thickness to close what is left at the wall: an edge that
- * passes there is at most `to_wall` from the attachment, so one of its nodes is at most to_wall and half an edge away. */
+/* The valve fills the mesh, and the edges are so short that the half thickness closes the gap at the wall. An edge in the gap
+ * is at most `to_wall` from the attachment. So one of its nodes is at most to_wall plus half an edge away. */
 static void expect_filled(flow found) {
   CHECK_AT_MOST(found.to_wall, 0.5 * half_thickness);
   CHECK_AT_MOST(found.to_wall + 0.5 * found.longest_edge, half_thickness);
@@ -261,8 +261,8 @@ static void closed_mitral_valve_seals_its_tube(void **state) {
   }
 }
 
-/* Its cusps end at different radii, 0.13 apart at a commissure. So no wall is within half a half thickness of all ends. Flow
- * passes through the middle. */
+/* Its cusps end at different radii, 0.13 apart at a commissure. So no wall is near all ends, within half of the half thickness.
+ * Flow passes through the middle. */
 static void the_papers_valve_leaks_in_its_root(void **state) {
   (void)state;
   const filled_mesh root = mesh_by_gmsh(RIIS_DEMO "/aortic_root.geo", "-setnumber paper 1");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * A film shows what the surface and the mesh have now, and remembers nothing of the frame before. Its camera stays. */
+ * A film shows the present surface and mesh, and nothing of the previous frame. Its camera does not move. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdlib.h>
@@ -114,7 +114,7 @@ static void test_frames(void **state) {
   assert_false(same_pixels("closed.png", "open.png", 0, 400));
   /* Axes, key and scale bar stay. */
   assert_true(same_pixels("closed.png", "open.png", 0, 30));
-  /* Another film draws the same, and nothing of the first one's frames. */
+  /* Another film draws the same picture, and nothing of the first film's frames. */
   film = make_film(mesh);
   open_valve(1);
   draw_frame(film, "Frame", "other.png");
@@ -124,7 +124,7 @@ static void test_frames(void **state) {
   assert_false(same_pixels("other.png", "untitled.png", 300, 100));
 }
 
-/* The mesh may go before the film; without a mesh there is the surface alone. */
+/* The mesh may be destroyed before the film. Without a mesh the film shows only the surface. */
 static void test_lifetime(void **state) {
   (void)state;
   riis_vtk_mesh *own = NULL;

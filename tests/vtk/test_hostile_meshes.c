@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Meshes that cannot be read. Each is an error whose message names the file, nothing is printed, nothing is returned, and no
- * file is taken for a smaller mesh than it was. */
+ * Meshes that cannot be read. Each gives an error whose message names the file. Nothing is printed or returned. No truncated
+ * file is read as a smaller mesh. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -88,7 +88,7 @@ static void test_other_content(void **state) {
   expect_file_error("not_closed.vtu", "mismatched tag");
 }
 
-/* A grid of one tetrahedron, in pieces that a test can spoil. */
+/* A grid of one tetrahedron, in pieces that a test can damage. */
 static void write_tetrahedron(const char *name, const char *counts, const char *points, const char *corners,
                               const char *offsets, const char *types, const char *point_data) {
   char text[2048];
@@ -167,7 +167,7 @@ static void test_broken_cells(void **state) {
   expect_file_error("types.vtk", "holds no cells (is it truncated?)");
 }
 
-/* The core checks coordinates, not the reader. */
+/* The core checks coordinates, and the reader does not. */
 static void test_not_a_number_passes(void **state) {
   (void)state;
   write_tetrahedron("nan.vtu", counts, "0 0 0  nan 0 0  0 1 0  0 0 1", "0 1 2 3", "4", "10", "");
@@ -182,8 +182,8 @@ static void test_not_a_number_passes(void **state) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* Tells whether a file may pass without its last bytes. These may be blanks. A legacy file has no end mark, so it may also lack
- * digits of its last number and whole sections behind the cells. */
+/* Tells whether a file may be read without its last bytes. These may be blanks. A legacy file has no end mark. So it may also
+ * lack digits of its last number, and whole sections behind the cells. */
 static int may_be_missing(const char *bytes, size_t n, int encoding) {
   size_t i = 0;
   if (encoding == SHIM_LEGACY_ASCII) i += strspn(bytes, "0123456789.e+-");
@@ -194,7 +194,7 @@ static int may_be_missing(const char *bytes, size_t n, int encoding) {
   return i == n || section;
 }
 
-/* Cuts a real file behind each of its bytes. The cut file is refused, or it gives the whole mesh. */
+/* Truncates a real file behind each of its bytes. The truncated file is refused, or it gives the whole mesh. */
 static void cut_everywhere(const char *whole, const char *cut, int encoding) {
   assert_int_equal(shim_write_box(scratch_path(whole), encoding, 2, lower, upper, 0), 1);
   size_t size = 0;
@@ -224,8 +224,8 @@ static void cut_everywhere(const char *whole, const char *cut, int encoding) {
   assert_true(n_refused > (int)(size / 2));
 }
 
-/* VTK looks for the next of the keys that INFORMATION promises, and never stops once it has met a word that it cannot read as a
- * number. It reads only the beginning of a keyword. */
+/* VTK looks for the number of keys that INFORMATION promises. After a word that is no number it never stops. It reads only the
+ * beginning of a keyword. */
 static void test_endless_information(void **state) {
   (void)state;
   const struct {
@@ -259,8 +259,8 @@ static void test_endless_information(void **state) {
   }
 }
 
-/* Names as VTK reads them. The name of the absent array is in capitals, and a name of more than 255 characters counts as two
- * words. */
+/* Names are read as VTK reads them. The name of the missing array is in capitals, and a name of more than 255 characters counts
+ * as two words. */
 static void test_names_of_arrays(void **state) {
   (void)state;
   char longest[256], too_long[257];
@@ -411,7 +411,7 @@ static void test_lists_of_faces(void **state) {
   }
 }
 
-/* VTK closes a file at a word that is not a number of its type, and reads on. */
+/* VTK closes a file at a word that is not a number of its type, and continues. */
 static void test_words_for_numbers(void **state) {
   (void)state;
   const struct {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Leaflets of surface files from pieces and from arrays, marks with other names, and the length of a mesh's edges. Pieces and
- * edges are compared with slow computations of them. */
+ * Leaflets of surface files from pieces and from arrays, marks with other names, and the length of a mesh's edges. Slow
+ * computations check the pieces and the edges. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdio.h>
@@ -22,8 +22,8 @@ static int random_below(int n) {
 
 enum { most_faces = 60 };
 
-/* Random triangles on few points, so that some of them meet. Each z is 0 or -0, which is the same place. The expected
- * pieces come from passing the lowest face's number on until nothing changes. */
+/* Random triangles on few points, so that some triangles meet. Each z is 0 or -0, which are the same place. The expected pieces
+ * are found by passing on the lowest face's number until nothing changes. */
 static int write_random_faces(const char *name, int n_faces, int n_lattice, int pieces[most_faces]) {
   static char text[most_faces * 200 + 100];
   int corners[most_faces][3];
@@ -84,7 +84,7 @@ static void test_pieces(void **state) {
   assert_true(most_pieces > 5);
 }
 
-/* Quads, which share vertices by their numbers, and an array of leaflets, which the pieces replace. */
+/* Quads share vertices by their numbers. The pieces replace the array of leaflets. */
 static const char *const quads =
     "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>\n"
     "<Piece NumberOfPoints=\"10\" NumberOfCells=\"3\"><CellData>\n"
@@ -166,7 +166,7 @@ static void test_median_edge(void **state) {
   expect_refused(riis_vtk_mesh_get_median_edge(NULL, &length), RIIS_INVALID_ARGUMENT, "mesh is NULL");
   expect_refused(riis_vtk_mesh_get_median_edge(mesh, NULL), RIIS_INVALID_ARGUMENT, "length is NULL");
   riis_vtk_mesh_destroy(&mesh);
-  /* A box with more cells than are used, which is the same everywhere. Then cells without edges. */
+  /* A uniform box with more cells than the median uses. Then cells without edges. */
   assert_int_equal(shim_write_box(scratch_path("large.vtu"), SHIM_RAW, 22, lower, upper, 0), 1);
   expect_fine(riis_vtk_mesh_read(scratch_path("large.vtu"), &mesh));
   expect_fine(riis_vtk_mesh_get_median_edge(mesh, &length));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The adjacency of meshes from files against the edges that VTK's own cells have, and against the edges of other cells with the
+ * The adjacency of meshes from files, compared with the edges of VTK's own cells, and with the edges of other cells with the
  * same nodes. */
 #include <math.h>
 #include <riis/riis_vtk.h>
@@ -17,7 +17,7 @@
 #include "vtk_shim.h"
 
 enum { n_side = 9, n_box = n_side * n_side * n_side };
-/* VTK's numbers of the types of cells of volume with straight sides: tetrahedron, voxel, hexahedron, wedge, pyramid, prisms of
+/* VTK's numbers of the types of volume cells with straight sides: tetrahedron, voxel, hexahedron, wedge, pyramid, prisms of
  * five and six sides, polyhedron. */
 static const int volume_types[] = {10, 11, 12, 13, 14, 15, 16, 42};
 
@@ -128,7 +128,8 @@ static void test_curved_cells(void **state) {
   expect_adjacency("prism.vtk", 12, 36);
 }
 
-/* A node in the middle of a triangle is joined to all others of it, one in the middle of the cell to those of the faces. */
+/* A node in the middle of a triangle is joined to all its other nodes. A node in the middle of the cell is joined to the
+ * middles of the faces. */
 static void test_triquadratic_pyramid(void **state) {
   (void)state;
   char text[1024] = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 19 double\n";
@@ -137,7 +138,7 @@ static void test_triquadratic_pyramid(void **state) {
   for (int k = 0; k < 19; ++k) sprintf(text + strlen(text), " %d", k);
   strcat(text, "\nCELL_TYPES 1\n37\n");
   scratch_write_text("pyramid.vtk", text);
-  /* Neighbours of: a corner of the base, the apex, the middle of a side of the base, that of a side to the apex, the middle of
+  /* The neighbours of a corner of the base, of the apex, and of these middles: of a side of the base, of a side to the apex, of
    * the base, of a triangle, of the cell. */
   static const int nodes[7] = {1, 4, 5, 10, 13, 14, 18}, n_neighbors[7] = {5, 8, 4, 4, 5, 7, 5};
   riis_vtk_mesh *mesh = read_mesh("pyramid.vtk");
@@ -166,7 +167,7 @@ static void expect_same_rows(const char *name, const riis_csr *expected) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* Hexahedra have the same edges as the polyhedra of their faces, in either layout and in several pieces. */
+/* Hexahedra have the same edges as polyhedra with the same faces, in either layout and in several pieces. */
 static void test_polyhedra(void **state) {
   (void)state;
   const double lower[3] = {0, 0, 0}, upper[3] = {1, 2, 3};
@@ -186,7 +187,7 @@ static void test_polyhedra(void **state) {
     expect_same_rows("lists.vtu", &csr);
     riis_adjacency_destroy(&adjacency);
     riis_vtk_mesh_destroy(&mesh);
-    /* The file that riis writes again has the faces. */
+    /* When riis writes the mesh again, the file still has the faces. */
     mesh = read_mesh("lists.vtu");
     expect_fine(riis_vtk_mesh_write(mesh, scratch_path("again.vtu")));
     expect_fine(riis_vtk_mesh_create_adjacency(mesh, 1, &adjacency));
@@ -198,7 +199,7 @@ static void test_polyhedra(void **state) {
   plain_free(&hexahedra);
 }
 
-/* The four tetrahedra at the corners of a quadratic one have just its edges. */
+/* The four tetrahedra at the corners of a quadratic tetrahedron have exactly its edges. */
 static void test_quadratic_tetrahedra(void **state) {
   (void)state;
   const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
@@ -261,7 +262,7 @@ static riis_surface *surface_in(const double lower[3], const double upper[3]) {
   return surface;
 }
 
-/* Expects the pairs that VTK joins, that are long enough, and that lie beyond no side of the box. */
+/* Expects all pairs that VTK joins, that are long enough, and whose bounds meet the box. */
 static void expect_long_edges(const char *name, int64_t n_nodes, const double lower[3], const double upper[3],
                               double longer_than, int64_t n_left_out) {
   uint8_t *are_joined = malloc((size_t)(n_nodes * n_nodes));
@@ -342,7 +343,7 @@ static void test_voxel(void **state) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* Meshes without cells of volume, or of cells whose edges are not known, have empty rows. The neighbour search still finds all
+/* Meshes without volume cells, or with cells whose edges are not known, have empty rows. The neighbour search still finds all
  * nodes. */
 static void test_no_volume(void **state) {
   (void)state;

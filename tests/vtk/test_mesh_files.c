@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Meshes through files: nodes keep the file's order, points are doubles, every array is kept, and marks are the core's. */
+ * Meshes read from files and written again. Nodes keep the file's order, points are doubles, every array is kept, and marks are
+ * the core's. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -91,7 +92,7 @@ static void test_round_trips(void **state) {
   }
 }
 
-/* The box's nodes are shuffled, so only a reader that keeps their order passes. */
+/* The box's nodes are shuffled, so only a reader that keeps their order passes the test. */
 static void test_nodes_are_shuffled(void **state) {
   (void)state;
   static double xyz[3 * n_nodes];
@@ -259,7 +260,7 @@ static void test_marks(void **state) {
   expect_same_mesh(scratch_path("in.vtu"), scratch_path("marked.vtu"));
   expect_same_array(scratch_path("in.vtu"), scratch_path("marked.vtu"), 'p', "pressure", 1);
 
-  /* Other values go into the same mesh, and into a mesh that was read with marks. */
+  /* Other values replace those of the same mesh, and those of a mesh that was read with marks. */
   riis_marks *wider = mark(mesh, 0.25, 0.4);
   expect_fine(riis_vtk_mesh_set_marks(mesh, wider, -7, NULL));
   expect_fine(riis_vtk_mesh_write(mesh, scratch_path("again.vtu")));

@@ -28,7 +28,7 @@ static const char *part_of(const char *name, int64_t n_ids, const int64_t *ids) 
   const char *path = scratch_path("part.vtu");
   expect_fine(riis_vtk_mesh_read(scratch_path(name), &mesh));
   expect_fine(riis_vtk_mesh_extract(mesh, n_ids, ids, &part));
-  riis_vtk_mesh_destroy(&mesh); /* the part borrows nothing */
+  riis_vtk_mesh_destroy(&mesh); /* the part does not borrow from the mesh */
   expect_fine(riis_vtk_mesh_write(part, path));
   riis_vtk_mesh_destroy(&part);
   return path;
@@ -43,7 +43,8 @@ static int64_t read_ids(const char *path, char where, const char *name, double *
   return n;
 }
 
-/* Each cell of the part has the points of the cell of the whole mesh with its id. Corners are compared by their coordinates. */
+/* Each cell of the part has the same points as the cell of the whole mesh with the same id. Corners are compared by their
+ * coordinates. */
 static void expect_cells(const char *whole, const char *part, int corners_per_cell) {
   static double xyz[2][3 * n_box], node_ids[n_box], cell_ids[most_values];
   static int64_t corners[2][most_values];
@@ -71,7 +72,7 @@ static void test_box(void **state) {
   const int64_t wanted[] = {100, 3, 3, 700};
   const char *whole = scratch_path("box.vtu"), *part = part_of("box.vtu", 4, wanted);
   expect_cells(whole, part, 4);
-  /* Its nodes are those of all cells with a wanted node. */
+  /* The part's nodes are those of all cells with a wanted node. */
   memset(is_wanted, 0, sizeof is_wanted);
   const int64_t n_corners = shim_read_corners(whole, corners);
   int64_t n_cells = 0, n_expected = 0, n_found = 0;
@@ -86,7 +87,7 @@ static void test_box(void **state) {
   assert_int_equal(n_found, n_expected);
   assert_int_equal(shim_read_array(part, 'c', "region", NULL, NULL, &n_found, NULL), 1);
   assert_int_equal(n_found, n_cells);
-  /* Data of every kind goes along. */
+  /* The part has data of every kind. */
   read_ids(part, 'p', "riis_node_id", ids);
   assert_int_equal(shim_read_array(whole, 'p', "velocity", NULL, NULL, NULL, values), 1);
   assert_int_equal(shim_read_array(part, 'p', "velocity", NULL, NULL, NULL, of_part), 1);
@@ -96,7 +97,7 @@ static void test_box(void **state) {
   assert_int_equal(shim_read_array(part, 'f', "time", NULL, NULL, NULL, NULL), 1);
 }
 
-/* Cells of many kinds, polyhedra also: VTK finds the same faces in the part as riis. */
+/* Cells of many kinds, including polyhedra. VTK finds the same faces in the part as riis does. */
 static void test_kinds(void **state) {
   (void)state;
   int64_t ids[n_shim_zoo], n_points = 0, n_cells = 0, n_all = 0, n_faces[2] = {0, 0}, n_inwards = 0;
@@ -108,7 +109,7 @@ static void test_kinds(void **state) {
   assert_int_equal(shim_compare_outside(scratch_path("zoo.vtu"), &n_faces[0], &n_inwards), 0);
   assert_int_equal(shim_compare_outside(part, &n_faces[1], &n_inwards), 0);
   assert_true(n_faces[0] > 10 && n_faces[0] == n_faces[1]);
-  /* Fewer nodes: the reader of riis checks the faces of every polyhedron. */
+  /* The part has fewer nodes. The reader of riis checks the faces of every polyhedron. */
   riis_vtk_mesh *read = NULL;
   part = part_of("zoo.vtu", 2, ids);
   expect_fine(riis_vtk_mesh_read(part, &read));
@@ -116,7 +117,7 @@ static void test_kinds(void **state) {
   assert_int_equal(shim_compare_outside(part, &n_faces[1], &n_inwards), 0);
 }
 
-/* A node without cells stays; without nodes there is an empty mesh. */
+/* A node without cells stays in the part. Without nodes the part is an empty mesh. */
 static void test_few_nodes(void **state) {
   (void)state;
   const int64_t last = n_shim_zoo - 1;
@@ -262,7 +263,7 @@ static void test_fields(void **state) {
   forget(&m);
 }
 
-/* Only what was asked of the marking can be had; far from the valve all arrays are there, empty of values. */
+/* Only fields that the marking computed are available. Far from the valve all arrays exist, but contain no values. */
 static void test_fields_that_lack(void **state) {
   (void)state;
   marking m = marked_box("mitral", -0.6, RIIS_FIELD_SIDE);

@@ -17,7 +17,7 @@ static riis_surface *surface_of(const char *kind, double opening, double half_th
   riis_surface_options options = surface_options();
   if (half_thickness > 0) options.half_thickness = half_thickness;
   riis_valve *valve = new_valve(kind);
-  if (strcmp(kind, "aortic") == 0) { /* has no second state of its own */
+  if (strcmp(kind, "aortic") == 0) { /* has no open state of its own */
     riis_valve *open = new_valve(kind);
     CHECK_OK(riis_valve_set_scalar(open, "leaflet_angle", 50));
     CHECK_OK(riis_valve_set_open_state(valve, open));
@@ -66,7 +66,7 @@ static void destroy_file(void *object) {
   riis_vtk_mesh_destroy(&file);
 }
 
-/* That valve in the mesh of the file at every opening, thin and at its default thickness. */
+/* Tests that valve in the mesh of the file at every opening, thin and with its default thickness. */
 static void expect_same_in_file(const char *path, const char *kind, int64_t least_nodes) {
   riis_vtk_mesh *file = NULL;
   riis_adjacency *adjacency = NULL;
@@ -100,7 +100,7 @@ static void expect_same_in_file(const char *path, const char *kind, int64_t leas
   }
 }
 
-/* The corners of a box around the valve at every opening. */
+/* Gives the corners of a box that contains the valve at every opening. */
 static void box_around(const char *kind, double margin, double *lower, double *upper) {
   for (int step = 0; step <= 2; ++step) {
     const int owned_before = n_owned();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Motion through files: frames that are read move as the closed form says, whatever the format. */
+ * Motion read from files. The frames move as the closed form says, in every format. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>
@@ -18,7 +18,7 @@
 enum { n_keys = 4 };
 static const double key_times[n_keys] = {0, 0.25, 0.5, 1};
 
-/* The keyframes of a motion, which is destroyed. */
+/* Takes the keyframes of a motion and destroys the motion. */
 static riis_keyframes *keyframes_of(riis_vtk_motion *motion, double period, int32_t interpolation) {
   riis_surface_arrays faces;
   riis_keyframe_arrays frames;
@@ -59,7 +59,7 @@ static void expect_sheet(const riis_surface *surface, double time, double speed,
   }
 }
 
-/* Moves a surface by the frames, and compares it with the closed form at the keys, between, before and behind them. */
+/* Moves a surface by the frames. Compares it with the closed form at the keys, between them, before them and after them. */
 static void expect_motion(riis_vtk_motion *motion, int32_t one_leaflet) {
   static const double times[] = {0, 0.25, 0.5, 1, 0.1, 0.3, 0.7, 0.99};
   riis_keyframes *keyframes = keyframes_of(motion, 0, RIIS_INTERPOLATION_LINEAR);
@@ -135,7 +135,7 @@ static void test_collections(void **state) {
   free(here);
 }
 
-/* A collection by its name alone, from its own folder. */
+/* Reads a collection by its bare name, from its own folder. */
 static void test_collection_in_working_directory(void **state) {
   (void)state;
   char *here = getcwd(NULL, 0);
@@ -178,7 +178,7 @@ static void test_lists(void **state) {
   expect_motion(motion, 0);
 }
 
-/* Whatever the interpolation and period, files give the bits that arrays give. */
+/* For every interpolation and period, files and arrays give the same bits. */
 static void test_same_as_arrays(void **state) {
   (void)state;
   const char *const endings[n_keys] = {".vtp", ".vtp", ".vtp", ".vtp"};
@@ -228,7 +228,7 @@ static void test_same_as_arrays(void **state) {
 static void write_displaced(const char *name, const char *const arrays[n_keys], const char *field) {
   static char text[65536];
   char *end = text;
-  /* From the last to the first, among arrays that are no displacements. */
+  /* The file has the displacements from the last to the first, among other arrays. */
   for (int i = n_keys; i-- > 0;) end = sheet_displacement(end, arrays[i], key_times[i]);
   end = sheet_displacement(end, "displacement_mean", 7);
   sheet_displacement(end, "displacement_-1", 7);
@@ -258,7 +258,7 @@ static void test_displacements(void **state) {
   expect_motion(motion, -1);
 }
 
-/* A quad whose inner diagonal changes on the way, beside a triangle: it is cut as in the first file. */
+/* A quad beside a triangle. The quad's inner diagonal changes during the motion, but it is cut as in the first file. */
 static void test_quads_are_cut_once(void **state) {
   (void)state;
   const char *const fourth[2] = {"1 1 0", "0.2 0.2 0"}, *const names[2] = {"convex.vtp", "concave.vtp"};
@@ -292,7 +292,7 @@ static void test_quads_are_cut_once(void **state) {
   }
 }
 
-/* Corners of .stl files may meet on the way, and they may not part. */
+/* Corners in .stl files may meet during the motion, but they must not separate. */
 static void test_corners_of_stl(void **state) {
   (void)state;
   const char *facets =

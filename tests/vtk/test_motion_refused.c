@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Motion that cannot be read. Each refusal names the file or argument and the value, nothing is printed, and nothing is
- * returned. Damaged collections never end the process. */
+ * Motion that cannot be read. Each refusal names the file or argument and the value. Nothing is printed or returned. Damaged
+ * collections never end the process. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>
@@ -104,7 +104,7 @@ static void test_too_many_data_sets(void **state) {
   expect_collection("many.pvd", NULL, "many.pvd: ", "names 1000001 files, more than 1000000");
 }
 
-/* Text of one quad or two triangles, with a place for each value that a test spoils. */
+/* The text of one quad or two triangles, with a place for each value that a test changes. */
 static void write_square(const char *name, const char *points, const char *corners, const char *offsets, int n_points,
                          int n_polys) {
   char text[2048];
@@ -305,7 +305,7 @@ static int is_read_or_refused(const char *name) {
   return read || (status == RIIS_FILE_ERROR && strstr(riis_last_error(), ": "));
 }
 
-/* A collection cut behind each of its bytes, and with each byte replaced by others. */
+/* A collection that is truncated behind each of its bytes, and with each byte replaced by others. */
 static void test_damaged_collections(void **state) {
   (void)state;
   static const unsigned char others[] = {0, '<', '"', '&', 0xff};

@@ -114,7 +114,7 @@ static void draw_texts(const char *name, const char *title, const char *const *n
   assert_int_equal(n_printed, 0);
 }
 
-/* The texts are visible. Letters that are not ASCII are drawn as ?, and no text is taken for a formula. */
+/* The texts are visible. Letters outside ASCII are drawn as ?, and no text is read as a formula. */
 static void test_texts(void **state) {
   (void)state;
   const char *names[3] = {"right", "left", "leaflet 2"};
@@ -159,14 +159,14 @@ static const unsigned char *pixel_at(const pixels *picture, int x, int y) {
   return picture->rgb + 3 * ((size_t)y * (size_t)picture->width + (size_t)x);
 }
 
-/* The bands of texts: two lines above the panels, axes and keys below. */
+/* The heights of the bands of texts: two lines above the panels, axes and keys below. */
 enum { upper_band = 85, lower_band = 83 }; /* pixels of a picture 800 high */
 
 static int is_red(const unsigned char *rgb) { return rgb[0] > 180 && rgb[1] < 40 && rgb[2] < 40; }
 static int is_skin(const unsigned char *rgb) {
   return rgb[0] == rgb[1] && rgb[1] == rgb[2] && rgb[0] > 200 && rgb[0] < 250;
 }
-/* These tell full colours from pale ones. */
+/* These distinguish full colours from pale ones. */
 static int is_full(const unsigned char *rgb) {
   const int most = rgb[0] > rgb[1] ? (rgb[0] > rgb[2] ? rgb[0] : rgb[2]) : (rgb[1] > rgb[2] ? rgb[1] : rgb[2]);
   const int least = rgb[0] < rgb[1] ? (rgb[0] < rgb[2] ? rgb[0] : rgb[2]) : (rgb[1] < rgb[2] ? rgb[1] : rgb[2]);
@@ -289,8 +289,8 @@ static int longest_dark_run(const pixels *picture, int from, int to) {
   return longest;
 }
 
-/* Seen from above the mesh is 3.4 wide, which gives the pixels of the scale bar of length 1. No part of the mesh is behind the
- * texts. */
+/* Seen from above, the mesh is 3.4 wide. This gives the number of pixels of the scale bar of length 1. No part of the mesh is
+ * behind the texts. */
 static void test_scale_and_bands(void **state) {
   (void)state;
   draw("bands.png", mesh, RIIS_VTK_VIEW_TOP, 1600, 800);
@@ -316,7 +316,7 @@ static void test_scale_and_bands(void **state) {
 
 static int is_line(const unsigned char *rgb) { return rgb[0] == rgb[1] && rgb[1] == rgb[2] && rgb[0] < 200; }
 
-/* The most changes between line and no line in a row of the right panel. */
+/* Returns the largest number of changes between line and background in a row of the right panel. */
 static int most_changes_in_a_row(const pixels *picture, int *row) {
   int most = 0;
   for (int y = lower_band; y < picture->height - upper_band; ++y) {
@@ -401,7 +401,7 @@ static void draw_unit(const char *name, const char *unit, const riis_vtk_mesh *d
   expect_fine(riis_vtk_draw(surface, drawn, &options, scratch_path(name)));
 }
 
-/* A unit stands behind the number at the scale bar as it is, in place of the words. */
+/* A unit follows the number at the scale bar unchanged. It replaces the words. */
 static void test_unit(void **state) {
   (void)state;
   for (int with_mesh = 0; with_mesh < 2; ++with_mesh) {
@@ -419,7 +419,7 @@ static void test_unit(void **state) {
   }
 }
 
-/* If files have room for only n_bytes, as on a disk that fills up, there is no picture and nothing beside it. */
+/* If files have room for only n_bytes, as on a full disk, no picture and no temporary file is left. */
 static void test_full_disk(void **state) {
   (void)state;
   struct rlimit limit, small;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Surfaces through files: written files hold the same surface as queries give, and surfaces that are read keep winding, order
+ * Surfaces read and written. Written files hold the same surface as queries give. Surfaces that are read keep winding, order
  * and leaflets. */
 #include <locale.h>
 #include <math.h>
@@ -113,7 +113,7 @@ static riis_surface *surface_of_file(const char *name, const riis_surface_option
   return surface;
 }
 
-/* A valve that is written and read back is the same surface: closest points have the same bits. */
+/* A valve that is written and read back is the same surface, because closest points have the same bits. */
 static void test_round_trip(void **state) {
   (void)state;
   riis_surface *valve = make_valve();
@@ -137,7 +137,7 @@ static const char *const plane_points = "0 0 0  1 0 0  1 1 0  0 1 0  2 0 0  2 1 
 
 static void write_polydata(const char *name, const char *verts, const char *polys, const char *strips,
                            const char *cell_data) {
-  /* The caller gives verts, polys and strips, each as attributes and as text with corners and offsets. */
+  /* The caller gives verts, polys and strips. Each has attributes, and a text with corners and offsets. */
   char text[4096];
   snprintf(text, sizeof text,
            "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"><PolyData>\n"
@@ -309,7 +309,7 @@ static void test_stl(void **state) {
   riis_vtk_surface_destroy(&file);
 }
 
-/* Letters, blanks and lines as other programs write them. Keywords count only at the beginning of a line. */
+/* Letters, blanks and lines are as other programs write them. Keywords count only at the beginning of a line. */
 static void test_ascii_stl_layouts(void **state) {
   (void)state;
   const char *const facet =

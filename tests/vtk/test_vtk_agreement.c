@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Closest distances of random points, compared with VTK's own searches on the same triangles: another implementation in double
- * precision. RIIS_TEST_SEED repeats a run. */
+ * Closest distances of random points, compared with VTK's searches on the same triangles. These are another implementation in
+ * double precision. RIIS_TEST_SEED repeats a run. */
 #include <math.h>
 #include <riis/riis.h>
 #include <stdint.h>
@@ -36,7 +36,7 @@ static riis_surface *make_surface(double scale, double shift) {
   return surface;
 }
 
-/* Half of the points in the box around the surface, half within ten times it. */
+/* Half of the points lie in the box around the surface, and half in a box ten times as large. */
 static void scatter(const riis_surface *surface, double *points) {
   riis_surface_info info;
   expect_fine(riis_surface_get_info(surface, &info, sizeof info));
@@ -62,7 +62,7 @@ static void compare(double scale, double shift, int method, const char *name) {
   const int64_t n_triangles = triangles_of(surface).n_triangles;
   const int64_t *corners = triangles_of(surface).vertex_id;
   shim_distances(method, n_vertices, vertices, n_triangles, corners, n_points, points, by_vtk);
-  /* The tolerance is relative to the coordinates' size, which limits the resolution of doubles. */
+  /* The tolerance is relative to the coordinates' size, since this size limits the resolution of doubles. */
   const double size = fabs(shift) + 20 * scale;
   double worst = 0;
   for (int i = 0; i < n_points; ++i) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Refusals of NULL pointers, of structs that no init function filled and of options out of range, and the caller's
- * floating-point environment, which stays. */
+ * Refusals of NULL pointers, of structs that no init function filled, and of options out of range. The caller's floating-point
+ * environment does not change. */
 #include <fenv.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>

@@ -74,7 +74,7 @@ static void test_locked(void **state) {
   expect_content("locked.vtu", "kept");
 }
 
-/* Runs a write while files have room for only n_bytes, as on a disk that fills up. */
+/* Runs a write while files have room for only n_bytes, as on a full disk. */
 static riis_status write_in_little_room(rlim_t n_bytes, const char *name) {
   struct rlimit limit, small;
   getrlimit(RLIMIT_FSIZE, &limit);
@@ -165,7 +165,7 @@ static void test_permissions(void **state) {
   assert_int_equal(status.st_mode & 0777, 0606);
 }
 
-/* VTK's output window and its warnings stay silent during each call, and are the caller's again after it. */
+/* VTK's output window and its warnings are silent during each call. After the call they are the caller's again. */
 static void test_output_window(void **state) {
   (void)state;
   riis_vtk_mesh *other = NULL;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * VTK itself, for tests: makes files and reads them back without any code of riis. The interface is C, since a failed assertion
- * leaves by longjmp. Every function has released its VTK objects when it returns. */
+ * VTK for tests. It makes files and reads them back without any code of riis. The interface is C, because a failed assertion
+ * leaves the test by longjmp. Every function has released its VTK objects when it returns. */
 #ifndef RIIS_TESTS_VTK_SHIM_H
 #define RIIS_TESTS_VTK_SHIM_H
 
@@ -50,8 +50,8 @@ int64_t shim_read_edges(const char *path, int cell_type, int64_t *edges);
 
 /* Writes a .vtu of cells of all types of higher order among n_nodes nodes, 64 or more, drawn at random. Returns 1 on success. */
 int shim_write_curved(const char *path, int n_nodes, uint32_t seed);
-/* Reads the edges of these cells from a .vtu, as pairs of nodes, found by the places of nodes in unit cells. Returns their
- * number. edges may be NULL. */
+/* Reads the edges of these cells from a .vtu, as pairs of nodes, which are found from the places of nodes in unit cells.
+ * Returns their number. edges may be NULL. */
 int64_t shim_read_curved_edges(const char *path, int64_t *edges);
 
 /* Writes a .vtu of the tetrahedra that vtkDelaunay3D makes between the points xyz (3, n). All points are kept in their order, as
@@ -75,7 +75,7 @@ unsigned char *shim_read_pixels(const char *path, int *width, int *height);
  * or -1 where the grid cannot be read; *n_faces gets how many the pictures have, *n_inwards how many look into their cell. */
 int64_t shim_compare_outside(const char *path, int64_t *n_faces, int64_t *n_inwards);
 
-/* The searches of VTK for distances of points to triangles. */
+/* Uses VTK's searches for distances of points to triangles. */
 enum { SHIM_STATIC_LOCATOR, SHIM_CELL_LOCATOR, SHIM_IMPLICIT_DISTANCE };
 void shim_distances(int method, int64_t n_vertices, const double *vertices, int64_t n_triangles, const int64_t *corners,
                     int64_t n_points, const double *points, double *distances);
