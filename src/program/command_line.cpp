@@ -15,14 +15,8 @@
 namespace riis::program {
 namespace {
 
-<<<<<<< HEAD
-// Lists an option with the value that it takes. CLI11 would add what excludes it and what it needs, which fills a screen.
-=======
-[[noreturn]] void refuse(const std::string &text) { throw Refusal{exit_wrong_usage, text}; }
-
 // Lists an option with the value that it takes. CLI11 would also list the options that it excludes and needs, and these would
 // fill a screen.
->>>>>>> h3-en1
 class BriefHelp : public CLI::Formatter {
  public:
   BriefHelp() { column_width(36); }

@@ -135,13 +135,8 @@ void set_opening(riis_valve *valve, double opening) {
   check(riis_valve_set_scalar(valve, "opening", opening), "--steps");
 }
 
-<<<<<<< HEAD
-// The opening goes up to 1 and down to 0 again, wherever it begins.
-class OpeningSteps {
-=======
 // The opening goes up to 1, then down to 0, and so on. It may begin anywhere.
-class Swing {
->>>>>>> h3-en1
+class OpeningSteps {
  public:
   explicit OpeningSteps(riis_valve *valve) { check(riis_valve_get(valve, "opening", 1, &opening_)); }
   double opening() const { return opening_; }

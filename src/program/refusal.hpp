@@ -16,13 +16,9 @@ struct Refusal {
   std::string text;
 };
 
-<<<<<<< HEAD
 [[noreturn]] inline void refuse_usage(const std::string &text) { throw Refusal{exit_wrong_usage, text}; }
 
-// Returns the library's message with the command line's option in place of the struct field that it begins with.
-=======
 // Returns the library's message. If it begins with a struct field, the command line's option replaces the field.
->>>>>>> h3-en1
 inline std::string with_option_named(const std::string &text) {
   static const std::pair<std::string, std::string> options[] = {{"options.scale ", "--scale "},
                                                                 {"options.rotation_axis ", "--rotate: the axis "},

@@ -69,13 +69,8 @@ class Scene {
   ~Scene();
   // Shows the surface, and the marks that the grid has now. title NULL: "Surface".
   void show(const riis_surface *surface, const char *title, const Leaks &leaks);
-<<<<<<< HEAD
-  // The box that the camera sees, or nothing for the surface.
-  vtkRenderWindow *render(std::int32_t of, const std::optional<Bounds> &seen);
-=======
   // The box that the camera shows, or nothing for the surface's box.
-  vtkRenderWindow *render(std::int32_t view, const std::optional<Bounds> &seen);
->>>>>>> h3-en1
+  vtkRenderWindow *render(std::int32_t of, const std::optional<Bounds> &seen);
 
  private:
   void add_panel(vtkRenderer *renderer, int panel);

@@ -39,15 +39,9 @@ struct LeafletArray {
   bool is_required;
 };
 
-<<<<<<< HEAD
-// Takes a data set of triangles, quads, polygons and triangle strips, whose cells have been checked. The path is only for the
-// message.
-Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &wanted);
-=======
 // Converts a data set of triangles, quads, polygons and triangle strips, whose cells have been checked. The path is only for
 // the message.
-Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &leaflets);
->>>>>>> h3-en1
+Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &wanted);
 
 // Returns the number of each vertex's place, which is below the number of vertices. Vertices at exactly the same coordinates have
 // the same place.
