@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""check_links.py FOLDER: links in the Markdown documents below the folder must lead to existing files and headings."""
+"""check_links.py FOLDER: links in the Markdown documents below the folder must lead to existing files and headings. Source
+files that docs/walks.md names must exist."""
 import pathlib
 import re
 import sys
@@ -35,6 +36,18 @@ def problems(folder):
                 yield f"{document.relative_to(folder)}: {link}: there is no such heading"
 
 
-found = list(problems(pathlib.Path(sys.argv[1])))
+def missing_sources(folder):
+    """Yields the source files that the page of walks names and that are not there."""
+    sources = [path.relative_to(folder).as_posix() for path in folder.glob("src/**/*") if path.is_file()]
+    named = re.findall(r"`([\w/]+\.(?:cpp|hpp|h))`", (folder / "docs/walks.md").read_text(encoding="utf-8"))
+    if len(named) < 20:
+        yield "docs/walks.md names hardly any file"
+    for name in named:
+        if not (folder / name).exists() and not any(source.endswith(f"/{name}") for source in sources):
+            yield f"docs/walks.md: {name}: there is no such file"
+
+
+folder = pathlib.Path(sys.argv[1])
+found = [*problems(folder), *missing_sources(folder)]
 if found:
     sys.exit("\n".join(found))
