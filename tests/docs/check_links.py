@@ -38,7 +38,7 @@ def problems(folder):
 
 def missing_sources(folder):
     """Yields the source files that the page of walks names and that are not there."""
-    sources = [path.relative_to(folder).as_posix() for path in folder.glob("src/**/*") if path.is_file()]
+    sources = [path.relative_to(folder).as_posix() for part in ("include", "src") for path in (folder / part).rglob("*")]
     named = re.findall(r"`([\w/]+\.(?:cpp|hpp|h))`", (folder / "docs/walks.md").read_text(encoding="utf-8"))
     if len(named) < 20:
         yield "docs/walks.md names hardly any file"
