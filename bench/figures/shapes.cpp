@@ -216,7 +216,7 @@ CuspCurves cusp_curves(const PatchSet &set, std::int32_t cusp) {
   return curves;
 }
 
-// Patches of half a valve run from the anterior point of the annulus to the posterior one.
+// The patches of one half of the valve are listed from the anterior point of the annulus to the posterior point.
 MitralCurves mitral_curves(const PatchSet &set) {
   std::array<Pieces, 2> annulus, anterior, posterior;  // and mirrored
   for (const Patch &patch : set.patches)

@@ -273,7 +273,8 @@ void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const 
   if (found.state != RIIS_PASSAGE_OPEN) return;
   const std::string text = surface + " leaks: unmarked nodes join " + ends + "; the passage is ";
   if (report.is_end)
-    warn(text + "nowhere nearer to the surface than its end at " + report.place + ", " + shown(found.distance));
+    warn(text + "nearest to the surface at its end at " + report.place + ", " + shown(found.distance) +
+         " from the surface");
   else if (report.closing_half_thickness > 0)
     warn({{Cause::leaks, text + "at " + report.place,
            ", and --half-thickness " + shortest(report.closing_half_thickness) + " closes it"}});

@@ -51,7 +51,8 @@ std::vector<std::size_t> places_of(const Faces &faces);
 // vertex or have vertices with exactly the same coordinates.
 std::vector<std::int32_t> pieces_of(const Faces &faces);
 
-// Fills the caller's struct, which any release of riis.h may have compiled, with the arrays of the faces.
+// Fills the caller's struct with the arrays of the faces. Its size tells the release of riis.h with which the caller was
+// compiled.
 void give_arrays(const Faces &faces, riis_surface_arrays *arrays, std::int64_t struct_size);
 
 }  // namespace riis::vtk

@@ -49,7 +49,7 @@ static void test_refusals(void **state) {
       "patch.json",
       "{\"curves\": {\"a\": [[0,0,0],[1,0,0]], \"b\": [[0,1,0],[1,1,0]], \"c\": [[0,0,0],[0,1,0]],"
       "\"d\": [[1,0,0],[1,1,0]]}, \"patches\": [{\"v0\": \"a\", \"v1\": \"b\", \"u0\": \"c\", \"u1\": \"d\"}]}");
-  RUN_REFUSED(1, "opening is 0.02, but the patches valve has one state only", "mark", mesh, "--valve",
+  RUN_REFUSED(1, "opening is 0.02, but the patches valve has only one state", "mark", mesh, "--valve",
               scratch_path("patch.json"), "--steps", "2");
 }
 

@@ -29,7 +29,7 @@ typedef struct {
 uris_valve uris_read(const char *block);
 void uris_free(uris_valve *valve);
 
-/* The number behind <element>. Fails the test without it. */
+/* Returns the number in <element>. The test fails if there is none. */
 double uris_number(const char *block, const char *element);
 
 /* Returns frame k of a motion, (3, n_nodes). */

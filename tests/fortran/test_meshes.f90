@@ -9,7 +9,7 @@ program test_meshes
   use riis
   implicit none
 
-  type :: node_data ! as codes have it that keep everything of a node together
+  type :: node_data ! as in codes that keep all data of a node together
     real(c_double) :: pressure
     real(c_double) :: at(3)
     integer :: flag

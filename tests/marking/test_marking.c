@@ -207,7 +207,7 @@ static void coordinates_may_move_and_results_are_reused(void **state) {
   double *xyz = random_nodes(n, 1.6, -1.2, 0.3);
   riis_mesh *mesh = mesh_of(n, xyz);
   riis_marks *result = new_result();
-  assert_int_equal(marked_in(result).n, 0); /* never marked with */
+  assert_int_equal(marked_in(result).n, 0); /* empty marks */
   assert_int_equal(stats_of(result).n_nodes, 0);
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
   const int64_t n_before = marked_in(result).n;

@@ -595,11 +595,10 @@ static void refusals_leave_the_arrays(void **state) {
   SUMS_REFUSED("sums is NULL", f.result, 0, 0.1, n, f.value, f.weight, NULL, sizeof sums);
   UNCHANGED();
 
-  /* A result that was never marked with. */
+  /* These marks are empty. */
   riis_marks *empty = new_result();
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks were never marked with",
-                add_resistance_to(empty, &resistance, 0, k, NULL));
-  REACTION_REFUSED("marks were never marked with", empty, &resistance, 0, f.velocity, f.weight, force);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks are empty", add_resistance_to(empty, &resistance, 0, k, NULL));
+  REACTION_REFUSED("marks are empty", empty, &resistance, 0, f.velocity, f.weight, force);
   SUMS_REFUSED("needs RIIS_FIELD_SIDE", empty, 0, 0, 0, f.value, f.weight, &sums, sizeof sums);
   UNCHANGED();
 }

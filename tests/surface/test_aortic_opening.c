@@ -120,8 +120,8 @@ static void open_free_edges_are_parabolas(void **state) {
   assert_true(n > 50);
 }
 
-/* Checks that every vertex of each surface is on the other, as far as both know the smooth valve. Their triangles differ, because
- * some vertices follow the motion to the open state. */
+/* Returns 1 if every vertex of each surface lies on the other, to within the sum of their error bounds. The triangles may differ,
+ * because some vertices depend on the motion to the open state. */
 static int have_same_shape(const riis_valve *a, const riis_valve *b) {
   riis_surface_options options = surface_options();
   options.tolerance = 0.005;

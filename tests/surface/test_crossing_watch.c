@@ -150,7 +150,7 @@ static void sound_shapes_are_not_named(void **state) {
   assert_int_equal(warnings.n, 0);
 }
 
-/* A unit square lies at z = 0, another stands through it: one leaflet or two. */
+/* One unit square lies at z = 0, and an upright one at y = 0.5 cuts through it. Both are of one leaflet, or each has its own. */
 static void patches_are_a_shape_of_the_user(void **state) {
   (void)state;
   for (int32_t second = 0; second < 2; ++second) {

@@ -98,7 +98,7 @@ void check_stride(const char *name, std::int64_t stride, std::int64_t n_nodes) {
   if (stride < 1) riis::fail(RIIS_INVALID_ARGUMENT, name, " is ", stride, "; it must be at least 1");
   if (n_nodes > 0 && stride > std::numeric_limits<std::int64_t>::max() / 8 / n_nodes)
     riis::fail(RIIS_INVALID_ARGUMENT, name, " is ", stride, ": ", n_nodes,
-               " entries apart by it are more than memory can hold");
+               " entries at this stride exceed what memory can hold");
 }
 
 // Checks that all components of a vector are given, or none where that is allowed.
@@ -160,7 +160,7 @@ const riis::Adjacency &require_adjacency(const riis::Mesh &mesh, const char *pur
 
 // Refuses marks that were not marked with this mesh, as far as its size shows it.
 void check_are_of_mesh(const riis::Mesh &mesh, const riis::Marks &marks) {
-  if (!marks.was_marked) riis::fail(RIIS_INVALID_ARGUMENT, "marks were never marked with: call riis_mark_nodes first");
+  if (!marks.was_marked) riis::fail(RIIS_INVALID_ARGUMENT, "marks are empty: call riis_mark_nodes with them first");
   if (marks.stats.n_nodes != mesh.nodes().n)
     riis::fail(RIIS_INVALID_ARGUMENT, "marks are of a mesh with ", marks.stats.n_nodes, " nodes, mesh has ",
                mesh.nodes().n);

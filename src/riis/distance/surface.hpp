@@ -21,7 +21,7 @@ class Surface {
  public:
   // Makes the surface, again after it moved, and reuses its memory. The surface is of no use after a failure.
   void make(TriangleSet triangles, double half_thickness, int n_threads);
-  // Gives the triangles away, for their memory.
+  // Moves the triangles out, so that the next ones can reuse their memory.
   TriangleSet take_triangles() { return std::move(triangles_); }
   // Sets another method for distances. Without it, distances are to the triangles.
   void measure_by(std::unique_ptr<const PatchDistance> other_distance, double triangle_error);

@@ -44,7 +44,8 @@ class Curve {
   Frame frame(double share) const;
   Vec3 at(double share) const;
 
-  // Returns a part of a single piece that begins or ends at the share of the length.
+  // Returns the part of one piece that begins at this share of the length (after), or ends there. Its other end is that of the
+  // piece.
   Bezier piece_beside(double share, bool after) const;
 
   // Returns the part from one share to another, share0 < share1.

@@ -18,7 +18,7 @@ Weights plane_weights(Vec3 r, Vec3 ab, Vec3 ac, Vec3 n, double inverse_nn) {
 
 bool inside(Weights w) { return w.b >= 0 && w.c >= 0 && w.b + w.c <= 1; }
 
-// Returns the parameter of the segment's point closest to the segment's first end + r.
+// For the segment from a to a + edge, returns the parameter in [0, 1] of its point closest to a + r.
 double segment_parameter(Vec3 r, Vec3 edge) {
   const double t = dot(r, edge) / dot(edge, edge);
   return t > 0 ? (t < 1 ? t : 1.0) : 0.0;

@@ -10,7 +10,7 @@
 namespace riis {
 namespace {
 
-// A stretch is put in order through a set with one bit per node.
+// Nodes are sorted a stretch (a range of node numbers) at a time, through a set with one bit for each node of the stretch.
 constexpr std::int64_t nodes_per_stretch = 16384, bits_per_word = 64;
 constexpr std::size_t n_words = nodes_per_stretch / bits_per_word;
 

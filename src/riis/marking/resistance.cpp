@@ -60,7 +60,7 @@ Resistance checked_resistance(const riis_resistance &resistance, const char *nam
 }
 
 Resistance checked_resistance(const riis_resistance &resistance, const Marks &marks) {
-  if (!marks.was_marked) fail(RIIS_INVALID_ARGUMENT, "marks were never marked with: call riis_mark_nodes first");
+  if (!marks.was_marked) fail(RIIS_INVALID_ARGUMENT, "marks are empty: call riis_mark_nodes with them first");
   const Resistance checked = checked_resistance(resistance, "resistance", marks.half_thickness, marks.distance_limit);
   if (checked.cuts_rim) require_field(marks, RIIS_FIELD_RIM, "RIIS_FIELD_RIM", "RIIS_RIM_CUT");
   return checked;

@@ -19,7 +19,7 @@ void check_vertices(const riis_surface_arrays &arrays) {
   if (arrays.stride < 1) fail(RIIS_INVALID_ARGUMENT, "arrays.stride is ", arrays.stride, "; it must be at least 1");
   if (arrays.stride > std::numeric_limits<std::int64_t>::max() / 8 / arrays.n_vertices)
     fail(RIIS_INVALID_ARGUMENT, "arrays.stride is ", arrays.stride, ": ", arrays.n_vertices,
-         " vertices apart by it are more than memory can hold");
+         " vertices at this stride exceed what memory can hold");
 }
 
 void check_faces(const riis_surface_arrays &arrays) {
@@ -78,7 +78,7 @@ void place_velocities(const riis_surface_arrays &arrays, const Placement &placem
     fail(RIIS_INVALID_ARGUMENT, "arrays.velocity_stride is ", arrays.velocity_stride, "; it must be at least 1");
   if (arrays.velocity_stride > std::numeric_limits<std::int64_t>::max() / 8 / arrays.n_vertices)
     fail(RIIS_INVALID_ARGUMENT, "arrays.velocity_stride is ", arrays.velocity_stride, ": the velocities of ",
-         arrays.n_vertices, " vertices apart by it are more than memory can hold");
+         arrays.n_vertices, " vertices at this stride exceed what memory can hold");
   set.velocity.reserve(set.xyz.size());
   for (std::int64_t i = 0; i < arrays.n_vertices; ++i) {
     const Vec3 v = with_points(arrays.n_vertices, {arrays.vx, arrays.vy, arrays.vz}, arrays.velocity_stride,

@@ -63,8 +63,8 @@ struct PatchSet {
   // Bounds the distance of the patches from the valve's shape, in the Hausdorff sense. It is not 0 for curves that stand
   // for arcs of circles.
   double deviation = 0;
-  // The derivatives of each curve's control points by the opening, if the valve blends control points. All curves then have one
-  // piece. Otherwise empty.
+  // Empty unless the valve blends control points. Then every curve has one piece, and this holds the derivatives of its control
+  // points with respect to the opening.
   Vector<Bezier> rates = {};
 
   const Curve &curve_of(const Side &side) const { return curves[side.curve]; }

@@ -192,7 +192,7 @@ std::uint64_t Valve::shape_digest() const {
 PatchSet Valve::make_patches() const {
   if (opening() != 0 && !can_open())
     fail(RIIS_INVALID_PARAMETER, "opening is ", opening(), ", but the ", kind_->name,
-         " valve has one state only: give it another to open to with riis_valve_set_open_state");
+         " valve has only one state: set its open state with riis_valve_set_open_state");
   if (kind_->check_values) {
     kind_->check_values(state_.values);
     if (open_) check_open_values();
