@@ -3,9 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <utility>
 
 #include "program/leaks.hpp"
 #include "program/opening_law.hpp"
@@ -20,17 +18,6 @@ namespace {
 const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor", "paper", "clusters"};
 const std::vector<std::string> distance_names = {"triangles", "sampling", "minimization"};
 const std::vector<std::string> view_names = {"side", "top", "oblique"};
-
-std::int32_t position_of(const std::string &name, const std::vector<std::string> &names) {
-  return static_cast<std::int32_t>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
-// RIIS_AUTO is a negative number, so a user's negative number is refused.
-double parse_positive(const std::string &text, const std::string &subject) {
-  const double number = parse_number(text, subject);
-  if (!(number > 0)) refuse_usage(subject + ": " + text + " is not above 0");
-  return number;
-}
 
 double parse_positive_finite(const std::string &text, const std::string &subject) {
   const double number = parse_number(text, subject);
@@ -55,8 +42,6 @@ TimeSpan parse_span(const std::string &text, const std::string &subject) {
   if (!(span.stop > span.start)) refuse_usage(subject + ": the stop of " + text + " is not after its start");
   return span;
 }
-
-std::string option_name(const std::string &names) { return names.substr(0, names.find(',')); }
 
 // ---- Groups of options ----
 
@@ -266,160 +251,7 @@ void declare_series(Command &command, MarkOptions &options) {
   command.option("--time")->excludes(times);
 }
 
-// ---- Checks ----
-
-bool has_set_opening(const ValveOptions &options) {
-  return std::any_of(options.settings.begin(), options.settings.end(),
-                     [](const std::string &setting) { return setting.rfind("opening=", 0) == 0; });
-}
-
-void check_set_opening(const ValveOptions &options, const std::string &reason) {
-  if (has_set_opening(options)) refuse_usage("--set opening " + reason);
-}
-
-void check_opening(const ValveOptions &options) {
-  if (options.opening && has_set_opening(options)) refuse_usage("--opening and --set opening exclude each other");
-}
-
-// Derives the scale and the default half thickness from the units.
-void finish_units(ValveOptions &options) {
-  const bool is_file = !options.surface.empty() || is_valve_file(options.valve);
-  if (!is_file && options.surface_unit && options.surface_unit != Unit::centimetre)
-    refuse_usage("--surface-unit: the parameters of the " + options.valve + " valve are in centimetres, not in " +
-                 words_of(*options.surface_unit));
-  if (!options.unit && options.surface_unit) refuse_usage("--surface-unit needs --unit, the unit of the mesh");
-  if (!options.unit) return;
-  if (is_file && !options.surface_unit)
-    refuse_usage("--unit needs --surface-unit, the unit of " +
-                 (options.surface.empty() ? options.valve : options.surface));
-  apply_units(options);
-}
-
-// Requires a motion for a time, and a motion or a cycle for a period.
-void check_motion(const Command &command, const ValveOptions &options, bool has_times, bool has_cycle) {
-  const bool is_motion = is_motion_file(options.surface);
-  if (is_motion && !options.time && !has_times)
-    refuse_usage("--surface " + options.surface + " is a motion: it needs --time T");
-  if (!is_motion && options.time)
-    refuse_usage("--time has no effect with --surface " + options.surface + ": a motion is a .pvd file");
-  if (command.has("--period") && !is_motion && !has_cycle)
-    refuse_usage("--period needs a motion, --surface FILE.pvd, or --cycle");
-}
-
-void check_open_state(const ValveOptions &options) {
-  if (!options.params_open.empty() && is_valve_file(options.valve))
-    refuse_usage("--params-open has no effect with --valve " + options.valve + ": the open state is in that file");
-}
-
-// At the default opening of most valves the file would have no effect, and the user would not notice.
-void check_open_state_is_met(const ValveOptions &options, bool has_cycle) {
-  if (!options.params_open.empty() && !sets_opening(options) && !has_cycle)
-    refuse_usage("--params-open needs --opening or --cycle: without either the valve does not open to that state");
-}
-
-void finish_valve(const Command &command, ValveOptions &options) {
-  check_opening(options);
-  check_open_state(options);
-  check_motion(command, options, false, false);
-  finish_units(options);
-}
-
-void check_series(const Command &command, const MarkOptions &options) {
-  const SeriesOptions &series = options.series;
-  if (!series.case_file.empty()) return;
-  if (series.times.empty()) {
-    for (const char *name : {"--cycle", "--movie", "--series-table", "--all-cells"})
-      if (command.has(name)) refuse_usage(std::string(name) + " needs --times");
-    return;
-  }
-  if (!options.surface.empty()) {
-    if (!series.cycle.empty()) refuse_usage("--cycle has no effect with --surface");
-    if (!is_motion_file(options.surface))
-      refuse_usage("--times has no effect with --surface " + options.surface + ": a motion is a .pvd file");
-    return;
-  }
-  if (series.cycle.empty()) refuse_usage("--times needs --cycle, the valve's opening in time");
-  check_set_opening(options, "has no effect with --times: see --cycle");
-}
-
-void check_distance(const Command &command, const MarkOptions &options) {
-  if (command.has("--distance-tolerance") && options.surface_options.measure == RIIS_MEASURE_TRIANGLES)
-    refuse_usage("--distance-tolerance has no effect with --distance triangles: see --tolerance");
-}
-
-bool has_output(const MarkOptions &options) {
-  return !options.output.empty() || !options.surface_output.empty() || !options.pictures.empty() ||
-         !options.stats.empty() || !options.series.movie.empty() || !options.series.table.empty();
-}
-
-// The solver takes every blank out of a path.
-void check_folder_name(const std::string &folder) {
-  const auto is_blank = [](unsigned char c) { return c <= ' ' || c == 127; };
-  if (std::any_of(folder.begin(), folder.end(), is_blank))
-    refuse_usage("FOLDER: '" + folder + "' has a blank, and svMultiPhysics reads no path with one");
-}
-
 }  // namespace
-
-// ---- Declaring an option ----
-
-bool Command::parsed() const { return app_->parsed(); }
-CLI::Option *Command::option(const std::string &name) const { return app_->get_option(name); }
-bool Command::has(const std::string &name) const { return option(name)->count() > 0; }
-
-CLI::Option *Command::finished(CLI::Option *option, const char *type) const {
-  if (type) option->type_name(type);
-  return option->group(group_);
-}
-
-CLI::Option *Command::value(const std::string &names, const char *type, const char *help, const Take &take) {
-  if (!type)
-    return finished(app_->add_flag_callback(
-                        names, [take] { take(""); }, help),
-                    nullptr);
-  const auto taken = [take, name = option_name(names)](const std::string &text) {
-    // An empty value would look like an option that was not given.
-    if (text.empty()) refuse_empty(name);
-    take(text);
-  };
-  return finished(app_->add_option_function<std::string>(names, taken, help), type);
-}
-
-CLI::Option *Command::text(const std::string &names, const char *type, const char *help, std::string &to) {
-  return value(names, type, help, [&to](const std::string &text) { to = text; });
-}
-
-CLI::Option *Command::values(const std::string &names, const char *type, const char *help, const TakeAll &take) {
-  const auto taken = [take, name = option_name(names)](const std::vector<std::string> &words) {
-    if (std::find(words.begin(), words.end(), "") != words.end()) refuse_empty(name);
-    take(words);
-  };
-  return finished(app_->add_option_function<std::vector<std::string>>(names, taken, help), type);
-}
-
-CLI::Option *Command::number(const std::string &names, const char *type, const char *help, double &to) {
-  return value(names, type, help,
-               [&to, name = option_name(names)](const std::string &text) { to = parse_number(text, name); });
-}
-
-CLI::Option *Command::positive(const std::string &names, const char *type, const char *help, double &to) {
-  return value(names, type, help,
-               [&to, name = option_name(names)](const std::string &text) { to = parse_positive(text, name); });
-}
-
-CLI::Option *Command::choice(const std::string &names, const char *help, const std::vector<std::string> &words,
-                             std::int32_t &to, const char *type) {
-  return value(names, type, help, [&to, &words](const std::string &text) { to = position_of(text, words); })
-      ->check(CLI::IsMember(words));
-}
-
-CLI::Option *Command::flag(const std::string &names, const char *help, bool &to) {
-  return finished(app_->add_flag(names, to, help), nullptr);
-}
-
-void refuse_empty(const std::string &name) { refuse_usage(name + ": the value is empty"); }
-
-// ---- The commands ----
 
 void declare_mark(Command command, MarkOptions &options) {
   command.group("Mesh");
@@ -550,85 +382,6 @@ void declare_params(Command command, ParamsOptions &options) {
   declare_loudness(command, options);
   declare_valve(command, options);
   declare_opening(command, options);
-}
-
-MarkOptions finish_mark(const Command &command, MarkOptions options) {
-  const bool has_case = !options.series.case_file.empty(), has_cycle = !options.series.cycle.empty();
-  check_opening(options);
-  check_open_state(options);
-  check_series(command, options);
-  check_motion(command, options, !options.series.times.empty(), has_cycle);
-  check_open_state_is_met(options, has_cycle);
-  finish_units(options);
-  check_distance(command, options);
-  if (!is_prefix(options.prefix))
-    refuse_usage("--prefix: '" + options.prefix.substr(0, 64) + "' must be 1 to 64 letters, digits, _, - and .");
-  options.mark_options.n_threads = options.n_threads;
-  if (has_case) return options;
-  if (options.mesh.empty()) refuse_usage("nothing to do: a MESH is needed");
-  if (options.quiet && !has_output(options)) refuse_usage("nothing to do: --quiet is given and no output is named");
-  return options;
-}
-
-MarkOptions finish_surface(const Command &command, MarkOptions options) {
-  finish_valve(command, options);
-  check_open_state_is_met(options, false);
-  if (!has_output(options)) refuse_usage("nothing to do: --output or --picture is needed");
-  return options;
-}
-
-MarkOptions finish_crossings(const Command &command, MarkOptions options) {
-  finish_valve(command, options);
-  options.mark_options.n_threads = options.n_threads;
-  return options;
-}
-
-MarkOptions finish_leaks(const Command &command, MarkOptions options) {
-  finish_valve(command, options);
-  check_open_state_is_met(options, false);
-  options.mark_options.n_threads = options.n_threads;
-  return options;
-}
-
-StatesOptions finish_states(const Command &, StatesOptions options) {
-  check_set_opening(options, "has no effect: the table has all openings");
-  check_open_state(options);
-  finish_units(options);
-  return options;
-}
-
-ExportOptions finish_export(const Command &, ExportOptions options) {
-  check_folder_name(options.folder);
-  check_set_opening(options, "has no effect: the valve opens and closes in an export");
-  check_open_state(options);
-  finish_units(options);
-  if (options.cycle.empty() && (!options.opening_duration || !options.closing_duration))
-    refuse_usage("riis export needs --opening-seconds and --closing-seconds, or --cycle");
-  return options;
-}
-
-ParamsOptions finish_params(const Command &, ParamsOptions options) {
-  check_opening(options);
-  return options;
-}
-
-// ---- What options say ----
-
-const std::vector<std::string> &triangulation_names() {
-  static const std::vector<std::string> names = {"adapted", "fixed"};
-  return names;
-}
-
-void apply_units(ValveOptions &options) {
-  options.surface_options.scale = factor_between(options.surface_unit.value_or(Unit::centimetre), *options.unit);
-  if (!options.has_half_thickness) options.surface_options.half_thickness = paper_half_thickness(*options.unit);
-}
-
-bool sets_opening(const ValveOptions &options) { return options.opening || has_set_opening(options); }
-
-bool is_prefix(const std::string &name) {
-  const auto is_good = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
-  return !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), is_good);
 }
 
 }  // namespace riis::program

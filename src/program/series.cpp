@@ -270,7 +270,7 @@ ExitCode run_series(Case &all) {
 
 namespace {
 
-Box nowhere() {
+Box empty_box() {
   constexpr double far = std::numeric_limits<double>::infinity();
   return {{far, far, far}, {-far, -far, -far}};
 }
@@ -302,7 +302,7 @@ void note_valve(const MovingValve &valve, std::size_t at, Sweep &sweep) {
 Sweep sweep_of(std::vector<MovingValve> &valves, const std::vector<double> &times, const riis_mesh *mesh,
                std::int64_t n_nodes, bool quiet) {
   Sweep sweep{
-      {}, nowhere(), std::vector<std::int64_t>(valves.size(), -1), std::vector<riis_surface_info>(valves.size())};
+      {}, empty_box(), std::vector<std::int64_t>(valves.size(), -1), std::vector<riis_surface_info>(valves.size())};
   std::vector<std::uint8_t> is_near(static_cast<std::size_t>(n_nodes));
   StepProgress progress("finding the nodes near the sweep", times.size(), quiet);
   for (std::size_t step = 0; step < times.size(); ++step) {
