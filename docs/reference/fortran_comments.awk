@@ -99,7 +99,7 @@ struct != "" && / :: / && !/bind\(c\)/ {
   }
   fields = $0
   sub(/^.*:: */, "", fields)
-  sub(/[^a-z_].*/, "", fields)
+  sub(/[^A-Za-z_].*/, "", fields)
   flush_comment("!>")
   print $0 " !! " link(struct "." fields, "riis.h") (text != "" ? ":" text : "")
   next
