@@ -57,12 +57,14 @@ class Checks(unittest.TestCase):
 
     def test_links(self):
         good = {"README.md": "# A\n[b](docs/b.md#two-words) [a](#a) [web](https://example.org) `[c](c.md)`\n",
-                "docs/b.md": "## Two words\n```sh\n[d](d.md)\n```\n![a](a.png)\n", "docs/a.png": ""}
+                "docs/b.md": "## Two words\n```sh\n[d](d.md)\n```\n![a](a.png)\n", "docs/a.png": "",
+                "docs/walks.md": "| `part/a.cpp` | it works |\n", "src/x/part/a.cpp": ""}
         self.assertEqual(self.run_on("check_links.py", good).stderr, "")
         for name, found, replacement, text in [
             ("README.md", "docs/b.md", "b.md", "README.md: b.md#two-words: there is no such file"),
             ("README.md", "#two-words", "#three", "docs/b.md#three: there is no such heading"),
             ("docs/b.md", "a.png", "b.png", "docs/b.md: b.png: there is no such file"),
+            ("docs/walks.md", "a.cpp", "z.cpp", "docs/walks.md: part/z.cpp: there is no such file"),
         ]:
             with self.subTest(replacement):
                 self.refuses("check_links.py", good, name, found, replacement, text)

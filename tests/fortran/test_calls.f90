@@ -889,7 +889,7 @@ contains
       'mesh has no adjacency')
     call set_adjacency(of_cells)
     call check_refused(riis_find_leaks(thin, mesh, leaking, options, leaks), RIIS_INVALID_ARGUMENT, &
-      'never marked')
+      'marks are empty')
     call check_ok(riis_leaks_get_list(leaks, list, c_sizeof(list)), 'the edges before')
     call check(list%n_edges == 0 .and. .not. c_associated(list%node_id), 'refused calls write nothing')
     call check_ok(riis_mark_nodes(thin, mesh, marks=leaking), 'mark with a thin surface')

@@ -254,7 +254,7 @@ static void nothing_leaks(void **state) {
                 find_passage_between(surface, mesh, NULL, 1, &node, 1, &node, &passage, sizeof passage));
   /* An empty result is of no marking. */
   riis_marks *empty = new_result();
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "never marked", find_leaks_in(surface, mesh, empty, NULL, &leaks));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks are empty", find_leaks_in(surface, mesh, empty, NULL, &leaks));
 }
 
 static void sums_over_no_nodes(void **state) {

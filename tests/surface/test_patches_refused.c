@@ -155,7 +155,7 @@ static void open_states_are_built_alike(void **state) {
   riis_valve *valve = valve_from(&square), *good = valve_from(&raised), *aortic = new_valve("aortic");
   riis_surface *surface = NULL;
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 1));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "opening is 1|one state only|riis_valve_set_open_state",
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "opening is 1|only one state|riis_valve_set_open_state",
                 riis_surface_create(valve, NULL, &surface));
   assert_null(surface);
   CHECK_OK(riis_valve_set_open_state(valve, good));
