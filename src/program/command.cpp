@@ -74,8 +74,6 @@ std::int32_t position_of(const std::string &name, const std::vector<std::string>
   return static_cast<std::int32_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-// RIIS_AUTO is a negative number, so a user's negative number is refused.
-
 double parse_positive(const std::string &text, const std::string &subject) {
   const double number = parse_number(text, subject);
   if (!(number > 0)) refuse_usage(subject + ": " + text + " is not above 0");

@@ -116,7 +116,6 @@ MarkOptions finish_mark(const Command &command, MarkOptions options) {
   check_distance(command, options);
   if (!is_prefix(options.prefix))
     refuse_usage("--prefix: '" + options.prefix.substr(0, 64) + "' must be 1 to 64 letters, digits, _, - and .");
-  options.mark_options.n_threads = options.n_threads;
   if (has_case) return options;
   if (options.mesh.empty()) refuse_usage("nothing to do: a MESH is needed");
   if (options.quiet && !has_output(options)) refuse_usage("nothing to do: --quiet is given and no output is named");
@@ -132,14 +131,12 @@ MarkOptions finish_surface(const Command &command, MarkOptions options) {
 
 MarkOptions finish_crossings(const Command &command, MarkOptions options) {
   finish_valve(command, options);
-  options.mark_options.n_threads = options.n_threads;
   return options;
 }
 
 MarkOptions finish_leaks(const Command &command, MarkOptions options) {
   finish_valve(command, options);
   check_open_state_is_met(options, false);
-  options.mark_options.n_threads = options.n_threads;
   return options;
 }
 

@@ -97,13 +97,17 @@ std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
   return text;
 }
 
-// Refuses a word that is no command in a place that needs a command.
-void check_command(const CLI::App &app, const std::string &word) {
+std::vector<const CLI::App *> commands_of(const CLI::App &app) {
+  return app.get_subcommands([](const CLI::App *) { return true; });
+}
+
+// Returns the command of this name. Refuses a word that is none in a place that needs a command.
+const CLI::App &command_named(const CLI::App &app, const std::string &word) {
   const std::string hint = " (" + name_of(app) + " --help lists the commands)";
   if (looks_like_option(word)) refuse_usage(word + " stands before a command" + hint);
   NearestName nearest(word);
-  for (const CLI::App *command : app.get_subcommands([](const CLI::App *) { return true; })) {
-    if (command->get_name() == word) return;
+  for (const CLI::App *command : commands_of(app)) {
+    if (command->get_name() == word) return *command;
     nearest.consider(command->get_name());
   }
   const std::string near(nearest.nearest());
@@ -111,15 +115,17 @@ void check_command(const CLI::App &app, const std::string &word) {
                hint);
 }
 
+// Refuses a command line whose first words do not lead to a command that takes options, or to its help.
 void check_commands(const CLI::App &app, int argc, char **argv) {
-  const auto is_request = [](const std::string &word) {
-    return word == "--help" || word == "-h" || word == "--version";
-  };
-  if (argc < 2 || is_request(argv[1])) return;
-  check_command(app, argv[1]);
-  if (argv[1] != std::string("check")) return;
-  if (argc < 3) refuse_usage("riis check needs a command: crossings or leaks");
-  if (!is_request(argv[2])) check_command(*app.get_subcommand("check"), argv[2]);
+  const CLI::App *at = &app;
+  for (int i = 1; !commands_of(*at).empty(); ++i) {
+    std::string names;
+    for (const CLI::App *command : commands_of(*at)) names += (names.empty() ? "" : " or ") + command->get_name();
+    if (i >= argc) refuse_usage(name_of(*at) + " needs a command: " + names);
+    const std::string word = argv[i];
+    if (word == "--help" || word == "-h" || word == "--version") return;
+    at = &command_named(*at, word);
+  }
 }
 
 // Returns the command that was parsed, behind all commands that contain it.

@@ -145,9 +145,12 @@ void declare_half_thickness(Command &command, ValveOptions &options) {
                 });
 }
 
-void declare_threads(Command &command, ValveOptions &options) {
+// Searches for nodes and for crossings have the same number.
+void declare_threads(Command &command, MarkOptions &options) {
   command.value("--threads", "N", "Number of threads (default as many as the work feeds)",
-                [&options](const std::string &text) { options.n_threads = parse_integer(text, "--threads"); });
+                [&options](const std::string &text) {
+                  options.n_threads = options.mark_options.n_threads = parse_integer(text, "--threads");
+                });
 }
 
 void declare_search(Command &command, MarkOptions &options) {
