@@ -22,6 +22,7 @@
 
 #include <riis/riis.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <stdexcept>
 #include <utility>
@@ -49,6 +50,7 @@ template <class Object, void (*destroy)(Object **)>
 class Handle {
  public:
   Handle() = default;
+  Handle(std::nullptr_t) noexcept {}
   explicit Handle(Object *object) noexcept : object_(object) {}  // takes the object over
   Handle(Handle &&other) noexcept : object_(other.release()) {}
   Handle &operator=(Handle &&other) noexcept {
