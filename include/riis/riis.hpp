@@ -77,14 +77,14 @@ class Handle {
   Object *object_ = nullptr;
 };
 
-using Valve = Handle<riis_valve, riis_valve_destroy>;
-using Surface = Handle<riis_surface, riis_surface_destroy>;
-using Keyframes = Handle<riis_keyframes, riis_keyframes_destroy>;
-using Mesh = Handle<riis_mesh, riis_mesh_destroy>;
-using Adjacency = Handle<riis_adjacency, riis_adjacency_destroy>;
-using Marks = Handle<riis_marks, riis_marks_destroy>;
-using Leaks = Handle<riis_leaks, riis_leaks_destroy>;
-using Crossings = Handle<riis_crossings, riis_crossings_destroy>;
+using Valve = Handle<riis_valve, riis_valve_destroy>;              // owns a riis_valve
+using Surface = Handle<riis_surface, riis_surface_destroy>;        // owns a riis_surface
+using Keyframes = Handle<riis_keyframes, riis_keyframes_destroy>;  // owns a riis_keyframes
+using Mesh = Handle<riis_mesh, riis_mesh_destroy>;                 // owns a riis_mesh
+using Adjacency = Handle<riis_adjacency, riis_adjacency_destroy>;  // owns a riis_adjacency
+using Marks = Handle<riis_marks, riis_marks_destroy>;              // owns a riis_marks
+using Leaks = Handle<riis_leaks, riis_leaks_destroy>;              // owns a riis_leaks
+using Crossings = Handle<riis_crossings, riis_crossings_destroy>;  // owns a riis_crossings
 
 namespace detail {
 template <class Struct>

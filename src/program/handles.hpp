@@ -2,8 +2,8 @@
 // Handles of riis.hpp for the objects of riis_vtk also, and the content of handles as structs.
 #pragma once
 
-#include <riis/riis.hpp>
 #include <riis/riis_vtk.h>
+#include <riis/riis.hpp>
 
 #include "program/refusal.hpp"
 
