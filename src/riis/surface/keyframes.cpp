@@ -62,7 +62,7 @@ Keyframes::Keyframes(const riis_surface_arrays &arrays, const riis_keyframe_arra
 
 void Keyframes::at(double time, double dt, std::vector<double> &xyz, std::vector<double> &velocity) const {
   if (!(dt == 0 || (std::abs(dt) >= 1e-30 && std::abs(dt) <= 1e30)))
-    fail(RIIS_INVALID_ARGUMENT, "dt is ", dt, "; it must be 0, or from 1e-30 to 1e+30, or that much below 0");
+    fail(RIIS_INVALID_ARGUMENT, "dt is ", dt, "; it must be 0, or from 1e-30 to 1e+30 in magnitude");
   const KeyTimes::KeysAround now = keys_.around(time);
   if (dt != 0 && time - dt == time)
     fail(RIIS_INVALID_ARGUMENT, "dt is ", dt, ", which is lost in rounding beside time, ", time);
