@@ -45,8 +45,8 @@ inline NodeFrame frame_around(const Bounds &nodes) {
   const Vec3 extent = nodes.half_extent();
   int exponent = 0;
   std::frexp(std::max({extent.x, extent.y, extent.z}), &exponent);
-  return {nodes.middle(),
-          std::ldexp(1.0, -std::max(exponent, -1000))};  // a denormal extent would make the scale infinite
+  // Without std::max, a denormal extent would make the scale infinite.
+  return {nodes.middle(), std::ldexp(1.0, -std::max(exponent, -1000))};
 }
 
 // A box in the mesh's frame, in single precision.
@@ -118,8 +118,8 @@ class NodeSorter {
   static constexpr std::int64_t small_size = 1024;
   static constexpr int n_small_bins = 64;
   typedef std::array<Node, n_bins> Counts;
-  // Items are counted and put four at a time, one from each quarter of a block. Each quarter has counts of its own, because an
-  // update of a count waits for the last update of the same count. Neighbours are often in the same bin and stream.
+  // Items are counted and moved four at a time, one from each quarter of a block. Neighbouring items are often in the same bin
+  // and stream, and an update of a count has to wait for the last update of the same count. So each quarter has its own counts.
   static constexpr int n_quarters = 4;
   typedef std::array<Node, n_quarters> OfQuarters;
   typedef std::array<OfQuarters, n_bins> QuarterCounts;

@@ -46,8 +46,8 @@ Keyframes::Keyframes(const riis_surface_arrays &arrays, const riis_keyframe_arra
     for (std::int64_t i = 0; i < n; ++i)
       if (xyz[i] != xyz[(frames.n_keys - 1) * n + i])
         fail(RIIS_INVALID_SURFACE, "vertex ", i / 3, " in the last frame, a period after the first, has the ",
-             view(axes)[i % 3], " ", xyz[(frames.n_keys - 1) * n + i], "; it must be that of the first, ", xyz[i]);
-  // The faces are checked once, as a surface from the first frame.
+             view(axes)[i % 3], " ", xyz[(frames.n_keys - 1) * n + i], "; it must equal that of the first, ", xyz[i]);
+  // Checks the faces once, with the vertices of the first frame.
   faces_ = faces_from_arrays(arrays);
   riis_surface_arrays first = arrays;
   first.x = xyz, first.y = xyz + 1, first.z = xyz + 2;
