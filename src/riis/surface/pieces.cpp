@@ -290,7 +290,7 @@ void finish(const PatchSet &set, const Triangulation &how, Vector<LevelledGrid> 
 
 void fail_for_vanished(const PatchSet &set, std::size_t patch, const char *where) {
   fail(RIIS_INVALID_PARAMETER, "patch ", set.patches[patch].images.front().patch_id, " has no area", where,
-       ", at least in part: a surface is no curve");
+       ", at least in part: a surface must not shrink to a curve");
 }
 
 }  // namespace riis
