@@ -79,7 +79,7 @@ class CaseReader {
     }
   }
 
-  // Returns a path of the case, which is relative to the case's folder, or "" if the key is not there.
+  // Returns the path that a key gives, relative to the case's folder, or "" if the key is missing.
   std::string file_of(const CaseValues &values, const char *key) {
     const std::string text = values.text(key);
     if (text.empty()) return "";
@@ -183,7 +183,7 @@ class CaseReader {
     set_law(values, source.valve.get(), source);
   }
 
-  // Sets parameters from an object, or from the file whose path stands there.
+  // Sets parameters from an object, or from a file if the value is a path.
   void set_parameters_of(const CaseValues &values, const char *key, riis_valve *valve) {
     if (!values.has(key)) return;
     if (values.needed(key).is_string())
@@ -192,7 +192,7 @@ class CaseReader {
       set_from_json(valve, values.needed(key), values.subject() + ": " + key);
   }
 
-  // Sets the law, and the valve's largest opening, for the check whether it can open.
+  // Sets the law of opening. Also sets the valve to its largest opening, which fails if the valve cannot open.
   void set_law(const CaseValues &values, riis_valve *valve, ValveSource &source) {
     const std::vector<double> &times = all_.options.series.times;
     source.law = OpeningLaw(opening_of(valve));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handles that destroy the library's objects.
+// Handles whose destructors destroy the library's objects.
 #pragma once
 
 #include <riis/riis.h>
@@ -31,7 +31,7 @@ using Keyframes = Handle<riis_keyframes, riis_keyframes_destroy>;
 using Film = Handle<riis_vtk_film, riis_vtk_film_destroy>;
 using SurfaceFile = Handle<riis_vtk_surface, riis_vtk_surface_destroy>;
 
-// These return the content of handles as structs.
+// These functions return the content of handles as structs.
 inline riis_triangles triangles_of(const riis_surface *surface) {
   riis_triangles triangles{};
   check(riis_surface_get_triangles(surface, &triangles, sizeof triangles));

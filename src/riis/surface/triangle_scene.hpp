@@ -2,7 +2,7 @@
 // Triangles in an Embree scene, which answers queries for closest points. Only this file and its .cpp use Embree.
 // In: a triangle set, a point, a limit. Out: the closest triangle, the same as brute force with the same kernel finds.
 //
-// Embree works in single precision and serves here only to exclude triangles. Coordinates are recentred and scaled by a power of two to
+// Embree works in single precision and only excludes triangles. Coordinates are recentred and scaled by a power of two to
 // the size of the surface. Boxes are rounded outwards, and radii are increased by more than Embree's rounding. Every candidate
 // is decided in double precision.
 #pragma once
