@@ -266,8 +266,7 @@ class WatchedReader : public Reader {
   std::string path_;
   std::optional<XmlSizes> sizes_;
   Steps steps_;
-  std::vector<vtkIdType>
-      face_ends_;  // the end of each cell's faces in the piece; -1 for a cell that is not a polyhedron
+  std::vector<vtkIdType> face_ends_;  // for each cell of the piece, the end of its faces; -1 if it is no polyhedron
 };
 
 // Also reads the faces of polyhedra in the layout that VTK writes since 9.4, which older releases of VTK ignore. In this layout,

@@ -68,8 +68,8 @@ class CollectionParser : public vtkXMLParser {
     }
   }
 
-  std::int64_t depth_ = 0,
-               n_right_ = 0;  // number of open elements, and how many of them match the path, from the outermost one
+  // The number of open elements, and how many of them match the path, counted from the outermost one.
+  std::int64_t depth_ = 0, n_right_ = 0;
 };
 vtkStandardNewMacro(CollectionParser);
 

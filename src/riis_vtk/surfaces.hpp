@@ -22,8 +22,8 @@ vtkSmartPointer<vtkPolyData> polydata_of(const riis_surface *surface);
 // Triangles as plain arrays. If the data set has only quads, quads.
 struct Faces {
   std::vector<double> xyz;  // (3, n_vertices), all points, used or not
-  std::vector<std::int64_t>
-      vertex_ids;  // (corners_per_face, n_faces); a quad's first and third corner are the ends of an inner diagonal
+  // (corners_per_face, n_faces); the diagonal from a quad's first corner to its third lies inside the quad
+  std::vector<std::int64_t> vertex_ids;
   std::vector<std::int32_t> leaflet_id;  // (n_faces); empty if the data set has no leaflet ids
   std::int32_t corners_per_face = 3;
 };

@@ -79,8 +79,7 @@ int concurrent_walk(const std::vector<Range> &ranges, int n_threads, const Body 
       RangeSlots::Slot &slot = slots[n_taken.fetch_add(1, std::memory_order_relaxed)];
       while (!slot.is_filled.load(std::memory_order_acquire)) {
         if (n_left.load(std::memory_order_relaxed) == 0) return;
-        std::this_thread::sleep_for(
-            std::chrono::microseconds(20));  // without sleep, the sanitizer's history would overflow
+        std::this_thread::sleep_for(std::chrono::microseconds(20));  // a busy wait would fill the sanitizer's history
       }
       if (!is_counted) n_ran.fetch_add(1, std::memory_order_relaxed);
       is_counted = true;
