@@ -128,7 +128,7 @@ class CaseReader {
   void read_placement(const CaseValues &values, MarkOptions &options) const {
     riis_surface_options &surface = options.surface_options;
     if (const auto scale = values.above_zero("scale")) {
-      if (options.unit) values.refuse("scale", "it goes with no \"unit\", which gives the scale");
+      if (options.unit) values.refuse("scale", "it cannot be combined with \"unit\", which gives the scale");
       options.has_scale = true;
       surface.scale = *scale;
     }
@@ -208,7 +208,7 @@ class CaseReader {
 
   void make_surface_of(const CaseValues &values, ValveSource &source) {
     for (const char *key : {"parameters", "open_parameters", "opening", "tolerance", "triangulation"})
-      if (values.has(key)) values.refuse(key, "it goes with no \"surface\"");
+      if (values.has(key)) values.refuse(key, "it cannot be combined with \"surface\"");
     Seconds seconds;
     if (!is_motion_file(source.options.surface)) {
       if (values.has("period")) values.refuse("period", "it needs a \"surface\" that moves, a .pvd file");

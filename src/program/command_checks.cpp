@@ -100,7 +100,7 @@ bool has_output(const MarkOptions &options) {
 void check_folder_name(const std::string &folder) {
   const auto is_blank = [](unsigned char c) { return c <= ' ' || c == 127; };
   if (std::any_of(folder.begin(), folder.end(), is_blank))
-    refuse_usage("FOLDER: '" + folder + "' has a blank, and svMultiPhysics reads no path with one");
+    refuse_usage("FOLDER: '" + folder + "' has a blank, and svMultiPhysics cannot read such a path");
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
   const PatchDistance *other = request.surface.other_distance();
   if (other && asked_for == RIIS_SEARCH_CLUSTERS)
     fail(RIIS_INVALID_ARGUMENT, "options.search is ", asked_for,
-         ", clusters, which are decided on triangles, but the surface's distances are by ", other->name());
+         ", clusters, which need distances to triangles, but the surface's distances are by ", other->name());
   const bool is_first = !request.mesh.record_marking();
   if (asked_for == RIIS_SEARCH_AUTO)
     asked_for = !other && !is_first && has_few_near(request) ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_EXHAUSTIVE;

@@ -182,7 +182,8 @@ void check_precision(const PatchSet &set, double max_error) {
          ", which round by more than a thousandth of tolerance * half_thickness before scaling, ", max_error);
   if (longest * 1e-12 > 1e-2 * max_error)
     fail(RIIS_LIMIT_EXCEEDED, "a curve is ", longest,
-         " long, which is not known to a hundredth of tolerance * half_thickness before scaling, ", max_error);
+         " long, and its length rounds by more than a hundredth of tolerance * half_thickness before scaling, ",
+         max_error);
 }
 
 double error_left(const PatchSet &set, double max_error) {

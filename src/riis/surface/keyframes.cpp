@@ -65,7 +65,7 @@ void Keyframes::at(double time, double dt, std::vector<double> &xyz, std::vector
     fail(RIIS_INVALID_ARGUMENT, "dt is ", dt, "; it must be 0, or from 1e-30 to 1e+30 in magnitude");
   const KeyTimes::KeysAround now = keys_.around(time);
   if (dt != 0 && time - dt == time)
-    fail(RIIS_INVALID_ARGUMENT, "dt is ", dt, ", which is lost in rounding beside time, ", time);
+    fail(RIIS_INVALID_ARGUMENT, "dt is ", dt, ", which is too small to change time, ", time);
   const KeyTimes::KeysAround before = keys_.around(time - dt, "time - dt");
   const std::int64_t n = 3 * faces_.n_vertices;
   const auto value = [&](const KeyTimes::KeysAround &around, std::int64_t i) {

@@ -168,8 +168,7 @@ PatchSet patches_from_arrays(const riis_patches &arrays) {
 const ValveKind &patches_valve_kind() {
   static const ValveKind &kind = *new ValveKind{
       "patches",
-      {opening_spec("0: this state, to 1: the state to open to (riis_valve_set_open_state), without which it stays 0",
-                    0)},
+      {opening_spec("0: this state, to 1: the open state; it stays 0 without riis_valve_set_open_state", 0)},
       0,
       false,
       nullptr,
