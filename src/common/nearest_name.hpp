@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the existing name that a user may have meant by a wrong one. All the code is in this header, because the library and
-// the program both include it.
+// Finds the existing name that is nearest to a wrong one, because the user probably meant it. All the code is in this header,
+// because the library and the program both include it.
 #pragma once
 
 #include <algorithm>

@@ -79,7 +79,7 @@ class CaseReader {
     }
   }
 
-  // Returns the path that a key gives, relative to the case's folder, or "" if the key is missing.
+  // Returns the path that a key gives, or "" if the key is missing. A relative path starts from the case's folder.
   std::string file_of(const CaseValues &values, const char *key) {
     const std::string text = values.text(key);
     if (text.empty()) return "";

@@ -76,8 +76,8 @@ std::string nearest_option(const CLI::App &app, const std::string &name) {
 
 bool looks_like_option(const std::string &argument) { return argument.size() > 1 && argument[0] == '-'; }
 
-// Returns a text about the words that CLI11 did not understand, in the order of typing, which CLI11 does not keep. If one of
-// them is an unknown option, the text lists only options: the value of an unknown option is also left over, or it was taken for
+// Returns a text that lists the words that CLI11 did not understand, in the order of typing. (CLI11 does not keep this order.)
+// If there are unknown options among them, the text lists only these, because their values are also left over or were taken for
 // the mesh.
 std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
   std::vector<std::string> left = app.remaining();

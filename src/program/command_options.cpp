@@ -14,7 +14,7 @@
 namespace riis::program {
 namespace {
 
-// Each name is at the position that its RIIS_SEARCH_*, RIIS_MEASURE_* or RIIS_VTK_VIEW_* has as a number.
+// The position of each name is the value of the RIIS_SEARCH_*, RIIS_MEASURE_* or RIIS_VTK_VIEW_* that it stands for.
 const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor", "paper", "clusters"};
 const std::vector<std::string> distance_names = {"triangles", "sampling", "minimization"};
 const std::vector<std::string> view_names = {"side", "top", "oblique"};
@@ -145,7 +145,7 @@ void declare_half_thickness(Command &command, ValveOptions &options) {
                 });
 }
 
-// Declares --threads, which sets the number for the search for nodes and for the search for crossings.
+// Declares --threads. The option applies to the search for nodes and to the search for crossings.
 void declare_threads(Command &command, MarkOptions &options) {
   command.value("--threads", "N", "Number of threads (default as many as the work feeds)",
                 [&options](const std::string &text) {

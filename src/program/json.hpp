@@ -17,8 +17,8 @@ namespace riis::program {
 
 using Json = nlohmann::ordered_json;
 
-// `content` names the expected content of the file, such as "parameters". The refusal of a file that is nested too deeply
-// contains it.
+// `content` names the expected content of the file, such as "parameters". It appears in the message if the file is nested too
+// deeply.
 Json parse_json_file(const std::string &path, const std::string &content);
 
 // Refuses a value that is not an object, and a key that is not in the list. The refusal of a key suggests the nearest key of the

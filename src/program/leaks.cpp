@@ -305,7 +305,7 @@ void check_passage(const MarkOptions &options, const MarkedMesh &marked, Report 
   const Ends ends{nodes.nearest(options, "FROM", asked.from, unknown), nodes.nearest(options, "TO", asked.to, unknown)};
   PassageReport passage;
   passage.found = passage_of(asked, marked.surface, marked.mesh, options.mark_options, ends);
-  // An open path stays open with more edges. But without an open path, unknown edges might make one.
+  // Unknown edges cannot close an open path, but they may open a path where the known edges have none.
   passage.is_unknown = passage.found.state != RIIS_PASSAGE_OPEN && !unknown.empty();
   passage.is_end = passage.found.node_id == ends.from || passage.found.node_id == ends.to;
   if (passage.found.state == RIIS_PASSAGE_OPEN && !passage.is_end && unknown.empty())

@@ -50,7 +50,7 @@ class MovingValve {
 void look_for_leaks_of(const Case &all, const std::vector<MovingValve> &valves, riis_mesh *mesh,
                        const riis_vtk_mesh *file);
 
-// Makes the valves of a case, for a series at its first time. Tries each valve with its options.
+// Makes the valves of a case. In a series, they are at its first time. Tries each valve with its options.
 std::vector<MovingValve> moving_valves(Case &all);
 
 // In: the surfaces of several valves. Out: one surface with the triangles of all. The leaflets of each valve are numbered on
@@ -58,7 +58,8 @@ std::vector<MovingValve> moving_valves(Case &all);
 
 // Returns the largest leaflet id plus one.
 int32_t n_leaflets_of(const riis_surface *surface);
-// Returns the number of each valve's first leaflet among the leaflets of all valves, and last the number of all leaflets.
+// Returns the number of each valve's first leaflet among the leaflets of all valves. The last entry is the number of all
+// leaflets.
 std::vector<int32_t> first_leaflets(const std::vector<MovingValve> &valves);
 // `options` may be NULL. Then the defaults apply.
 Surface joined_surface(const std::vector<MovingValve> &valves, const riis_surface_options *options = nullptr);

@@ -40,7 +40,7 @@ class OpeningLaw {
 // Returns the largest opening at these times. Without times, the law must be constant, and the function returns its opening.
 double largest_opening(const OpeningLaw &law, const std::vector<double> &times);
 
-// Returns the names of RIIS_INTERPOLATION_*. Each is at the position that its value has as a number.
+// Returns the names of RIIS_INTERPOLATION_*. The position of each name is the value that it stands for.
 const std::vector<std::string> &interpolation_names();
 
 // In: a CSV file of times and openings. Out: the keys. Refusals name the file, the line and the value.

@@ -105,7 +105,7 @@ struct ParamsOptions : ValveOptions {
   bool describe = false;  // print a table instead of JSON
 };
 
-// Returns the names. Each is at the position that its RIIS_TRIANGULATION_* has as a number.
+// Returns the names of RIIS_TRIANGULATION_*. The position of each name is the value that it stands for.
 const std::vector<std::string> &triangulation_names();
 
 // Derives the scale from the units. Also derives the half thickness, unless the user gave one.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program's outputs. The program checks that it can write them before any long work. A text is written completely or not at
+// The program's outputs. Before any long work, the program checks that it can write them. A text is written completely or not at
 // all.
 #pragma once
 

@@ -280,7 +280,7 @@ std::string frame_pattern(const std::string &folder) {
 
 std::vector<std::string> encoding_of(const std::string &path) {
   if (has_ending(path, ".gif")) {
-    // The whole movie uses one palette of colours. It repeats for ever.
+    // The movie repeats for ever, and all its frames share one palette of colours.
     return {
         "-filter_complex",
         "scale='min(800,iw)':-2:flags=lanczos,split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=bayer:bayer_scale=5",

@@ -143,7 +143,8 @@ namespace {
 // A mesh fits its valve under three conditions. Its size is 0.5 to 40 times the valve's size. Its edges are at most 0.3 times
 // the valve's size. The two boxes overlap.
 constexpr double smallest_mesh = 0.5, largest_mesh = 40, usual_mesh = 3, longest_edge = 0.3;
-// Both are shares of the surface's largest side. The paper's 0.1 cm is 0.04 of its aortic valve's.
+// Both are shares of the surface's largest side. The paper's half thickness, 0.1 cm, is 0.04 of the largest side of its aortic
+// valve.
 constexpr double usual_half_thickness = 0.04, largest_half_thickness = 0.25;
 // A share of the mesh's edge length. If the half thickness is smaller, the band falls between two layers of nodes and contains
 // few nodes.

@@ -19,7 +19,7 @@ vtkSmartPointer<vtkPointSet> read_surface_data(const std::string &path, const Ca
 // Returns exactly the triangles of the surface, with points in double precision and the arrays that riis_vtk.h names.
 vtkSmartPointer<vtkPolyData> polydata_of(const riis_surface *surface);
 
-// Triangles as plain arrays. If the data set has only quads, quads.
+// Faces as plain arrays: quads if the data set has only quads, and otherwise triangles.
 struct Faces {
   std::vector<double> xyz;  // (3, n_vertices), all points, used or not
   // (corners_per_face, n_faces); the diagonal from a quad's first corner to its third lies inside the quad

@@ -76,7 +76,7 @@ double adaptive_length(const Speed &speed, double t0, double t1, double whole, d
          adaptive_length(speed, middle, t1, right, 0.5 * tolerance, depth - 1);
 }
 
-// Returns an error of a length that is negligible for this curve.
+// Returns an error that is negligible for the length of this curve.
 double length_tolerance(const Bezier &curve) {
   double control_length = 0, largest = 0;
   for (std::size_t i = 0; i <= degree_of(curve); ++i) {
@@ -84,8 +84,8 @@ double length_tolerance(const Bezier &curve) {
     if (i > 0) control_length += distance(curve.control[i - 1], q);
     largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
   }
-  // Rounding of coordinates alone makes the two halves differ by this if the curve is short for its coordinates. The last term
-  // is for curves shorter than any triangle may be (surface/triangle_set.hpp), because their squares underflow.
+  // The second term is for a curve that is short compared with its coordinates: rounding alone changes its length by so much.
+  // The third term is for a curve shorter than any triangle may be (surface/triangle_set.hpp), because its squares underflow.
   return 1e-13 * control_length + 1e-14 * largest + 1e-74;
 }
 
@@ -94,8 +94,8 @@ double length_between(const Speed &speed, double tolerance, double t0, double t1
   return adaptive_length(speed, t0, t1, quadrature(speed, t0, t1), tolerance, 40);
 }
 
-// Returns the parameter at which a share of the length is behind. Approximates the speed by the parabola through its values at
-// 0, 1/2 and 1.
+// Returns the parameter up to which the curve has a given share of its length. Approximates the speed by the parabola through
+// its values at 0, 1/2 and 1.
 double first_guess(const Speed &speed, double share) {
   const double start = speed(0), middle = speed(0.5), end = speed(1);
   const double slope = 4 * middle - 3 * start - end, bend = 2 * (start - 2 * middle + end);

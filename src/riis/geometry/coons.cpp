@@ -106,7 +106,7 @@ Vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, 
   const double tolerance = std::min(merge_tolerance, 0.49 * std::min(smallest_step(t0), smallest_step(t1)));
   Vector<GridLine> lines{{0.0, 0.0, 0.0, true, true}};
   for (std::size_t i = 1, j = 1; i + 1 < t0.size() || j + 1 < t1.size();) {
-    // After the last inner vertex of a side, its parameter counts as infinite.
+    // When a side has no more inner vertices, its next parameter counts as infinite.
     const double a = i + 1 < t0.size() ? t0[i] : std::numeric_limits<double>::infinity();
     const double b = j + 1 < t1.size() ? t1[j] : std::numeric_limits<double>::infinity();
     if (std::abs(a - b) <= tolerance) {

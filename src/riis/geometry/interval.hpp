@@ -27,7 +27,7 @@ inline Interval operator-(Interval a, Interval b) { return {a.low - b.high, a.hi
 inline double bound_product(double x, double y) { return x == 0 || y == 0 ? 0.0 : x * y; }
 inline Interval operator*(Interval a, Interval b) {
   double p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, s = a.high * b.high;
-  // 0 times infinity gives NaN here, and a sum that contains infinity or NaN is not finite.
+  // Finds out whether a product is infinite, or NaN from 0 times infinity. Only then is the sum not finite.
   const double sum = (p + q) + (r + s);
   if (!(sum - sum == 0))
     p = bound_product(a.low, b.low), q = bound_product(a.low, b.high), r = bound_product(a.high, b.low),

@@ -8,9 +8,9 @@
 namespace riis {
 namespace {
 
-// Finds the least overlap of two triangles over all directions given. The faces of the Minkowski difference of two triangles
-// have the normal of one triangle, or they are spanned by an edge of each. So the least overlap over these normals is the
-// distance from the origin to the boundary of the difference. This distance is the penetration depth.
+// Finds the least overlap of two triangles over the directions that are passed to along(). Each face of the Minkowski difference
+// of two triangles has the normal of one triangle, or it is spanned by an edge of each. So the least overlap over these normals
+// is the distance from the origin to the boundary of the difference. This distance is the penetration depth.
 class Overlap {
  public:
   Overlap(const Triangle &a, const Triangle &b, double limit) : a_(a), b_(b), limit_(limit) {}

@@ -69,7 +69,7 @@ RIIS_INLINE Doubles segment_parameter(Doubles3 r, Doubles3 edge) {
   return choose(t > zero, choose(t < one, t, one), zero);
 }
 
-// The closest points on eight triangles. Callers that use only `distance_sq` pay only for it.
+// The closest points on eight triangles. If a caller needs only `distance_sq`, the rest is not computed.
 struct ClosestPoints {
   Doubles distance_sq;
   Doubles3 point, weights;
@@ -189,7 +189,7 @@ void take_corners(const double *vertices, const int64_t *vertex_id, int64_t n, d
     least_of = p < least_of ? p : least_of;
     greatest_of = greatest_of < p ? p : greatest_of;
   };
-  // The unused lane is written where the next corner follows. So the last corner is written without it.
+  // Each store also writes the unused lane, and the next corner overwrites it. The last corner is stored without that lane.
   for (int64_t i = 0; i + 1 < 3 * n; ++i) take(i, sizeof(Point));
   take(3 * n - 1, 3 * sizeof *corners);
   for (int c = 0; c < 3; ++c) lower[c] = least_of[c], upper[c] = greatest_of[c];
@@ -221,7 +221,7 @@ void place_points(const PlacedBy &by, const double *points, int64_t n, double *p
     const Point at = by.scale * (image[0] * columns[4] + image[1] * columns[5] + image[2] * columns[6]) + columns[7];
     __builtin_memcpy(placed + 3 * i, &at, static_cast<__SIZE_TYPE__>(size));
   };
-  // The unused lane is written where the next point follows. So the last point is written without it.
+  // Each store also writes the unused lane, and the next point overwrites it. The last point is stored without that lane.
   for (int64_t i = 0; i + 1 < n; ++i) place(i, sizeof(Point));
   if (n > 0) place(n - 1, 3 * sizeof *placed);
 }
@@ -251,7 +251,7 @@ void measure_triangles(const double *vertices, const int64_t *vertex_id, int32_t
 
 void frame_group(const SurfaceFrame &frame, const double *corners, const int32_t *triangle, int32_t n,
                  GroupCorners &framed) {
-  // With one register's triangles at a time, their addresses also stay in registers.
+  // Takes only as many triangles at a time as fit in one register, so that their addresses also stay in registers.
   constexpr int at_once = Doubles::per_register;
   const DoubleRegister scale = frame.scale - DoubleRegister{};
   for (int from = 0; from < triangles_per_group; from += at_once) {
@@ -281,8 +281,8 @@ RIIS_INLINE void put(Doubles3 v, float (*to)[triangles_per_group], int from) {
   put(v.z, to[2] + from);
 }
 
-// The unit vector and the length of a vector. If the vector has no direction, the length is 0 and the caller gives the unit
-// vector.
+// The unit vector and the length of a vector. If the vector has no direction, the length is 0, and `unit` is a vector that the
+// caller passes.
 struct Direction {
   Doubles3 unit;
   Doubles length;
@@ -297,8 +297,8 @@ RIIS_INLINE Direction direction(Doubles3 v, Doubles3 otherwise) {
 
 constexpr int halves = triangles_per_group / Doubles::n;
 
-// Both functions round outwards by more than a rounding to single precision. So the results also bound numbers that were rounded
-// to single precision.
+// Both functions move a bound outwards by more than rounding to single precision may change a number. So the results also bound
+// numbers that were rounded to single precision.
 RIIS_INLINE float round_down(double x) {
   const double unit = (x < 0 ? -x : x) * 0x1p-22 + 0x1p-120;
   return static_cast<float>(x - unit);

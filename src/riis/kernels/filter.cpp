@@ -89,9 +89,9 @@ bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candi
 
 constexpr int halves = nodes_per_leaf / 16;
 
-// Computes squares of bounds for the nodes p of a leaf, in the surface's frame. For every group and node, the lower bound is on
-// the node's distance to the group. For every node, the upper bound on the distance to the surface is the distance to the
-// nearest of the groups' corners.
+// Computes squares of bounds for the nodes p of a leaf, in the surface's frame. For every group and every node, computes a lower
+// bound on their distance. For every node, computes an upper bound on its distance to the surface: the distance to the nearest
+// of the groups' corners.
 RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, const Floats3 *p) {
   Floats best[halves];
   for (int h = 0; h < halves; ++h) best[h] = Floats::all(task.reach_sq);

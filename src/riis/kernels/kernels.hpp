@@ -63,7 +63,7 @@ struct alignas(64) Boxes {
 // the latter.
 struct FilterTask {
   float ratio, shift[3];
-  float reach_sq;   // the square of: the limit plus twice the error
+  float reach_sq;   // (limit + 2 * error)^2
   float tolerance;  // computed squares of two equal distances differ by at most this
   float margin;     // how far inside a triangle a point must be to count as inside
   const TriangleGroup *groups;
@@ -130,8 +130,8 @@ struct FilterKernels {
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
   // Writes at most `room` pairs of a node and a triangle, and returns their number. For every node within the limit, its closest
-  // triangles are among the pairs. The first call for a leaf begins, and each further call continues where the last one ran out
-  // of room. Room for 64 pairs is enough to continue.
+  // triangles are among the pairs. Each further call for a leaf continues where the last call ran out of room. Room for 64 pairs
+  // is enough to continue.
   int32_t (*filter_leaf)(const FilterTask &task, LeafTask &leaf, const PairArrays &pairs, int32_t room);
   // Computes the squares of the distances of a point to the triangles of a group, in single precision. The point is in the
   // surface's frame.

@@ -17,8 +17,8 @@ struct ValueAndRate {
 
 class KeyTimes {
  public:
-  // Borrows the keys' times and checks the fields. `name` is the struct that they belong to. Fails with RIIS_INVALID_ARGUMENT.
-  // The message names the field or key, and its value.
+  // Borrows the keys' times and checks the fields. `name` is the name of the struct with these fields. Fails with
+  // RIIS_INVALID_ARGUMENT. The message names the field or key, and its value.
   KeyTimes(const char *name, std::int64_t n_keys, const double *time, double period, std::int32_t interpolation);
 
   // Returns whether the last key is one period after the first. Then the values of the two keys must be equal.

@@ -123,7 +123,8 @@ riis_opening_switch_state advance(const riis_opening_switch &law, const riis_ope
     now.phase = opens ? RIIS_PHASE_OPENING : RIIS_PHASE_CLOSING;
     now.turn_time = time;
   }
-  // The valve moves by the phase that it had at the start of the step, because a turn is known only at the end.
+  // During a step, the valve moves in the phase that it had at the start. A change of phase is known only at the end of the
+  // step.
   const bool is_opening = before.phase == RIIS_PHASE_OPENING;
   const double per_second = is_opening ? 1 / law.opening_duration : -1 / law.closing_duration;
   now.progress = std::clamp(before.progress + step * per_second, 0.0, 1.0);

@@ -92,8 +92,8 @@ struct InnerFaces {
 template <class Id>
 OwnAdjacency adjacency_from_cells_with(const riis_mesh_cells &given, int n_threads, const NarrowLimits &limits) {
   const Cells<Id> cells(given, n_threads);
-  // Code for cells of one shape takes three quarters of the time. It is not compiled for larger meshes, because hardly any mesh
-  // would use it.
+  // Code for cells of one shape takes three quarters of the time of general code. It is not compiled for larger meshes, because
+  // hardly any mesh would use it.
   if (given.offsets || cells.n_nodes() > limits.n_nodes || cells.n_listed() > limits.n_entries)
     return adjacency_of_lists(CellsOfAnyShape<Id>(cells), cells.n_listed(), n_threads, limits);
   const auto made_of = [&](const auto &lists) { return narrow_adjacency_of_lists(lists, n_threads); };

@@ -37,7 +37,8 @@ struct Adjacency {
   }
 };
 
-// Fails with RIIS_INVALID_ARGUMENT or RIIS_INVALID_MESH. The message names the field or the row, and the value.
+// Checks the caller's rows and borrows them. Fails with RIIS_INVALID_ARGUMENT or RIIS_INVALID_MESH. The message names the field
+// or the row, and the value.
 Adjacency checked_adjacency(const riis_csr &csr, std::int64_t n_nodes);
 
 // Rows that the library made and owns.
@@ -49,8 +50,8 @@ struct OwnAdjacency {
   riis_csr csr() const;
 };
 
-// Up to these numbers, counts of nodes and of columns fit in 32 bits. `n_entries` limits the length of all cells' lists of
-// nodes. A test lowers the limits.
+// Within these limits, 32 bits are enough for counting entries (the nodes of all cells, one by one) and for the nodes in
+// columns. A test lowers the limits.
 struct NarrowLimits {
   std::int64_t n_entries = std::numeric_limits<std::uint32_t>::max();
   std::int64_t n_nodes = std::numeric_limits<std::int32_t>::max();

@@ -141,7 +141,7 @@ class ClusterSearch {
     const std::size_t first = to.size();
     to.resize(first + n);
     std::int32_t *next = to.data() + first;
-    // Writes every number, but advances only past the kept ones. A branch here could not be predicted.
+    // Avoids a branch, which the processor could not predict: writes every number, but moves on only after a kept one.
     for (std::size_t k = 0; k < n; ++k) {
       *next = numbers[k];
       next += bits[k] >> bit & 1;

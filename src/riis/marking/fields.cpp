@@ -189,8 +189,8 @@ class TriangleFields {
     }
   }
 
-  // Returns the position of the first tie, from `tie` on, that is the first of its node. Returns the number of all ties if there
-  // is no such tie.
+  // Starting from `tie`, returns the position of the next tie at which a new node begins. Returns the number of all ties if
+  // there is none.
   std::int64_t next_node(std::int64_t tie) const {
     while (tie > 0 && tie < ties_.size() && ties_[tie].point == ties_[tie - 1].point) ++tie;
     return tie;

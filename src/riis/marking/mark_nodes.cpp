@@ -19,8 +19,8 @@ bool has_few_near(const SearchRequest &request) {
   return request.distance_limit <= 0.5 * std::max({extent.x, extent.y, extent.z});
 }
 
-// Chooses the search. RIIS_SEARCH_AUTO queries the nodes one by one in a mesh's first marking, and uses clusters from then on,
-// because making them pays only if they are used again.
+// Chooses the search. With RIIS_SEARCH_AUTO, a mesh's first marking queries nodes one by one, and later markings use clusters.
+// Making clusters pays only if they are used again.
 std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
   const PatchDistance *other = request.surface.other_distance();
   if (other && asked_for == RIIS_SEARCH_CLUSTERS)

@@ -37,7 +37,7 @@ class Mesh {
   Mesh(const StridedPoints &nodes, const Bounds &bounds) : nodes_(nodes), bounds_(bounds) {}
 
   const StridedPoints &nodes() const { return nodes_; }
-  // Returns the box around the nodes, from when the caller last gave them.
+  // Returns the box that the nodes had when the caller last gave them.
   const Bounds &bounds() const { return bounds_; }
   const std::optional<Adjacency> &adjacency() const { return adjacency_; }
 

@@ -40,7 +40,7 @@ class NeighborScratch {
   std::vector<std::int64_t> near_large_balls;
   std::vector<NearBall> near_balls;
 
-  // A thread passes on so many nodes at once.
+  // The number of nodes that a thread passes on at once.
   static constexpr std::int64_t nodes_per_range = 128;
 
   void prepare(std::int64_t n_nodes, int n_threads);

@@ -163,7 +163,7 @@ class NodeSorter {
         first_of_stream = at;
         ++n;
       };
-      std::int64_t end = 0;  // where the items of the bins before end
+      std::int64_t end = 0;  // the end of the items in the earlier bins
       for (int cut = 0; cut + 1 < n_parts; ++cut) {
         const std::int64_t at = view(ends)[cut];
         for (; end + static_cast<std::int64_t>(view(counts)[bin]) <= at; ++bin)
@@ -268,7 +268,7 @@ class NodeSorter {
     for (int quarter = 0; quarter < n_quarters; ++quarter) view(to)[quarter] += view(numbers)[quarter];
   }
 
-  // Moves items so that the items of each cut follow each other. Within a stream they keep their order, for any number of
+  // Moves items so that the items of each new part are together. Within a stream they keep their order, for any number of
   // blocks.
   template <class Blocks>
   static void sort_once(const Part &part, const Item *from, Item *to, Blocks &blocks) {

@@ -75,7 +75,7 @@ class BoxTree {
 
   const Box &group(std::int64_t g) const { return view(levels_[0])[g]; }
 
-  // Visits the groups with numbers from g on whose boxes overlap that of g.
+  // Visits group g and the groups after it, if their boxes overlap the box of g.
   template <class Visit>
   void for_each_from(std::int64_t g, const Visit &visit) const {
     descend(view(levels_).size() - 1, 0, g, group(g), visit);

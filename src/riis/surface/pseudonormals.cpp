@@ -97,7 +97,7 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
   resize(edge_is_rim_, 3 * n);
   resize(corner_, n_positions);
   resize(corner_is_rim_, n_positions);
-  // Edges are listed by their lower end. Each list is short, and after sorting it, equal edges are next to each other.
+  // Edges are listed by their lower end. Each list is short. After it is sorted, equal edges are next to each other.
   Vector<std::int32_t> end_of_list;
   resize(end_of_list, n_positions + 1);
   const auto ends_at = view(end_of_list);

@@ -83,8 +83,8 @@ void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet 
   set.connectivity = number;
 }
 
-// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if not exactly the plan's triangles
-// have an area here, or if some triangles are missed.
+// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if a triangle has an area here but
+// not in the plan, or the other way round, or if some triangles are missed.
 bool take_planned_triangles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                             const Connectivity &planned, TriangleSet &triangles) {
   Pieces pieces(set, how, grids, triangles);
@@ -126,7 +126,7 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
            " of the fixed triangulation may be off by ", grids[i].error_bound, " at this opening; it must be at most ",
            how.max_error, ", which is tolerance * half_thickness before scaling");
   if (!take_planned_triangles(patches, how, grids, plan.connectivity, memory)) {
-    // Not exactly the plan's triangles have an area here, so the plan's groups do not fit.
+    // The triangles that have an area here are not those of the plan, so the plan's groups do not fit.
     Pieces pieces(patches, how, grids, memory);
     const Vector<std::size_t> vanished = make_triangles(pieces);
     if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");

@@ -35,7 +35,7 @@ std::pair<Bezier, Bezier> split_through(const Bezier &curve, double t, Vec3 poin
   return {below, above};
 }
 
-// With the power 2 and tangents a third as long as the way, the cubic is exactly the profile.
+// With the power 2, and with tangents whose length is a third of the end's y, the cubic is exactly the profile.
 CuspProfile parabola(double radius_in, double radius_out, double angle) {
   const double third = radius_out * sine_cosine_degrees(angle).sine / 3;
   return {radius_in, radius_out, angle, 2, third, third};
