@@ -99,7 +99,7 @@ double half_thickness_of(const riis_surface_options &options) {
   return options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
 }
 
-// Returns measure_tolerance * half_thickness, with tolerance in place of a measure_tolerance that is RIIS_AUTO.
+// Returns measure_tolerance * half_thickness. If measure_tolerance is RIIS_AUTO, uses tolerance instead.
 double distance_error_of(const riis_surface_options &options) {
   return half_thickness_of(options) *
          (options.measure_tolerance == RIIS_AUTO ? options.tolerance : options.measure_tolerance);

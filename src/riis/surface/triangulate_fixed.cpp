@@ -115,7 +115,7 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
                               TriangleSet memory) {
   const Triangulation how = checked(set, asked);
   check_precision(set, how.max_error);
-  // Renumbers the curves only of states that share curves.
+  // If this state shares curves that other states do not, its curves are renumbered.
   std::optional<PatchSet> renumbered;
   if (!plan.curves.is_of(set)) renumbered = plan.curves.renumbered(set);
   const PatchSet &patches = renumbered ? *renumbered : set;
