@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sixteen floats or eight doubles that are computed together, in the registers of the instruction set that the including file is
+// Computes with sixteen floats or eight doubles at once, in the registers of the instruction set that the including file is
 // compiled for. Everything has internal linkage: files compiled for different instruction sets must not share a function,
 // because the linker could take it from the wrong file. For the same reason, this file includes no header with inline functions
 // that leave code.

@@ -23,7 +23,7 @@ struct Piece {
   std::int64_t first_vertex, first_triangle;
   std::int64_t n_triangles = 0;  // triangles that have an area; the range may have room for more
   Vector<LeftOut> left_out{};    // the triangles without area
-  bool is_whole = true;          // false if a triangle was left out that is missed (is_missed)
+  bool is_whole = true;          // false if one of the triangles left out is missed (is_missed)
 };
 
 // The vertices of a patch before its images are placed: first those of the grid, then those of subdivided quads.
