@@ -23,9 +23,9 @@ class MovedSide {
 
   bool is_at_rest() const { return is_at_rest_; }
 
-  // Returns the displacements at the given shares of the length, which ascend from 0 to 1. `points` has the current points where
-  // they are already known. `unknown` lists the positions of the others in ascending order. If it is not empty, it also lists
-  // the first position and the last.
+  // Returns the displacements at the given shares of the length, which ascend from 0 to 1. `points` has the current points, as
+  // far as they are known already. `unknown` lists the indices of the unknown points in ascending order. If it is not empty, it
+  // also lists the first index and the last.
   Vector<Vec3> displacements(const Vector<double> &shares, Vector<Vec3> points,
                              const Vector<std::size_t> &unknown) const {
     if (!unknown.empty()) {
