@@ -2,7 +2,8 @@
 //
 // riis.hpp - riis.h for C++17: handles that destroy themselves, errors as exceptions, structs with their defaults, spans.
 //
-// All calls are the functions of riis.h. A handle can be passed as a pointer, and out() as the address of a pointer:
+// All calls are the functions of riis.h. They take a handle where they need a pointer to an object, and its out() where they need
+// the address of a pointer:
 //
 //   riis::Valve valve; riis::Surface surface; riis::Mesh mesh; riis::Marks marks;
 //   riis::check(riis_valve_create("mitral", valve.out()));
@@ -45,13 +46,13 @@ inline void check(riis_status status) {
   if (status != RIIS_OK) throw Error(status, riis_last_error());
 }
 
-// Owns an object of the library, or none. It can be moved, but not copied.
+// Owns an object of the library, or nothing. A handle can be moved, but not copied.
 template <class Object, void (*destroy)(Object **)>
 class Handle {
  public:
   Handle() = default;
   Handle(std::nullptr_t) noexcept {}
-  explicit Handle(Object *object) noexcept : object_(object) {}  // takes the object over
+  explicit Handle(Object *object) noexcept : object_(object) {}  // takes ownership of the object
   Handle(Handle &&other) noexcept : object_(other.release()) {}
   Handle &operator=(Handle &&other) noexcept {
     if (this != &other) reset(other.release());
@@ -61,7 +62,7 @@ class Handle {
 
   operator Object *() const noexcept { return object_; }
   Object *get() const noexcept { return object_; }
-  // Destroys the object, and returns the address for the call that makes the next object.
+  // Destroys the object. Returns the address of the empty pointer, for a call that makes a new object.
   Object **out() noexcept {
     reset();
     return &object_;
@@ -70,7 +71,7 @@ class Handle {
     destroy(&object_);
     object_ = object;
   }
-  // Releases the object to the caller, who destroys it.
+  // Gives up the object and returns it. The caller must destroy it.
   Object *release() noexcept { return std::exchange(object_, nullptr); }
 
  private:
@@ -121,7 +122,7 @@ RIIS_INIT(riis_opening_angle_state)
 #undef RIIS_INIT
 }  // namespace detail
 
-// Returns a struct that the library reads, with its defaults.
+// Returns a struct for a call to read, with its default values.
 template <class Struct>
 Struct defaults() {
   Struct made;
@@ -129,7 +130,7 @@ Struct defaults() {
   return made;
 }
 
-// Returns a struct that a call fills in: get<riis_surface_info>(riis_surface_get_info, surface).
+// Returns a struct that a call has filled in, such as get<riis_surface_info>(riis_surface_get_info, surface).
 template <class Struct, class Call, class... Arguments>
 Struct get(const Call &call, const Arguments &...arguments) {
   Struct filled;
@@ -137,12 +138,12 @@ Struct get(const Call &call, const Arguments &...arguments) {
   return filled;
 }
 
-// A view of an array of the library or of the caller, as C++20's std::span, but with signed sizes. The owner keeps the array.
+// A view of an array of the library or of the caller. It is like C++20's std::span, but with signed sizes. It owns nothing.
 template <class T>
 class Span {
  public:
   Span() = default;
-  // An array that the library did not make is NULL. Its span is empty.
+  // Where the library made no array, data is NULL. The span is then empty.
   Span(T *data, std::int64_t size) noexcept : data_(data), size_(data ? size : 0) {}
 
   T *data() const noexcept { return data_; }

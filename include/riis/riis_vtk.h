@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * riis_vtk.h - optional component: meshes and surfaces from and to VTK files, pictures. A library of its own
- * (riis_vtk), so that the core never links VTK.
+ * riis_vtk.h - optional component: meshes and surfaces from and to VTK files, and pictures. It is a separate
+ * library, riis_vtk, so that the core never links VTK.
  *
- * The rules of riis.h hold here as well, errors come through riis_last_error(), and these are added:
+ * The rules of riis.h also hold here, and riis_last_error() has the messages. These rules are added:
  *
  * - VTK keeps process-wide state: call these functions from one thread at a time.
  * - Messages that VTK would print while a function runs are caught and become the message of the error.
- * - A file is refused if it is cut short, is of another kind, or claims more points, cells, values or bytes than
- *   it holds. VTK's own readers can still crash on a .vtu whose bytes were damaged: read files that you do not
- *   trust in a process that you can lose.
+ * - A file is refused if it is cut short, is of another kind, or claims more points, cells, values or bytes
+ *   than it holds. VTK's own readers can still crash on a .vtu file whose bytes were damaged. So read files
+ *   that you do not trust in a separate process.
  * - RIIS_OUT_OF_MEMORY names the file that was read or written.
- * - A path that cannot be read or written is RIIS_FILE_ERROR naming the file.
- * - A written file is complete or not there: it is written beside its place and then moved. It takes the
- *   permissions of a file that it replaces. If the path is a link, its target is written and the link stays.
- * - The caller's locale does not matter and is the same afterwards.
+ * - If a path cannot be read or written, the status is RIIS_FILE_ERROR, and the message names the file.
+ * - A written file is complete or does not exist: it is written under a temporary name and then moved. It gets
+ *   the permissions of the file that it replaces. If the path is a link, the link's target is written, and the
+ *   link stays.
+ * - The caller's locale has no influence and does not change.
  */
 /* clang-format off: as riis.h */
 #ifndef RIIS_RIIS_VTK_H
@@ -28,49 +29,50 @@ extern "C" {
 
 /* ---- Volume meshes ------------------------------------------------------------------------------------- */
 
-/* An unstructured grid as it was in the file, its points as doubles. */
+/* An unstructured grid as read from the file, with its points as doubles. */
 typedef struct riis_vtk_mesh riis_vtk_mesh;
 
-/* Reads an unstructured grid; it may have no cells.
+/* Reads an unstructured grid, which may have no cells. The faces of polyhedra may be in streams, or in lists
+ * as VTK 9.4 writes them.
  *   path  ends in .vtu (XML) or .vtk (legacy). A legacy file without cells must have CELLS 0 0, CELL_TYPES 0
- * Polyhedra may have their faces in streams, or in lists as VTK 9.4 writes them.
- * Errors: RIIS_FILE_ERROR naming the file: missing, unreadable, another data set, truncated, no points. */
+ * Errors: RIIS_FILE_ERROR naming the file, if it is missing, unreadable, another data set, truncated, or has
+ * no points. */
 RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh);
 /* Destroys the mesh. */
 RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh);
 
 /* Gives the nodes in the file's order, xyz(3, n_nodes), and the number of cells. The array is valid until the
- * mesh's destruction. */
+ * mesh is destroyed. */
 RIIS_API riis_status riis_vtk_mesh_get_nodes(const riis_vtk_mesh *mesh, int64_t *n_nodes, int64_t *n_cells,
                                              const double **xyz);
 
-/* Makes the adjacency of nodes that an edge of a cell of volume joins, for riis_mesh_set_adjacency. It borrows
- * nothing from the mesh. Nodes without such an edge get empty rows: RIIS_SEARCH_NEIGHBOR still finds them,
- * RIIS_SEARCH_PAPER does not.
- * - A linear cell, a prism of more sides and a polyhedron have the edges of their faces.
- * - A quadratic cell has edges from each corner to the middle of each of its sides, and between the middles of
- *   neighbouring sides of a face. If the face has a node in its middle, that node has edges to the others
- *   instead.
+/* Makes the adjacency of nodes that are joined by an edge of a volume cell, for riis_mesh_set_adjacency. It
+ * borrows nothing from the mesh. Nodes without such an edge get empty rows: RIIS_SEARCH_NEIGHBOR still finds
+ * them, RIIS_SEARCH_PAPER does not.
+ * - A linear cell, a prism with more than three sides and a polyhedron have the edges of their faces.
+ * - A quadratic cell has edges from each corner to the middle of each adjacent side, and between the middles
+ *   of neighbouring sides of a face. If the face has a node in its middle, this node has edges to all others
+ *   of the face instead.
  * - A Lagrange or Bezier tetrahedron, wedge or hexahedron has edges along the lines of its lattice.
- * The edges of other cells of volume are not known here. These are convex point sets, and Lagrange and Bezier
- * cells with nodes beyond their lattice. */
+ * The edges of other volume cells are not known here. These cells are convex point sets, and Lagrange and
+ * Bezier cells with nodes beyond their lattice. */
 RIIS_API riis_status riis_vtk_mesh_create_adjacency(const riis_vtk_mesh *mesh, int32_t n_threads,
                                                     riis_adjacency **adjacency);
-/* Counts the cells of volume. A mesh without such cells, as one of triangles, has no edge that leaks, so leaks
- * are unknown there.
+/* Counts the volume cells. In a mesh without volume cells, such as a mesh of triangles, leaks are unknown,
+ * because there is no edge that could leak.
  *   n_volume_cells    NULL if not wanted
- *   n_cells_left_out  the number of those whose edges are not known here, NULL if not wanted */
+ *   n_cells_left_out  the number of volume cells whose edges are not known here; NULL if not wanted */
 RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, int64_t *n_volume_cells,
                                                     int64_t *n_cells_left_out);
 
-/* Makes only the edges of that adjacency that riis_find_leaks needs, in one pass over the cells: those longer
- * than a length whose bounding box meets that of the surface. It borrows nothing. Use it for riis_find_leaks
- * alone: a search that walks along it stays where it started.
- *   longer_than       twice the half thickness of the marking; 0, for all edges near the surface, if it was
- *                     by RIIS_SEARCH_PAPER or by other distances than the triangles'. Edges up to a billionth
- *                     shorter count also
+/* Makes only those edges of that adjacency that riis_find_leaks needs, in one pass over the cells. They are
+ * longer than a given length, and their bounding box meets that of the surface. It borrows nothing. Use it
+ * only for riis_find_leaks: a search along so few edges would not get far from its start.
+ *   longer_than       twice the half thickness of the marking. 0 gives all edges near the surface; use it if
+ *                     the marking was by RIIS_SEARCH_PAPER, or if distances were not measured to the
+ *                     triangles. Edges shorter by up to a billionth are also included
  *   n_cells_left_out  as in riis_vtk_mesh_get_volume_cells
- * Errors: RIIS_INVALID_ARGUMENT for longer_than below 0 or not finite. */
+ * Errors: RIIS_INVALID_ARGUMENT if longer_than is below 0 or not finite. */
 RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, const riis_surface *surface,
                                                      double longer_than, int32_t n_threads,
                                                      int64_t *n_cells_left_out, riis_adjacency **adjacency);
@@ -78,44 +80,46 @@ RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, 
 /* Sets the point arrays of a marking: PREFIX_marked (UInt8, 0 or 1), PREFIX_distance (Float64, far_distance
  * beyond the limit), PREFIX_leaflet (Int32, -1 beyond the limit). Arrays of these names are replaced.
  *   far_distance  as in riis_dense_arrays
- *   prefix        1 to 64 letters, digits, "_", "-" and ".". NULL is "riis", whose marks riis_vtk_draw shows
+ *   prefix        1 to 64 letters, digits, "_", "-" and ".". NULL stands for "riis", whose marks riis_vtk_draw
+ *                 shows
  * Errors: RIIS_INVALID_ARGUMENT for marks of a mesh with another number of nodes. */
 RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_marks *marks, double far_distance,
                                              const char *prefix);
-/* Sets point arrays of the fields of a marking: PREFIX_point, PREFIX_normal,
- * PREFIX_barycentric, PREFIX_uv, PREFIX_velocity (Float64), PREFIX_side, PREFIX_rim, PREFIX_patch (Int32).
- * Beyond the limit they are 0, and PREFIX_patch is -1.
+/* Sets point arrays for the fields of a marking: PREFIX_point, PREFIX_normal, PREFIX_barycentric, PREFIX_uv,
+ * PREFIX_velocity (Float64), PREFIX_side, PREFIX_rim, PREFIX_patch (Int32). Beyond the limit they are 0, and
+ * PREFIX_patch is -1.
  *   fields  a sum of RIIS_FIELD_* of the marking's fields
  *   prefix  as in riis_vtk_mesh_set_marks
- * Errors: RIIS_INVALID_ARGUMENT for a field that the marks lack, and as riis_vtk_mesh_set_marks. */
+ * Errors: RIIS_INVALID_ARGUMENT for a field that the marks lack, and as in riis_vtk_mesh_set_marks. */
 RIIS_API riis_status riis_vtk_mesh_set_fields(riis_vtk_mesh *mesh, const riis_marks *marks,
                                               int32_t fields, const char *prefix);
-/* Sets a point array of the caller's numbers, such as a resistance; an array of that name is replaced.
- *   name          as a prefix of riis_vtk_mesh_set_marks
- *   n_nodes       of the mesh
- *   n_components  1 to 9 a node
+/* Sets a point array with the caller's numbers, such as a resistance. An array of that name is replaced.
+ *   name          the same letters as the prefix of riis_vtk_mesh_set_marks
+ *   n_nodes       the mesh's number of nodes
+ *   n_components  1 to 9 for each node
  *   values        (n_components, n_nodes) */
 RIIS_API riis_status riis_vtk_mesh_set_point_array(riis_vtk_mesh *mesh, const char *name, int64_t n_nodes,
                                                    int64_t n_components, const double *values);
-/* Tells whether the mesh has a point array of that name: *has is 1 or 0. */
+/* Tells whether the mesh has a point array of that name: *has is then 1, otherwise 0. */
 RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, const char *name, int32_t *has);
-/* Gives the median length of the edges of cells of volume, those of riis_vtk_mesh_create_adjacency, and of faces other
- * than polygons. It is 0 without such cells. An edge counts once for each of its cells. At most 20,000 cells, evenly spaced
- * in their order, are measured. */
+/* Gives the median length of edges: those of volume cells, as in riis_vtk_mesh_create_adjacency, and those of
+ * faces other than polygons. It is 0 if the mesh has no such cells. An edge counts once for each of its cells.
+ * At most 20,000 cells, at equal distances in the list, are measured. */
 RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, double *length);
 
-/* Makes a mesh of some nodes and of all cells that have one of them, with the cells' other nodes. Nodes and
- * cells keep their order and their data. Two arrays tell their ids in the whole mesh: riis_node_id of points
- * and riis_cell_id of cells (Int64). The part borrows nothing.
+/* Makes a mesh of all cells that have one of the given nodes, with all nodes of these cells. Nodes and cells
+ * keep their order and their data. Two arrays have their ids in the whole mesh: riis_node_id of points and
+ * riis_cell_id of cells (Int64). The part borrows nothing.
  *   n_ids     >= 0
  *   node_ids  (n_ids), 0 to n_nodes - 1, in any order
- * Errors: RIIS_INVALID_ARGUMENT naming the id and its place in node_ids. */
+ * Errors: RIIS_INVALID_ARGUMENT naming the id and its position in node_ids. */
 RIIS_API riis_status riis_vtk_mesh_extract(const riis_vtk_mesh *mesh, int64_t n_ids, const int64_t *node_ids,
                                            riis_vtk_mesh **part);
-/* Gives the number of bytes that the file of riis_vtk_mesh_write takes, without its few kilobytes of text. */
+/* Gives the number of bytes of the file that riis_vtk_mesh_write would write, without its few kilobytes of
+ * text. */
 RIIS_API riis_status riis_vtk_mesh_get_file_size(const riis_vtk_mesh *mesh, int64_t *n_bytes);
 
-/* Writes the mesh with all its arrays to a file, points as Float64.
+/* Writes the mesh with all its arrays to a file. The points are Float64.
  *   path  ends in .vtu */
 RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *path);
 
@@ -124,56 +128,56 @@ RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *
 /* Triangles or quads read from a file. */
 typedef struct riis_vtk_surface riis_vtk_surface;
 
-/* Reads a surface. Polygons and strips are cut into triangles; quads stay in a file of quads only.
- *   path  ends in .vtp (faces only), .vtu (triangles, quads, polygons, strips; errors name other cells) or
- *         .stl
- *   leaflets  the name of the cell array of leaflet ids, one whole number >= 0 a cell. It must be there. NULL is
- *             riis_leaflet, which need not be there
- * A quad is cut from its first corner to its third. The corners of a concave quad move on by one, the winding
- * kept, if that line runs outside it.
- * Errors: RIIS_FILE_ERROR naming the file, and the cell with its value or the arrays that there are. */
+/* Reads a surface. Polygons and strips are cut into triangles. Quads stay quads if the file has only quads.
+ *   path      ends in .vtp (faces only), .vtu (triangles, quads, polygons, strips; errors name other cells) or
+ *             .stl
+ *   leaflets  the name of the cell array of leaflet ids, one whole number >= 0 for each cell. The array must
+ *             exist. NULL stands for riis_leaflet, which may be missing
+ * A quad is cut from its first corner to its third. If this line runs outside a concave quad, the list of its
+ * corners is first rotated by one, which keeps the winding.
+ * Errors: RIIS_FILE_ERROR naming the file, and the cell with its value or the existing arrays. */
 RIIS_API riis_status riis_vtk_surface_read(const char *path, const char *leaflets, riis_vtk_surface **surface);
 /* Makes every connected piece of the surface a leaflet, numbered from 0 in the order of the pieces' first
- * faces. Faces are connected if they share a vertex, or have vertices with exactly the same coordinates, as
- * in an .stl file. Arrays that the surface gave before are no longer valid. */
+ * faces. Faces are connected if they share a vertex, or have vertices with exactly the same coordinates, as in
+ * an .stl file. Arrays that the surface gave before become invalid. */
 RIIS_API riis_status riis_vtk_surface_number_pieces(riis_vtk_surface *surface);
-/* Destroys the surface. Its arrays are no longer valid; surfaces made from it stay. */
+/* Destroys the surface. Its arrays become invalid. Surfaces made from it stay. */
 RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface);
-/* Gives the arrays of the surface, for riis_surface_create_from_arrays. They are valid until the surface's
- * destruction. */
+/* Gives the arrays of the surface, for riis_surface_create_from_arrays. They are valid until the surface is
+ * destroyed. */
 RIIS_API riis_status riis_vtk_surface_get_arrays(const riis_vtk_surface *surface, riis_surface_arrays *arrays,
                                                  int64_t struct_size);
 
-/* Writes exactly the triangles that are queried, after placement, to a file: points Float64; cell arrays
- * riis_leaflet, riis_patch (Int32), riis_triangle (Int64); point arrays riis_uv (2 x Float64) for valves and
- * riis_velocity (3 x Float64) if the surface's last update gave velocities.
+/* Writes to a file exactly the triangles that answer queries, after placement. Points are Float64. Cell arrays
+ * are riis_leaflet, riis_patch (Int32) and riis_triangle (Int64). Point arrays are riis_uv (2 x Float64) for
+ * valves, and riis_velocity (3 x Float64) if the surface's last update gave velocities.
  *   path  ends in .vtp */
 RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const char *path);
 
 /* ---- Motion -------------------------------------------------------------------------------------------- */
 
-/* The frames of a surface that moves, such as a patient's valve, read from files: the same faces at several
- * times. It becomes keyframes, which take the frames' period and interpolation:
+/* The frames of a moving surface, such as a patient's valve, read from files: the same faces at several times.
+ * Keyframes are made from it, which take the frames' period and interpolation:
  *   riis_vtk_motion_read_pvd("valve.pvd", NULL, &motion);
  *   riis_vtk_motion_get_arrays(motion, &arrays, sizeof arrays);
  *   riis_vtk_motion_get_frames(motion, &frames, sizeof frames);
  *   frames.period = 0.8;
  *   riis_keyframes_create(&arrays, &frames, &keyframes); riis_vtk_motion_destroy(&motion);
  * All reading functions share these rules:
- * - Files are as for riis_vtk_surface_read, at most 1,000,000. They have the same points and cells in the
- *   same order. Polygons and quads are cut as in the first file.
- * - Leaflets are those of the first file. `leaflets` names their cell array, as in
- *   riis_vtk_surface_read.
+ * - Files are as for riis_vtk_surface_read, at most 1,000,000. They have the same points and cells in the same
+ *   order. Polygons and quads are cut as in the first file.
+ * - Leaflets come from the first file. `leaflets` names their cell array, as in riis_vtk_surface_read.
  * - An .stl file has triangles, in the same order in all files, and no vertices. Corners at exactly the same
- *   place in the first file are one vertex, and must share their place in every other file. A surface whose
- *   leaflets touch at corners in the first file, and part later, needs files with points.
+ *   position in the first file become one vertex, and must be at one position in every other file too. If
+ *   leaflets touch at corners in the first file and part later, use files with points instead.
  * - Times ascend strictly, and coordinates are finite, as in riis_keyframe_arrays.
- * Errors: RIIS_FILE_ERROR naming the file and what differs, with its value. */
+ * Errors: RIIS_FILE_ERROR naming the file and the difference, with its value. */
 typedef struct riis_vtk_motion riis_vtk_motion;
 
-/* Reads a motion from a ParaView collection. Each DataSet has a timestep and a file, absolute or relative to
- * the folder of the .pvd file. Other attributes do not count, so a time in several parts is refused.
- * Errors: RIIS_FILE_ERROR naming the .pvd file and the DataSet, also without any DataSet. */
+/* Reads a motion from a ParaView collection. Each DataSet has a timestep and a file, whose path is absolute or
+ * relative to the folder of the .pvd file. Other attributes are ignored, so a time in several parts is
+ * refused.
+ * Errors: RIIS_FILE_ERROR naming the .pvd file and the DataSet, also if there is no DataSet. */
 RIIS_API riis_status riis_vtk_motion_read_pvd(const char *path, const char *leaflets,
                                               riis_vtk_motion **motion);
 /* Reads a motion from a list of files.
@@ -184,29 +188,29 @@ RIIS_API riis_status riis_vtk_motion_read_pvd(const char *path, const char *leaf
 RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *const *paths,
                                                 const double *times, const char *leaflets,
                                                 riis_vtk_motion **motion);
-/* Reads a motion from one .vtp or .vtu file with displacements. A frame is the points plus a point array of 3
- * components. The points alone are no frame.
- *   prefix   the arrays' names are the prefix, "_" or nothing, and a whole number, such as displacement_0,
- *            displacement_10. Frames are in the order of the numbers, which may have gaps
+/* Reads a motion from one .vtp or .vtu file with displacements. Each frame is the points plus a point array of
+ * 3 components. The points alone are not a frame.
+ *   prefix   each array's name is the prefix, then "_" or nothing, then a whole number, such as displacement_0
+ *            and displacement_10. Frames are in the order of the numbers, which may have gaps
  *   n_times  the number of these arrays, or 0
- *   times    (n_times); NULL, with n_times 0, takes the numbers of the field array TimeValue
- * Errors: RIIS_INVALID_ARGUMENT naming the entry of times, and for another n_times than arrays. */
+ *   times    (n_times); NULL, with n_times 0, takes the times from the field array TimeValue
+ * Errors: RIIS_INVALID_ARGUMENT naming the entry of times, and if n_times is not the number of arrays. */
 RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const char *prefix, int64_t n_times,
                                                         const double *times, const char *leaflets,
                                                         riis_vtk_motion **motion);
-/* Gives the files that were read, one for each frame, or the one with displacements.
- *   paths  (n_files), as given or with the folder of the .pvd file; valid until the motion's destruction */
+/* Gives the files that were read: one for each frame, or the one file with displacements.
+ *   paths  (n_files), as given, or after the folder of the .pvd file; valid until the motion is destroyed */
 RIIS_API riis_status riis_vtk_motion_get_files(const riis_vtk_motion *motion, int64_t *n_files,
                                                const char *const **paths);
 /* Makes every connected piece of the first frame a leaflet, as riis_vtk_surface_number_pieces does. */
 RIIS_API riis_status riis_vtk_motion_number_pieces(riis_vtk_motion *motion);
-/* Destroys the motion. Its arrays are no longer valid; keyframes made from it stay. */
+/* Destroys the motion. Its arrays become invalid. Keyframes made from it stay. */
 RIIS_API void riis_vtk_motion_destroy(riis_vtk_motion **motion);
-/* Gives the faces of all frames with the vertices of the first, for riis_keyframes_create. They are valid until
- * the motion's destruction or riis_vtk_motion_number_pieces. */
+/* Gives the faces of all frames with the vertices of the first frame, for riis_keyframes_create. They are
+ * valid until the motion is destroyed or riis_vtk_motion_number_pieces is called. */
 RIIS_API riis_status riis_vtk_motion_get_arrays(const riis_vtk_motion *motion, riis_surface_arrays *arrays,
                                                 int64_t struct_size);
-/* Gives the frames, for riis_keyframes_create. They are valid until the motion's destruction. */
+/* Gives the frames, for riis_keyframes_create. They are valid until the motion is destroyed. */
 RIIS_API riis_status riis_vtk_motion_get_frames(const riis_vtk_motion *motion, riis_keyframe_arrays *frames,
                                                 int64_t struct_size);
 
@@ -219,19 +223,19 @@ enum {
   RIIS_VTK_VIEW_OBLIQUE = 2 /* from above one side, z up */
 };
 
-/* What a picture shows and how. Texts are ASCII; other characters are drawn as ?. */
+/* What a picture shows and how. Texts are in ASCII. Other characters are drawn as "?". */
 typedef struct riis_vtk_picture_options {
   int64_t struct_size;    /* set by the init function */
-  const char *title;      /* stands before the number of triangles; NULL, the default: "Surface" */
-  const char *unit;       /* stands behind the number at the scale bar, such as "mm". NULL, the default, and "":
-                             "mesh units", or "units" without a mesh */
+  const char *title;      /* precedes the number of triangles. Default NULL: "Surface" */
+  const char *unit;       /* follows the number at the scale bar, such as "mm". Default NULL, and "": "mesh units", or
+                             "units" without a mesh */
   int64_t n_leaflet_names;/* >= 0, default 0 */
-  const char *const *leaflet_names; /* (n_leaflet_names): by leaflet_id, for the key of the colours; NULL, the
-                                       default, and leaflets beyond: "leaflet 0", ... */
+  const char *const *leaflet_names; /* (n_leaflet_names): the names by leaflet_id, for the key of the colours. Default
+                                       NULL: "leaflet 0", ..., as for leaflets without a name here */
   int64_t n_leaking_edges;/* >= 0, default 0 */
-  const int64_t *leaking_edges; /* (2, n_leaking_edges): node ids of mesh edges to draw red, in front of all
-                                   else. NULL, the default: no word of leaks. Not NULL, but none: the picture
-                                   says that no edge leaks */
+  const int64_t *leaking_edges; /* (2, n_leaking_edges): node ids of mesh edges, drawn in red in front of everything.
+                                   Default NULL: the picture does not mention leaks. If not NULL, but n_leaking_edges
+                                   is 0, it says that no edge leaks */
   int32_t view;           /* RIIS_VTK_VIEW_*. Default RIIS_VTK_VIEW_OBLIQUE */
   int32_t width, height;  /* pixels, 64 to 8192. Default 1600 x 800 */
   int32_t reserved;       /* 0 */
@@ -240,43 +244,44 @@ typedef struct riis_vtk_picture_options {
 RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *options, int64_t struct_size);
 
 /* Draws the surface and the marked cells of the mesh into a .png file, in two panels to the same scale.
- * - The left panel shows the surface, each leaflet in a colour. Six colours are used in turn. The key
- *   below names as many leaflets as fit, and dots stand for the others. Leaflets seen edge on are lines.
+ * - The left panel shows the surface with a colour for each leaflet. Six colours are used in turn. The key
+ *   below it names as many leaflets as fit, and dots replace the others. Leaflets seen edge-on appear as
+ *   lines.
  * - The right panel shows marked cells in the faint outline of the mesh. A cell with all nodes marked has the
- *   colour of the leaflet nearest to one of them. Only the far side of other cells with a marked node is
- *   drawn, pale.
- * - Captions count nodes and cells. If the mesh has volumes, flat cells are neither drawn nor counted.
- * - Axes and a scale bar stand below the panels. A mesh much longer than the surface is cut at dashed lines.
+ *   colour of the leaflet nearest to one of them. Of other cells with a marked node, only the far side is
+ *   drawn, in a pale colour.
+ * - Captions count nodes and cells. If the mesh has volume cells, flat cells are neither drawn nor counted.
+ * - Axes and a scale bar are below the panels. A mesh much longer than the surface is cut at dashed lines.
  *   Pictures lower than 120 pixels have no texts, axes or bar.
  *
- *   mesh  with marks set; NULL draws the surface alone, in one panel
+ *   mesh  must have marks set. NULL draws the surface alone, in one panel
  *   path  ends in .png
  * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second; RIIS_INVALID_ARGUMENT for
- * leaking_edges without a mesh, or outside of it. */
+ * leaking_edges without a mesh, or with nodes that the mesh lacks. */
 RIIS_API riis_status riis_vtk_draw(const riis_surface *surface, const riis_vtk_mesh *mesh,
                                    const riis_vtk_picture_options *options, const char *path);
 
-/* Draws one picture for each view as riis_vtk_draw does, with geometry and window made only once.
+/* Draws one picture for each view, as riis_vtk_draw does, but makes geometry and window only once.
  *   n_views  >= 0
- *   views    (n_views) RIIS_VTK_VIEW_*; options->view is not used
- *   paths    (n_views) the files; pictures that were finished before an error stay
+ *   views    (n_views) RIIS_VTK_VIEW_*; options->view is ignored
+ *   paths    (n_views) the files. Pictures that were finished before an error stay
  * Errors: as riis_vtk_draw. */
 RIIS_API riis_status riis_vtk_draw_views(const riis_surface *surface, const riis_vtk_mesh *mesh,
                                          const riis_vtk_picture_options *options, int64_t n_views,
                                          const int32_t *views, const char *const *paths);
 
-/* Pictures of a valve that moves in one mesh, by one camera, such as the frames of a movie. */
+/* Pictures of a valve that moves in one mesh, all seen by one camera, such as the frames of a movie. */
 typedef struct riis_vtk_film riis_vtk_film;
 /* Makes the window and the outline of the mesh, which all pictures share.
- *   mesh          its nodes and cells stay as they are, its marks change; NULL draws the surface alone. The
- *                 film shares it, so it may be destroyed first
+ *   mesh          its nodes and cells must stay the same, but its marks may change. NULL draws the surface
+ *                 alone. The film shares the mesh's data, so the mesh may be destroyed first
  *   lower, upper  (3), bounds of the surface at all times, for the camera
- *   options       the view, the size and the leaflets' names; title and leaking edges do not count
+ *   options       the view, the size and the leaflets' names; title and leaking edges are ignored
  * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second; RIIS_INVALID_ARGUMENT for
  * bounds that are not finite or do not ascend. */
 RIIS_API riis_status riis_vtk_film_create(const riis_vtk_mesh *mesh, const double *lower, const double *upper,
                                           const riis_vtk_picture_options *options, riis_vtk_film **film);
-/* Draws the surface and the marks that the mesh has now, as riis_vtk_draw does, into a .png file.
+/* Draws the surface and the marks that the mesh has at present into a .png file, as riis_vtk_draw does.
  *   title  as in riis_vtk_picture_options
  * Errors: as riis_vtk_draw. */
 RIIS_API riis_status riis_vtk_film_draw(riis_vtk_film *film, const riis_surface *surface, const char *title,

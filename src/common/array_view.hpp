@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Views and resizes containers by int64_t, the type of every count and position in this project. These numbers are never
-// negative. The containers' own functions take std::size_t, so this file has the conversions.
+// Views and resizes containers with counts and positions of type int64_t. The whole project uses this type for them, and they
+// are never negative. The containers' own functions take std::size_t, so this file converts.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@
 
 namespace riis {
 
-// The elements of an array. The owner keeps the array while the view is used.
+// A view of the elements of an array. The owner must keep the array while the view is used.
 template <class T>
 class ArrayView {
  public:
   constexpr ArrayView(T *data, std::int64_t size) : data_(data), size_(size) {}
 
   constexpr T &operator[](std::int64_t i) const {
-#if defined(_GLIBCXX_ASSERTIONS)  // with this macro the containers check positions, and so does the view
+#if defined(_GLIBCXX_ASSERTIONS)  // with this macro, the standard containers check positions, and so does the view
     if (i < 0 || i >= size_) std::abort();
 #endif
     return data_[i];

@@ -11,7 +11,8 @@
 
 namespace riis {
 
-// A number with a given number of significant digits. Other numbers get enough digits to differ from all other numbers.
+// A number that a message shows with n_digits significant digits. A plain double is shown with as many digits as it takes to
+// read the same double back.
 struct Rounded {
   double value;
   int n_digits;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the existing name that a user may have meant by a wrong one. The code is all in this header, because the program also
-// needs it.
+// Finds the existing name that is nearest to a wrong one, because the user probably meant it. All the code is in this header,
+// because the library and the program both include it.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,8 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   a = a.substr(0, longest);
   b = b.substr(0, longest);
   const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  // The rows are for i - 2, i - 1 and i letters of a, and column j is for j letters of b.
+  // rows[i % 3][j] is the distance between the first i letters of a and the first j letters of b. The rows of i - 1 and i - 2
+  // are still needed.
   std::array<std::array<std::size_t, longest + 1>, 3> rows{};
   for (std::size_t j = 0; j <= b.size(); ++j) rows[0][j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -34,7 +35,7 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   return rows[a.size() % 3][b.size()];
 }
 
-// Compares candidates and keeps the nearest one, or the first of equally near ones. Very different names do not count.
+// Compares candidates and keeps the nearest one, or the first of several equally near ones. It ignores very different names.
 class NearestName {
  public:
   explicit NearestName(std::string_view name)

@@ -28,7 +28,7 @@ OpeningLaw law_of_command_line(const MarkOptions &options) {
   return OpeningLaw(std::move(table), series.cycle);
 }
 
-// Collects the options of a series that have no effect at one time.
+// Refuses options that have an effect only in a series.
 void check_one_time(const Case &all) {
   const SeriesOptions &series = all.options.series;
   const std::string why = " needs times: " + series.case_file + " has none, and --times is not given";
@@ -63,7 +63,7 @@ void write_case_files(const MarkOptions &options, const std::vector<MovingValve>
   }
 }
 
-// Prints a line for each valve, and the files.
+// Prints a line for each valve and for each written file.
 void print_case(const Case &all, const std::vector<MovingValve> &valves, const Report &report) {
   if (all.options.quiet) return;
   std::string text = "mesh      " + all.options.mesh + ": " + counted(valves[0].stats().n_nodes, "node") + "\n";
@@ -77,7 +77,7 @@ void print_case(const Case &all, const std::vector<MovingValve> &valves, const R
   write_text("-", text);
 }
 
-// Marks all valves and sets their arrays. Returns the largest number of marked nodes of any valve.
+// Marks all valves and sets their arrays in the mesh file. Returns the largest number of marked nodes of any valve.
 int64_t mark_valves(const Case &all, std::vector<MovingValve> &valves, const riis_mesh *mesh, riis_vtk_mesh *file) {
   int64_t n_nodes = 0, most = 0;
   check(riis_vtk_mesh_get_nodes(file, &n_nodes, nullptr, nullptr));
@@ -131,7 +131,7 @@ Case case_of_command_line(const MarkOptions &options) {
   ValveSource source{options, nullptr, nullptr};
   if (options.surface.empty()) {
     source.law = law_of_command_line(options);
-    // make_valve refuses a file of patches that cannot open as far as the law requires.
+    // make_valve refuses a file of patches if the valve cannot open as far as the law requires.
     source.options.opening = largest_opening(source.law, options.series.times);
     source.valve = make_valve(source.options);
     source.has_open_state = !options.params_open.empty();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several valves in one mesh, at one time or at many. A series of one valve from the command line is a case also.
+// A case: one or several valves in one mesh, at one time or at many. A series of one valve from the command line is also a case.
 #pragma once
 
 #include <string>
@@ -12,20 +12,21 @@
 namespace riis::program {
 
 struct Case {
-  MarkOptions options;  // the mesh, the times, the outputs; a prefix for the arrays that all valves share
+  MarkOptions options;  // the mesh, the times, the outputs, and a prefix for the arrays that all valves share
   std::vector<ValveSource> valves;
-  std::vector<std::string> files;  // all files that were read; no output may replace them
+  std::vector<std::string> files;  // all files that were read; no output may replace one of them
 
   bool has_resistance() const;
   bool is_series() const { return !options.series.times.empty(); }
-  // Returns the name that the valve's own files and columns have, or "" if it is the only valve.
+  // Returns the name for the files and columns of one valve, or "" if it is the only valve.
   std::string part_of(std::size_t valve) const { return valves.size() == 1 ? "" : valves[valve].options.prefix; }
 };
 
-// Returns the command line's valve, with --times and --cycle, as a case.
+// Returns the valve, the times and the cycle of the command line as a case.
 Case case_of_command_line(const MarkOptions &options);
 
-// Marks the mesh at one time. Returns exit_fine, or exit_none_marked if the user did not allow that. Throws a Refusal.
+// Marks the mesh at one time. Returns exit_fine, or exit_none_marked if no node was marked and the user did not allow that.
+// Throws a Refusal.
 ExitCode run_case(Case &all);
 
 }  // namespace riis::program

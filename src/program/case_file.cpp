@@ -79,7 +79,7 @@ class CaseReader {
     }
   }
 
-  // Returns a path of the case, which is relative to the case's folder, or "" if the key is not there.
+  // Returns the path that a key gives, or "" if the key is missing. A relative path starts from the case's folder.
   std::string file_of(const CaseValues &values, const char *key) {
     const std::string text = values.text(key);
     if (text.empty()) return "";
@@ -128,7 +128,7 @@ class CaseReader {
   void read_placement(const CaseValues &values, MarkOptions &options) const {
     riis_surface_options &surface = options.surface_options;
     if (const auto scale = values.above_zero("scale")) {
-      if (options.unit) values.refuse("scale", "it goes with no \"unit\", which gives the scale");
+      if (options.unit) values.refuse("scale", "it cannot be combined with \"unit\", which gives the scale");
       options.has_scale = true;
       surface.scale = *scale;
     }
@@ -183,7 +183,7 @@ class CaseReader {
     set_law(values, source.valve.get(), source);
   }
 
-  // Sets parameters from an object, or from the file whose path stands there.
+  // Sets parameters from an object, or from a file if the value is a path.
   void set_parameters_of(const CaseValues &values, const char *key, riis_valve *valve) {
     if (!values.has(key)) return;
     if (values.needed(key).is_string())
@@ -192,7 +192,7 @@ class CaseReader {
       set_from_json(valve, values.needed(key), values.subject() + ": " + key);
   }
 
-  // Sets the law, and the valve's largest opening, for the check whether it can open.
+  // Sets the law of opening. Also sets the valve to its largest opening, which fails if the valve cannot open.
   void set_law(const CaseValues &values, riis_valve *valve, ValveSource &source) {
     const std::vector<double> &times = all_.options.series.times;
     source.law = OpeningLaw(opening_of(valve));
@@ -208,7 +208,7 @@ class CaseReader {
 
   void make_surface_of(const CaseValues &values, ValveSource &source) {
     for (const char *key : {"parameters", "open_parameters", "opening", "tolerance", "triangulation"})
-      if (values.has(key)) values.refuse(key, "it goes with no \"surface\"");
+      if (values.has(key)) values.refuse(key, "it cannot be combined with \"surface\"");
     Seconds seconds;
     if (!is_motion_file(source.options.surface)) {
       if (values.has("period")) values.refuse("period", "it needs a \"surface\" that moves, a .pvd file");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: a case file in JSON, which describes the valves of a mesh with their placements and motions. Out: the case. Paths in the
-// file are relative to it. Refusals name the file, the valve and the key.
+// file are relative to the file's folder. Refusals name the file, the valve and the key.
 #pragma once
 
 #include <functional>
@@ -12,19 +12,19 @@
 
 namespace riis::program {
 
-// Reads the case of --case. A mesh, times and distance limit on the command line take the place of the file's.
+// Reads the case file of --case. A mesh, times and a distance limit on the command line replace those in the file.
 Case read_case(const MarkOptions &options);
 
 // In: the opening of a valve in a case. Out: its law.
 
 struct CaseOpening {
   OpeningLaw law;
-  std::string file;  // the file that was read; "": none
+  std::string file;  // the file that was read, or "" if there was none
 };
 
-// Reads a number, or an object: {"file"}, {"times", "openings"}, each with "period" and "interpolation", or {"opening_start",
-// "opening_duration", "closing_start", "closing_duration", "closed", "open", "period"}. in_folder makes a path relative to the
-// case.
+// Reads a number or an object. An object is {"file"} or {"times", "openings"}, each with "period" and "interpolation", or it is
+// {"opening_start", "opening_duration", "closing_start", "closing_duration", "closed", "open", "period"}. in_folder turns a path
+// of the case file into one relative to the working folder.
 CaseOpening case_opening(const CaseValues &valve, const std::function<std::string(const std::string &)> &in_folder);
 
 }  // namespace riis::program

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one option says of another. See command_options.hpp.
+// Checks that the options of a command fit together. See command_options.hpp.
 #include "program/command_options.hpp"
 
 #include <CLI/CLI.hpp>
@@ -39,7 +39,7 @@ void finish_units(ValveOptions &options) {
   apply_units(options);
 }
 
-// Requires a motion for a time, and a motion or a cycle for a period.
+// Refuses a motion without a time, a time without a motion, and a period without a motion or a cycle.
 void check_motion(const Command &command, const ValveOptions &options, bool has_times, bool has_cycle) {
   const bool is_motion = is_motion_file(options.surface);
   if (is_motion && !options.time && !has_times)
@@ -55,7 +55,7 @@ void check_open_state(const ValveOptions &options) {
     refuse_usage("--params-open has no effect with --valve " + options.valve + ": the open state is in that file");
 }
 
-// At the default opening of most valves the file would have no effect, and the user would not notice.
+// Refuses an open state that would have no effect. Most valves are closed by default, and the user would not notice.
 void check_open_state_is_met(const ValveOptions &options, bool has_cycle) {
   if (!options.params_open.empty() && !sets_opening(options) && !has_cycle)
     refuse_usage("--params-open needs --opening or --cycle: without either the valve does not open to that state");
@@ -96,11 +96,11 @@ bool has_output(const MarkOptions &options) {
          !options.stats.empty() || !options.series.movie.empty() || !options.series.table.empty();
 }
 
-// The solver takes every blank out of a path.
+// svMultiPhysics removes every blank from a path.
 void check_folder_name(const std::string &folder) {
   const auto is_blank = [](unsigned char c) { return c <= ' ' || c == 127; };
   if (std::any_of(folder.begin(), folder.end(), is_blank))
-    refuse_usage("FOLDER: '" + folder + "' has a blank, and svMultiPhysics reads no path with one");
+    refuse_usage("FOLDER: '" + folder + "' has a blank, and svMultiPhysics cannot read such a path");
 }
 
 }  // namespace
@@ -162,7 +162,7 @@ ParamsOptions finish_params(const Command &, ParamsOptions options) {
   return options;
 }
 
-// ---- What options say ----
+// ---- Values that follow from options ----
 
 const std::vector<std::string> &triangulation_names() {
   static const std::vector<std::string> names = {"adapted", "fixed"};

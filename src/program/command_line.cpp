@@ -15,31 +15,31 @@
 namespace riis::program {
 namespace {
 
-// Lists an option with the value that it takes. CLI11 would also list the options that it excludes and needs, and these would
-// fill a screen.
+// Formats an option as its name and the type of its value. CLI11 would also list the options that it excludes and needs, and the
+// help would not fit on a screen.
 class BriefHelp : public CLI::Formatter {
  public:
   BriefHelp() { column_width(36); }
 
   std::string make_option_opts(const CLI::Option *option) const override {
     if (option->get_positional() || option->get_type_size() == 0) return "";
-    const std::string type = option->get_type_name();  // followed by the words that it may be
+    const std::string type = option->get_type_name();  // CLI11 appends the allowed words to the type
     return " " + type.substr(0, type.find(":{"));
   }
 };
 
-// Two blank lines become one.
+// Replaces two blank lines by one.
 std::string tidied(std::string help) {
   for (std::size_t at = 0; (at = help.find("\n\n\n", at)) != std::string::npos;) help.erase(at, 1);
   return help;
 }
 
-// Returns the name of a command as it is typed, such as "riis check leaks".
+// Returns the full name of a command as the user types it, such as "riis check leaks".
 std::string name_of(const CLI::App &app) {
   return (app.get_parent() ? name_of(*app.get_parent()) + " " : "") + app.get_name();
 }
 
-// CLI11 would turn "--output= mesh.vtu" into "--output=mesh.vtu".
+// Refuses "--output= mesh.vtu", because CLI11 would read it as "--output=mesh.vtu".
 void check_equals_signs(int argc, char **argv) {
   for (int i = 1; i < argc && argv[i] != std::string("--"); ++i) {
     const std::string argument = argv[i];
@@ -48,8 +48,8 @@ void check_equals_signs(int argc, char **argv) {
   }
 }
 
-// Explains words that are left over on the command line. Mostly the user typed a value as several words, but the option takes
-// one word.
+// Returns a hint about words that are left over on the command line. In most cases the user typed a value as several words
+// although the option takes one word.
 std::string hint_of(const CLI::App &app) {
   const struct {
     const char *name;
@@ -76,8 +76,9 @@ std::string nearest_option(const CLI::App &app, const std::string &name) {
 
 bool looks_like_option(const std::string &argument) { return argument.size() > 1 && argument[0] == '-'; }
 
-// Returns the words that CLI11 did not understand, in the order of typing. CLI11 has another order. The value of an unknown
-// option is also left over, or it is taken for the mesh. So in this case the result has only the options.
+// Returns a text that lists the words that CLI11 did not understand, in the order of typing. (CLI11 does not keep this order.)
+// If there are unknown options among them, the text lists only these, because their values are also left over or were taken for
+// the mesh.
 std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
   std::vector<std::string> left = app.remaining();
   const bool has_options = std::any_of(left.begin(), left.end(), looks_like_option);
@@ -101,7 +102,7 @@ std::vector<const CLI::App *> commands_of(const CLI::App &app) {
   return app.get_subcommands([](const CLI::App *) { return true; });
 }
 
-// Returns the command of this name. Refuses a word that is none in a place that needs a command.
+// Returns the command with this name. Refuses a word that is not a command.
 const CLI::App &command_named(const CLI::App &app, const std::string &word) {
   const std::string hint = " (" + name_of(app) + " --help lists the commands)";
   if (looks_like_option(word)) refuse_usage(word + " stands before a command" + hint);
@@ -115,7 +116,7 @@ const CLI::App &command_named(const CLI::App &app, const std::string &word) {
                hint);
 }
 
-// Refuses a command line whose first words do not lead to a command that takes options, or to its help.
+// Refuses a command line whose first words are neither a complete command nor a request for help or the version.
 void check_commands(const CLI::App &app, int argc, char **argv) {
   const CLI::App *at = &app;
   for (int i = 1; !commands_of(*at).empty(); ++i) {
@@ -128,7 +129,7 @@ void check_commands(const CLI::App &app, int argc, char **argv) {
   }
 }
 
-// Returns the command that was parsed, behind all commands that contain it.
+// Returns the command that was parsed: the innermost one, if commands contain commands.
 const CLI::App &innermost(const CLI::App &app) {
   const CLI::App *at = &app;
   while (!at->get_subcommands().empty()) at = at->get_subcommands().front();

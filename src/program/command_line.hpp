@@ -9,10 +9,11 @@
 
 namespace riis::program {
 
-// The request of a command line. riis surface and riis check also have MarkOptions.
+// The command that the user requested, with its options. The commands riis surface and riis check also use MarkOptions.
 using Request = std::variant<MarkOptions, StatesOptions, ExportOptions, ParamsOptions>;
 
-// Prints help or the version and returns nothing if the command line requests only that. Throws a Refusal for wrong usage.
+// Parses the command line. If it requests only help or the version, prints that and returns nothing. Throws a Refusal for wrong
+// usage.
 std::optional<Request> parse_command_line(int argc, char **argv);
 
 }  // namespace riis::program

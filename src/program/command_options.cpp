@@ -14,7 +14,7 @@
 namespace riis::program {
 namespace {
 
-// Each name stands at the position of its RIIS_SEARCH_*, RIIS_MEASURE_* or RIIS_VTK_VIEW_*.
+// The position of each name is the value of the RIIS_SEARCH_*, RIIS_MEASURE_* or RIIS_VTK_VIEW_* that it stands for.
 const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor", "paper", "clusters"};
 const std::vector<std::string> distance_names = {"triangles", "sampling", "minimization"};
 const std::vector<std::string> view_names = {"side", "top", "oblique"};
@@ -78,7 +78,7 @@ void declare_tolerance(Command &command, ValveOptions &options) {
                 });
 }
 
-// Declares the options of a surface from a file, and of the triangles of any surface.
+// Declares the options of a surface from a file, and the options of any surface's triangles.
 void declare_file(Command &command, ValveOptions &options) {
   riis_surface_options &how = options.surface_options;
   command.group("Surface");
@@ -145,7 +145,7 @@ void declare_half_thickness(Command &command, ValveOptions &options) {
                 });
 }
 
-// Searches for nodes and for crossings have the same number.
+// Declares --threads. The option applies to the search for nodes and to the search for crossings.
 void declare_threads(Command &command, MarkOptions &options) {
   command.value("--threads", "N", "Number of threads (default as many as the work feeds)",
                 [&options](const std::string &text) {
@@ -188,7 +188,7 @@ void declare_loudness(Command &command, ValveOptions &options) {
   command.flag("--strict", "Exit with status 4 if there was a warning", options.strict);
 }
 
-// Views are declared after the pictures, so CLI11 sets them when the pictures are known.
+// --view is declared after --picture, because CLI11 then passes the views when the pictures are known.
 void declare_pictures(Command &command, MarkOptions &options) {
   CLI::Option *const pictures =
       command
@@ -240,7 +240,7 @@ void declare_series(Command &command, MarkOptions &options) {
              [&series](const std::string &text) { series.frame_rate = parse_positive_finite(text, "--frame-rate"); })
       ->needs(movie);
   command.choice("--movie-view", "side, top or oblique (default)", view_names, series.movie_view, "VIEW")->needs(movie);
-  // A case file has its own values for these options.
+  // A case file contains its own values for these options.
   for (const char *name : {"--surface",        "--leaflets",       "--valve",        "--opening",
                            "--params",         "--params-open",    "--set",          "--tolerance",
                            "--triangulation",  "--skip-zero-area", "--flip-normals", "--scale",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declares the options of each command, and checks that they fit each other.
+// Declares the options of each command, and checks that they fit together.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace riis::program {
 
-// The largest number of openings of riis states.
+// The largest number of openings that riis states accepts.
 inline constexpr std::int32_t most_states = 100001;
 
 void declare_mark(Command command, MarkOptions &options);
@@ -20,7 +20,7 @@ void declare_states(Command command, StatesOptions &options);
 void declare_export(Command command, ExportOptions &options);
 void declare_params(Command command, ParamsOptions &options);
 
-// These refuse options that contradict each other or have no effect, and derive the remaining values.
+// These functions refuse options that contradict each other or have no effect. They also derive the remaining values.
 MarkOptions finish_mark(const Command &command, MarkOptions options);
 MarkOptions finish_surface(const Command &command, MarkOptions options);
 MarkOptions finish_crossings(const Command &command, MarkOptions options);

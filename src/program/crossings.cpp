@@ -18,7 +18,7 @@ namespace {
 
 constexpr int n_openings = 101;
 
-// Returns the list without its arrays.
+// Finds the crossings and returns their list. The list's arrays are gone when this function returns.
 riis_crossing_list crossings_of(const ValveOptions &options, const riis_surface *surface) {
   riis_crossing_options how;
   check(riis_crossing_options_init(&how, sizeof how));
@@ -34,7 +34,8 @@ riis_crossing_list crossings_of(const ValveOptions &options, const riis_surface 
   return found;
 }
 
-// Crossings do not depend on how distances are measured, and triangles make the least work.
+// Returns options that measure distances to triangles. Crossings do not depend on how distances are measured, and this is the
+// fastest.
 riis_surface_options by_triangles(const ValveOptions &options) {
   riis_surface_options how = options.surface_options;
   how.measure = RIIS_MEASURE_TRIANGLES;
@@ -74,7 +75,7 @@ std::string leaflet_text(const ValveOptions &options, int32_t leaflet) {
   return at < names.size() ? names[at] : std::to_string(leaflet);
 }
 
-// Not even --quiet silences this: such a valve cannot be built, and its normals contradict each other.
+// --quiet does not silence this warning, because such a valve cannot be built, and its normals contradict each other.
 void warn_of_crossings(const ValveOptions &options, const CrossingReport &report, const std::string &part,
                        const std::string &advice) {
   const riis_crossing_list &found = report.found;
@@ -89,7 +90,7 @@ void warn_of_crossings(const ValveOptions &options, const CrossingReport &report
   const std::string who =
       is_one_leaflet ? "leaflet " + first + " crosses itself"
                      : "leaflets " + first + " and " + leaflet_text(options, found.deepest_leaflet_id[1]) + " cross";
-  // A pair's intersection is about as long as an edge of the triangles there.
+  // The intersection of a pair is about as long as an edge of its triangles.
   warn(part + who + at + ": " + counted(found.n_pairs, "pair") +
        " of triangles go through each other, along a length of " + shown(found.total_length) + "; the deepest is " +
        shown(found.deepest_depth) + " deep, at " +
@@ -111,7 +112,7 @@ bool has_default_values(const riis_valve *valve) {
   return true;
 }
 
-// Returns the depth that triangles of leaflets which only touch may have (docs/theory.md, section 16).
+// Returns the depth up to which triangles of leaflets may cross although the leaflets only touch (docs/theory.md, section 16).
 double depth_of_contacts(const ValveOptions &options, const riis_surface *surface) {
   riis_surface_info info;
   check(riis_surface_get_info(surface, &info, sizeof info));
@@ -119,8 +120,8 @@ double depth_of_contacts(const ValveOptions &options, const riis_surface *surfac
   return has_cusps ? 1e-3 * info.half_thickness : 2 * info.error_bound;
 }
 
-// Returns the surface at an opening, or null if the valve cannot have that opening. This is no error, because nobody requested
-// the opening.
+// Returns the surface at an opening, or null if the valve cannot have that opening. The latter is no error, because the user did
+// not request the opening.
 Surface surface_at(riis_valve *valve, double opening, const riis_surface_options &how) {
   check(riis_valve_set_scalar(valve, "opening", opening));
   riis_surface *surface = nullptr;
@@ -149,7 +150,8 @@ std::optional<CrossingReport> check_shape(const ValveOptions &options, const rii
                                           const std::string &part) {
   if (!is_valve_file(options.valve) && !has_open_state && has_default_values(valve)) return std::nullopt;
   const Valve copy = copy_of(valve);
-  // Hinges reach into recesses of the housing, which the model lacks.
+  // Hinges reach into recesses of the housing, and the model of the housing lacks these recesses. So crossings with the housing
+  // do not count.
   if (options.valve == "bileaflet") check(riis_valve_set_scalar(copy.get(), "ring_height", 0));
   riis_surface_options how = by_triangles(options);
   how.triangulation = RIIS_TRIANGULATION_ADAPTED;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handles of riis.hpp for the objects of riis_vtk also, and the content of handles as structs.
+// Handles of riis_vtk's objects beside those of riis.hpp, and the content of handles as structs.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -14,7 +14,7 @@ using Motion = Handle<riis_vtk_motion, riis_vtk_motion_destroy>;
 using Film = Handle<riis_vtk_film, riis_vtk_film_destroy>;
 using SurfaceFile = Handle<riis_vtk_surface, riis_vtk_surface_destroy>;
 
-// These return the content of handles as structs.
+// These functions return the content of handles as structs.
 inline riis_triangles triangles_of(const riis_surface *surface) {
   riis_triangles triangles{};
   check(riis_surface_get_triangles(surface, &triangles, sizeof triangles));

@@ -257,7 +257,7 @@ std::string text_of_topic(const std::string &name) {
   if (name.empty()) return list_of_topics();
   NearestName nearest(name);
   for (const Topic &topic : topics) {
-    if (name == topic.name) return topic.text + 1;  // behind its first line break
+    if (name == topic.name) return topic.text + 1;  // after its first line break
     nearest.consider(topic.name);
   }
   const std::string near(nearest.nearest());

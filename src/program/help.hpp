@@ -8,14 +8,14 @@ namespace riis::program {
 
 extern const char *const description;
 
-// Returns the text below the options of a command: examples, and the topics to read. "riis" is the name for the program's own
-// help.
+// Returns the text that follows the options in a command's help: examples, and topics to read. The name "riis" stands for the
+// program's own help.
 std::string help_of(const std::string &command);
 
-// Returns the text of a topic, or the list of topics for "". Throws a Refusal for another name.
+// Returns the text of a topic, or the list of topics if the name is "". Throws a Refusal for an unknown name.
 std::string text_of_topic(const std::string &name);
 
-// Returns the lines for a command line without arguments.
+// Returns the lines that are printed for a command line without arguments.
 std::string short_help();
 
 }  // namespace riis::program

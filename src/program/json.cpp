@@ -12,13 +12,13 @@ namespace riis::program {
 
 namespace {
 
-// Refuses faults that the parser accepts.
+// Refuses faults that the parser itself would accept.
 class Guard {
  public:
   Guard(const std::string &path, const std::string &content) : path_(path), content_(content) {}
 
   void operator()(int depth, Json::parse_event_t event, const Json &parsed) {
-    // Files need up to five levels below the root. The limit protects recursive code from values that are nested too deeply.
+    // The program's files need up to five levels below the root. The limit protects recursive code from deeper nesting.
     constexpr int deepest = 8;
     if (depth > deepest) refuse_file(path_, "is nested deeper than " + content_ + " can be");
     if (event == Json::parse_event_t::object_start) {
@@ -32,11 +32,10 @@ class Guard {
 
  private:
   void check_key(const std::string &key) {
-    // For the library a name ends at a 0 byte.
+    // Control characters are refused because, for the library, a name ends at a 0 byte.
     const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
     if (std::any_of(key.begin(), key.end(), is_control)) refuse_file(path_, "a name holds a control character: " + key);
-    // The parser keeps the last of several equal keys. Equal keys are refused here, because the user cannot have meant all of
-    // them.
+    // The parser would keep the last of several equal keys. They are refused, because the user cannot have meant all of them.
     if (!keys_.back().insert(key).second) refuse_file(path_, key + " is given twice");
   }
 
@@ -110,7 +109,7 @@ std::string CaseValues::text(const char *key) const {
   if (!has(key)) return "";
   const Json &value = needed(key);
   if (!value.is_string() || value.get_ref<const std::string &>().empty())
-    refuse(key, value.dump() + " is no text that is not empty");
+    refuse(key, value.dump() + " is not a text, or is empty");
   const std::string text = value.get<std::string>();
   const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
   if (std::any_of(text.begin(), text.end(), is_control)) refuse(key, value.dump() + " holds a control character");

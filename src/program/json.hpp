@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a JSON file. Out: its value. Deep nesting, repeated keys and control characters in keys are refused, although the parser
-// accepts them.
+// In: a JSON file. Out: its value. The reader refuses deep nesting, repeated keys and control characters in keys, all of which
+// the parser would accept.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -17,12 +17,12 @@ namespace riis::program {
 
 using Json = nlohmann::ordered_json;
 
-// content, such as "parameters", is the expected content of the file. It stands in the refusal of a file that is nested too
-// deep.
+// `content` names the expected content of the file, such as "parameters". It appears in the message if the file is nested too
+// deeply.
 Json parse_json_file(const std::string &path, const std::string &content);
 
-// Refuses a value that is not an object, and a key that is not in the list. The refusal of a key names the nearest one of the
-// list. subject names the value.
+// Refuses a value that is not an object, and a key that is not in the list. The refusal of a key suggests the nearest key of the
+// list. `subject` names the value.
 void check_keys(const std::string &path, const std::string &subject, const Json &value,
                 const std::vector<std::string> &keys);
 
@@ -30,11 +30,11 @@ void check_keys(const std::string &path, const std::string &subject, const Json 
 
 class CaseValues {
  public:
-  // object, such as "valve 0", names the value in refusals; "" is the file's root. Borrows the value.
+  // `object`, such as "valve 0", names the value in refusals. "" stands for the file's root. Borrows the value.
   CaseValues(const std::string &path, const std::string &object, const Json &value,
              const std::vector<std::string> &keys);
 
-  // The file and the object, for refusals.
+  // Returns the file and the object, for refusals.
   std::string subject() const { return object_.empty() ? path_ : path_ + ": " + object_; }
   const std::string &path() const { return path_; }
   void set_subject(const std::string &object) { object_ = object; }
@@ -49,7 +49,7 @@ class CaseValues {
   std::vector<double> numbers(const char *key, std::size_t n) const;
   bool flag(const char *key) const;  // returns false if the key is missing
   std::optional<Unit> unit(const char *key) const;
-  // Returns the position of a text in the list, or 0 if the key is missing.
+  // Returns the position of the text in the list, or 0 if the key is missing.
   std::size_t choice(const char *key, const std::vector<std::string> &names) const;
 
   [[noreturn]] void refuse(const std::string &key, const std::string &reason) const;

@@ -17,7 +17,7 @@ namespace riis::program {
 
 namespace {
 
-// Finds the leaks among the edges that may leak. longer_than is the argument of riis_vtk_mesh_create_long_edges.
+// Finds the leaks among the edges that may leak. `longer_than` is passed to riis_vtk_mesh_create_long_edges.
 Leaks leaks_of(const MarkedMesh &marked, const riis_mark_options &options, double longer_than,
                int64_t *n_cells_left_out) {
   riis_adjacency *handle = nullptr;
@@ -37,7 +37,7 @@ Leaks leaks_of(const MarkedMesh &marked, const riis_mark_options &options, doubl
   return leaks;
 }
 
-// Marks once more with another half thickness, and returns the leaks of that marking.
+// Marks again with another half thickness, and returns the leaks of that marking.
 Leaks leaks_with(const MarkOptions &options, const MarkedMesh &marked, double half_thickness) {
   riis_surface_options surface_options = options.surface_options;
   surface_options.half_thickness = half_thickness;
@@ -56,8 +56,8 @@ Leaks leaks_with(const MarkOptions &options, const MarkedMesh &marked, double ha
                   is_by_triangles ? 2 * half_thickness : 0, nullptr);
 }
 
-// Returns a half thickness that closes the leaks, or 0 if none is found. A valve's triangles depend on the half thickness, so
-// each candidate is tried. The triangles of a file do not change.
+// Returns a half thickness that closes the leaks, or 0 if none is found. Each candidate must be tried, because a valve's
+// triangles depend on the half thickness. The triangles of a file do not.
 double closing_half_thickness(const MarkOptions &options, const MarkedMesh &marked, const riis_leak_list &leaks) {
   constexpr int n_tries = 8;
   double wanted = rounded_up(leaks.half_thickness);
@@ -70,12 +70,12 @@ double closing_half_thickness(const MarkOptions &options, const MarkedMesh &mark
       wanted = rounded_up(std::max(left.half_thickness, 1.01 * wanted));
     }
   } catch (const Refusal &) {
-    // Some half thicknesses do not make a surface. The marks and the warning are valid without advice.
+    // With some half thicknesses no surface can be made. The marks and the warning are valid even without advice.
   }
   return 0;
 }
 
-// Not even --quiet silences this: the valve does not hold.
+// --quiet does not silence this warning, because the valve lets flow through.
 void warn_of_leaks(const MarkOptions &options, const LeakReport &report, const std::string &surface,
                    double half_thickness) {
   const riis_leak_list &leaks = report.found;
@@ -109,7 +109,7 @@ double rounded_up(double x) {
 void look_for_leaks(const MarkOptions &options, const MarkedMesh &marked, Report &report) {
   const Stage stage("looking for leaks", options.quiet);
   LeakReport &leaks = report.leaks;
-  // Short edges may also leak if marks may be missing, or if distances are not measured to the triangles.
+  // Short edges may leak too if marks may be missing, or if distances are not measured to the triangles.
   const bool is_by_triangles = options.surface_options.measure == RIIS_MEASURE_TRIANGLES;
   const bool only_long = report.marks.complete && is_by_triangles;
   const double half_thickness = report.surface.half_thickness;
@@ -134,14 +134,14 @@ void look_for_leaks(const MarkOptions &options, const MarkedMesh &marked, Report
 
 namespace {
 
-// Returns the numbers as the user wrote them.
+// Returns the point's numbers as the user wrote them.
 std::string text_of(const double *point) {
   return shortest(point[0]) + " " + shortest(point[1]) + " " + shortest(point[2]);
 }
 
 double distance_between(const double *p, const double *q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
 
-// The nodes of a file and their neighbours.
+// The nodes of a file, and the neighbours of each node.
 class JoinedNodes {
  public:
   JoinedNodes(const MarkedMesh &marked, int32_t n_threads) : mesh_(marked.mesh) {
@@ -156,7 +156,7 @@ class JoinedNodes {
   JoinedNodes(const JoinedNodes &) = delete;
   JoinedNodes &operator=(const JoinedNodes &) = delete;
 
-  // Returns the nearest node that has a neighbour. name is FROM or TO. why_none is the reason for the case that no node has a
+  // Returns the nearest node that has a neighbour. `name` is FROM or TO. `why_none` is the reason to give if no node has a
   // neighbour.
   int64_t nearest(const MarkOptions &options, const char *name, const double *point,
                   const std::string &why_none) const {
@@ -200,7 +200,7 @@ class JoinedNodes {
   }
 
  private:
-  // A point inside a cell is at most one edge length away from one of the cell's nodes.
+  // A point inside a cell is at most one edge length away from one of the cell's nodes. This limit allows two.
   static constexpr double edges_away = 2;
 
   riis_mesh *mesh_;
@@ -236,8 +236,8 @@ riis_passage passage_of(const LeakCheck &asked, const riis_surface *surface, con
   return passage;
 }
 
-// Returns a half thickness that closes the passage, or 0 if none is found. A valve's triangles depend on the half thickness, so
-// each candidate is tried.
+// Returns a half thickness that closes the passage, or 0 if none is found. Each candidate must be tried, because a valve's
+// triangles depend on the half thickness.
 double closing_half_thickness(const MarkOptions &options, const MarkedMesh &marked, const riis_passage &passage,
                               Ends ends) {
   constexpr int n_tries = 8;
@@ -256,12 +256,12 @@ double closing_half_thickness(const MarkOptions &options, const MarkedMesh &mark
       wanted = rounded_up(std::max(left.distance, 1.01 * wanted));
     }
   } catch (const Refusal &) {
-    // The answer is valid without advice: an end point may lie in the thicker band.
+    // The answer is valid even without advice. An end point may lie in the thicker band, for example.
   }
   return 0;
 }
 
-// Not even --quiet silences this: the valve does not hold.
+// --quiet does not silence this warning, because the valve lets flow through.
 void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const std::string &surface,
                      const std::string &unknown) {
   const std::string ends = text_of(asked.from) + " and " + text_of(asked.to);
@@ -305,7 +305,7 @@ void check_passage(const MarkOptions &options, const MarkedMesh &marked, Report 
   const Ends ends{nodes.nearest(options, "FROM", asked.from, unknown), nodes.nearest(options, "TO", asked.to, unknown)};
   PassageReport passage;
   passage.found = passage_of(asked, marked.surface, marked.mesh, options.mark_options, ends);
-  // Edges that are not known cannot close a path along known ones.
+  // Unknown edges cannot close an open path, but they may open a path where the known edges have none.
   passage.is_unknown = passage.found.state != RIIS_PASSAGE_OPEN && !unknown.empty();
   passage.is_end = passage.found.node_id == ends.from || passage.found.node_id == ends.to;
   if (passage.found.state == RIIS_PASSAGE_OPEN && !passage.is_end && unknown.empty())

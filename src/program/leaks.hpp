@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a mesh that was marked. Out: how many of its edges cross the surface between unmarked nodes, and the half thickness that
-// would close them.
+// In: a marked mesh. Out: the number of its edges that cross the surface between unmarked nodes, and a half thickness that
+// closes these leaks.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -20,28 +20,28 @@ struct MarkedMesh {
   const riis_surface *surface;
   const riis_valve *valve;  // the valve of the surface; null for a surface from a file
   const riis_vtk_mesh *file;
-  riis_mesh *mesh;  // the check removes its adjacency
+  riis_mesh *mesh;  // the check for leaks removes its adjacency
   riis_marks *result;
-  std::string surface_name = "the surface";  // its name in the warning
+  std::string surface_name = "the surface";  // the surface's name in the warning
 };
 
-// Rounds up to three digits. So the rounded number also closes the leaks when the user types it.
+// Rounds up to three digits, so that the number also closes the leaks when the user types it as printed.
 double rounded_up(double x);
 
-// Writes report.leaks and report.seconds.leaks, and warns on stderr if the surface leaks or if leaks are unknown. If two points
-// are checked, that check warns instead.
+// Writes report.leaks and report.seconds.leaks. Warns on stderr if the surface leaks or if leaks are unknown. If two points are
+// checked, check_passage warns instead.
 void look_for_leaks(const MarkOptions &options, const MarkedMesh &marked, Report &report);
 
-// In: a marked mesh and two points. Out: whether unmarked nodes join the points, the place of the passage, and the half
+// In: a marked mesh and two points. Out: whether unmarked nodes join the points, the position of the passage, and a half
 // thickness that closes it.
 
-// The two points of --between.
+// Returns the check for the two points of --between.
 LeakCheck leak_check_between(const std::vector<std::string> &points);
 
-// Both write report.leaks.passage, and warn on stderr if the points are joined. They do nothing unless the options have points.
-// They remove the mesh's adjacency.
+// Both functions write report.leaks.passage, and warn on stderr if the points are joined. They do nothing if the options have no
+// points. They remove the mesh's adjacency.
 void check_passage(const MarkOptions &options, const MarkedMesh &marked, Report &report);
-// Checks all valves together at their present places. They must have the same half thickness.
+// Checks all valves together at their present positions. They must have the same half thickness.
 void check_passage_of(const Case &all, const std::vector<MovingValve> &valves, riis_mesh *mesh,
                       const riis_vtk_mesh *file, Report &report);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis: from the command line to an exit status. Every error ends in one line on stderr. A command line without arguments
-// prints a few lines of help there.
+// The program riis, from the command line to an exit status. Every error ends as one line on stderr. Without arguments the
+// program prints a few lines of help on stderr.
 #include <fcntl.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace {
 
-// Names of files and parameters may contain line breaks. They are replaced, so that the message stays one line.
+// Names of files and parameters may contain line breaks. They are replaced, so that the message stays on one line.
 int give_up(int exit_code, std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 127; }, '?');
@@ -24,8 +24,8 @@ int give_up(int exit_code, std::string text) {
   return exit_code;
 }
 
-// Otherwise the next file that is opened would get the number of a closed stream, and prints would go into that file. A stream
-// that is opened for reading refuses prints.
+// Opens a substitute for each standard stream that is closed. Otherwise the next file to be opened would get the stream's
+// number, and prints would go into that file. The substitute is opened for reading, so prints to it fail.
 void occupy_closed_streams() {
   for (const int stream : {0, 1, 2}) {
     if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);
@@ -36,7 +36,7 @@ void occupy_closed_streams() {
 
 int main(int argc, char **argv) {
   occupy_closed_streams();
-  // Without the signal, a write beyond the limit of file sizes fails and does not end the process.
+  // Ignores the signal. Then a write beyond the limit of file sizes fails instead of ending the process.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     if (argc < 2) {

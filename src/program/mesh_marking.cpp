@@ -118,7 +118,7 @@ void ResistanceSum::set_arrays(const std::string &prefix, riis_vtk_mesh *file) c
 
 namespace {
 
-// The first steps sort the mesh's nodes, and allocate memory that later steps reuse.
+// The first steps sort the mesh's nodes and allocate memory that later steps reuse. So their times do not count.
 constexpr int n_first_steps = 2;
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
@@ -135,7 +135,7 @@ void set_opening(riis_valve *valve, double opening) {
   check(riis_valve_set_scalar(valve, "opening", opening), "--steps");
 }
 
-// The opening goes up to 1, then down to 0, and so on. It may begin anywhere.
+// A sequence of openings that goes up to 1, then down to 0, and so on. It may begin anywhere.
 class OpeningSteps {
  public:
   explicit OpeningSteps(riis_valve *valve) { check(riis_valve_get(valve, "opening", 1, &opening_)); }
@@ -149,7 +149,7 @@ class OpeningSteps {
   double opening_ = 0, change_ = opening_of_step;
 };
 
-// Restores the valve's opening, even if the steps end by an exception.
+// Restores the valve's opening at the end, even if the steps end with an exception.
 class KeptOpening {
  public:
   explicit KeptOpening(riis_valve *valve) : valve_(valve), opening_(OpeningSteps(valve).opening()) {}
@@ -164,7 +164,7 @@ class KeptOpening {
 
 // A mesh with the data that the search needs.
 struct Steps {
-  Adjacency adjacency;  // outlives the mesh, which borrows it
+  Adjacency adjacency;  // declared first, so that it outlives the mesh that borrows it
   Mesh mesh;
   Surface surface;
   Marks result;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a mesh, marks it for one valve, and makes its arrays. Single runs and series share this code.
+// Reads a mesh, marks it for one valve, and makes its arrays. Runs at one time and series share this code.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -15,30 +15,30 @@
 namespace riis::program {
 
 MeshFile read_mesh(const MarkOptions &options, Seconds &seconds);
-// Makes a mesh of the nodes of the file. The file must outlive the mesh. path names the file in refusals.
+// Makes a mesh from the nodes of the file. The file must outlive the mesh. `path` names the file in refusals.
 Mesh borrow_nodes(const riis_vtk_mesh *file, const std::string &path);
 Marks new_result();
 
-// Marks a single node, so that the library refuses bad options before a large mesh is read and marked.
+// Marks a single node. So the library refuses bad options before a large mesh is read and marked.
 void rehearse_marking(const MarkOptions &options, const riis_surface *surface);
 bool needs_adjacency(int32_t search);
-// Not even --quiet silences this: some marks may be missing.
+// Warns that some marks may be missing. --quiet does not silence this warning.
 void warn_of_incomplete_marks();
 
-// Refuses to replace an array of the mesh without --replace.
+// Refuses to replace an array of the mesh unless the user gave --replace.
 void check_new_arrays(const MarkOptions &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh);
 
-// Returns PREFIX_marked, PREFIX_distance, PREFIX_leaflet, and the names of the fields' arrays.
+// Returns PREFIX_marked, PREFIX_distance, PREFIX_leaflet, and the names of the arrays of these fields.
 std::vector<std::string> names_of_marks(const std::string &prefix, int32_t fields);
 void set_marks(const MarkOptions &options, const riis_marks *result, int32_t fields, riis_vtk_mesh *file);
 
-// K and K u_surface of every node, summed over the valves that have a resistance.
+// K and K u_surface at every node, summed over the valves that have a resistance.
 class ResistanceSum {
  public:
   enum class WithVelocity { no, yes };
   ResistanceSum(int64_t n_nodes, WithVelocity with_velocity);
   void add(const MarkOptions &options, const riis_marks *result);
-  // Sets PREFIX_K and PREFIX_K_u_surface, or no array if no valve had a resistance.
+  // Sets PREFIX_K and PREFIX_K_u_surface. Sets no array if no valve had a resistance.
   void set_arrays(const std::string &prefix, riis_vtk_mesh *file) const;
 
  private:
@@ -47,10 +47,10 @@ class ResistanceSum {
   bool has_any_ = false;
 };
 
-// --steps: the cost of a time step of a moving valve in a mesh that is prepared for many markings.
+// --steps measures the cost of a time step of a moving valve, in a mesh that is prepared for many markings.
 
 // Moves the opening back and forth between 0 and 1, and marks the nodes of the file after each step. Afterwards the valve has
-// its old opening. Other surfaces and results do not change. Throws a Refusal for a valve that cannot move.
+// its old opening. Other surfaces and marks do not change. Throws a Refusal for a valve that cannot move.
 StepTimes time_steps(const MarkOptions &options, riis_valve *valve, const riis_vtk_mesh *file);
 
 }  // namespace riis::program

@@ -17,7 +17,7 @@ namespace riis::program {
 
 namespace {
 
-// Refuses a law as bad data, since all its values come from the user.
+// Checks a law. Reports its faults as bad data, because all its values come from the user.
 void check_law(riis_status status, const std::string &subject) {
   if (status == RIIS_INVALID_ARGUMENT) throw Refusal{exit_bad_data, subject + ": " + riis_last_error()};
   check(status, subject);
@@ -75,7 +75,7 @@ const std::vector<std::string> &interpolation_names() {
 
 namespace {
 
-// The limits are the library's limits for a table.
+// These limits are those of the library for a table.
 constexpr std::size_t most_keys = 1000000;
 constexpr double largest_key_time = 1e30;
 
@@ -88,7 +88,7 @@ std::vector<std::string> columns_of(std::string line) {
   return columns;
 }
 
-// Returns nothing for a text that is no number, and for infinity and NaN, which no key may have.
+// Returns the number, or nothing if the text is not a number. Also returns nothing for infinity and NaN, which no key may have.
 std::optional<double> number_in(const std::string &text) {
   const char *first = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
   const char *last = text.data() + text.size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the user's description of a valve's motion. Out: the opening at any time, by the library's laws.
+// In: the user's description of a valve's motion. Out: the opening at any time, computed by the library's laws.
 #pragma once
 
 #include <riis/riis.h>
@@ -11,7 +11,7 @@
 
 namespace riis::program {
 
-// A table of keys in time. A period of 0 stands for none.
+// A table of openings at key times. A period of 0 means that there is none.
 struct OpeningTable {
   std::vector<double> times, openings;
   double period = 0;
@@ -20,9 +20,9 @@ struct OpeningTable {
 
 class OpeningLaw {
  public:
-  // The opening is constant.
+  // Makes a constant opening.
   explicit OpeningLaw(double opening) : law_(opening) {}
-  // subject, such as a file's name, goes before the library's refusals of a law.
+  // `subject`, such as a file's name, begins the message if the library refuses the law.
   OpeningLaw(OpeningTable table, const std::string &subject);
   OpeningLaw(const riis_opening_times &times, const std::string &subject);
 
@@ -37,16 +37,16 @@ class OpeningLaw {
   std::string subject_;
 };
 
-// Returns the largest opening at these times. Without times the law must be constant, and its opening is returned.
+// Returns the largest opening at these times. Without times, the law must be constant, and the function returns its opening.
 double largest_opening(const OpeningLaw &law, const std::vector<double> &times);
 
-// Returns the names of RIIS_INTERPOLATION_*, each at its position.
+// Returns the names of RIIS_INTERPOLATION_*. The position of each name is the value that it stands for.
 const std::vector<std::string> &interpolation_names();
 
 // In: a CSV file of times and openings. Out: the keys. Refusals name the file, the line and the value.
 
-// Two columns, time and opening, separated by a comma, a semicolon, blanks or a tab. The first line may name them. Empty lines
-// and lines that begin with # are left out. Times must ascend, openings lie from 0 to 1.
+// The file has two columns, time and opening, separated by a comma, a semicolon, blanks or a tab. The first line may name the
+// columns. Empty lines and lines that begin with # are skipped. Times must ascend, and openings must be from 0 to 1.
 OpeningTable read_cycle(const std::string &path);
 
 }  // namespace riis::program

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The user's options of each command, with their form checked. The library checks the values.
+// The options of each command as the user gave them. Only their form is checked here. The library checks the values.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -18,19 +18,19 @@ namespace riis::program {
 struct ValveOptions {
   ValveOptions() { check(riis_surface_options_init(&surface_options, sizeof surface_options)); }
 
-  std::string valve = "aortic";  // a kind, or a .json file; used if there is no surface
-  std::string surface;           // file; "": the valve
+  std::string valve = "aortic";  // a kind, or a .json file; unused if there is a surface
+  std::string surface;           // a file, or "" for the valve
   std::string leaflets;          // leaflets of that file: "connected", the name of a cell array, or "" for riis_leaflet
   std::optional<double> time;    // for a surface that moves
-  double period = 0;             // period of its motion or of the cycle; 0: none
+  double period = 0;             // of the surface's motion or of the cycle; 0 if there is none
   std::string params, params_open;    // JSON files; "": none
   std::vector<std::string> settings;  // NAME=VALUE, in the order of typing
   std::optional<double> opening;      // from 0 to 1
   riis_surface_options surface_options;
-  std::optional<Unit> unit, surface_unit;  // units of the mesh and of a file with the surface; they give the scale
-  // The user gave them as numbers.
+  std::optional<Unit> unit, surface_unit;  // units of the mesh and of the surface's file; they give the scale
+  // Tell whether the user gave these values as numbers.
   bool has_scale = false, has_half_thickness = false, has_tolerance = false;
-  std::int32_t n_threads = 0;  // 0: as many as are useful
+  std::int32_t n_threads = 0;  // 0: as many as there is work for
   bool quiet = false;
   bool strict = false;  // a warning changes the exit status
 };
@@ -40,48 +40,48 @@ struct Picture {
   std::int32_t view;
 };
 
-// A series in time, and cases of several valves.
+// The options of a series in time, and of a case of several valves.
 struct SeriesOptions {
-  std::string case_file;      // "": the command line describes the only valve
-  std::vector<double> times;  // ascending; empty: no series
-  std::string cycle;          // file
+  std::string case_file;      // "" if the command line describes the only valve
+  std::vector<double> times;  // ascending; empty if there is no series
+  std::string cycle;          // a file
   std::int32_t interpolation = RIIS_INTERPOLATION_LINEAR;
-  std::string movie, table;  // "": not wanted
-  double frame_rate = 10;    // frames a second
+  std::string movie, table;  // "" if not wanted
+  double frame_rate = 10;    // frames per second
   std::int32_t movie_view = RIIS_VTK_VIEW_OBLIQUE;
   bool all_cells = false;
 };
 
-// Two points that a valve is to separate, and the words for refusals of them.
+// Two points that the valve should separate, and the words for refusing them.
 struct LeakCheck {
   double from[3], to[3];
   std::string subject;
   ExitCode exit_code = exit_wrong_usage;
 };
 
-// The options of riis mark. riis surface and riis check use some of them: riis surface has no mesh.
+// The options of riis mark. riis surface and riis check use some of them. riis surface has no mesh.
 struct MarkOptions : ValveOptions {
   MarkOptions() { check(riis_mark_options_init(&mark_options, sizeof mark_options)); }
 
-  std::string mesh;  // "": none
+  std::string mesh;  // "" if there is none
   riis_mark_options mark_options;
   double far_distance = RIIS_FAR_DISTANCE;
-  std::optional<double> resistance;           // resistance R, for an array of K
-  std::string output, surface_output, stats;  // "": not wanted
+  std::optional<double> resistance;           // R, for an array of K
+  std::string output, surface_output, stats;  // "" if not wanted
   std::string surface_output_option = "--surface-output";
   std::vector<Picture> pictures;
-  std::int32_t n_steps = 0;     // steps whose time is measured
-  std::string prefix = "riis";  // prefix of the arrays in the output
-  bool replace = false;         // replaces existing arrays of these names
+  std::int32_t n_steps = 0;     // number of steps to be timed
+  std::string prefix = "riis";  // the prefix of the arrays in the output
+  bool replace = false;         // whether to replace existing arrays with these names
   bool allow_none = false;
   bool check_crossing = false;
   std::optional<LeakCheck> check_leaks;
   SeriesOptions series;
 };
 
-// riis states
+// The options of riis states.
 struct StatesOptions : ValveOptions {
-  std::string output;           // the table; "-": stdout
+  std::string output;           // the file of the table; "-" is stdout
   std::int32_t n_states = 101;  // number of openings in the table
 };
 
@@ -89,32 +89,32 @@ struct TimeSpan {
   double start, stop;
 };
 
-// riis export
+// The options of riis export.
 struct ExportOptions : ValveOptions {
   std::string folder;
   double time_step = 0, resistance = 0;
-  std::optional<double> opening_duration, closing_duration;  // without a cycle
-  std::string cycle;                                         // file
+  std::optional<double> opening_duration, closing_duration;  // used without a cycle
+  std::string cycle;                                         // a file
   std::int32_t interpolation = RIIS_INTERPOLATION_LINEAR;
-  std::optional<TimeSpan> opening_span, closing_span;  // times of the cycle
+  std::optional<TimeSpan> opening_span, closing_span;  // in the time of the cycle
   double largest_edge = 0;                             // 0: the library's own triangles
 };
 
-// riis params
+// The options of riis params.
 struct ParamsOptions : ValveOptions {
-  bool describe = false;  // a table in place of JSON
+  bool describe = false;  // print a table instead of JSON
 };
 
-// Returns the names, each at the position of its RIIS_TRIANGULATION_*.
+// Returns the names of RIIS_TRIANGULATION_*. The position of each name is the value that it stands for.
 const std::vector<std::string> &triangulation_names();
 
-// Derives the scale from the units, and the half thickness unless the user gave one.
+// Derives the scale from the units. Also derives the half thickness, unless the user gave one.
 void apply_units(ValveOptions &options);
 
-// Returns whether the user gave the valve's opening, by --opening or --set.
+// Returns whether the user gave the valve's opening by --opening or --set.
 bool sets_opening(const ValveOptions &options);
 
-// Tells whether arrays can have this name.
+// Returns whether the name can begin the names of arrays.
 bool is_prefix(const std::string &name);
 
 }  // namespace riis::program

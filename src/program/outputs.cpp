@@ -41,7 +41,7 @@ std::string system_text(int error) { return std::generic_category().message(erro
   throw Refusal{exit_bad_data, path + ": cannot be written: " + reason};
 }
 
-// A device or a pipe is written into; any other file is replaced as a whole.
+// Returns whether the path is a device or a pipe. The program writes into these, and replaces any other file as a whole.
 bool is_special(const std::string &path) {
   std::error_code error;
   return fs::exists(path, error) && !fs::is_regular_file(path, error);
@@ -52,7 +52,7 @@ void check_place(const std::string &path) {
   if (fs::is_directory(path, error)) throw Refusal{exit_bad_data, path + ": is a directory"};
   const fs::path folder = folder_of(place_of(path));
   if (!fs::is_directory(folder, error)) cannot_be_written(path, "the folder " + folder.string() + " does not exist");
-  // A new file is written beside the old one and then takes its place.
+  // A new file is written next to the old one and then replaces it.
   if (!is_special(path) && access(folder.c_str(), W_OK | X_OK) != 0) {
     cannot_be_written(path, "the folder " + folder.string() + ": " + system_text(errno));
   }
@@ -92,8 +92,8 @@ NamedFiles outputs_of(const MarkOptions &options) {
   return outputs;
 }
 
-// Returns a text that is the same for all paths to a file. It has the device and inode, or the place if the file does not
-// exist.
+// Returns a text that is the same for all paths to one file. It consists of the device and the inode, or of the path to the file
+// if the file does not exist.
 std::string identity_of(const std::string &path) {
   struct stat status {};
   if (stat(path.c_str(), &status) == 0) return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
@@ -112,7 +112,7 @@ KnownFiles known(const NamedFiles &files) {
   return known;
 }
 
-// A step's file must not replace an input. The folder may contain an input or a link to one.
+// Refuses a folder for the steps' files that contains an input or a link to one, because a step's file could replace it.
 void check_folder_of_steps(const std::string &option, const std::string &folder, const KnownFiles &inputs) {
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
@@ -145,7 +145,7 @@ OutputLocks locks_of(const NamedFiles &outputs) {
   return OutputLocks(written);
 }
 
-// The component also refuses a picture without a display, but only when it draws, after all other work.
+// riis_vtk also refuses a picture without a display. But it does so only when it draws, after all other work.
 void check_display() {
   const char *display = std::getenv("DISPLAY");
   if (display && *display) return;
@@ -154,7 +154,7 @@ void check_display() {
                 "xvfb-run -a PROGRAM"};
 }
 
-// Returns the system's error, or 0 if there is none.
+// Writes the text to a file. Returns the system's error, or 0 if there is none.
 int write_through(const std::string &path, const char *mode, const std::string &text) {
   std::FILE *file = std::fopen(path.c_str(), mode);
   if (!file) return errno;
@@ -167,7 +167,7 @@ int replace_file(const std::string &path, const std::string &text) {
   const UnbrokenWrite unbroken;
   const fs::path place = place_of(path);
   const std::string temporary = (folder_of(place) / (".riis-" + std::to_string(getpid()) + "-text.tmp")).string();
-  std::remove(temporary.c_str());  // a file of this name is left from a process that has ended
+  std::remove(temporary.c_str());  // removes a file with this name that an ended process left behind
   int error = write_through(temporary, "wx", text);
   if (!error && std::rename(temporary.c_str(), place.c_str()) != 0) error = errno;
   if (error) std::remove(temporary.c_str());
@@ -249,7 +249,8 @@ void write_text(const std::string &path, const std::string &text) {
 
 namespace {
 
-// The lock files of this process. Only its first object has lock files. That object fills the list before it sets the handlers.
+// The lock files of this process. Only the process's first OutputLocks object has lock files. It fills this list before it sets
+// the signal handlers.
 std::vector<std::string> held;
 
 constexpr int ending_signals[] = {SIGINT, SIGTERM, SIGHUP};
@@ -258,7 +259,8 @@ void remove_held() {
   for (const std::string &path : held) unlink(path.c_str());
 }
 
-// The default action follows when the handler returns, because the signal is blocked until then.
+// Removes the locks and raises the signal again. The signal is blocked until the handler returns, and then its default action
+// follows.
 void remove_and_end(int signal) {
   remove_held();
   std::raise(signal);
@@ -275,8 +277,8 @@ void set_handlers(void (*from)(int), void (*to)(int)) {
   }
 }
 
-// Signals that end the process wait while one of these lives. So no signal comes between making a lock file and setting its
-// handlers.
+// While an object of this type lives, signals that end the process are blocked. So no signal can come between the making of a
+// lock file and the setting of the handlers.
 class SignalsWait {
  public:
   SignalsWait() {
@@ -293,7 +295,7 @@ class SignalsWait {
   sigset_t before_{};
 };
 
-// If the output's name is too long, the lock's name has only its end.
+// Returns the path of an output's lock. If the output's name is too long, only its end is used.
 std::string lock_of(const std::string &output) {
   constexpr std::size_t longest = 200;
   const std::filesystem::path place = std::filesystem::absolute(place_of(output));
@@ -313,17 +315,17 @@ bool is_at(int file, const std::string &path) {
          opened.st_dev == there.st_dev;
 }
 
-// Returns the lock's file, or -1 on a file system without locks.
+// Takes the lock, and returns its file. Returns -1 on a file system without locks.
 int take(const std::string &output, const std::string &lock) {
   for (;;) {
     int file = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    // A killed run of another user left the file, and this user may only read it.
+    // The file may be left from another user's killed run, and this user may only read it.
     if (file < 0 && errno == EACCES) file = open(lock.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0)
       refuse_lock(output, "its lock " + lock + " cannot be made: " + std::generic_category().message(errno));
     if (flock(file, LOCK_EX | LOCK_NB) == 0) {
       if (is_at(file, lock)) return file;
-      close(file);  // the run that held the lock has just removed the file
+      close(file);  // the run that held the lock has just removed this file
       continue;
     }
     const int error = errno;
@@ -344,7 +346,7 @@ OutputLocks::OutputLocks(const std::vector<std::string> &paths) {
   try {
     for (const std::string &path : paths) {
       const std::string lock = lock_of(path);
-      // Outputs with long names may share a lock.
+      // Outputs with long names may have the same lock.
       if (std::find(held.begin(), held.end(), lock) != held.end()) continue;
       const int file = take(path, lock);
       if (file < 0) continue;
@@ -362,7 +364,7 @@ OutputLocks::~OutputLocks() { release(); }
 
 void OutputLocks::release() {
   if (files_.empty()) return;
-  remove_held();  // before the locks end: later, another run could hold them
+  remove_held();  // while the locks are still held, because afterwards another run could hold them
   set_handlers(remove_and_end, SIG_DFL);
   for (const int file : files_) close(file);
   files_.clear();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program's outputs. Before any long work the program checks that it can write them. Text goes out whole or fails.
+// The program's outputs. Before any long work, the program checks that it can write them. A text is written completely or not at
+// all.
 #pragma once
 
 #include <csignal>
@@ -11,14 +12,14 @@
 
 namespace riis::program {
 
-// Locks on the program's outputs. If two runs would replace the same file, only the first one goes on.
+// Locks on the program's outputs. If two runs would replace the same file, only the first one continues.
 
-// Holds an empty file .riis-NAME.lock beside each output NAME, locked by flock. The kernel ends the lock when its process ends
-// for any reason. The file is removed when the object ends, and by SIGINT, SIGTERM and SIGHUP. A run that is killed leaves the
-// file behind; the next run takes it over.
+// For each output NAME, holds an empty file .riis-NAME.lock next to it, locked by flock. When the process ends for any reason,
+// the kernel releases the lock. The destructor removes the file, and so do the handlers of SIGINT, SIGTERM and SIGHUP. A killed
+// run leaves the file behind, and the next run takes it over.
 class OutputLocks {
  public:
-  // Throws a Refusal if another run holds the lock of one of these files. The paths name no devices or pipes.
+  // Throws a Refusal if another run holds the lock of one of these files. The paths must not be devices or pipes.
   explicit OutputLocks(const std::vector<std::string> &paths);
   ~OutputLocks();
   OutputLocks(OutputLocks &&other) noexcept = default;
@@ -28,15 +29,15 @@ class OutputLocks {
  private:
   void release();
 
-  std::vector<int> files_;  // empty after a move
+  std::vector<int> files_;  // empty after this object was moved from
 };
 
-// Handles Ctrl-C and similar signals while a file is written. Every file is written beside its place and then moved. A process
-// that ends in between leaves the unfinished file behind.
+// Delays Ctrl-C and similar signals while a file is written. Every file is first written under a temporary name and then moved.
+// If the process ended in between, the unfinished file would stay behind.
 
-// While an object of this type lives, the first SIGINT, SIGTERM or SIGHUP waits. It ends the process when the object ends. A
-// second signal acts at once. Signals that were ignored stay ignored. Objects that are made while another one lives do nothing.
-// Other threads may make objects only while one lives.
+// While an object of this type lives, the first SIGINT, SIGTERM or SIGHUP waits. It ends the process when the object is
+// destroyed. A second signal acts at once. Signals that were ignored stay ignored. Objects made while another one lives do
+// nothing. Other threads may make objects only while one lives.
 class UnbrokenWrite {
  public:
   UnbrokenWrite();
@@ -44,7 +45,7 @@ class UnbrokenWrite {
   UnbrokenWrite(const UnbrokenWrite &) = delete;
   UnbrokenWrite &operator=(const UnbrokenWrite &) = delete;
 
-  // Tells whether a signal waits. Work in several parts then ends after the present part.
+  // Returns whether a signal waits. Work in several parts then stops after the present part.
   static bool has_signal();
 
  private:
@@ -53,24 +54,24 @@ class UnbrokenWrite {
 };
 
 // Throws a Refusal for an output that would replace an input or another output, that has a wrong ending, or whose folder is
-// missing or not writable. It also throws one for a picture without a display, and for an output that another run is writing.
-// The caller holds the locks until all is written. more_inputs are further files that were read.
+// missing or not writable. Also throws one for a picture without a display, and for an output that another run is writing. The
+// caller must keep the returned locks until everything is written. more_inputs are other files that were read.
 [[nodiscard]] OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::string> &more_inputs = {});
 [[nodiscard]] OutputLocks check_outputs(const StatesOptions &options);
 
-// Tells whether the path has this ending, in small letters or capitals.
+// Returns whether the path has this ending, in small letters or capitals.
 bool has_ending(const std::string &path, const std::string &ending);
-// place_of follows links to existing files and returns the place of the file itself. folder_of returns its folder, or "." if it
-// names none.
+// place_of follows links to existing files, and returns the path of the file itself. folder_of returns the folder of a path, or
+// "." if the path has no folder.
 std::filesystem::path place_of(const std::string &path);
 std::filesystem::path folder_of(const std::filesystem::path &place);
 
 // Throws a Refusal for an output that is one of these files. `what` describes the files in the message.
 void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const MarkOptions &options);
 
-// Tells whether a later text can replace an earlier one. It cannot on stdout, in a device or in a pipe.
+// Returns whether a later text can replace an earlier one. This is impossible on stdout, in a device and in a pipe.
 bool can_be_replaced(const std::string &path);
-// Writes a file, or stdout for "-". Afterwards the file is complete or unchanged.
+// Writes a file, or stdout if the path is "-". Afterwards the file is complete or, after a failure, unchanged.
 void write_text(const std::string &path, const std::string &text);
 
 }  // namespace riis::program

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a JSON file or NAME=VALUE. Out: parameters of a valve, by the names that riis_valve_set knows. json_template makes a
-// template for such a file from a valve.
+// In: a JSON file or NAME=VALUE. Out: parameters of a valve, with the names that riis_valve_set accepts. json_template makes
+// such a file from a valve.
 #pragma once
 
 #include <riis/riis.h>
@@ -11,19 +11,19 @@
 
 namespace riis::program {
 
-// Reads {"root_radius": 1.29, "right": {"leaflet_angle": 61}, "left.leaflet_angle": 58.5}. Names without a cusp are set first,
-// so the order in the file does not matter. A repeated name is refused.
+// Reads, for example, {"root_radius": 1.29, "right": {"leaflet_angle": 61}, "left.leaflet_angle": 58.5}. Names without a cusp
+// are set first, so the order in the file does not matter. A repeated name is refused.
 void set_from_json_file(riis_valve *valve, const std::string &path);
 
-// Does the same from a JSON value. path, a file or a place in one, goes before refusals.
+// Does the same for a JSON value. `path`, a file or a position in one, begins refusals.
 void set_from_json(riis_valve *valve, const Json &parameters, const std::string &path);
 
-// Applies one --set.
+// Sets the parameter of one --set.
 void set_from_text(riis_valve *valve, const std::string &setting);
 
 // Returns all parameters of the valve with their values.
 std::string json_template(const riis_valve *valve);
-// Returns the parameters as a table for people, with a line for each parameter: name, value, unit, range, description.
+// Returns the parameters as a table for people. Each line has a parameter's name, value, unit, range and description.
 std::string parameter_table(const riis_valve *valve);
 
 }  // namespace riis::program

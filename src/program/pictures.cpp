@@ -33,7 +33,8 @@ namespace riis::program {
 
 namespace {
 
-// Says whether the valve is the paper's aortic valve, whose title says that it is not closed (docs/meshes.md).
+// Returns whether the valve is the paper's aortic valve. The picture's title then says that this valve does not close
+// (docs/meshes.md).
 bool is_papers_aortic_valve(const ValveOptions &options, const riis_valve *valve) {
   if (!valve || options.valve != "aortic") return false;
   int64_t n_parameters = 0;
@@ -43,7 +44,7 @@ bool is_papers_aortic_valve(const ValveOptions &options, const riis_valve *valve
     double values[3] = {0, 0, 0};
     check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
     check(riis_valve_get(valve, parameter.name, parameter.n_values, values));
-    // The parameters of the open state do not matter at opening 0.
+    // The parameters of the open state have no effect at opening 0.
     const std::string_view name = parameter.name;
     if (name == "open_radius_ratio" || name == "commissure_expansion") continue;
     if (!std::equal(values, values + 3, parameter.default_values)) return false;
@@ -51,7 +52,7 @@ bool is_papers_aortic_valve(const ValveOptions &options, const riis_valve *valve
   return true;
 }
 
-// Leaking edges are drawn red. A picture of a mesh without leaks says so if the edges of all cells are known.
+// Draws leaking edges in red. If there are none and the edges of all cells are known, the picture says so.
 void show_leaks(const LeakReport &leaks, riis_vtk_picture_options &how) {
   static constexpr int64_t none = 0;
   how.n_leaking_edges = leaks.found.n_edges;
@@ -113,7 +114,8 @@ void draw_pictures(const MarkOptions &options, const std::string &title, const s
 
 namespace {
 
-// Returns the largest number of decimals of the times. So all numbers in a movie have the same length.
+// Returns the largest number of decimals of the times. All times in a movie are shown with this number, so their texts have the
+// same length.
 int decimals_of(const std::vector<double> &times) {
   constexpr std::size_t most = 6;
   std::size_t n = 0;
@@ -131,7 +133,7 @@ std::string fixed(double number, int decimals) {
   return text;
 }
 
-// Merges the marks of several valves. A node has the leaflet of its nearest valve.
+// The marks of several valves together. A node gets the leaflet of its nearest valve.
 struct JoinedMarks {
   explicit JoinedMarks(std::size_t n) : marked(n, 0.0), distance(n, RIIS_FAR_DISTANCE), leaflet(n, -1.0) {}
 
@@ -149,7 +151,7 @@ struct JoinedMarks {
   std::vector<double> marked, distance, leaflet;
 };
 
-// Returns the names of all leaflets, or their numbers if a valve's leaflets have no names.
+// Returns the names of all leaflets. Leaflets without names get their numbers.
 std::vector<std::string> leaflet_texts_of(const Case &all, const std::vector<MovingValve> &valves) {
   std::vector<std::string> texts;
   for (std::size_t valve = 0; valve < valves.size(); ++valve) {
@@ -243,7 +245,7 @@ void SeriesPictures::encode(Report &report) {
 
 namespace {
 
-// Returns the program of that name on the PATH, or "" if there is none.
+// Returns the path of the program with that name on the PATH, or "" if there is none.
 std::string program_on_path(const std::string &name) {
   const char *path = std::getenv("PATH");
   std::string folders = path ? path : "";
@@ -262,14 +264,14 @@ std::string program_on_path(const std::string &name) {
   throw Refusal{exit_bad_data, path + ": the movie cannot be made: " + reason};
 }
 
-// Returns the name of a frame's file, with the frame's number for ffmpeg.
+// Returns the name of a frame's file. It contains the frame's number in the form that ffmpeg reads.
 std::string frame_name(std::size_t number) {
   char text[32];
   std::snprintf(text, sizeof text, "frame_%06zu.png", number);
   return text;
 }
 
-// Returns ffmpeg's pattern for the frames. A % of the folder is doubled, because % has a meaning in the pattern.
+// Returns ffmpeg's pattern for the frames. A % in the folder's name is doubled, because % has a meaning in the pattern.
 std::string frame_pattern(const std::string &folder) {
   std::string pattern;
   for (const char c : folder) pattern += c == '%' ? std::string("%%") : std::string(1, c);
@@ -278,7 +280,7 @@ std::string frame_pattern(const std::string &folder) {
 
 std::vector<std::string> encoding_of(const std::string &path) {
   if (has_ending(path, ".gif")) {
-    // One palette has the colours of the whole movie. The movie repeats for ever.
+    // The movie repeats for ever, and all its frames share one palette of colours.
     return {
         "-filter_complex",
         "scale='min(800,iw)':-2:flags=lanczos,split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=bayer:bayer_scale=5",
@@ -287,11 +289,11 @@ std::vector<std::string> encoding_of(const std::string &path) {
         "-f",
         "gif"};
   }
-  // Every player can play this kind of H.264.
+  // This kind of H.264 plays in every player.
   return {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart", "-f", "mp4"};
 }
 
-// Runs a program without a shell. Its messages go to a file. Returns its exit status, or -1 if it did not end by itself.
+// Runs a program without a shell. Writes the program's messages to a file. Returns its exit status, or -1 if a signal ended it.
 int run_program_to_log(const std::vector<std::string> &words, const std::string &log) {
   std::vector<char *> arguments;
   for (const std::string &word : words) arguments.push_back(const_cast<char *>(word.c_str()));
@@ -358,7 +360,7 @@ void Movie::encode() const {
   if (status == 0 && std::rename(temporary.c_str(), place.c_str()) == 0) return;
   const int error = errno;
   std::remove(temporary.c_str());
-  // The user's Ctrl-C also reaches ffmpeg.
+  // The user's Ctrl-C also reaches ffmpeg. Then the failure needs no message.
   if (UnbrokenWrite::has_signal()) return;
   if (status == 0) refuse_movie(path_, std::generic_category().message(error));
   refuse_movie(path_, "ffmpeg ends with status " + std::to_string(status) + ": " + last_line_of(log));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws the pictures of a run with their titles.
+// Draws the pictures and the movie of a run, with their titles.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -18,23 +18,23 @@
 
 namespace riis::program {
 
-// Returns the names of a valve's leaflets, or no names for a file, whose leaflets have numbers.
+// Returns the names of a valve's leaflets. Returns no names for a file, because its leaflets only have numbers.
 std::vector<const char *> leaflet_names(const ValveOptions &options);
 
-// Returns a title such as "Mitral valve". A file's title is its base name.
+// Returns a title such as "Mitral valve". For a file, the title is the base name.
 std::string title_of_valve(const ValveOptions &options);
 
-// Returns the picture's title. A file's title is its base name. The title of a kind of valve begins with a capital, as the
+// Returns the title of a picture. For a file, it begins with the base name. For a kind of valve, it begins with a capital, as
 // other captions do.
 std::string picture_title(const ValveOptions &options, const riis_valve *valve, const Report &report);
 
-// Draws options.pictures. mesh and result may be NULL; leaks are shown with a result.
+// Draws options.pictures. `mesh` and `result` may be NULL. Leaks are shown only with `result`.
 void draw_pictures(const MarkOptions &options, const std::string &title, const std::vector<const char *> &names,
                    const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_marks *result, Report &report);
 
-// In: frames, as files in a folder of their own. Out: a movie, by the program ffmpeg.
+// In: frames, which are files in a folder of their own. Out: a movie, made by the program ffmpeg.
 
-// Refuses a movie that is neither .mp4 nor .gif, and any movie on a machine without ffmpeg. Does nothing for "".
+// Refuses a movie that is neither .mp4 nor .gif. Refuses any movie if ffmpeg is missing. Does nothing if the path is "".
 void check_movie(const std::string &path);
 
 class Movie {
@@ -45,9 +45,9 @@ class Movie {
   Movie(const Movie &) = delete;
   Movie &operator=(const Movie &) = delete;
 
-  // Returns the path of the next frame, a .png file for the caller to write.
+  // Returns the path of the next frame. The caller must write a .png file there.
   std::string next_frame();
-  // Makes the movie of the frames. Afterwards the movie's file is complete or unchanged.
+  // Makes the movie from the frames. Afterwards the movie's file is complete or, after a failure, unchanged.
   void encode() const;
 
  private:
@@ -56,17 +56,18 @@ class Movie {
   std::size_t n_frames_ = 0;
 };
 
-// Draws the pictures at one time and the movie of a series. They show all valves in one surface, and their marks in the whole
-// mesh.
+// Draws the pictures of a series at its first time, and its movie. Both show all valves as one surface, and their marks in the
+// whole mesh.
 
 class SeriesPictures {
  public:
-  // The mesh gets the arrays that pictures show, so this mesh is not written to a file. box contains the surfaces at all times.
+  // The mesh gets the arrays that pictures show, so it must not be written to a file. `box` must contain the surfaces at all
+  // times.
   SeriesPictures(const Case &all, MeshFile mesh, const Box &box);
-  // Tells whether the user wants a picture or a movie.
+  // Returns whether the user wants a picture or a movie.
   static bool are_wanted(const MarkOptions &options);
-  // Draws the pictures at the first step, and a frame of the movie at each step. The valves are at the step's time. Their marks
-  // change.
+  // Draws the pictures at the first step, and a frame of the movie at each step. The valves must be at the step's time. The call
+  // changes their marks.
   void draw(std::size_t step, std::vector<MovingValve> &valves, Report &report);
   void encode(Report &report);
 
@@ -80,7 +81,7 @@ class SeriesPictures {
   Mesh nodes_;
   Box box_;
   std::vector<std::string> leaflet_texts_;
-  std::vector<const char *> leaflet_names_;  // point into the texts
+  std::vector<const char *> leaflet_names_;  // point into leaflet_texts_
   std::optional<Movie> movie_;
   Film film_;
 };

@@ -49,7 +49,7 @@ void StepProgress::begin(std::size_t step) {
   last_ = now;
   has_line_ = true;
   const double left = seconds() / static_cast<double>(step) * static_cast<double>(n_steps_ - step);
-  // The blanks overwrite the end of the previous line, which may be longer.
+  // The blanks at the end overwrite the rest of a longer previous line.
   std::cerr << "\rriis: " << what_ << ": step " << step + 1 << " of " << n_steps_ << ", "
             << static_cast<long long>(left + 0.5) << " s left   " << std::flush;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stages of a run: the time of each, and a line on the terminal for a stage that takes longer than a second.
+// The stages of a run. Each is timed, and a stage that takes longer than a second prints a line on the terminal.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,8 @@ namespace riis::program {
 
 class Stage {
  public:
-  // Prints `what`, such as "reading mesh.vtu", on stderr after a second. Prints nothing if quiet, or if stderr is no terminal.
+  // Prints `what`, such as "reading mesh.vtu", on stderr after a second. Prints nothing if `quiet`, or if stderr is not a
+  // terminal.
   Stage(const std::string &what, bool quiet);
   ~Stage();
   Stage(const Stage &) = delete;
@@ -29,10 +30,10 @@ class Stage {
   std::thread watcher_;
 };
 
-// Counts the steps of a long stage on one line of the terminal. The line appears after one second.
+// Counts the steps of a long stage in one line on the terminal. The line appears after one second.
 class StepProgress {
  public:
-  // Prints `what`, such as "writing", before "step 12 of 81". Prints nothing if quiet, or if stderr is no terminal.
+  // Prints `what`, such as "writing", before "step 12 of 81". Prints nothing if `quiet`, or if stderr is not a terminal.
   StepProgress(const std::string &what, std::size_t n_steps, bool quiet);
   ~StepProgress();
   StepProgress(const StepProgress &) = delete;

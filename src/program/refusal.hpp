@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program gives up with an exit code and one line for stderr.
+// A Refusal is an exit code and one line for stderr. The program throws it to give up.
 #pragma once
 
 #include <riis/riis.h>
@@ -18,7 +18,7 @@ struct Refusal {
 
 [[noreturn]] inline void refuse_usage(const std::string &text) { throw Refusal{exit_wrong_usage, text}; }
 
-// Returns the library's message. If it begins with a struct field, the command line's option replaces the field.
+// Returns the library's message. A struct field at its start is replaced by the option of the command line that sets the field.
 inline std::string with_option_named(const std::string &text) {
   static const std::pair<std::string, std::string> options[] = {{"options.scale ", "--scale "},
                                                                 {"options.rotation_axis ", "--rotate: the axis "},
@@ -41,8 +41,9 @@ inline std::string with_option_named(const std::string &text) {
   return text;
 }
 
-// Throws the library's own message. Faults of files, arrays and parameters are bad data. A refused argument is wrong usage, an
-// option out of range. subject, such as a file's name, goes before messages that do not name it themselves.
+// Throws a Refusal with the library's own message, unless status is RIIS_OK. Faults of files, arrays and parameters are bad
+// data. A refused argument is wrong usage, because it comes from an option that is out of range. `subject`, such as a file's
+// name, begins messages that do not name it themselves.
 inline void check(riis_status status, const std::string &subject = "") {
   if (status == RIIS_OK) return;
   const bool data = status == RIIS_INVALID_SURFACE || status == RIIS_INVALID_MESH || status == RIIS_INVALID_PARAMETER ||

@@ -197,7 +197,7 @@ std::string json_of(const Report &report) {
                  {"leaks", seconds.leaks},
                  {"write", seconds.write},
                  {"picture", seconds.picture}}}});
-  // Without a mesh there are no marks.
+  // Values that exist only with a mesh. Without one they are removed.
   static const char *const of_marks[] = {"n_nodes",
                                          "n_cells",
                                          "n_marked",
@@ -241,7 +241,7 @@ std::string table_of(const Report &report) {
   out << "surface   " << surface_title(report) << ": " << counted(report.surface.n_triangles, "triangle");
   if (report.n_leaflets > 0) out << ", " << counted(report.n_leaflets, "leaflet");
   out << ", area " << report.surface.area;
-  // A valve has such triangles at every collapsed side. A file should have none.
+  // A valve has such triangles at every collapsed side. A file should have none, so they are mentioned only for a file.
   if (!report.opening && report.surface.n_zero_area > 0)
     out << ", " << grouped(report.surface.n_zero_area) << " without area left out";
   out << "\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the results and the times of a run. Out: JSON for programs, a short table for people.
+// In: the results and times of a run. Out: JSON for programs, and a short table for people.
 #pragma once
 
 #include <riis/riis.h>
@@ -10,10 +10,10 @@
 
 namespace riis::program {
 
-// The change of the opening in a step: the valve opens within 50 steps.
+// The change of the opening in a step of --steps. The valve opens in 50 steps.
 inline constexpr double opening_of_step = 0.02;
 
-// The medians of the steps.
+// The medians over the steps of --steps.
 struct StepTimes {
   std::int32_t n_steps;
   std::int32_t search;      // RIIS_SEARCH_*
@@ -21,57 +21,57 @@ struct StepTimes {
 };
 
 struct Seconds {
-  double read = 0;     // files
-  double surface = 0;  // triangles
-  double scene = 0;    // Embree
+  double read = 0;     // reading files
+  double surface = 0;  // making triangles
+  double scene = 0;    // building Embree's scene
   double mesh = 0;     // checking the nodes
   double adjacency = 0;
   double search = 0;
-  double leaks = 0;  // finding the edges, and the half thickness that closes them
-  double write = 0;  // files
+  double leaks = 0;  // finding the edges, and the half thickness that closes the leaks
+  double write = 0;  // writing files
   double picture = 0;
 };
 
 struct PassageReport {
   riis_passage found{};
-  bool is_end = false;                // the place is an end of the path: the passage may be wider
-  double closing_half_thickness = 0;  // for the user to type; 0: none, or not open
-  std::string place{};                // the point, in text
-  bool is_unknown = false;            // closed along the known edges; unknown edges may open it
+  bool is_end = false;                // true if the position is an end of the path, so that the passage may be wider
+  double closing_half_thickness = 0;  // for the user to type; 0 if none was found or if the passage is not open
+  std::string place{};                // the position, as text
+  bool is_unknown = false;            // true if it is closed along the known edges, but unknown edges may open it
 };
 
 struct LeakReport {
-  riis_leak_list found{};             // its arrays are not kept
+  riis_leak_list found{};             // its arrays are gone
   std::vector<int64_t> edges;         // (2, found.n_edges)
-  double closing_half_thickness = 0;  // for the user to type; 0: none
+  double closing_half_thickness = 0;  // for the user to type; 0 if none was found
   int64_t n_volume_cells = 0;
-  int64_t n_cells_left_out = 0;          // cells of volume whose edges are not known
+  int64_t n_cells_left_out = 0;          // volume cells whose edges are not known
   std::optional<PassageReport> passage;  // if two points are checked
 
   bool has_all_edges() const { return n_volume_cells > 0 && n_cells_left_out == 0; }
 };
 
 struct CrossingReport {
-  int n_openings = 0;             // number of openings checked; 0: the surface as it is
-  std::optional<double> opening;  // opening of the crossing found
-  riis_crossing_list found{};     // its arrays are not kept
+  int n_openings = 0;             // number of openings checked, or 0 if only the given surface was checked
+  std::optional<double> opening;  // the opening at which a crossing was found
+  riis_crossing_list found{};     // its arrays are gone
 };
 
 struct Report {
   std::string surface_name;       // the valve's kind, or a file
-  std::optional<double> opening;  // a surface from a file has none
+  std::optional<double> opening;  // not set for a surface from a file
   std::optional<double> time;     // of a surface that moves
-  std::string mesh_name;          // "": no mesh was marked
+  std::string mesh_name;          // "" if no mesh was marked
   int64_t n_cells = 0;
   double distance_limit = 0;
   int32_t distance = RIIS_MEASURE_TRIANGLES;
-  int64_t n_leaflets = 0;  // leaflets that --leaflets makes of a file; 0: not printed
+  int64_t n_leaflets = 0;  // number of leaflets that --leaflets found in a file; 0 if it is not printed
   riis_surface_info surface{};
   riis_mark_stats marks{};
   LeakReport leaks;
-  std::optional<CrossingReport> crossings;  // present if crossings were looked for
+  std::optional<CrossingReport> crossings;  // set if crossings were looked for
   Seconds seconds;
-  std::vector<std::string> written;  // files
+  std::vector<std::string> written;  // paths of files
   std::optional<StepTimes> step;
 };
 
@@ -80,9 +80,9 @@ std::string grouped(int64_t n);
 std::string counted(int64_t n, const char *singular);
 // Returns a text such as "mitral valve, opening 0.5".
 std::string surface_title(const Report &report);
-// Says why leaks are unknown, such as "MESH has no volume cells"; "" if all edges of the mesh are known.
+// Returns a reason why leaks are unknown, such as "MESH has no volume cells". Returns "" if all edges of the mesh are known.
 std::string why_unknown(const LeakReport &leaks, const std::string &mesh);
-// Returns a line of the table, or "" if no points were checked.
+// Returns the table's line about the passage, or "" if no points were checked.
 std::string line_of_passage(const LeakReport &leaks);
 std::string json_of(const Report &report);
 std::string table_of(const Report &report);

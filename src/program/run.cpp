@@ -32,7 +32,7 @@ Mesh borrowed_nodes(const MarkOptions &options, const riis_vtk_mesh *file, Repor
   return mesh;
 }
 
-// The mesh borrows the adjacency.
+// Gives the mesh an adjacency. The mesh borrows it, so the caller must keep the returned object.
 Adjacency give_adjacency(const MarkOptions &options, const riis_vtk_mesh *file, riis_mesh *mesh, Report &report) {
   const Stage stage("finding the nodes' neighbours", options.quiet);
   riis_adjacency *handle = nullptr;
@@ -51,10 +51,10 @@ std::vector<std::string> names_of_arrays(const MarkOptions &options) {
   return names;
 }
 
-// Returns the marks, because pictures may need them under other names than the output has.
+// Marks the mesh and sets its arrays. Returns the marks, because pictures may need them under other names than in the output.
 Marks mark(const MarkOptions &options, const riis_surface *surface, const riis_valve *valve, riis_vtk_mesh *file,
            Report &report) {
-  Adjacency adjacency;  // outlives the mesh, which borrows it
+  Adjacency adjacency;  // declared first, so that it outlives the mesh that borrows it
   const Mesh mesh = borrowed_nodes(options, file, report);
   if (needs_adjacency(options.mark_options.search)) adjacency = give_adjacency(options, file, mesh.get(), report);
   Marks result = new_result();
@@ -102,7 +102,7 @@ void print_table(const MarkOptions &options, const Report &report) {
   if (!options.quiet && options.stats != "-") write_text("-", table_of(report));
 }
 
-// Outputs are written after all frames are read. So an output could replace a frame unnoticed.
+// Refuses outputs that would replace a frame. Outputs are written after all frames are read, so the user would not notice.
 Keyframes keyframes_of_run(const MarkOptions &options, Seconds &seconds) {
   KeyframeFiles read = read_keyframes(options, seconds);
   check_no_output_is("a frame of --surface " + options.surface, read.files, options);
@@ -137,13 +137,13 @@ ExitCode run_single(const MarkOptions &options) {
   if (options.n_steps > 0) report.step = time_steps(options, source.valve.get(), mesh.get());
   write_files(options, surface.get(), mesh.get(), report);
   try {
-    // The component draws the marks under these names. The output, with its own names, is written already.
+    // riis_vtk draws the marks under its default names. The output has its own names and is already written.
     if (result && !options.pictures.empty())
       check(riis_vtk_mesh_set_marks(mesh.get(), result.get(), options.far_distance, nullptr));
     draw_pictures(options, picture_title(options, valve, report), leaflet_names(options), surface.get(), mesh.get(),
                   result.get(), report);
   } catch (const Refusal &) {
-    // The marks are still valid.
+    // The marks are valid even if drawing failed.
     write_stats(options, report);
     throw;
   }
@@ -155,7 +155,7 @@ ExitCode run_single(const MarkOptions &options) {
 ExitCode run_command(const MarkOptions &options) {
   const bool has_case = !options.series.case_file.empty();
   if (!has_case && options.series.times.empty()) return run_single(options);
-  // This check comes first, because a case may have many files to read.
+  // The movie is checked before the case is read, because a case may have many files.
   check_movie(options.series.movie);
   Case all = has_case ? read_case(options) : case_of_command_line(options);
   return run_case(all);

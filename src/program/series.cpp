@@ -34,7 +34,8 @@ int64_t n_nodes_of(const riis_vtk_mesh *file) {
   return n;
 }
 
-// Returns the names of a series' arrays. A part of a mesh also has an array of its nodes' ids in the whole mesh.
+// Returns the names of the arrays of a series. If only a part of the mesh is written, it also has an array of its nodes' ids in
+// the whole mesh.
 std::vector<std::string> names_of_series(const Case &all) {
   std::vector<std::string> names;
   for (const ValveSource &valve : all.valves) {
@@ -59,10 +60,10 @@ std::string bytes_text(double n) {
   return text;
 }
 
-// The second pass, and the files that it writes.
+// The second pass of a series: marks at each time, and writes the files.
 class Writing {
  public:
-  // pictures may be NULL.
+  // `pictures` may be NULL.
   Writing(Case &all, std::vector<MovingValve> &valves, riis_vtk_mesh *part, SeriesPictures *pictures)
       : all_(all),
         valves_(valves),
@@ -73,7 +74,7 @@ class Writing {
         surfaces_(all.options.surface_output, ".vtp", times().size()),
         table_(all) {}
 
-  // Prints the size of all files, estimated from the files of the first step.
+  // Prints the estimated size of all files. The estimate comes from the first step's file.
   void announce(int64_t n_nodes_of_mesh) {
     if (all_.options.quiet || !meshes_.is_wanted()) return;
     set_arrays(0);
@@ -86,7 +87,7 @@ class Writing {
                  meshes_.folder().c_str());
   }
 
-  // Writes all steps. Ends early, after a whole step, if a signal waits.
+  // Writes all steps. If a signal waits, stops after the present step.
   void run(Report &report) {
     if (meshes_.is_wanted()) meshes_.make_folder();
     if (surfaces_.is_wanted()) surfaces_.make_folder();
@@ -106,7 +107,7 @@ class Writing {
     if (pictures_ && !UnbrokenWrite::has_signal()) pictures_->encode(report);
   }
 
-  std::size_t n_done() const { return n_done_; }  // steps
+  std::size_t n_done() const { return n_done_; }  // number of steps written
   const SeriesTable &table() const { return table_; }
   const SeriesFiles &meshes() const { return meshes_; }
   const SeriesFiles &surfaces() const { return surfaces_; }
@@ -114,7 +115,7 @@ class Writing {
  private:
   const std::vector<double> &times() const { return all_.options.series.times; }
 
-  // Returns the time before a step. Before the first time, this is the time one first step earlier.
+  // Returns the time before a step. For the first step, it is the first time minus the length of the next step.
   double time_before(std::size_t step) const {
     return step == 0 ? times()[0] - (times()[1] - times()[0]) : times()[step - 1];
   }
@@ -176,12 +177,12 @@ MeshFile copy_of(const riis_vtk_mesh *file) {
   return part_of(file, all);
 }
 
-// Returns the first time at which the valve is least open.
+// Returns the time at which the valve is least open. If there are several, returns the first.
 double time_of_least_opening(const OpeningLaw &law, const std::vector<double> &times) {
   return *std::min_element(times.begin(), times.end(), [&](double a, double b) { return law.at(a) < law.at(b); });
 }
 
-// Warns of leaks at the time when each valve is least open, since an open valve does not stop the flow.
+// Warns of leaks at the time when each valve is least open. An open valve is not meant to stop the flow.
 void look_for_closed_leaks(const Case &all, std::vector<MovingValve> &valves, riis_mesh *mesh,
                            const riis_vtk_mesh *file, Report &report) {
   for (MovingValve &valve : valves) {
@@ -192,7 +193,7 @@ void look_for_closed_leaks(const Case &all, std::vector<MovingValve> &valves, ri
   check_passage_of(all, valves, mesh, file, report);
 }
 
-// Warns of marks that look wrong. It judges each valve at the time when it marks most nodes.
+// Warns of suspicious marks. Judges each valve at the time when it marks most nodes.
 void warn_of_sweep(const Case &all, const Sweep &sweep, const riis_vtk_mesh *file) {
   riis_mark_stats marks{};
   std::vector<Warning> warnings;
@@ -207,7 +208,7 @@ void warn_of_sweep(const Case &all, const Sweep &sweep, const riis_vtk_mesh *fil
   warn(warnings);
 }
 
-// Prints the summary at the end.
+// Prints the summary at the end of a series.
 void print_summary(const Case &all, const Writing &writing, int64_t n_nodes, int64_t n_written, Report &report) {
   if (all.options.quiet) return;
   const std::vector<double> &times = all.options.series.times;
@@ -243,12 +244,12 @@ ExitCode run_series(Case &all) {
     warn_of_sweep(all, sweep, file.get());
     look_for_closed_leaks(all, valves, mesh.get(), file.get(), report);
   }
-  // From here on a signal waits for the end of a step. Then the lists are written, and the movie's frames are removed.
+  // From here on, a signal waits for the end of a step. So the lists are always written, and the movie's frames are removed.
   const UnbrokenWrite unbroken;
   const MeshFile part = options.series.all_cells ? nullptr : part_of(file.get(), sweep.node_ids);
   std::optional<SeriesPictures> pictures;
   if (SeriesPictures::are_wanted(options)) {
-    // Pictures show the whole mesh and have arrays of their own in it.
+    // Pictures show the whole mesh, and they need other arrays in it.
     MeshFile drawn = part ? std::move(file) : copy_of(file.get());
     pictures.emplace(all, std::move(drawn), sweep.box);
   } else if (part) {

@@ -86,7 +86,7 @@ void SeriesLists::end() {
   write_(true);
 }
 
-// A pause follows each writing and lasts twenty times as long. So lists take little of the run's time.
+// After each writing, the thread pauses twenty times as long as the writing took. So lists take little of the run's time.
 void SeriesLists::follow() {
   using Clock = std::chrono::steady_clock;
   constexpr Clock::duration longest_pause = std::chrono::milliseconds(500);
@@ -166,7 +166,7 @@ int64_t SeriesTable::most_marked() const {
 std::string SeriesTable::summary() const {
   std::string text;
   for (const Row &row : rows_) {
-    // A surface from a file has none.
+    // A surface from a file has no opening.
     const bool has_opening = row.opening.least <= row.opening.most;
     text +=
         "valve     " + row.name + ": " +

@@ -17,7 +17,7 @@ namespace {
 
 template <class Number>
 Number parse(const std::string &text, const std::string &subject, const char *kind) {
-  // from_chars refuses a plus sign.
+  // std::from_chars does not accept a plus sign, so it is skipped.
   const char *first = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
   const char *last = text.data() + text.size();
   Number number{};
@@ -76,7 +76,7 @@ std::string text_of_file(const std::string &path) {
   std::ifstream file(path);
   std::ostringstream text;
   if (file) text << file.rdbuf();
-  // A folder can be opened, but not read.
+  // A folder can be opened as a file, but reading it fails.
   if (!file.is_open() || errno != 0) refuse_file(path, "cannot be read: " + std::generic_category().message(errno));
   if (text.str().empty()) refuse_file(path, "is empty");
   return text.str();
@@ -105,7 +105,7 @@ std::string in_xml(const std::string &text) {
 
 namespace {
 
-// The library's limit of a time.
+// The library's limit for a time.
 constexpr double largest_time = 1e30;
 
 [[noreturn]] void refuse_times(const std::string &subject, const std::string &reason) {
@@ -132,7 +132,7 @@ std::vector<std::string> pieces_between(const std::string &text, char mark) {
   return pieces;
 }
 
-// Rounding turns a sum of steps such as 0.07000000000000001 into the intended 0.07.
+// Removes the rounding error of a sum of steps: 0.07000000000000001 becomes the intended 0.07.
 double tidied(double time, double step) {
   char text[32];
   double tidy = time;
@@ -144,7 +144,7 @@ double tidied(double time, double step) {
 std::vector<double> stepped(double start, double stop, double step, const std::string &subject) {
   if (!(step > 0)) refuse_times(subject, "the step " + shortest(step) + " is not above 0");
   if (stop < start) refuse_times(subject, "the stop " + shortest(stop) + " is before the start " + shortest(start));
-  // Rounding must not lose the last step of a span that the step divides.
+  // If the step divides the span, rounding must not lose the last step.
   const double n = std::floor((stop - start) / step * (1 + 1e-12) + 1e-9) + 1;
   if (n > static_cast<double>(most_times)) refuse_count(subject, n);
   std::vector<double> times;

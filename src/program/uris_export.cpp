@@ -26,7 +26,7 @@ namespace riis::program {
 
 namespace {
 
-// The longest edge, in half thicknesses, at which the solver's sum of delta is within 1 % of the exact one (docs/export.md).
+// The longest edge, in half thicknesses, up to which the solver's sum of delta is within 1 % of the exact sum (docs/export.md).
 constexpr double fine_edges = 0.15;
 
 // A file that is written piece by piece, because a long motion does not fit in memory.
@@ -56,7 +56,7 @@ class TextFile {
 void append_point(const std::vector<double> &xyz, std::int64_t vertex, std::string &text) {
   char digits[32];
   for (std::int64_t k = 0; k < 3; ++k) {
-    // Returns the shortest text that reads back as the same double.
+    // to_chars gives the shortest text that reads back as the same double.
     text.append(digits, std::to_chars(digits, digits + sizeof digits, view(xyz)[3 * vertex + k]).ptr);
     text += k < 2 ? ' ' : '\n';
   }
@@ -89,7 +89,8 @@ std::string vtu_text(const std::vector<double> &xyz, const UrisLeaflet &leaflet)
          "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
-// Ends the export between two frames. The signal ends the process after the files are removed, so nobody reads the message.
+// Stops the export between two frames if a signal waits. The signal ends the process once the files are removed, so the message
+// is never printed.
 void stop_if_interrupted() {
   if (UnbrokenWrite::has_signal()) throw Refusal{exit_bad_data, "riis export: interrupted, and nothing is left"};
 }
@@ -134,11 +135,11 @@ void write_export(const ExportOptions &options, const UrisMotion &motion, UrisLe
   folder.take_place();
 }
 
-// The solver uses this name in names of files.
+// Returns the name of the valve in the solver's input. The solver also uses it in names of files.
 std::string block_name(const ExportOptions &options) {
   if (!is_valve_file(options.valve)) return options.valve;
   std::string name = std::filesystem::path(options.valve).stem().string();
-  // A comment in XML must not contain two dashes in a row.
+  // A dash is replaced too, because two dashes in a row would end the comment in the XML.
   for (char &c : name) c = c != '-' && is_prefix(std::string(1, c)) ? c : '_';
   return name;
 }

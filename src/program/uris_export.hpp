@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis export: a valve's opening and closing as files of svMultiPhysics, and the block of its input that names them.
+// riis export: writes a valve's opening and closing as files for svMultiPhysics, and prints the block of the solver's input that
+// names these files.
 #pragma once
 
 #include <string>
@@ -12,20 +13,20 @@ namespace riis::program {
 // Writes the folder, and prints the block on stdout.
 void export_uris(const ExportOptions &options);
 
-// The folder of an export, which is complete or not there.
+// The folder of an export. It is complete or does not exist.
 
-// A folder that gets its files when all of them are written. Until then the files are in a folder inside it, whose name begins
-// with a dot. Without take_place() the destructor removes everything.
+// A folder that receives its files only when all of them are written. Until then the files are in a folder inside it whose name
+// begins with a dot. If take_place() was not called, the destructor removes everything.
 class WholeFolder {
  public:
-  // Makes the folder, or takes an empty one. Throws a Refusal for any other folder, and for one that cannot be made or written
-  // to. The Refusal names the option.
+  // Makes the folder, or uses an empty one. Throws a Refusal for a folder that is not empty, that cannot be made or that cannot
+  // be written to. The Refusal names the option.
   WholeFolder(const std::string &path, const std::string &option);
   ~WholeFolder();
   WholeFolder(const WholeFolder &) = delete;
   WholeFolder &operator=(const WholeFolder &) = delete;
 
-  // Returns the path at which the caller writes the file of this name. The file must be new.
+  // Returns the path at which the caller must write the file with this name. The name must be new.
   std::string new_file(const std::string &name);
   void take_place();
 
@@ -35,7 +36,7 @@ class WholeFolder {
   std::vector<std::string> names_;
 };
 
-// Throws a Refusal for a folder that WholeFolder would refuse, and changes nothing.
+// Throws a Refusal for a folder that WholeFolder would refuse. Changes nothing.
 void check_whole_folder(const std::string &given, const std::string &option);
 
 }  // namespace riis::program

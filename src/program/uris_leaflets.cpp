@@ -18,7 +18,7 @@ namespace riis::program {
 
 namespace {
 
-// A text file with more triangles is too large for any use, even with few frames.
+// With more triangles, a text file is too large to be useful, even with few frames.
 constexpr std::int64_t most_triangles = 2000000;
 
 std::string name_of_leaflet(const std::string &valve, std::int32_t id) {
@@ -91,7 +91,8 @@ void UrisLeaflets::open_to(double opening) {
   check(riis_surface_update(surface_.get(), valve_.get(), nullptr), subject_);
 }
 
-// A triangle without area has no normal, so the solver would divide by zero.
+// Returns the triangles that have an area in all frames. A triangle without area has no normal, so the solver would divide by
+// zero.
 std::vector<FinerTriangles::Triangle> UrisLeaflets::lasting_triangles(const UrisMotion &motion) {
   struct Seen {
     FinerTriangles::Triangle triangle;
@@ -161,7 +162,7 @@ void UrisLeaflets::part(const ExportOptions &options) {
   }
 }
 
-// A housing gets a box of its own, because the solver uses a separate box for it.
+// Adds the triangles that widen the boxes. A housing gets its own, because the solver uses a separate box for it.
 void UrisLeaflets::add_boxes(const UrisMotion &motion) {
   std::vector<Corners> moving, resting;
   for (const auto &[corners, leaflet] : net_.triangles()) (leaflet == housing_ ? resting : moving).push_back(corners);
@@ -177,7 +178,7 @@ void UrisLeaflets::add_boxes(const UrisMotion &motion) {
   };
   for (UrisLeaflet &leaflet : leaflets_)
     if (leaflet.is_scaffold) add(resting, leaflet);
-  // The box comes last, because the solver keeps the first of equally near triangles.
+  // The face "box" must be the last, because of several equally near triangles the solver takes the first.
   leaflets_.push_back({"box", {}, {}, false});
   add(moving, leaflets_.back());
 }
@@ -186,8 +187,8 @@ void UrisLeaflets::add_boxes(const UrisMotion &motion) {
 
 namespace {
 
-// The solver widens its box by the first share. Its pressure bands end at so many half thicknesses. The factor keeps a node at
-// the very end inside.
+// The solver widens its box by solver_share. Its pressure bands end at end_of_bands half thicknesses. The additional 1e-6 keeps
+// a node at the very end of the bands inside the box.
 constexpr double solver_share = 0.1, end_of_bands = 5 * (1 + 1e-6);
 
 struct Side {
@@ -239,12 +240,13 @@ UrisBox::UrisBox(std::vector<Corners> triangles, const std::vector<double> &firs
 void UrisBox::append_nodes(std::vector<double> &xyz) const {
   const std::array<Side, 3> box = box_of(triangles_, xyz);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    double nodes[3][3];  // [corner][coordinate]
+    double nodes[3][3];  // first index: corner; second index: coordinate
     for (std::size_t k = 0; k < 3; ++k) {
       const double sum = sum_of(triangles_[chosen_[axis]], xyz, k), middle = sum / 3;
       const double half = (box[k].upper - box[k].lower) / 2,
                    wanted = std::max(half, (half + end_of_bands * half_thickness_) / (1 + 2 * solver_share));
-      // Along its axis the triangle reaches equally far to both sides. It has a width across the axis, so that it has an area.
+      // The triangle extends equally far in both directions along its axis. It also has a width across the axis, so that it has
+      // an area.
       const double reach = wanted + std::abs(middle - box[k].middle());
       const bool is_along = k == axis, is_across = k == (axis + 1) % 3;
       const double offsets[2] = {is_along    ? reach
@@ -289,7 +291,7 @@ void FinerTriangles::measure(const std::vector<double> &xyz) {
 }
 
 bool FinerTriangles::halve_longer(double length) {
-  // The vertex in the middle of each edge, or -1.
+  // The vertex in the middle of each edge that is halved, or -1 for other edges.
   std::vector<std::int64_t> middle;
   for (const Edge &edge : edges_) {
     middle.push_back(edge.length > length ? n_given_ + view(middles_).size() : -1);
@@ -315,7 +317,8 @@ bool FinerTriangles::halve_longer(double length) {
       add(corners[k], middles[k], corners[other]);
       add(middles[k], corners[next], corners[other]);
     } else if (n_cut == 2) {
-      // The edge from a to b is not halved. Of the two diagonals, the one to the middle of the longer halved edge is shorter.
+      // The edge from a to b is not halved. There are two diagonals. The shorter one ends in the middle of the longer halved
+      // edge.
       const std::size_t k = whole, next = (k + 1) % 3, other = (k + 2) % 3;
       const std::int64_t a = corners[k], b = corners[next], c = corners[other], bc = middles[next], ca = middles[other];
       add(ca, bc, c);

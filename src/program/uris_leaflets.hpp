@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a valve and the openings of its frames. Out: leaflets with the same nodes and triangles in all frames, and a face that
-// widens the solver's box.
+// In: a valve, and the openings of its frames. Out: leaflets whose nodes and triangles are the same in all frames, and a face
+// that widens the solver's box.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@
 
 namespace riis::program {
 
-// Moving triangles, which are cut into smaller ones. The cuts are the same at all times.
+// Moving triangles that are cut into smaller ones. The cuts are the same at all times.
 
 using Corners = std::array<std::int64_t, 3>;
 
-// Triangles with given vertices and middles of edges as corners. A middle moves with the two ends of its edge.
+// Triangles whose corners are given vertices and middles of edges. A middle moves with the two ends of its edge.
 class FinerTriangles {
  public:
   struct Triangle {
@@ -30,57 +30,57 @@ class FinerTriangles {
   FinerTriangles(std::int64_t n_given, std::vector<Triangle> triangles);
 
   const std::vector<Triangle> &triangles() const { return triangles_; }
-  // Returns the length of the longest edge measured since the last cut.
+  // Returns the length of the longest edge, from the measurements since the last cut.
   double longest_edge() const;
 
-  // Appends the middles of edges to the given vertices, xyz(3, n_given).
+  // Appends the middles of edges to the given vertices xyz(3, n_given).
   void append_middles(std::vector<double> &xyz) const;
-  // Measures all edges, with all vertices at one time. The length of an edge is the largest of all times.
+  // Measures all edges. `xyz` has all vertices at one time. The length of an edge is the largest one over all times.
   void measure(const std::vector<double> &xyz);
-  // Halves each edge once whose measured length is larger than the limit. Returns true if it halved any. Triangles that share
-  // an edge share its middle, so no gap opens between them.
+  // Halves once each edge whose measured length exceeds `length`. Returns true if there was one. Triangles that share an edge
+  // also share its middle, so no gap opens between them.
   bool halve_longer(double length);
 
  private:
   struct Ends {
-    std::int64_t a, b;  // ascending
+    std::int64_t a, b;  // a < b
   };
   struct Edge {
     Ends ends;
-    double length;  // the largest measured so far
+    double length;  // the largest length measured so far
   };
 
-  // Returns the number of the edge from corner k to the next.
+  // Returns the number of the edge that begins at corner k of a triangle.
   std::int64_t edge_of(std::size_t triangle, std::size_t k) const { return triangle_edges_[triangle][k]; }
   void find_edges();
 
   std::int64_t n_given_;
   std::vector<Triangle> triangles_;
-  std::vector<Ends> middles_;  // the edges of vertices n_given_, n_given_ + 1, ...
+  std::vector<Ends> middles_;  // the ends of the edge whose middle is vertex n_given_, n_given_ + 1, ...
   std::vector<Edge> edges_;
   std::vector<Corners> triangle_edges_;
 };
 
-// svMultiPhysics looks at a mesh only in the box of the valve's nodes, widened by a tenth. A flat valve's box is too thin. It
-// excludes nodes to mark, and the bands in which the solver measures pressures. In: the triangles. Out: three more, which widen
-// the box.
+// svMultiPhysics searches a mesh only in the box of the valve's nodes, widened by a tenth. The box of a flat valve is too thin:
+// it excludes nodes that should be marked, and parts of the bands in which the solver measures pressures.
+// In: the triangles. Out: three more triangles, which widen the box.
 
-// Returns a power of two. Coordinates are rounded to its multiples, and `largest` is the largest coordinate. Then sums of three
-// coordinates are exact, even in a box about ten times larger.
+// Returns a power of two to whose multiples coordinates are rounded. `largest` is the largest coordinate. The sum of three such
+// coordinates is exact, even in a box about ten times as large.
 double uris_grid(double largest);
 
-// A triangle along each axis. A triangle of the valve has exactly the same middle, so the solver never finds the box's triangle
-// nearer. Its corners reach beyond the box at both ends.
+// Three triangles, one along each axis. The middle of each is exactly the middle of a triangle of the valve, so the solver never
+// finds it nearer than the valve. Its corners extend beyond the valve's box at both ends.
 class UrisBox {
  public:
   static constexpr std::int64_t n_nodes = 9;
 
-  // Chooses triangles of the valve that lie half way between the sides, in the first and the last frame. Coordinates are
-  // multiples of grid.
+  // For each axis, chooses a triangle of the valve near the middle of the box in the first and the last frame. Coordinates must
+  // be multiples of `grid`.
   UrisBox(std::vector<Corners> triangles, const std::vector<double> &first, const std::vector<double> &last,
           double half_thickness, double grid);
 
-  // Appends the three corners of each axis' triangle to a frame.
+  // Appends to a frame the three corners of each axis's triangle.
   void append_nodes(std::vector<double> &xyz) const;
 
  private:
@@ -90,27 +90,28 @@ class UrisBox {
 };
 
 struct UrisLeaflet {
-  std::string name;                 // fit for a file's name
-  std::vector<std::int64_t> nodes;  // ascending: a node's vertex
-  std::vector<Corners> triangles;   // by the leaflet's own nodes, from 0
-  bool is_scaffold;                 // at rest, and on no side of the flow: a housing
+  std::string name;                 // usable as a file's name
+  std::vector<std::int64_t> nodes;  // for each node, its vertex; ascending
+  std::vector<Corners> triangles;   // in terms of the leaflet's own nodes, from 0
+  bool is_scaffold;                 // true for a housing, which does not move and has no flow through it
 };
 
 class UrisLeaflets {
  public:
-  // Uses all frames, and cuts the triangles as the options require.
+  // Evaluates all frames, and cuts the triangles as the options require.
   UrisLeaflets(const ExportOptions &options, const UrisMotion &motion);
 
   const riis_valve *valve() const { return valve_.get(); }
   const std::vector<UrisLeaflet> &leaflets() const { return leaflets_; }
-  // Returns all vertices at an opening, xyz(3, n): multiples of a power of two, so that the solver's sums of them are exact.
+  // Returns all vertices at an opening, xyz(3, n). They are multiples of a power of two, so that the solver's sums of them are
+  // exact.
   std::vector<double> vertices_at(double opening);
-  // Returns the direction of forward flow: the mean normal of the leaflets in the first frame, without a housing.
+  // Returns the direction of forward flow. It is the mean normal of the leaflets in the first frame, without the housing.
   const std::array<double, 3> &forward() const { return forward_; }
   double half_thickness() const { return half_thickness_; }
   double longest_edge() const { return longest_edge_; }
   std::int64_t n_triangles() const;
-  // Returns the number of triangles that are left out, because they have no area in some frame.
+  // Returns the number of triangles left out because they have no area in some frame.
   std::int64_t n_left_out() const { return n_left_out_; }
 
  private:

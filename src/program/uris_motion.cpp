@@ -19,11 +19,11 @@ struct Spans {
   TimeSpan opening, closing;
 };
 
-// The keys of a cycle, or of two periods if the cycle has a period.
+// The keys of a cycle. If the cycle has a period, the keys of two periods.
 class Keys {
  public:
   explicit Keys(const OpeningTable &table) : table_(table) {}
-  // Two periods contain a span from each key of the cycle to each other key.
+  // Two periods contain a span from any key of the cycle to any other key.
   std::size_t size() const { return table_.times.size() * (table_.period > 0 ? 2 : 1); }
   double time(std::size_t i) const { return table_.times[i % n()] + (i < n() ? 0 : table_.period); }
   double opening(std::size_t i) const { return table_.openings[i % n()]; }
@@ -33,8 +33,8 @@ class Keys {
   const OpeningTable &table_;
 };
 
-// Finds the first span between keys of two openings. It runs from the last key of the first opening to the next key of the
-// other.
+// Returns the first span from a key with the opening `from` to the next key with the opening `to`. It starts at the last key
+// with `from` before that.
 std::optional<TimeSpan> way_between(const Keys &keys, double from, double to) {
   std::optional<double> start;
   for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -73,7 +73,7 @@ std::vector<double> frame_times(const TimeSpan &span, double step, const char *w
     throw Refusal{exit_wrong_usage,
                   "--time-step: " + shortest(step) + " is longer than the " + what + ", " + shortest(length)};
   }
-  // Rounding must not add a short step to a span that the step divides.
+  // If the step divides the span, rounding must not add a short step.
   const double n_steps = std::max(1.0, std::ceil(length / step * (1 - 1e-12) - 1e-9));
   if (n_steps >= static_cast<double>(most_times)) {
     throw Refusal{exit_wrong_usage, "--time-step: " + shortest(step) + " makes " + shortest(n_steps + 1) +
@@ -108,7 +108,7 @@ LawWithSpans law_of_cycle(const ExportOptions &options) {
 LawWithSpans law_of_seconds(const ExportOptions &options) {
   riis_opening_times times;
   check(riis_opening_times_init(&times, sizeof times));
-  // Opening ends and closing starts at time 0. So both ends of both ramps are exact.
+  // The opening ends and the closing starts at time 0. So both ends of both ramps are exact.
   times.opening_start = -*options.opening_duration;
   times.opening_duration = *options.opening_duration;
   times.closing_start = 0;

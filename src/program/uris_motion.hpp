@@ -8,13 +8,13 @@
 
 namespace riis::program {
 
-// The solver plays the first list when the valve begins to open, and the second when it begins to close. It plays a frame in
-// each time step.
+// The openings of the frames. The solver plays the first list when the valve begins to open, and the second when it begins to
+// close. Each time step plays one frame.
 struct UrisMotion {
   std::vector<double> opening, closing;
 };
 
-// Frames are a time step apart. The last frame is at the span's end, so the last step may be shorter.
+// Frames are one time step apart. The last frame is at the end of the span, so the last step may be shorter.
 UrisMotion uris_motion_of(const ExportOptions &options);
 
 }  // namespace riis::program

@@ -21,10 +21,10 @@ constexpr std::array<const char *, 4> side_keys = {"v0", "v1", "u0", "u1"};
 
 std::string quoted(const std::string &text) { return "\"" + text + "\""; }
 
-// Returns a value as it stands in the file. refuse_file shortens long values.
+// Returns a value as text, as it is in the file. refuse_file shortens long values.
 std::string json_text(const Json &value) { return value.dump(); }
 
-// The curves of one state, and the arrays that the library needs of them.
+// The curves of one state, and the arrays that the library needs for them.
 struct Curves {
   std::vector<std::string> names;
   std::unordered_map<std::string, std::int32_t> position;
@@ -40,7 +40,7 @@ class Reader {
  public:
   explicit Reader(const std::string &path) : path_(path) {}
 
-  // `where`, "" or "open: ", goes before names in refusals.
+  // `where`, "" or "open: ", precedes names in refusals.
   Curves curves_of(const Json &root, const std::string &where) const {
     const Json &list = member(root, "curves", where);
     if (!list.is_object())
@@ -72,7 +72,7 @@ class Reader {
     return patches;
   }
 
-  // Returns the open state's curves in the order of the closed state's.
+  // Returns the open state's curves, in the order of the closed state's curves.
   Curves open_curves_of(const Json &open, const Curves &closed) const {
     check_object(open, "\"open\"", {"curves"});
     const Curves found = curves_of(open, "open: ");
@@ -129,7 +129,7 @@ class Reader {
     }
     for (std::size_t i = 0; i < points.size(); ++i)
       add_point(points[i], curve + ": point " + std::to_string(i), curves);
-    // A side collapsed to a point is a line without length.
+    // A side that collapses to a point is stored as a line without length.
     if (points.size() == 1) add_point(points[0], curve, curves);
     curves.degrees.push_back(std::max(1, static_cast<std::int32_t>(points.size()) - 1));
   }
@@ -163,7 +163,7 @@ class Reader {
 
   std::int32_t leaflet_of(const Json &value, const std::string &subject) const {
     constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
-    // A negative number is refused as well, because it is too large as an unsigned number.
+    // A negative number is refused too, because as an unsigned number it is too large.
     if (!value.is_number_integer() || value.get<std::uint64_t>() > static_cast<std::uint64_t>(most)) {
       refuse(subject + ": leaflet is " + json_text(value) + "; it must be a whole number from 0 to " +
              std::to_string(most));
@@ -174,7 +174,7 @@ class Reader {
   const std::string &path_;
 };
 
-// Puts the file's names into the library's message. The library uses numbers of curves, and its own names of sides.
+// Replaces numbers of curves and the library's names of sides in a library message by the file's names.
 std::string with_names(std::string text, const Curves &curves, const Patches &patches) {
   std::smatch match;
   if (std::regex_search(text, match, std::regex("curve ([0-9]+)"))) {

@@ -9,20 +9,21 @@
 
 namespace riis::program {
 
-// Tells whether --valve is a file, which ends in .json, rather than a kind.
+// Returns whether --valve is a file, which ends in .json, and not a kind.
 bool is_valve_file(const std::string &valve);
 
 // {"curves": {"edge": [[0, 0, 0], [1, 0, 0]], ...},
 //  "patches": [{"v0": "edge", "v1": "-rim", "u0": ..., "u1": ..., "leaflet": 0}, ...],
 //  "open": {"curves": {"edge": ...}}}
-// 1 point is a side collapsed to it; 2, 3, 4 are the control points of a curve of degree 1, 2, 3. A minus runs the curve the
-// other way. "leaflet" (0) and "open" may be left out. Refusals name the curve, or the patch by its number from 0.
+// A curve with 2, 3 or 4 points has them as control points of degree 1, 2 or 3. A curve with 1 point is a side that is collapsed
+// to it. A minus reverses the curve. "leaflet" (0 by default) and "open" may be left out. Refusals name the curve, or the
+// patch by its number from 0.
 class ValveFile {
  public:
   explicit ValveFile(const std::string &path);
   riis_valve *valve() const { return valve_.get(); }
   Valve take_valve() { return std::move(valve_); }
-  // Refuses an opening that needs an open state if the file has none. The library's own message would recommend another valve.
+  // Refuses an opening that needs an open state if the file has none. The library's own message would advise another valve.
   void check_opening() const;
 
  private:

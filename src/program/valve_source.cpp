@@ -42,7 +42,7 @@ Valve make_valve_of_file(const ValveOptions &options, OpeningCheck opening) {
   return file.take_valve();
 }
 
-// Adds a command to the component's refusal of a file. The command makes a readable file.
+// Checks the status of reading a file. If riis_vtk cannot read the file, adds to the refusal a command that converts it.
 void check_read(riis_status status, const std::string &path, Content content) {
   try {
     check(status);
@@ -101,7 +101,7 @@ Valve copy_of(const riis_valve *valve) {
   return Valve(copy);
 }
 
-// A valve that is valid at 0 and refused at 1 has only one state. Other faults are reported when the surface is made.
+// If a valve is valid at opening 0 and refused at 1, it has only one state. Other faults are reported when the surface is made.
 std::string why_closed(riis_valve *valve, const riis_surface_options &how) {
   check(riis_valve_set_scalar(valve, "opening", 1));
   riis_surface *surface = nullptr;
@@ -212,7 +212,7 @@ std::string ending_of(const std::string &path) {
   return ending;
 }
 
-// Quotes the path. So a shell reads it as one word, and a program does not read it as an option.
+// Quotes the path, so that a shell reads it as one word and a program does not read it as an option.
 std::string shell_word(std::string path) {
   if (path[0] == '-') path.insert(0, "./");
   const auto is_plain = [](unsigned char c) {
@@ -242,7 +242,7 @@ std::string by_meshio(const std::string &path, const char *format) {
 
 std::string conversion_hint(const std::string &path, Content wanted) {
   const std::string ending = ending_of(path);
-  // Control characters would not survive in the one line of a refusal.
+  // A path with control characters would be changed in the one line of a refusal, so it gets no hint.
   if (std::any_of(path.begin(), path.end(), [](unsigned char c) { return c < ' ' || c == 127; })) return "";
   if (wanted == Content::mesh) {
     if (meshes_of_gmsh.count(ending) != 0) return by_gmsh(path, "vtk");

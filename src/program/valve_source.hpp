@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the description of a valve, from the command line or from a case. Out: the valve, or the file with its surface, and the
+// In: the description of a valve, from the command line or from a case. Out: the valve, or the file with its surface; and the
 // surface itself.
 #pragma once
 
@@ -15,44 +15,44 @@ namespace riis::program {
 
 // One valve of a run.
 struct ValveSource {
-  MarkOptions options;  // as the command line of this valve alone would give them
-  Valve valve;          // null if a file holds the surface
+  MarkOptions options;  // as if this valve alone were on the command line
+  Valve valve;          // null if the surface is in a file
   SurfaceFile file;     // null for a valve, and for a surface that moves
   OpeningLaw law{0.0};
   Keyframes keyframes{};        // the motion of a surface that moves
-  bool has_open_state = false;  // the user chose an open state
-  std::string subject{};        // text before refusals, such as the place in a case; "" for the command line
+  bool has_open_state = false;  // whether the user chose an open state
+  std::string subject{};        // begins refusals, such as "case.json: valve 0"; "" for the command line
 };
 
-// subject goes before the refusal of a kind.
+// `subject` begins the refusal of an unknown kind.
 Valve make_kind(const std::string &kind, const std::string &subject);
-// yes: make_valve refuses a file of patches that cannot open that far. no: making the surface refuses it.
+// If yes, make_valve refuses a file of patches that cannot open far enough. If no, only making the surface refuses it.
 enum class OpeningCheck { no, yes };
-// Makes the valve of --valve, --params and the options that go with them.
+// Makes the valve of --valve, --params and the options that belong to them.
 Valve make_valve(const ValveOptions &options, OpeningCheck opening = OpeningCheck::yes);
 double opening_of(const riis_valve *valve);
 Valve copy_of(const riis_valve *valve);
-// Returns "" if the valve opens, or the library's reason for its single state. With these options the valve must make a surface
-// at 0. The call leaves the opening at 1.
+// Returns the library's reason if the valve cannot open, or "" if it can. With these options, the valve must make a surface at
+// opening 0. The call leaves the valve at opening 1.
 std::string why_closed(riis_valve *valve, const riis_surface_options &how);
 
-// Adds a command to the component's refusal of a mesh. The command makes a readable file of the mesh.
+// Checks the status of reading a mesh. If riis_vtk cannot read the file, adds to the refusal a command that converts it.
 void check_mesh_read(riis_status status, const std::string &path);
-// Reads the surface of --surface and --leaflets.
+// Reads the surface of --surface, with its --leaflets.
 SurfaceFile read_surface(const ValveOptions &options, Seconds &seconds);
 
-// The velocities of a surface from a file.
+// The velocities that a surface from a file gets.
 enum class FileVelocity { none, zero };
 Surface make_surface(const ValveSource &source, FileVelocity velocity);
 
 int64_t count_leaflets(const riis_surface *surface);
 
-// --surface FILE.pvd: the surface of a motion by frames.
+// --surface FILE.pvd: the surface of a motion given by frames.
 
-// Tells whether --surface is a motion, which ends in .pvd.
+// Returns whether --surface is a motion, which ends in .pvd.
 bool is_motion_file(const std::string &surface);
 
-// --surface FILE.pvd, and the files that hold its frames.
+// The motion of --surface FILE.pvd, and the paths of the files with its frames.
 struct KeyframeFiles {
   Keyframes keyframes;
   std::vector<std::string> files;
@@ -62,12 +62,12 @@ KeyframeFiles read_keyframes(const ValveOptions &options, Seconds &seconds);
 // Makes the surface at options.time, with velocities.
 Surface surface_of_keyframes(const ValveOptions &options, const riis_keyframes *keyframes);
 
-// In: a file that cannot be read as it is. Out: the command that makes a readable file of it.
+// In: a file in a format that the program does not read. Out: a command that converts it.
 
 enum class Content { mesh, surface };
 
-// Returns a hint such as "; gmsh converts it: gmsh -save in.msh -format vtk -o in.vtk". The hint is "" for an ending that can
-// be read or is unknown.
+// Returns a hint such as "; gmsh converts it: gmsh -save in.msh -format vtk -o in.vtk". Returns "" for an ending that can be
+// read or is unknown.
 std::string conversion_hint(const std::string &path, Content wanted);
 
 }  // namespace riis::program

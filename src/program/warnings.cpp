@@ -18,9 +18,9 @@ namespace riis::program {
 namespace {
 
 std::int64_t n_printed = 0;
-Cause first_cause = Cause::leaks;  // the cause of the advice that was printed
+Cause first_cause = Cause::leaks;  // the cause whose advice was printed
 
-// In a mesh with fewer nodes, it is not suspicious if all of them lie near the surface.
+// In a mesh with fewer nodes, it is not suspicious that all nodes lie near the surface.
 constexpr int64_t fewest_judged_nodes = 100;
 
 Box box_of(int64_t n_nodes, const double *xyz) {
@@ -33,9 +33,9 @@ Box box_of(int64_t n_nodes, const double *xyz) {
   return box;
 }
 
-// Returns a coordinate, rounded to a tenth of the edge or finer. It has no trailing zeros, and 0 has no sign.
+// Returns a coordinate as text, rounded to a tenth of the edge or finer. It has no trailing zeros, and 0 has no sign.
 std::string coordinate_text(double x, double edge) {
-  constexpr int most_digits = 17;  // the length of any double as text
+  constexpr int most_digits = 17;  // the most digits of a double
   int n_digits = 6;
   if (edge > 0) n_digits = static_cast<int>(std::floor(std::log10(std::abs(x))) - std::floor(std::log10(edge)) + 2);
   if (x == 0 || n_digits < 1) return "0";
@@ -60,7 +60,7 @@ std::string text_of(const Box &box, double edge) {
 
 bool has_all(const Situation &s) { return s.n_marked == s.n_nodes && s.n_nodes >= fewest_judged_nodes; }
 
-// A single layer of nodes on the whole surface has about area / edge^2 nodes.
+// If the surface were covered by a single layer of nodes, they would be about area / edge^2 nodes.
 bool has_hardly_any(const Situation &s) {
   if (s.n_marked == 0 || s.n_nodes < fewest_judged_nodes || s.median_edge == 0) return false;
   return static_cast<double>(s.n_marked) * s.median_edge * s.median_edge < 0.1 * s.area;
@@ -78,7 +78,7 @@ std::string marked_text(const Situation &s) {
   return has_hardly_any(s) ? "only " + text : text + ", which looks wrong";
 }
 
-// Gives the places of mesh and surface, for the case that sizes explain nothing.
+// Names the positions of mesh and surface. It is for marks that sizes do not explain.
 Warning warning_of_places(const Situation &s) {
   return {Cause::place,
           "the mesh is in " + text_of(s.mesh, s.median_edge) + ", the surface in " + text_of(s.surface, s.median_edge) +
@@ -140,19 +140,20 @@ std::string place_text(const ValveOptions &options, const double *point, double 
 
 namespace {
 
-// A mesh fits its valve under three conditions: its size is 0.5 to 40 times the valve's, its edges are up to 0.3 times the
-// valve's size, and both overlap.
+// A mesh fits its valve under three conditions. Its size is 0.5 to 40 times the valve's size. Its edges are at most 0.3 times
+// the valve's size. The two boxes overlap.
 constexpr double smallest_mesh = 0.5, largest_mesh = 40, usual_mesh = 3, longest_edge = 0.3;
-// These are shares of the surface's largest side. The paper's 0.1 cm is 0.04 of its aortic valve.
+// Both are shares of the surface's largest side. The paper's half thickness, 0.1 cm, is 0.04 of the largest side of its aortic
+// valve.
 constexpr double usual_half_thickness = 0.04, largest_half_thickness = 0.25;
-// This is a share of the mesh's edge length. With a smaller half thickness the band falls between two layers of nodes and
-// contains few nodes.
+// A share of the mesh's edge length. If the half thickness is smaller, the band falls between two layers of nodes and contains
+// few nodes.
 constexpr double smallest_half_thickness = 0.3;
 
 constexpr std::array<double, 6> factors = {0.1, 10, 0.01, 100, 0.001, 1000};
 
-// Compares the boxes as if the surface were scaled by 1 / factor. The translation is not scaled, because it is in the mesh's
-// unit.
+// Returns whether the boxes overlap if the surface is scaled by 1 / factor. The translation is not scaled, because it is in the
+// mesh's unit.
 bool overlap_at(double factor, const Situation &s) {
   for (int k = 0; k < 3; ++k) {
     const double shift = s.options.surface_options.translation[k];
@@ -173,26 +174,27 @@ bool sizes_fit_at(double factor, const Situation &s) {
 
 bool is_parametric(const MarkOptions &options) { return options.surface.empty() && !is_valve_file(options.valve); }
 
-// The default half thickness belongs to a parametric valve. Much longer edges suggest that the mesh has another unit. If the
-// user named the unit, they suggest that the mesh is coarse.
+// Returns whether the edges suit the default half thickness, which belongs to a parametric valve. If they are much longer, the
+// mesh probably has another unit. But if the user named the unit, the mesh is only coarse.
 bool edges_fit_at(double factor, const Situation &s) {
   return s.options.has_half_thickness || s.options.unit || s.options.has_scale || !is_parametric(s.options) ||
          !is_too_small(s.half_thickness / factor, s);
 }
 
-// Returns the factor that makes the mesh's lengths fit the surface's. Returns none if they fit already, or if no power of ten
+// Returns the factor that makes the mesh's lengths fit the surface's. Returns none if they already fit, or if no power of ten
 // helps.
 std::optional<double> missing_factor(const Situation &s) {
   const bool sizes_fit = sizes_fit_at(1, s);
   if (sizes_fit && edges_fit_at(1, s)) {
-    // Similar sizes have the same unit, and sizes that fit in the user's units have those units. Then the place is wrong.
+    // Similar sizes have the same unit. Sizes that fit in the units that the user named have these units. In both cases the
+    // position is wrong.
     const bool are_alike = mesh_in_surfaces(s) > 1.0 / 3 && mesh_in_surfaces(s) < 3;
     if (overlap_at(1, s) || are_alike || s.options.unit || s.options.has_scale) return std::nullopt;
   }
-  // Sizes that differ this much have different units, even if the places fit.
+  // Sizes that differ so much have different units, even if the positions fit.
   const bool differ_widely = mesh_in_surfaces(s) < 0.1 || mesh_in_surfaces(s) > 100;
   std::optional<double> best;
-  // A mesh in another unit may also be too coarse.
+  // Later passes allow a mesh that is in another unit and also too coarse.
   struct Pass {
     bool must_overlap, must_resolve;
   };
@@ -214,7 +216,7 @@ std::optional<double> missing_factor(const Situation &s) {
   return best;
 }
 
-// Returns the situation with the surface scaled to fit the mesh.
+// Returns the situation as it would be with the surface scaled to fit the mesh.
 Situation rescaled(const Situation &s, double factor) {
   Situation changed = s;
   for (int k = 0; k < 3; ++k) {
@@ -225,8 +227,8 @@ Situation rescaled(const Situation &s, double factor) {
   return changed;
 }
 
-// Returns the half thickness times a power of ten that makes it fit. If none does, it returns the edge length of the mesh, or 0
-// if that does not fit.
+// Returns a half thickness that fits: the present one times a power of ten. If none fits, returns the mesh's edge length, or 0
+// if that does not fit either.
 double better_half_thickness(const Situation &s) {
   const auto fits = [&](double half_thickness) {
     return !is_too_large(half_thickness, s) && !is_too_small(half_thickness, s);
@@ -244,7 +246,7 @@ double better_half_thickness(const Situation &s) {
 
 std::string option(const char *name, Unit unit) { return std::string(name) + " " + name_of(unit); }
 
-// Two phrases of a warning: the unit that the sizes suggest, and the options that set the scale.
+// Two phrases for a warning: the unit that the sizes suggest, and the options to write.
 struct Cure {
   std::string look, write;
 };
@@ -270,7 +272,7 @@ Cure cure_for_scale(const MarkOptions &options, double scale) {
   return {"the mesh and the surface look as if they were in different units", "--scale " + shown(scale)};
 }
 
-// Names the user's own options for the scale, which the user must remove.
+// Returns the user's own options for the scale, which the user must replace.
 std::string in_place_of(const MarkOptions &options) {
   if (options.unit) {
     const std::string unit = " in place of " + option("--unit", *options.unit);
@@ -319,7 +321,7 @@ std::optional<Warning> warning_of_half_thickness(const Situation &s) {
   Warning warning{Cause::half_thickness, "the half thickness is " + shown(s.half_thickness), ""};
   warning.text += is_large ? ", the largest side of the surface " + shown(s.surface.largest_side())
                            : ", the median edge of the mesh " + shown(s.median_edge);
-  // The user did not name the file's unit, and the half thickness is the default for centimetres.
+  // In this case the user did not name the file's unit, and the half thickness is the default for centimetres.
   const bool is_unknown =
       !is_parametric(s.options) && !s.options.unit && !s.options.has_scale && !s.options.has_half_thickness;
   const auto unit = is_unknown ? unit_of_valve(s.surface.largest_side()) : std::nullopt;

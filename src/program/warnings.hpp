@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All warnings of the program. In: the number of marks and all sizes. Out: lines that name the suspicious values and the
-// options to use instead.
+// All warnings of the program.
+// In: the number of marks, and all sizes. Out: lines that name the suspicious values and the options to use instead.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -19,55 +19,56 @@ struct Box {
   double largest_side() const;
 };
 
-// A marking with the sizes of its mesh and surface, in the mesh's unit.
+// The result of a marking with the sizes of its mesh and surface, in the mesh's unit.
 struct Situation {
   const MarkOptions &options;
   int64_t n_nodes, n_marked;
   Box mesh, surface;
-  double median_edge;  // median edge of the mesh; 0 if unknown
-  double area;         // area of the surface
+  double median_edge;  // 0 if unknown
+  double area;         // of the surface
   double half_thickness;
 };
 
 Situation situation_of(const MarkOptions &options, const riis_surface_info &surface, const riis_mark_stats &marks,
                        const riis_vtk_mesh *mesh);
 
-// The possible causes, in the order in which to mend them. A wrong unit also makes the half thickness wrong, and both cause
-// leaks.
+// The possible causes, in the order in which to correct them. A wrong unit also makes the half thickness wrong, and both can
+// cause leaks.
 enum class Cause { units, half_thickness, place, leaks };
 
-// Texts without line breaks. The advice begins with the punctuation that joins it to the text, such as ": write --unit m".
+// The texts of a warning, without line breaks. The advice begins with the punctuation that joins it to the text, such as ":
+// write --unit m".
 struct Warning {
   Cause cause;
   std::string text, advice;
 };
 
-// Returns nothing if nothing looks wrong.
+// Returns a warning, or nothing if the marks look right.
 std::optional<Warning> warning_of(const Situation &situation);
 
-// Prints the line on stderr and counts it for --strict. --quiet does not silence it, because wrong marks look like right ones.
+// Prints the line on stderr, and counts it for --strict. --quiet does not silence it, because wrong marks look like right ones.
 void warn(const std::string &text);
-// Prints the texts of all warnings, but only the advice of the first cause. Later calls leave out the advice on later causes.
-// Two pieces of advice could contradict each other, and the first may mend all faults.
+// Prints the texts of all warnings, but the advice only for the first cause. Later calls omit the advice for later causes.
+// Otherwise two pieces of advice could contradict each other, and following the first may correct everything.
 void warn(std::vector<Warning> warnings);
 std::int64_t n_warnings();
 
-// Returns the coordinates of a place for a warning, with the unit if the user named it. They are rounded to a tenth of the
-// edge's length or finer, so the ends of the edge differ. If the length is 0, they have six digits.
+// Returns a position as text for a warning, with its unit if the user named it. Coordinates are rounded to a tenth of the edge's
+// length or finer, so the two ends of the edge differ. If the length is 0, coordinates have six digits.
 std::string place_text(const ValveOptions &options, const double *point, double edge);
 
-// In: sizes that do not fit each other. Out: the units that they suggest, and the options that make them fit.
+// In: sizes that do not fit together. Out: the units that they suggest, and the options that make them fit.
 
-// These tell whether the half thickness is larger than a quarter of the surface, or so small that it falls between the mesh's
-// nodes.
+// These return whether the half thickness is larger than a quarter of the surface, or so small that the band falls between the
+// mesh's nodes.
 bool is_too_large(double half_thickness, const Situation &situation);
 bool is_too_small(double half_thickness, const Situation &situation);
 
-// Names the units that the sizes of a mesh and a surface suggest, if these differ, and the options to write, such as "the mesh
-// looks as if it were in metres, ...: write --unit m".
+// Returns a warning if the sizes suggest different units for the mesh and the surface. It names these units and the options to
+// write, such as "the mesh looks as if it were in metres, ...: write --unit m".
 std::optional<Warning> warning_of_units(const Situation &situation);
 
-// Says whether the half thickness is too large or too small, and names the option to write.
+// Returns a warning if the half thickness is too large or too small. It names the option to write.
 std::optional<Warning> warning_of_half_thickness(const Situation &situation);
 
 // Returns a number as a user would write it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens the X display. This code is not in drawing.cpp, because X11's headers define names of VTK's headers as macros.
+// Opens the X display. This code has its own file, because X11's headers define macros with names that VTK's headers use.
 #include <chrono>
 #include <cstdlib>
 #include <thread>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char *advice = "; on a machine without one, run the program by: xvfb-run -a PROGRAM";
 
-// Tries several times, because the server may be resetting itself after the last picture.
+// Tries several times, because the X server may be resetting itself after the last picture.
 Display *open_display() {
   for (int n_tries_left = 5;; --n_tries_left) {
     Display *display = XOpenDisplay(nullptr);

@@ -57,7 +57,7 @@ vtkSmartPointer<vtkUnsignedCharArray> encoded_png(vtkRenderWindow *window) {
   image->SetInput(window);
   image->ReadFrontBufferOff();
   image->ShouldRerenderOff();
-  // The picture is written to memory, because the PNG library prints a message if it cannot write a file.
+  // The picture is first written to memory, because the PNG library prints a message if it cannot write a file.
   vtkNew<vtkPNGWriter> writer;
   writer->WriteToMemoryOn();
   writer->SetInputConnection(image->GetOutputPort());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures and the paper's figures share the X display and these steps of drawing.
+// The X display and the steps of drawing that pictures and the paper's figures share.
 #pragma once
 
 #include <vtkSmartPointer.h>
@@ -14,11 +14,12 @@ class vtkUnsignedCharArray;
 
 namespace riis::vtk {
 
-// A connection to the X display that VTK opens, held while VTK draws. VTK 9.1 renders only through X and GLX, and aborts the
-// process if either is missing. A server without clients resets itself and meanwhile refuses connections.
+// Holds a connection to the X display while VTK draws. VTK 9.1 renders only through X and GLX, and aborts the process if either
+// is missing. An X server resets itself when its last client leaves, and refuses connections meanwhile. So this connection stays
+// open.
 class HeldDisplay {
  public:
-  // Fails with RIIS_UNAVAILABLE unless the display is there and has GLX.
+  // Fails with RIIS_UNAVAILABLE if there is no display or if it lacks GLX.
   HeldDisplay();
   ~HeldDisplay();
   HeldDisplay(const HeldDisplay &) = delete;
@@ -28,25 +29,27 @@ class HeldDisplay {
   _XDisplay *display_;
 };
 
-// Blue, orange, bluish green, reddish purple, vermilion, sky blue: distinct with any colour vision (Okabe, Ito 2008).
+// Blue, orange, bluish green, reddish purple, vermilion and sky blue. They are distinct for all kinds of colour vision (Okabe,
+// Ito 2008).
 inline constexpr unsigned char distinct_colours[][3] = {{0, 114, 178},   {230, 159, 0}, {0, 158, 115},
                                                         {204, 121, 167}, {213, 94, 0},  {86, 180, 233}};
 
-// Returns a renderer with a white background that lights faces from both sides. It has no lights yet.
+// Returns a renderer with a white background. Faces are lit from both sides. The caller must add lights.
 vtkSmartPointer<vtkRenderer> white_renderer();
 
 vtkSmartPointer<vtkActor> actor_of(vtkPolyData *data);
 
-// The cell scalars, three bytes each, are the colours of the faces.
+// The cell scalars of `faces`, three bytes for each cell, are the faces' colours.
 vtkSmartPointer<vtkActor> coloured_actor_of(vtkPolyData *faces);
 
-// Returns the faces with normals at their corners. The normals hide smooth edges between faces, and sharp edges stay visible.
+// Returns the faces with normals at their corners. The normals make smooth edges between faces invisible, and sharp edges stay
+// visible.
 vtkSmartPointer<vtkPolyData> smoothed(vtkPolyData *faces);
 
-// Sets the font of all texts; size is in pixels.
+// Sets the font that all texts use. `size` is in pixels.
 void set_font(vtkTextProperty *property, int size);
 
-// Returns the bytes of a PNG file with the last picture of the window, or NULL if it could not be encoded.
+// Returns the window's last picture as the bytes of a PNG file, or NULL if it could not be encoded.
 vtkSmartPointer<vtkUnsignedCharArray> encoded_png(vtkRenderWindow *window);
 
 }  // namespace riis::vtk

@@ -21,7 +21,7 @@ namespace {
 
 std::string system_text(int error) { return std::generic_category().message(error); }
 
-// Follows links to the file itself. The file may be missing.
+// Follows links to the file itself, which may be missing.
 std::string resolved(const std::string &path) {
   std::filesystem::path place = path;
   for (int n_links_left = 40; std::filesystem::is_symlink(place); --n_links_left) {
@@ -31,18 +31,18 @@ std::string resolved(const std::string &path) {
   return place.string();
 }
 
-// Creates an empty file with a new name beside the place and returns the name. `replaced` describes the file at that place, or
-// is NULL. The new file gets the permissions of that file while it is still empty.
+// Creates an empty file with a new name in the folder of `place`, and returns its path. `replaced` describes the file at
+// `place`, or is NULL if there is none. The new file gets that file's permissions while it is still empty.
 std::string create_beside(const std::string &place, const struct stat *replaced) {
   static int n_created = 0;
   const std::filesystem::path folder = std::filesystem::path(place).parent_path();
   for (;;) {
     const std::string name = ".riis-" + std::to_string(getpid()) + "-" + std::to_string(n_created++) + ".tmp";
-    std::string path = (folder / name).string();  // returned without a copy, which might fail and leave the file
+    std::string path = (folder / name).string();  // returned without a copy, which could fail and leave the file
     const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file >= 0) {
       // The owner may always read and write, because the writer opens the file again. A file system without permissions may
-      // refuse the call, and this does no harm.
+      // refuse the call, which does no harm.
       if (replaced) static_cast<void>(fchmod(file, (replaced->st_mode & 0777) | S_IRUSR | S_IWUSR));
       close(file);
       return path;
@@ -51,7 +51,7 @@ std::string create_beside(const std::string &place, const struct stat *replaced)
   }
 }
 
-// This call is necessary, because some file systems report a failed write only when the data must reach the disk.
+// Makes sure that the data is on the disk. Some file systems report a failed write only then.
 int synchronise(const std::string &path) {
   const int file = open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (file < 0) return errno;

@@ -15,8 +15,8 @@
 namespace riis::vtk {
 namespace {
 
-// The cells of the first file, unchanged. Faces are made from cells by the places of vertices, and these places differ in other
-// files.
+// The unchanged cells of the first file, for comparison with the other files. The faces cannot be compared, because they depend
+// on the vertices' positions, which differ between files.
 class FirstCells {
  public:
   explicit FirstCells(vtkPointSet *data) : n_points_(data->GetNumberOfPoints()) {
@@ -63,11 +63,11 @@ class FirstCells {
   std::vector<std::size_t> ends_;  // the end of each cell in ids_
 };
 
-// The corners of triangles in files without shared vertices, such as .stl files. Corners at one place in the first file are one
-// vertex.
+// The corners of triangles from files without shared vertices, such as .stl files. Corners at the same position in the first
+// file become one vertex.
 class MergedCorners {
  public:
-  // Merges the vertices of the faces. A vertex is numbered by its first corner.
+  // Merges the vertices of the faces. Vertices are numbered in the order of their first corners.
   explicit MergedCorners(Faces &faces) {
     const std::vector<std::size_t> places = places_of(faces);
     std::vector<std::int64_t> vertex_at(places.size(), -1);
@@ -85,8 +85,8 @@ class MergedCorners {
     faces.xyz = std::move(xyz);
   }
 
-  // Returns the places of the vertices, from the places of all corners. Fails if corners of the same vertex have different
-  // places.
+  // Returns the positions of the vertices, from the positions of all corners. Fails if corners of the same vertex have different
+  // positions.
   std::vector<double> merged(const std::string &path, const std::vector<double> &corners) const {
     for (std::size_t corner = 0; corner < vertex_of_.size(); ++corner) {
       const std::size_t first = corner_of_[vertex_of_[corner]];
@@ -102,17 +102,17 @@ class MergedCorners {
   }
 
  private:
-  std::vector<std::size_t> vertex_of_;  // the vertex of each corner
-  std::vector<std::size_t> corner_of_;  // the first corner of each vertex
+  std::vector<std::size_t> vertex_of_;  // for each corner, its vertex
+  std::vector<std::size_t> corner_of_;  // for each vertex, its first corner
 };
 
 struct Displacement {
   std::int64_t number;
   std::string name;
-  vtkDataArray *array;  // an array of the data set
+  vtkDataArray *array;  // owned by the data set
 };
 
-// Returns the number in a name of the form PREFIX_12 or PREFIX12, or -1 for another name.
+// Returns the number in a name such as PREFIX_12 or PREFIX12, or -1 for any other name.
 std::int64_t number_in(const std::string &name, const std::string &prefix) {
   if (name.rfind(prefix, 0) != 0) return -1;
   const std::size_t begin = prefix.size() + (name.size() > prefix.size() && name[prefix.size()] == '_' ? 1 : 0);
@@ -128,7 +128,7 @@ vtkDataArray *displacements_in(const std::string &path, vtkAbstractArray *abstra
   return array;
 }
 
-// Returns the arrays by their numbers, and these numbers are all different.
+// Returns the arrays in the order of their numbers. Fails if two have the same number.
 std::vector<Displacement> displacements_of(const std::string &path, vtkPointSet *data, const std::string &prefix) {
   std::vector<Displacement> found;
   for (int i = 0; i < data->GetPointData()->GetNumberOfArrays(); ++i) {
@@ -171,9 +171,9 @@ std::vector<double> times_in_file(const std::string &path, vtkPointSet *data, co
   return times;
 }
 
-// Fails for a coordinate that riis.h refuses. In the message `after` follows the point.
+// Fails for a coordinate that the core would refuse. In the message, `after` follows the point.
 void check_places(const std::string &path, const std::vector<double> &xyz, const std::string &after) {
-  constexpr double largest = 1e60;  // as riis.h has it
+  constexpr double largest = 1e60;  // the limit in riis.h
   constexpr std::array<const char *, 3> axes{"x", "y", "z"};
   for (std::size_t i = 0; i < xyz.size(); ++i)
     if (!(std::abs(xyz[i]) <= largest))
@@ -181,9 +181,9 @@ void check_places(const std::string &path, const std::vector<double> &xyz, const
                 largest, " in magnitude");
 }
 
-// Appends a frame. The times are those of all frames.
+// Appends a frame. frames.times must already have the times of all frames.
 void add_frame(Frames &frames, const std::vector<double> &xyz) {
-  // The memory is taken at once, because an array that grows by doubling may take twice its memory.
+  // Reserves the memory for all frames at once, because an array that grows by doubling may take twice its memory.
   if (frames.xyz.empty()) frames.xyz.reserve(xyz.size() * frames.times.size());
   frames.xyz.insert(frames.xyz.end(), xyz.begin(), xyz.end());
 }

@@ -50,7 +50,7 @@ void check_data_set(const std::string &path, vtkPointSet *data) {
   check_array_lengths(path, data->GetCellData(), "cell", data->GetNumberOfCells());
 }
 
-// The offsets must be checked before any cell is read.
+// Checks the offsets. This must happen before any cell is read.
 void check_offsets(const std::string &path, vtkCellArray *cells) {
   if (cells && cells->GetNumberOfCells() > 0 && !cells->IsValid()) fail_file(path, "has broken cell offsets");
 }
@@ -61,7 +61,7 @@ void check_point_id(const std::string &path, vtkIdType cell_id, vtkIdType point_
   }
 }
 
-// first_id is the id of the first cell, for the message.
+// Checks the point ids of cells. `first_id` is the id of the first cell, for the message.
 void check_point_ids(const std::string &path, vtkCellArray *cells, vtkIdType first_id, vtkIdType n_points) {
   check_offsets(path, cells);
   const vtkIdType n_cells = cells ? cells->GetNumberOfCells() : 0;
@@ -73,7 +73,7 @@ void check_point_ids(const std::string &path, vtkCellArray *cells, vtkIdType fir
   }
 }
 
-// first_id is the id of the first face, for the message.
+// Checks faces. `first_id` is the id of the first face, for the message.
 void check_faces(const std::string &path, vtkCellArray *faces, vtkIdType first_id, vtkIdType n_points) {
   check_point_ids(path, faces, first_id, n_points);
   for (vtkIdType i = 0; i < faces->GetNumberOfCells(); ++i) {
@@ -83,7 +83,8 @@ void check_faces(const std::string &path, vtkCellArray *faces, vtkIdType first_i
   }
 }
 
-// Returns the number of points of each type of cell: 0 if the type leaves it open, -1 if there is no such type.
+// Returns the number of points for each type of cell. The number is 0 if it depends on the cell, and -1 if the type does not
+// exist.
 std::array<int, 256> points_of_cell_types() {
   std::array<int, 256> n_points{};
   for (int type = 0; type < 256; ++type) {
@@ -94,7 +95,7 @@ std::array<int, 256> points_of_cell_types() {
   return n_points;
 }
 
-// VTK does not check the number of points of its cells.
+// Checks the number of points of each cell, because VTK does not check it.
 void check_cell_sizes(const std::string &path, vtkUnstructuredGrid *grid) {
   static const std::array<int, 256> points_of_type = points_of_cell_types();
   for (vtkIdType cell_id = 0; cell_id < grid->GetNumberOfCells(); ++cell_id) {
@@ -112,8 +113,8 @@ void check_cell_sizes(const std::string &path, vtkUnstructuredGrid *grid) {
   fail_file(path, "cell ", cell, " has broken polyhedron faces");
 }
 
-// Checks a polyhedron's faces. From the cell's location on, the array has the number of faces, then each face's size and
-// points.
+// Checks a polyhedron's faces. At the cell's location, the array has the number of faces, followed by the size and the points of
+// each face.
 void check_polyhedron(const std::string &path, vtkIdType cell_id, vtkIdType location, vtkIdTypeArray *faces,
                       vtkIdType n_points) {
   const vtkIdType n_values = faces->GetNumberOfValues();
@@ -148,7 +149,8 @@ void check_grid(const std::string &path, vtkUnstructuredGrid *grid) {
   check_polyhedra(path, grid);
 }
 
-// Runs steps that VTK calls. Exceptions must not pass through VTK, so the first one is kept for rethrow().
+// Runs steps in callbacks from VTK. Exceptions must not pass through VTK, so the first one is kept, and rethrow() throws it
+// later.
 class Steps {
  public:
   template <class Step>
@@ -169,15 +171,15 @@ class Steps {
   std::exception_ptr failure_;
 };
 
-// Returns a value as an id. Impossible values become -1 or a large id.
+// Returns a value as an id. An impossible value becomes -1 or a very large id, so later checks refuse it.
 vtkIdType id_at(vtkDataArray *array, vtkIdType i) {
   constexpr double most = 1e15;
   const double value = array->GetTuple1(i);
   return value >= 0 ? static_cast<vtkIdType>(std::min(value, most)) : -1;
 }
 
-// Makes the failures public that VTK's XML readers record. Refuses an array before VTK reads it if the file holds less than VTK
-// would read.
+// Makes visible the failures that VTK's XML readers only record. Refuses an array before VTK reads it if the file holds less
+// data than VTK would read.
 template <class Reader>
 class WatchedReader : public Reader {
  public:
@@ -220,7 +222,7 @@ class WatchedReader : public Reader {
   Steps &steps() { return steps_; }
 
  private:
-  // Offsets end with the number of values of another array, which VTK reads next.
+  // Checks the length of the next array. The last offset is the number of values in another array, which VTK reads next.
   void check_next_array(vtkXMLDataElement *element, vtkDataArray *array, vtkIdType n) {
     const std::string name = element->GetAttribute("Name") ? element->GetAttribute("Name") : "";
     const std::string parent = element->GetParent() ? element->GetParent()->GetName() : "";
@@ -244,7 +246,7 @@ class WatchedReader : public Reader {
     if (values) check_held(next, id_at(array, last), values);
   }
 
-  // VTK follows the faces of polyhedra unchecked while it reads them.
+  // Checks the faces of polyhedra, because VTK follows them without checks while it reads them.
   void check_stream(vtkDataArray *faces, vtkIdType n) const {
     vtkIdType at = 0;
     for (std::int64_t cell = 0; cell < view(face_ends_).size(); ++cell) {
@@ -264,11 +266,11 @@ class WatchedReader : public Reader {
   std::string path_;
   std::optional<XmlSizes> sizes_;
   Steps steps_;
-  std::vector<vtkIdType> face_ends_;  // ends of the faces of the piece's cells; -1 for a cell that is no polyhedron
+  std::vector<vtkIdType> face_ends_;  // for each cell of the piece, the end of its faces; -1 if it is no polyhedron
 };
 
-// Also reads the faces of polyhedra in the layout that VTK writes since 9.4. Older releases of VTK ignore this layout. In it
-// each polyhedron names faces of one list, and each face names its corners.
+// Also reads the faces of polyhedra in the layout that VTK writes since 9.4, which older releases of VTK ignore. In this layout,
+// each polyhedron refers to faces in one list, and each face refers to its corners.
 class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
  public:
   static GridReader *New() { VTK_STANDARD_NEW_BODY(GridReader); }
@@ -292,7 +294,7 @@ class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
     const vtkIdType n_faces = faces.empty() ? 0 : 1 + *std::max_element(faces.begin(), faces.end());
     const Ids corner_ends = offsets_in(cells, "face_offsets", n_faces);
     const Ids corners = ids_in(cells, "face_connectivity", n_faces == 0 ? 0 : corner_ends.back());
-    // VTK has filled in -1 for this piece's cells if an earlier piece had polyhedra.
+    // If an earlier piece had polyhedra, VTK has already filled in -1 for this piece's cells.
     if (!grid->GetFaces()) {
       grid->InitializeFacesRepresentation(StartCell);
       for (vtkIdType i = 0; i < n_cells; ++i) grid->GetFaceLocations()->InsertNextValue(-1);
@@ -342,8 +344,8 @@ class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
   }
 };
 
-// VTK 9.1 crashes while it writes the message about an array that it cannot read. So the first reader runs with messages off. A
-// second reader, which leaves the arrays out, then reports any other fault.
+// Explains why an array could not be read. VTK 9.1 crashes while it writes its own message about that, so the first reader ran
+// with messages off. This second reader leaves the arrays out, so it can report any other fault.
 template <class Watched>
 [[noreturn]] void explain_failure(const std::string &path, const CaughtOutput &caught) {
   vtkNew<Watched> reader;
@@ -352,7 +354,7 @@ template <class Watched>
   fail_file(path, "is damaged: not all of its arrays can be read");
 }
 
-// Runs a watched XML reader and compares its data set with the sizes that the file promised.
+// Reads a file with a watched XML reader. Compares the data set with the sizes that the file states.
 template <class Watched, class DataSet>
 vtkSmartPointer<DataSet> read_xml(const std::string &path, const CaughtOutput &caught) {
   vtkNew<Watched> reader;
@@ -371,7 +373,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_legacy(const std::string &path, const 
   const std::int64_t n_cells = check_legacy(path);
   vtkNew<vtkUnstructuredGridReader> reader;
   reader->SetFileName(path.c_str());
-  // By default the reader keeps only one array of each kind.
+  // By default the reader would keep only one array of each kind.
   reader->ReadAllScalarsOn();
   reader->ReadAllVectorsOn();
   reader->ReadAllNormalsOn();

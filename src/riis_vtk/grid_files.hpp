@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a path. Out: a VTK data set that has the sizes that the file promised and whose cells name only points that exist. VTK
-// continues after many errors and returns an incomplete data set. Here an incomplete file is an error. The scans below find
-// most errors before VTK reads the file.
+// In: a path. Out: a VTK data set that has the sizes stated in the file and whose cells refer only to existing points. VTK
+// continues after many errors and returns an incomplete data set. Here an incomplete file is an error. The scans declared below
+// find most errors before VTK reads the file.
 #pragma once
 
 #include <map>
@@ -20,34 +20,34 @@ namespace riis::vtk {
 // Reads an unstructured grid with at least one point from a .vtu (XML) or .vtk (legacy) file.
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const CaughtOutput &caught);
 
-// Reads polydata with at least one point from a .vtp (XML) file. The cells are polygons and strips only.
+// Reads polydata with at least one point from a .vtp (XML) file. Its cells are only polygons and strips.
 vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const CaughtOutput &caught);
 
-// Returns the number of cells of a legacy .vtk file. Fails for a file that is not an unstructured grid or not complete. VTK's
-// legacy reader believes every count, reads a truncated file as a smaller one, and ends the process on some files. So the
-// sections are checked here before VTK reads them.
+// Returns the number of cells of a legacy .vtk file. Fails for a file that is not an unstructured grid or is not complete. VTK's
+// legacy reader believes every count, reads a truncated file as a smaller one, and ends the process on some files. So this
+// function checks the sections before VTK reads them.
 std::int64_t check_legacy(const std::string &path);
 
-// Fails for a file that is no VTK XML file of the wanted type, and for a truncated file. VTK's parser stops at appended data
-// and does not look for the end of the file. It crashes on a field array of unknown type. Sizes are for XmlSizes. wanted_type
-// is the type attribute of the file, such as "PolyData".
+// Fails for a file that is truncated or is not a VTK XML file of the wanted type. VTK's parser would stop at appended data
+// without looking for the end of the file, and it crashes on a field array of unknown type. XmlSizes checks the sizes.
+// `wanted_type` is the file's type attribute, such as "PolyData".
 void check_xml(const std::string &path, const std::string &wanted_type);
 
-// In: a VTK XML file, and VTK's tree of its elements. Out: nothing, or an error if the file claims more than it holds. VTK
-// believes each number of points, cells, values, bytes and blocks, and allocates that much memory before it reads.
+// In: a VTK XML file, and VTK's tree of its elements. Out: an error if the file claims more than it holds. VTK believes every
+// stated number of points, cells, values, bytes and blocks, and allocates that much memory before it reads.
 class XmlSizes {
  public:
   explicit XmlSizes(const std::string &path);
 
-  // Fails unless the arrays of all pieces and of the field hold as many values as the file claims. The parser must have read
-  // the elements.
+  // Fails unless the arrays of all pieces and of the field hold as many values as the file claims. The parser must already have
+  // read the elements.
   void check_pieces(vtkXMLDataParser *parser);
-  // Fails unless the file holds n values of the array's type for an element. It also fails if a block of binary data claims to
-  // be larger than the file.
+  // Fails unless the file holds n values of the array's type for an element. Also fails if a block of binary data claims to be
+  // larger than the file.
   void check_values(vtkXMLDataParser *parser, vtkXMLDataElement *element, std::int64_t n, vtkAbstractArray *array);
 
  private:
-  // The data of an element: text in the file from begin to end, or bytes.
+  // The data of an element, from `begin` to `end` in the file. It is text or bytes.
   struct ArrayData {
     enum Form { ascii, base64, raw } form;
     std::size_t begin, end;
@@ -67,7 +67,7 @@ class XmlSizes {
   const std::string &path_;
   MappedFile file_;
   std::string_view bytes_;
-  // The size of each checked element: its bytes, or the numbers in its text.
+  // The size of a checked element: its number of bytes, or the number of numbers in its text.
   struct Held {
     std::uint64_t n = 0;
     bool is_text = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks the sections of a legacy .vtk file before VTK reads it, and counts its cells.
+// Walks through the sections of a legacy .vtk file before VTK reads it, and counts its cells.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -20,7 +20,7 @@
 namespace riis::vtk {
 namespace {
 
-// Returns the bytes of one value in a binary file, 0 for types of varying size, or -1 for an unknown type.
+// Returns the number of bytes of a value in a binary file. Returns 0 for types of varying size, and -1 for an unknown type.
 int size_of_type(std::string_view type) {
   using Names = std::initializer_list<std::string_view>;
   const auto is_in = [&](Names names) { return std::find(names.begin(), names.end(), type) != names.end(); };
@@ -32,8 +32,8 @@ int size_of_type(std::string_view type) {
   return is_in({"string", "utf8_string"}) ? 0 : -1;
 }
 
-// Tells whether VTK reads the whole word as a number of the type. VTK reads by streams. Streams refuse infinite and too large
-// numbers, and accept too small ones.
+// Returns whether VTK reads the whole word as a number of this type. VTK reads with C++ streams. These refuse infinite and too
+// large numbers, and accept too small ones.
 bool is_number(std::string_view word, const std::string &type) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   if (type == "float" || type == "double") {
@@ -45,7 +45,7 @@ bool is_number(std::string_view word, const std::string &type) {
     return error == std::errc() && std::isfinite(value) &&
            (type == "double" || std::isfinite(static_cast<float>(value)));
   }
-  // In text, VTK writes and reads single bytes as larger numbers.
+  // In text files, VTK writes and reads single bytes as larger numbers.
   const bool is_unsigned = type.rfind("unsigned", 0) == 0 || type == "vtktypeuint64";
   const int n_bits = type == "short" || type == "unsigned_short" ? 16 : size_of_type(type) == 8 ? 64 : 32;
   if (is_unsigned && size_of_type(type) > 1) {
@@ -57,7 +57,7 @@ bool is_number(std::string_view word, const std::string &type) {
   return read_number(word, value) && value <= most && value >= -most - 1;
 }
 
-// Returns the number in big-endian bytes.
+// Returns the number that big-endian bytes represent.
 std::uint64_t big_endian(std::string_view bytes) {
   std::uint64_t bits = 0;
   for (const char byte : bytes) bits = bits << 8 | static_cast<unsigned char>(byte);
@@ -66,10 +66,10 @@ std::uint64_t big_endian(std::string_view bytes) {
 
 bool begins_with(std::string_view text, std::string_view what) { return text.substr(0, what.size()) == what; }
 
-// A row of whole numbers. The scan has passed them already, so they exist and are numbers.
+// A sequence of whole numbers. The scan has already checked that they exist and are numbers.
 class Numbers {
  public:
-  // size is the number of bytes of each number in a binary file, 4 or 8, or 0 for an ASCII file.
+  // `size` is the number of bytes of each number in a binary file, 4 or 8. It is 0 for an ASCII file.
   Numbers(std::string_view from, int size) : rest_(from), size_(size) {}
 
   std::int64_t next() {
@@ -98,11 +98,11 @@ class Scan {
  public:
   Scan(const std::string &path, std::string_view bytes) : path_(path), rest_(bytes) {}
 
-  // Returns the number of cells.
+  // Scans the file, and returns the number of cells.
   std::int64_t file() {
     header();
     for (std::string keyword = word(); !keyword.empty(); keyword = word()) section(keyword);
-    // The format has no end mark: a file that ends after its points would look like a grid without cells.
+    // The format has no end mark. Without this check, a file that ends after its points would look like a grid without cells.
     if (n_cells_ < 0) refuse("holds no cells (is it truncated?)");
     if (n_types_ != n_cells_)
       refuse("has ", std::max<std::int64_t>(n_types_, 0), " types for ", n_cells_, " cells",
@@ -120,7 +120,7 @@ class Scan {
 
   std::string_view line() { return take_line(rest_); }
 
-  // Returns "" at the end. VTK reads a longer word as two words.
+  // Returns the next word unchanged, or "" at the end of the file. VTK would read a longer word as two words.
   std::string_view word_as_it_is() {
     constexpr std::size_t longest = 255;
     const std::string_view text = take_word(rest_);
@@ -128,10 +128,10 @@ class Scan {
     return text;
   }
 
-  // Returns the word in lower case, since the format mostly ignores case, or "" at the end.
+  // Returns the next word in lower case, or "" at the end of the file. The format mostly ignores case.
   std::string word() { return lower_case(word_as_it_is()); }
 
-  // These two return words, and fail if there is none.
+  // These two return the next word, and fail at the end of the file.
   std::string_view next_as_it_is() {
     const std::string_view text = word_as_it_is();
     if (text.empty()) refuse_end();
@@ -145,7 +145,7 @@ class Scan {
     return n;
   }
 
-  // Returns a count. Each counted item takes at least one bit, so a count above the file's number of bits is wrong.
+  // Returns a count. Each counted item takes at least one bit, so a count above the number of remaining bits is wrong.
   std::int64_t count() {
     const std::int64_t n = number_of(next());
     if (n < 0) refuse("has the count ", n);
@@ -161,7 +161,7 @@ class Scan {
     if (first.rfind(magic, 0) != 0) refuse("is not a legacy VTK file");
     std::string version = first.substr(magic.size());
     while (!version.empty() && is_blank(version.back())) version.pop_back();
-    // VTK reads an unknown version as an old one.
+    // VTK reads a file with an unknown version as an old one.
     const std::size_t dot = version.find('.');
     if (dot == std::string::npos) refuse("has the version '", version.substr(0, 40), "'");
     version_ = number_of(version.substr(0, dot));
@@ -180,7 +180,8 @@ class Scan {
     rest_.remove_prefix(static_cast<std::size_t>(n));
   }
 
-  // Skips n words of an ASCII file and refuses any that is no number of the type. VTK would close the file there and continue.
+  // Skips n words of an ASCII file. Refuses a word that is not a number of the type, because VTK would stop reading there
+  // without an error.
   void skip_words(std::int64_t n, const std::string &type) {
     for (std::int64_t i = 0; i < n; ++i) {
       const std::string_view word = take_word(rest_);
@@ -193,7 +194,7 @@ class Scan {
     if (!is_number(word, type)) refuse("has '", word.substr(0, 40), "' for a number of type ", type);
   }
 
-  // Skips a string in a binary file. The upper two bits of its first byte give the number of bytes of its length.
+  // Skips a string in a binary file. The upper two bits of its first byte tell how many bytes its length takes.
   void skip_binary_string() {
     const int n_length_bytes = 8 >> (static_cast<unsigned char>(rest_[0]) >> 6);
     const std::uint64_t word = big_endian(rest_.substr(0, static_cast<std::size_t>(n_length_bytes)));
@@ -218,7 +219,7 @@ class Scan {
     binary_ ? skip_bytes(n * size) : skip_words(n, type);
   }
 
-  // Skips an array: n tuples of a width that the file gives, and the METADATA that VTK's writer may put behind them.
+  // Skips an array. It consists of n tuples of a width that the file gives. VTK's writer may add a block of METADATA after them.
   void skip_tuples(std::int64_t n, std::int64_t width, const std::string &type) {
     if (width > 0 && n > n_bits_left() / width) refuse_end();
     skip_values(n * width, type);
@@ -228,8 +229,8 @@ class Scan {
     skip_metadata(width);
   }
 
-  // Skips a block of METADATA behind its keyword. The block ends with a blank line. But each component has a line for its name,
-  // and this line may be blank. VTK reads only the beginning of a keyword, so INFORMATION8 1 promises 8 keys.
+  // Skips a block of METADATA after its keyword. The block ends with a blank line. But each component has a line for its name,
+  // and this line may be blank. VTK reads only the beginning of a keyword, so it takes INFORMATION8 1 for 8 keys.
   void skip_metadata(std::int64_t n_components) {
     line();
     while (!rest_.empty()) {
@@ -247,8 +248,8 @@ class Scan {
     }
   }
 
-  // Skips the rest of a block of METADATA: the keys, each with a NAME line and a DATA line. VTK looks for the promised number
-  // of keys, even beyond the blank line. After an unreadable number it never stops.
+  // Skips the rest of a block of METADATA: the keys, each with a NAME line and a DATA line. VTK looks for the stated number of
+  // keys, even after the blank line. After a number that it cannot read, it never stops.
   void skip_information(std::int64_t n_keys) {
     std::int64_t n_found = 0;
     vtkInformationKey *key = nullptr;
@@ -267,14 +268,14 @@ class Scan {
         key = nullptr;
       } else if (const std::string lower = lower_case(keyword);
                  begins_with(lower, "information") || begins_with(lower, "component_names")) {
-        // VTK would start the block again there.
+        // VTK would begin the block again here.
         refuse("has metadata with '", keyword.substr(0, 40), "' behind INFORMATION");
       }
     }
     if (n_found != n_keys || key) refuse("has INFORMATION of ", n_keys, " keys and gives ", n_found);
   }
 
-  // Skips the values of a key that VTK knows: a string, a number, or a count followed by that many strings or numbers.
+  // Skips the values of a key that VTK knows. They are a string, a number, or a count followed by that many strings or numbers.
   void skip_data(vtkInformationKey *key, std::string_view text) {
     if (vtkInformationStringKey::SafeDownCast(key)) return;
     const bool are_texts = vtkInformationStringVectorKey::SafeDownCast(key) != nullptr;
@@ -317,7 +318,7 @@ class Scan {
     next();
     const std::int64_t n_arrays = count();
     for (std::int64_t i = 0; i < n_arrays; ++i) {
-      if (next_as_it_is() == "NULL_ARRAY") continue;  // in capitals only
+      if (next_as_it_is() == "NULL_ARRAY") continue;  // VTK accepts this word only in capitals
       const std::int64_t width = count();
       const std::int64_t n = count();
       skip_tuples(n, width, next());
@@ -328,7 +329,7 @@ class Scan {
     const std::int64_t first = count();
     const std::int64_t second = count();
     if (version_ >= 5) {
-      // In version 5 the two numbers count offsets and corners.
+      // In version 5 the two numbers are the counts of offsets and of corners.
       n_cells_ = std::max<std::int64_t>(first - 1, 0);
       if (first == 0) return;
       if (next() != "offsets") refuse("has CELLS without OFFSETS");
@@ -346,8 +347,8 @@ class Scan {
     }
   }
 
-  // Skips the cells of files up to version 4: each cell's number of corners, then its corners. n_values counts all these
-  // numbers.
+  // Skips the cells of files up to version 4. For each cell there is its number of corners and then its corners. n_values is the
+  // count of all these numbers.
   void counted_cells(std::int64_t n_cells, std::int64_t n_values) {
     line();
     corners_ = rest_;
@@ -361,7 +362,7 @@ class Scan {
     if (n_left != 0) refuse("has CELLS with ", n_left, " numbers too many");
   }
 
-  // Returns the values of an array whose type was the last word read. They begin on the next line.
+  // Returns the values of an array whose type was the last word. They begin on the next line.
   std::string_view values_behind_line() const {
     std::string_view values = rest_;
     take_line(values);
@@ -374,7 +375,7 @@ class Scan {
     return {values, binary_ ? size : 0};
   }
 
-  // VTK keeps each type in a byte, so only the low byte counts.
+  // VTK stores each type in a byte, so only the lowest byte counts.
   bool has_polyhedra() const {
     Numbers types = numbers(types_, "int");
     for (std::int64_t i = 0; i < n_types_; ++i)
@@ -382,7 +383,7 @@ class Scan {
     return false;
   }
 
-  // VTK follows the faces of polyhedra unchecked while it reads them.
+  // Checks the faces of polyhedra, because VTK follows them without checks while it reads them.
   void check_polyhedra() const {
     Numbers types = numbers(types_, "int"), corners = numbers(corners_, type_of_corners_);
     Numbers offsets = numbers(offsets_, type_of_offsets_);
@@ -405,7 +406,8 @@ class Scan {
     }
   }
 
-  // Checks the n numbers of a polyhedron: the number of its faces, then for each face the number of its points and the points.
+  // Checks the n numbers of a polyhedron. They are the number of its faces and, for each face, the number of its points and the
+  // points.
   void check_polyhedron(std::int64_t cell, std::int64_t n, Numbers &corners) const {
     const auto broken = [&] { refuse("cell ", cell, " has broken polyhedron faces"); };
     if (n < 1) broken();
@@ -431,7 +433,7 @@ class Scan {
     return value;
   }
 
-  // Skips an array of POINT_DATA or CELL_DATA. Returns false if the keyword does not begin one.
+  // Skips an array of POINT_DATA or CELL_DATA. Returns false if the keyword does not begin such an array.
   bool attribute(const std::string &keyword) {
     static const std::map<std::string, int> widths = {{"vectors", 3},   {"normals", 3},    {"tensors", 9},
                                                       {"tensors6", 6},  {"global_ids", 1}, {"pedigree_ids", 1},
@@ -478,16 +480,16 @@ class Scan {
 
   const std::string &path_;
   std::string_view rest_;
-  std::int64_t version_ = 0;  // major
+  std::int64_t version_ = 0;  // major version
   bool binary_ = false;
-  std::int64_t n_cells_ = -1;  // unknown
+  std::int64_t n_cells_ = -1;  // -1 if not known yet
   std::int64_t n_types_ = -1;
   std::int64_t n_points_ = 0;
-  // The beginnings of the arrays. Up to version 4 there are no offsets, and the number of a cell's corners precedes them.
+  // The beginnings of arrays. Up to version 4 there are no offsets. Instead, each cell's corners follow their number.
   std::string_view types_, offsets_, corners_;
   std::string type_of_offsets_ = "int", type_of_corners_ = "int";
   std::int64_t n_corners_ = 0;
-  std::int64_t n_tuples_ = 0;  // tuples of each array in the present POINT_DATA or CELL_DATA
+  std::int64_t n_tuples_ = 0;  // number of tuples in each array of the present POINT_DATA or CELL_DATA
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The opaque mesh handle holds a grid. In: a grid whose cells have been checked. Out: the edges of its cells, their typical
-// length, and its linear volume cells as plain arrays for riis_adjacency_create_from_cells.
+// The mesh handle holds a grid.
+// In: a grid whose cells are checked. Out: the edges of its cells, their typical length, and its linear volume cells as plain
+// arrays for riis_adjacency_create_from_cells.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -29,23 +30,23 @@ struct VolumeCells {
   std::vector<std::int64_t> offsets = {0};  // one entry more than there are cells
 };
 
-// Returns tetrahedra, pyramids, wedges and hexahedra, and voxels as hexahedra. Other cells are left out.
+// Returns tetrahedra, pyramids, wedges and hexahedra, and also voxels as hexahedra. Leaves out other cells.
 VolumeCells volume_cells_of(vtkUnstructuredGrid *grid);
 
-// Edges of volume cells, as pairs of nodes. The list repeats an edge for each of its cells.
+// Edges of volume cells, as pairs of nodes. An edge appears once for each of its cells.
 struct VolumeEdges {
   std::vector<std::int64_t> node_ids;  // (2, n)
   std::int64_t n_cells_left_out = 0;   // volume cells whose edges are not known
 };
 VolumeEdges volume_edges_of(vtkUnstructuredGrid *grid);
 
-// Returns the edges that are longer than a length and whose bounding box meets the box from lower to upper. The grid's points are
-// xyz(3, n).
+// Returns the edges that are longer than a length and whose bounding box meets the box from lower to upper. xyz(3, n) are the
+// grid's points.
 VolumeEdges long_edges_of(vtkUnstructuredGrid *grid, const double *xyz, double longer_than, const double *lower,
                           const double *upper);
 
-// Returns the median length of the edges of faces and volumes, or 0 if none is known. An edge counts once for each of its cells.
-// At most 20,000 cells are used, evenly spaced in their order.
+// Returns the median length of the edges of faces and volumes, or 0 if no edge is known. An edge counts once for each of its
+// cells. At most 20,000 cells are used, at equal distances in the list.
 double median_edge_of(vtkUnstructuredGrid *grid);
 
 }  // namespace riis::vtk

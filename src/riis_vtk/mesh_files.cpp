@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volume meshes of riis_vtk.h: reads a file into a grid with double points, makes an adjacency from its cells, puts marks into
-// its point arrays, and writes the grid to a .vtu file.
+// Volume meshes of riis_vtk.h. Reads a file into a grid with points in double precision, makes an adjacency from its cells,
+// stores marks in its point arrays, and writes the grid to a .vtu file.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -29,15 +29,14 @@ void make_points_double(vtkUnstructuredGrid *grid) {
   grid->SetPoints(points);
 }
 
-// Throws the core's error without the name of its struct, because the caller gave a plain argument.
+// Throws the core's error. Removes the name of the struct from the message, because the caller passed a plain argument.
 void check_adjacency(riis_status status, const std::string &structure) {
   if (status == RIIS_OK) return;
   const std::string text = riis_last_error();
   fail(status, text.rfind(structure, 0) == 0 ? text.substr(structure.size()) : text);
 }
 
-// The core makes adjacencies from cells and the faces between them. This call passes nodes as the cells, and edges as the
-// faces.
+// The core makes adjacencies from cells and the faces between them. Here the nodes are passed as cells, and the edges as faces.
 riis_adjacency *adjacency_of_edges(std::int64_t n_nodes, const std::vector<std::int64_t> &edges,
                                    std::int32_t n_threads) {
   riis_mesh_faces faces;
@@ -60,7 +59,7 @@ riis_adjacency *adjacency_of(vtkUnstructuredGrid *grid, std::int32_t n_threads) 
   const VolumeCounts counts = count_volumes(grid);
   if (counts.n_linear == 0 || counts.n_linear < counts.n_volumes)
     return adjacency_of_edges(grid->GetNumberOfPoints(), volume_edges_of(grid).node_ids, n_threads);
-  // A list of cells is a third as long as the list of their edges.
+  // A list of cells is preferred, because it is a third as long as the list of their edges.
   const VolumeCells volumes = volume_cells_of(grid);
   riis_mesh_cells cells;
   check_core(riis_mesh_cells_init(&cells, sizeof cells));
@@ -84,8 +83,8 @@ const double *points_of(vtkUnstructuredGrid *grid) {
   return vtkDoubleArray::SafeDownCast(grid->GetPoints()->GetData())->GetPointer(0);
 }
 
-// The functions from here on make point arrays of a grid. riis_vtk.h promises their names. The values are the result of a
-// marking, or the caller's numbers.
+// The functions below make point arrays of a grid. riis_vtk.h documents their names. The values come from a marking or from the
+// caller.
 
 void check_are_of_mesh(const riis_marks *marks, vtkIdType n_nodes) {
   riis_mark_stats stats{};
@@ -95,7 +94,7 @@ void check_are_of_mesh(const riis_marks *marks, vtkIdType n_nodes) {
   }
 }
 
-// Refuses a name that some file format or reader cannot handle.
+// Refuses a name that some file formats or readers cannot handle.
 void check_name(const char *argument, const std::string &name) {
   constexpr std::size_t longest = 64;
   const auto is_good = [](char c) {
@@ -108,13 +107,13 @@ void check_name(const char *argument, const std::string &name) {
   }
 }
 
-// The nodes within the limit of a marking.
+// The nodes within the distance limit of a marking.
 struct Within {
   std::int64_t n = 0;
   const std::int64_t *node_id = nullptr;
 };
 
-// Adds an array that has the values of the nodes within the limit, and `elsewhere` for the others.
+// Adds an array that has `values` at the nodes within the limit, and `elsewhere` at the others.
 template <class Array, class Value>
 void add_field(vtkUnstructuredGrid *grid, const std::string &name, const Within &within, int n_components,
                const Value *values, Value elsewhere) {
@@ -133,7 +132,7 @@ void check_fields(std::int32_t fields) {
   refuse_argument("fields is ", fields, "; it must be a sum of RIIS_FIELD_*");
 }
 
-// prefix_marked, prefix_distance, prefix_leaflet.
+// Sets the arrays PREFIX_marked, PREFIX_distance and PREFIX_leaflet.
 void set_marks(vtkUnstructuredGrid *grid, const riis_marks *marks, double far_distance, const std::string &prefix) {
   check_name("prefix", prefix);
   const vtkIdType n = grid->GetNumberOfPoints();
@@ -155,7 +154,7 @@ void set_marks(vtkUnstructuredGrid *grid, const riis_marks *marks, double far_di
   }
 }
 
-// values is (n_components, n_nodes).
+// Sets a point array. `values` is (n_components, n_nodes).
 void set_point_array(vtkUnstructuredGrid *grid, const std::string &name, std::int64_t n_nodes,
                      std::int64_t n_components, const double *values) {
   check_name("name", name);
@@ -168,7 +167,7 @@ void set_point_array(vtkUnstructuredGrid *grid, const std::string &name, std::in
   grid->GetPointData()->AddArray(array);
 }
 
-// An array for each of the fields, such as prefix_normal.
+// Sets an array for each of the fields, such as PREFIX_normal.
 void set_fields(vtkUnstructuredGrid *grid, const riis_marks *marks, std::int32_t fields, const std::string &prefix) {
   check_name("prefix", prefix);
   check_fields(fields);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts of a volume mesh of riis_vtk.h: the cells around some of its nodes, as a mesh of their own.
+// Parts of volume meshes of riis_vtk.h. A part consists of the cells around some nodes of a mesh, and is a mesh itself.
 #include <algorithm>
 #include <memory>
 
@@ -38,7 +38,7 @@ Chosen chosen_nodes(vtkUnstructuredGrid *grid, std::int64_t n_ids, const std::in
   return chosen;
 }
 
-// Returns the cells with a chosen node, and also chooses their other nodes.
+// Returns the cells that have a chosen node. Also adds the other nodes of these cells to the chosen nodes.
 std::vector<vtkIdType> cells_around(vtkUnstructuredGrid *grid, Chosen &chosen) {
   const Chosen wanted = chosen;
   std::vector<vtkIdType> cells;
@@ -71,7 +71,8 @@ void copy_data(vtkDataSetAttributes *from, const std::vector<vtkIdType> &ids, co
   to->AddArray(array);
 }
 
-// Renumbers the corners. A polyhedron's stream of faces has the number of faces, then each face's size and nodes.
+// Adds a cell with its corners renumbered. A polyhedron's stream of faces has the number of faces, and then the size and the
+// nodes of each face.
 void add_cell(vtkUnstructuredGrid *grid, vtkIdType cell, const std::vector<vtkIdType> &new_id, vtkIdList *nodes,
               vtkUnstructuredGrid *part) {
   const int type = grid->GetCellType(cell);

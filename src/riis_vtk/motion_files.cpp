@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motion of riis_vtk.h: reads the frames of a surface from files into arrays for the core's keyframes. ParaView's collections of
-// files in time are read here.
+// Motion of riis_vtk.h. Reads the frames of a surface from files into arrays for the core's keyframes. Also reads ParaView's
+// collections of files in time.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -20,26 +20,26 @@
 struct riis_vtk_motion {
   riis::vtk::Frames frames;
   std::vector<std::string> files;
-  std::vector<const char *> paths;  // times of the files
+  std::vector<const char *> paths;  // points into files
 };
 
 namespace riis::vtk {
 namespace {
 
-// A DataSet element as it stands in the file.
+// A DataSet element as written in the file.
 struct NamedDataSet {
   std::optional<std::string> file, timestep;
 };
 
-// Collects the elements /VTKFile/Collection/DataSet. It builds no tree, because the tree of a deeply nested hostile file would
-// overflow the stack when it is destroyed.
+// Collects the elements /VTKFile/Collection/DataSet. It builds no tree. In a hostile file with deep nesting, destroying the tree
+// would overflow the stack.
 class CollectionParser : public vtkXMLParser {
  public:
   static CollectionParser *New();
   vtkTypeMacro(CollectionParser, vtkXMLParser);
 
   std::vector<NamedDataSet> data_sets;
-  std::exception_ptr failure;  // in one of the functions below, which C code calls
+  std::exception_ptr failure;  // thrown in one of the functions below, which are called from C code
 
  protected:
   void StartElement(const char *name, const char **attributes) override {
@@ -68,7 +68,8 @@ class CollectionParser : public vtkXMLParser {
     }
   }
 
-  std::int64_t depth_ = 0, n_right_ = 0;  // open elements; the outermost of them that match the path
+  // The number of open elements, and how many of them match the path, counted from the outermost one.
+  std::int64_t depth_ = 0, n_right_ = 0;
 };
 vtkStandardNewMacro(CollectionParser);
 
@@ -93,14 +94,14 @@ std::vector<NamedDataSet> data_sets_of(const std::string &path, const CaughtOutp
   return std::move(parser->data_sets);
 }
 
-// The files and their times.
+// The files of a collection and their times.
 struct Collection {
-  std::vector<std::string> paths;  // relative names begin with the collection's folder
+  std::vector<std::string> paths;  // for a relative name, the collection's folder is put before it
   std::vector<double> times;       // finite and strictly ascending
 };
 
-// Reads a .pvd file, ParaView's collection of files in time. Fails for a file that is no collection or names no files, and for
-// timesteps that are no ascending numbers.
+// Reads a .pvd file, ParaView's collection of files in time. Fails for a file that is not a collection or names no files, and
+// for timesteps that are not ascending numbers.
 Collection read_collection(const std::string &path, const CaughtOutput &caught) {
   if (ending_of(path) != "pvd") fail_file(path, "a collection of files in time must be a .pvd file");
   const std::vector<NamedDataSet> data_sets = data_sets_of(path, caught);

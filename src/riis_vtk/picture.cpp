@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of riis_vtk.h: a surface and a marked mesh, seen by one camera, to .png files. The caller's picture options may have
-// the struct of any release. They are converted to this release's struct and checked. A failure names the field and its value.
+// Pictures of riis_vtk.h. Draws a surface and a marked mesh, seen by one camera, into .png files. The caller's picture options
+// may have the size of any release. They are converted to this release's struct and checked. The message of a failure names the
+// field and its value.
 #include <riis/riis_vtk.h>
 
 #include <cmath>
@@ -18,7 +19,7 @@
 namespace riis::vtk {
 namespace {
 
-constexpr std::int64_t first_size = 72;  // the struct's size in the first release that had it
+constexpr std::int64_t first_size = 72;  // the struct's size in its first release
 constexpr std::int64_t size_here = sizeof(riis_vtk_picture_options);
 
 template <class... Parts>
@@ -54,7 +55,7 @@ void check_edges(const riis_vtk_picture_options &options, const riis_vtk_mesh *m
   }
 }
 
-// Fails unless a release had a struct of this size.
+// Fails unless the struct had this size in some release.
 void check_picture_options_size(std::int64_t size) { check_struct_size(size, first_size, size_here, "options"); }
 
 const riis_vtk_picture_options &default_picture_options() {
@@ -63,7 +64,7 @@ const riis_vtk_picture_options &default_picture_options() {
   return defaults;
 }
 
-// Returns the options with defaults for the fields that an older caller lacks, or all defaults if options is NULL.
+// Returns the options with defaults for the fields that an older caller lacks. Returns all defaults if `options` is NULL.
 riis_vtk_picture_options completed_picture_options(const riis_vtk_picture_options *options) {
   riis_vtk_picture_options whole = default_picture_options();
   if (options) {
@@ -74,14 +75,14 @@ riis_vtk_picture_options completed_picture_options(const riis_vtk_picture_option
   return whole;
 }
 
-// argument is the caller's name for the value.
+// Checks a view. `argument` is the caller's name for it.
 void check_view(std::int32_t view, const char *argument) {
   if (view < RIIS_VTK_VIEW_SIDE || view > RIIS_VTK_VIEW_OBLIQUE) {
     refuse_argument(argument, " is ", view, ", not a RIIS_VTK_VIEW_*");
   }
 }
 
-// Checks all fields but the view. The mesh may be NULL.
+// Checks all fields except the view. `mesh` may be NULL.
 void check_picture_options(const riis_vtk_picture_options &options, const riis_vtk_mesh *mesh) {
   check_pixels("width", options.width);
   check_pixels("height", options.height);
@@ -94,7 +95,7 @@ void check_png(const std::string &path) {
   if (ending_of(path) != "png") fail_file(path, "the file's ending must be .png");
 }
 
-// Writes the last picture of the window. Fails if VTK reported an error.
+// Writes the window's last picture to a file. Fails if VTK reported an error.
 void write_png(vtkRenderWindow *window, const std::string &path, const CaughtOutput &caught) {
   caught.check(path);
   ReplacingFile file(path);
@@ -138,10 +139,10 @@ Bounds bounds_of(const double *lower, const double *upper) {
 }  // namespace riis::vtk
 
 struct riis_vtk_film {
-  riis::vtk::HeldDisplay display;  // held for as long as the scene's window
+  riis::vtk::HeldDisplay display;  // held for as long as the scene's window exists
   std::int32_t view;
   riis::vtk::Bounds bounds;
-  riis_vtk_mesh mesh;  // shares the grid with the caller's mesh; NULL grid: no mesh
+  riis_vtk_mesh mesh;  // shares the grid with the caller's mesh; its grid is NULL if there is no mesh
   riis::vtk::Scene scene;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// VTK's own filters for this task, vtkDataSetSurfaceFilter and vtkGeometryFilter, take longer than all other steps of a
-// picture.
+// Finds the outer faces of cells. VTK's own filters for this, vtkDataSetSurfaceFilter and vtkGeometryFilter, would take longer
+// than all other steps of a picture.
 #include "riis_vtk/picture_faces.hpp"
 
 #include <algorithm>
@@ -21,7 +21,8 @@ namespace {
 
 using Corners = std::vector<vtkIdType>;
 
-// The faces of one type of cell, each by its corners, anticlockwise seen from outside. A triangle's row ends with -1.
+// The faces of one type of cell. Each is a list of corners, anticlockwise seen from outside. For a triangle the list ends with
+// -1.
 using FaceTable = std::vector<std::array<int, 4>>;
 
 const FaceTable *faces_of_type(int type) {
@@ -47,7 +48,7 @@ const FaceTable *faces_of_type(int type) {
   }
 }
 
-// A grid's cells as polygons of corners. VTK gives the faces of types that have no table above.
+// The cells of a grid as polygons of corners. For types without a table above, VTK gives the faces.
 class Polygons {
  public:
   explicit Polygons(vtkUnstructuredGrid *grid) : grid_(grid) {}
@@ -77,7 +78,7 @@ class Polygons {
     corners_.clear();
     const int type = grid_->GetCellType(cell);
     add_corners(generic(cell));
-    // VTK keeps the corners of a pixel row by row, and the corners of a strip in zigzag.
+    // VTK lists the corners of a pixel row by row, and those of a strip in zigzag.
     if (type == VTK_PIXEL) std::swap(corners_[2], corners_[3]);
     if (type == VTK_TRIANGLE_STRIP) {
       Corners round;
@@ -95,7 +96,7 @@ class Polygons {
     return generic_;
   }
 
-  // A polygon has as many corners as edges. Its corners come first.
+  // Appends the corners of a polygon. They come first among its points, and there are as many as edges.
   void add_corners(vtkCell *polygon) {
     for (int i = 0; i < polygon->GetNumberOfEdges(); ++i) corners_.push_back(polygon->GetPointIds()->GetId(i));
   }
@@ -117,7 +118,7 @@ class LoneFaces {
  public:
   explicit LoneFaces(vtkIdType n_points) : first_(static_cast<std::size_t>(n_points), -1) {}
 
-  // Adds a face, or removes it if it exists already, since two cells then share it.
+  // Adds a face. If the face already exists, two cells share it, and it is removed.
   void toggle(const Corners &corners, Face face) {
     Key key = {-1, -1, -1, -1};
     std::partial_sort_copy(corners.begin(), corners.end(), key.begin(), key.end());
@@ -145,7 +146,7 @@ class LoneFaces {
   }
 
  private:
-  using Key = std::array<vtkIdType, 4>;  // the least corners; the last is -1 for a triangle
+  using Key = std::array<vtkIdType, 4>;  // the four lowest corners in ascending order; the last is -1 for a triangle
 
   struct Entry {
     Key key;
@@ -165,12 +166,12 @@ class LoneFaces {
     return view(entries_).size() - 1;
   }
 
-  std::vector<std::int64_t> first_;  // the faces of each least corner
+  std::vector<std::int64_t> first_;  // for each node, the faces whose lowest corner it is
   std::vector<Entry> entries_;
   std::int64_t free_ = -1;
 };
 
-// Collects polygons, and the points that they use.
+// Collects polygons and the points that they use.
 class Collected {
  public:
   explicit Collected(vtkUnstructuredGrid *grid)
@@ -201,14 +202,14 @@ class Collected {
   vtkNew<vtkCellArray> polygons_;
 };
 
-// Reverses a face whose corners run clockwise, seen from outside its cell. An inverted cell has such faces.
+// Reverses a face whose corners run clockwise, seen from outside its cell. Inverted cells have such faces.
 void turn_outwards(vtkUnstructuredGrid *grid, vtkIdType cell, Corners &corners) {
   vtkNew<vtkIdList> nodes;
   grid->GetCellPoints(cell, nodes);
   double inside[3] = {0, 0, 0};
   for (const vtkIdType node : *nodes) vtkMath::Add(inside, grid->GetPoint(node), inside);
   vtkMath::MultiplyScalar(inside, 1.0 / static_cast<double>(nodes->GetNumberOfIds()));
-  // Sums the volumes of the tetrahedra from the inner point to the face.
+  // Sums the volumes of the tetrahedra from a point inside the cell to the face.
   double first[3], volume = 0;
   vtkMath::Subtract(grid->GetPoint(corners[0]), inside, first);
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {

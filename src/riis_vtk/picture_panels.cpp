@@ -48,7 +48,7 @@ vtkSmartPointer<vtkActor> flat_actor(vtkPolyData *data, const Colour &colour) {
   return actor;
 }
 
-// Gives every face the colour of its leaflet. `white` is the share of white in it.
+// Gives every face the colour of its leaflet, mixed with white. `white` is the share of white.
 void colour_faces(vtkPolyData *faces, const std::vector<vtkIdType> &leaflets, double white) {
   vtkNew<vtkUnsignedCharArray> colours;
   colours->SetName("colour");
@@ -64,7 +64,7 @@ void colour_faces(vtkPolyData *faces, const std::vector<vtkIdType> &leaflets, do
 
 vtkSmartPointer<vtkActor> coloured_actor(vtkPolyData *faces) {
   const vtkSmartPointer<vtkActor> actor = coloured_actor_of(faces);
-  // The surface has some light of its own, so that parts that face away from the lamps keep their colour.
+  // The ambient light lets parts that face away from the lamps keep their colour.
   actor->GetProperty()->SetAmbient(0.25);
   actor->GetProperty()->SetDiffuse(0.85);
   actor->GetProperty()->SetSpecular(0.15);
@@ -81,7 +81,7 @@ std::vector<std::uint8_t> marked_nodes(vtkUnstructuredGrid *grid) {
   return nodes;
 }
 
-// Returns one value per cell. Cells below the largest dimension count as not marked.
+// Returns one value for each cell. Cells below the grid's largest dimension count as not marked.
 std::vector<std::uint8_t> marked_parts(vtkUnstructuredGrid *grid, const std::vector<std::uint8_t> &marked) {
   const CellDimensions dimensions(grid);
   std::vector<std::uint8_t> parts(static_cast<std::size_t>(grid->GetNumberOfCells()), not_marked);
@@ -98,7 +98,7 @@ std::vector<std::uint8_t> marked_parts(vtkUnstructuredGrid *grid, const std::vec
   return parts;
 }
 
-// Returns the leaflet of each cell's closest marked node.
+// Returns, for each cell, the leaflet of its closest marked node.
 std::vector<vtkIdType> leaflets_of(vtkUnstructuredGrid *grid, const std::vector<vtkIdType> &cells) {
   vtkDataArray *distance = grid->GetPointData()->GetArray(distance_array);
   vtkDataArray *leaflet = grid->GetPointData()->GetArray(leaflet_array);
@@ -110,7 +110,7 @@ std::vector<vtkIdType> leaflets_of(vtkUnstructuredGrid *grid, const std::vector<
     grid->GetCellPoints(cell, nodes);
     vtkIdType closest = -1;
     for (const vtkIdType node : *nodes) {
-      // An unmarked node may have the far distance, which may be any number.
+      // An unmarked node may have the far distance, which may be any number. So only marked nodes count.
       if (marked->GetComponent(node, 0) == 0) continue;
       if (closest < 0 || distance->GetComponent(node, 0) < distance->GetComponent(closest, 0)) closest = node;
     }
@@ -133,7 +133,7 @@ double mean_edge_length(vtkPolyData *faces) {
   return sum / std::max(1.0, static_cast<double>(faces->GetNumberOfCells()));
 }
 
-// Without perspective the shift only changes which parts are in front.
+// Moves an actor away from the eye. Without perspective, this changes only which parts are in front.
 void move_away(vtkActor *actor, const View &view, double length) {
   actor->SetPosition(length * view.away()[0], length * view.away()[1], length * view.away()[2]);
 }
@@ -158,7 +158,7 @@ void SurfacePanel::show(vtkPolyData *surface) {
   colour_faces(surface, leaflets, 0);
   renderer_->RemoveAllViewProps();
   renderer_->AddActor(coloured_actor(smoothed(surface)));
-  // Patches of a leaflet do not share vertices on their common sides.
+  // Joins vertices at the same position first, because patches of a leaflet do not share vertices on their common sides.
   vtkNew<vtkCleanPolyData> joined;
   joined->SetInputData(surface);
   joined->SetTolerance(0);
@@ -176,7 +176,7 @@ void SurfacePanel::show(vtkPolyData *surface) {
 }
 
 void SurfacePanel::look(const View &view, const Sight &sight) {
-  constexpr double behind = 0.01;  // a share of the panel's half height
+  constexpr double behind = 0.01;  // as a share of the panel's half height
   move_away(rims_, view, behind * sight.shown[1].half());
 }
 
@@ -197,15 +197,15 @@ void MarksPanel::add_marks(vtkUnstructuredGrid *grid) {
   counts_ = {grid->GetNumberOfPoints(), std::count(marked.begin(), marked.end(), 1),
              std::count(parts.begin(), parts.end(), whole_marked),
              std::count(parts.begin(), parts.end(), partly_marked)};
-  // The partly marked cells lie around the whole ones. Faces between the two kinds are never seen.
+  // The partly marked cells surround the whole ones. Faces between the two kinds are never visible.
   std::vector<std::uint8_t> chosen(parts.size());
   std::transform(parts.begin(), parts.end(), chosen.begin(), [](std::uint8_t part) { return part == partly_marked; });
   const Outside partly = outside_of(grid, &parts, &chosen);
   colour_faces(partly.faces, leaflets_of(grid, partly.cell_id), pale);
   partly_length_ = mean_edge_length(partly.faces);
   partly_ = coloured_actor(partly.faces);
-  // Faces that look towards the eye would hide the whole cells. The other faces are visible around whole cells and in gaps
-  // between them.
+  // Faces that look towards the eye would hide the whole cells, so they are not drawn. The other faces are visible around whole
+  // cells and in gaps between them.
   partly_->GetProperty()->SetFrontfaceCulling(partly.of_volumes);
   partly_->GetProperty()->SetAmbient(0.6);
   partly_->GetProperty()->SetDiffuse(0.45);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a surface's triangles, a marked mesh. Out: the two panels of a picture, made once for all views.
+// In: a surface's triangles, a marked mesh. Out: the two panels of a picture. They are made once for all views.
 #pragma once
 
 #include <set>
@@ -13,21 +13,22 @@ class vtkUnstructuredGrid;
 
 namespace riis::vtk {
 
-// red, green, blue from 0 to 1
+// Red, green and blue, each from 0 to 1.
 using Colour = std::array<double, 3>;
 
 Colour colour_of_leaflet(vtkIdType leaflet);
 constexpr Colour leak_colour = {0.86, 0.0, 0.0};
 constexpr Colour grey = {0.2, 0.2, 0.2};
 
-// The surface, with a colour for each leaflet. The rims are drawn as lines, because faces that are seen edge on have no pixels.
+// The panel with the surface, in which each leaflet has its own colour. The rims are drawn as lines, because faces that are seen
+// edge-on cover no pixels.
 class SurfacePanel {
  public:
-  // pixels is the width of a line.
+  // `pixels` is the width of a line.
   explicit SurfacePanel(double pixels);
-  // Replaces the surface shown before.
+  // Replaces the surface that was shown before.
   void show(vtkPolyData *surface);
-  // Turns to a view. The lines are drawn slightly behind the faces, so that faces in front hide them.
+  // Turns to a view. The lines are drawn slightly behind the faces, so that faces in front of them hide them.
   void look(const View &view, const Sight &sight);
   vtkRenderer *renderer() const { return renderer_; }
   const std::set<vtkIdType> &leaflets() const { return leaflets_; }
@@ -45,14 +46,14 @@ struct MarkCounts {
   vtkIdType n_partly_cells = 0;  // cells with some but not all nodes marked
 };
 
-// Marked cells in the faint boundary of the mesh. A cell has the colour of its closest node's leaflet; a partly marked
-// cell is paler. Edges that leak are red. Cells below the grid's largest dimension are left out.
+// The panel with marked cells inside the faint boundary of the mesh. A cell has the colour of its closest node's leaflet, and a
+// partly marked cell is paler. Leaking edges are red. Cells below the grid's largest dimension are left out.
 class MarksPanel {
  public:
-  // pixels is the width of a line.
+  // `pixels` is the width of a line.
   MarksPanel(vtkUnstructuredGrid *grid, double pixels);
-  // Replaces the old marks by the present marks in the grid's point arrays. leaking_edges(2, n_leaking_edges) holds checked
-  // node ids.
+  // Replaces the marks that were shown before by those in the grid's point arrays. leaking_edges(2, n_leaking_edges) must hold
+  // valid node ids.
   void show(vtkUnstructuredGrid *grid, std::int64_t n_leaking_edges, const std::int64_t *leaking_edges);
   vtkRenderer *renderer() const { return renderer_; }
   const MarkCounts &counts() const { return counts_; }

@@ -52,7 +52,7 @@ double round_length(double limit) {
   return power;
 }
 
-// Returns the part of a text that VTK can draw in one line. VTK reads letters outside ASCII only as UTF-8.
+// Replaces all characters that VTK cannot draw in one line. VTK would read letters outside ASCII only as UTF-8.
 std::string drawable(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
@@ -78,7 +78,7 @@ void add_text(vtkRenderer *renderer, const std::string &text, double x, double y
   renderer->AddViewProp(actor);
 }
 
-// Uses smaller letters for a text that is too long. If even the smallest letters do not help, the text loses its end.
+// Adds a text. If it is too long, uses smaller letters. If it does not fit even with the smallest letters, its end is cut off.
 void add_fitting_text(vtkRenderer *renderer, std::string text, double x, double y, double width, int letter) {
   while (letter > least_letter && width_of(text, letter) > width) --letter;
   if (width_of(text, letter) > width) {
@@ -115,7 +115,7 @@ void add_lines(vtkRenderer *renderer, const std::vector<Line> &lines, double wid
   renderer->AddViewProp(actor);
 }
 
-// Adds a bar whose length is a round number, with the length and its unit beside it.
+// Adds a bar whose length is a round number, with the length and its unit next to it.
 void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double y, const Sight &sight,
                    const std::string &unit, bool has_plural) {
   const double pixels_per_length = layout.panel_height() / (2 * sight.shown[1].half());
@@ -134,7 +134,7 @@ void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double
   add_fitting_text(renderer, text.str(), after, y, right - after, layout.letter());
 }
 
-// Adds arrows for x, y and z with their lengths in the view. The name of an axis that points at the eye stands in the middle.
+// Adds arrows for x, y and z as long as these axes appear in the view. If an axis points at the eye, its name is in the middle.
 void add_axes(vtkRenderer *renderer, const Layout &layout, double x, double y, double length, const View &view) {
   const char *const names[3] = {"x", "y", "z"};
   std::vector<Line> lines;
@@ -161,7 +161,7 @@ void add_caption(vtkRenderer *renderer, const Layout &layout, int panel, const s
   }
 }
 
-// Adds the key from `left` to the panel's right end, in one line or more. Dots stand for the entries that do not fit.
+// Adds the key from `left` to the right end of the panel, in one or more lines. Dots replace the entries that do not fit.
 void add_key(vtkRenderer *renderer, const Layout &layout, int panel, double left, int n_lines,
              const std::vector<KeyEntry> &key) {
   const double right = layout.panel_left(panel) + layout.panel_width() - layout.margin(), gap = 1.5 * layout.letter();
@@ -188,8 +188,8 @@ void add_key(vtkRenderer *renderer, const Layout &layout, int panel, double left
   }
 }
 
-// Draws all texts of a picture behind its panels. unit follows the number at the scale bar. It gets an s unless the number is 1
-// or the unit is a symbol.
+// Draws all texts of a picture in a layer behind its panels. `unit` follows the number at the scale bar. If has_plural is true,
+// it gets an s, unless the number is 1.
 vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &panels,
                                               const View &view, const Sight &sight, const std::string &unit,
                                               bool has_plural) {
@@ -210,7 +210,7 @@ vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::v
   return renderer;
 }
 
-// The texts of a picture that do not change with its view.
+// Returns the texts of a picture that are the same for all views.
 std::vector<PanelTexts> texts_of(const std::string &title, const std::vector<std::string> &names,
                                  const SurfacePanel &surface, vtkIdType n_triangles, const MarkCounts *marks,
                                  const Leaks &leaks) {

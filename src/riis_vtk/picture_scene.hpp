@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window of a picture has panels, and bands above and below them with captions, the key of colours, axes and a scale bar.
-// It can show several surfaces and marks one after the other, each from any side.
+// The window of a picture. It has panels, and bands above and below them with captions, the key of colours, axes and a scale
+// bar. It can show several surfaces and marks one after another, each in any view.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -17,8 +17,8 @@ class vtkRenderWindow;
 
 namespace riis::vtk {
 
-// The places of a picture's parts, in pixels from the lower left corner. A picture that is too low for bands has neither bands
-// nor texts.
+// The positions of a picture's parts, in pixels from the lower left corner. A picture that is not high enough for bands has no
+// texts.
 class Layout {
  public:
   Layout(int width, int height, int n_panels);
@@ -29,12 +29,12 @@ class Layout {
   double panel_left(int panel) const { return width_ * static_cast<double>(panel) / n_panels_; }
   double panel_width() const { return width_ / static_cast<double>(n_panels_); }
   double panel_height() const { return height_ - top_ - bottom_; }
-  // Return the lower end of a line of text. The caption's lines are counted from the top, the key's lines from the panels
-  // downwards.
+  // These return the lower end of a line of text. The caption's lines are counted from the top of the picture. The key's lines
+  // are counted downwards from the panels.
   double caption_line(int line) const { return height_ - 1.6 * letter_ * (line + 1); }
   double key_line(int line) const { return bottom_ - 1.6 * letter_ * (line + 1); }
   double bottom() const { return bottom_; }
-  // The left, lower, right and upper end, as shares of the picture's size.
+  // Returns the left, lower, right and upper end of a panel, as shares of the picture's size.
   std::array<double, 4> viewport(int panel) const;
   double line_width() const;
 
@@ -49,11 +49,11 @@ struct KeyEntry {
 };
 
 struct PanelTexts {
-  std::vector<std::string> caption;  // lines
-  std::vector<KeyEntry> key;         // as many as fit
+  std::vector<std::string> caption;  // one entry for each line
+  std::vector<KeyEntry> key;         // as many as fit are shown
 };
 
-// Edges to draw red. NULL: the texts do not mention leaks.
+// Leaking edges, which are drawn in red. If `edges` is NULL, the texts do not mention leaks.
 struct Leaks {
   std::int64_t n_edges = 0;
   const std::int64_t *edges = nullptr;
@@ -64,12 +64,12 @@ void check_has_marks(const riis_vtk_mesh *mesh);
 
 class Scene {
  public:
-  // grid NULL: the surface alone.
+  // If `grid` is NULL, shows only the surface.
   Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options);
   ~Scene();
-  // Shows the surface, and the marks that the grid has now. title NULL: "Surface".
+  // Shows the surface, and the marks that the grid has at present. If `title` is NULL, the title is "Surface".
   void show(const riis_surface *surface, const char *title, const Leaks &leaks);
-  // The box that the camera shows, or nothing for the surface's box.
+  // Renders a view. `seen` is the box that the camera shows. Without it, the camera shows the surface's box.
   vtkRenderWindow *render(std::int32_t of, const std::optional<Bounds> &seen);
 
  private:

@@ -18,9 +18,9 @@ namespace riis::vtk {
 namespace {
 
 constexpr double not_much_larger = 1.6;
-constexpr double margin = 1.08;        // the panel's size over the size of its content
-constexpr double neighbourhood = 1.3;  // the visible size over the surface's size, if the mesh extends further
-constexpr double cut_at = 0.94;  // the cut's place, as a share of the distance from the middle to the panel's edge
+constexpr double margin = 1.08;        // the panel's size divided by the size of its content
+constexpr double neighbourhood = 1.3;  // the visible size divided by the surface's size, if the mesh extends further
+constexpr double cut_at = 0.94;  // the cut's position, as a share of the distance from the middle to the panel's edge
 
 Extent hull(const Extent &a, const Extent &b) { return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)}; }
 
@@ -28,7 +28,7 @@ Extent around(const Extent &extent, double factor) {
   return {extent.middle() - factor * extent.half(), extent.middle() + factor * extent.half()};
 }
 
-// Returns the extent that must be visible along one axis. size is the surface's size.
+// Returns the extent that must be visible along one axis. `size` is the surface's size.
 Extent wanted(const Extent &surface, const Extent &mesh, double size) {
   const Extent both = hull(surface, mesh);
   if (both.half() <= not_much_larger * size || !surface.meets(mesh)) return both;
@@ -48,7 +48,7 @@ void grow(Extents &extents, const View &view, const double point[3]) {
   }
 }
 
-// One side of the panel: a place on an axis, and the direction of the part that remains.
+// One side of the panel at which the mesh is cut: an axis, a position on it, and the direction towards the part that remains.
 struct Side {
   std::size_t axis;
   double at;
@@ -64,7 +64,7 @@ std::vector<Side> cut_sides(const Sight &sight) {
   return sides;
 }
 
-// Returns the parts of the side's line inside the boundary, sorted and disjoint.
+// Returns the parts of the side's line that lie inside the boundary. They are sorted and disjoint.
 std::vector<Extent> crossings(const View &view, const Side &side, vtkPolyData *boundary) {
   std::vector<Extent> all;
   const Vector &across = view.axes[side.axis], &along = view.axes[1 - side.axis];
@@ -204,7 +204,7 @@ Sight sight_of(const Extents &surface, const Extents *mesh, double aspect) {
 }
 
 void aim_camera(vtkCamera *camera, const View &view, const Sight &sight) {
-  // The eye is outside everything. There is room in front for parts that are drawn nearer than they are.
+  // The eye is outside of everything. There is also room for parts that are drawn nearer to the eye than they are.
   const double depth = 4 * (sight.shown[2].half() + sight.shown[1].half() + sight.shown[0].half());
   Vector focus, eye;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the direction of view and the extents of the surface and the mesh. Out: the visible space, for the camera, the cut and
-// the scale bar; and planes and dashed lines at the cuts of a mesh that extends beyond the panel.
+// In: the direction of view, and the extents of the surface and the mesh. Out: the visible space, for the camera, the cut and
+// the scale bar. If the mesh extends beyond the panel, also planes that cut it and dashed lines at the cuts.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct Extent {
   bool meets(const Extent &other) const { return lower <= other.upper && other.lower <= upper; }
 };
 
-// Extents along the axes of a view: to the right, upwards, away from the eye.
+// Extents along the axes of a view: to the right, upwards, and away from the eye.
 using Extents = std::array<Extent, 3>;
 // Extents along x, y and z.
 using Bounds = std::array<Extent, 3>;
@@ -43,19 +43,19 @@ struct View {
   Extents extents_of(const Bounds &bounds) const;
 };
 
-// The part of space that a panel shows, along the axes of its view.
+// The part of space that a panel shows, in terms of the axes of its view.
 struct Sight {
-  Extents shown;                  // x and y to the panel's edges; the depth of surface and mesh
+  Extents shown;                  // x and y up to the panel's edges; z is the depth of surface and mesh
   std::array<Extent, 2> uncut;    // x and y at which a mesh that extends further is cut
-  std::array<bool, 2> cut_below;  // whether it is cut on the left and below
-  std::array<bool, 2> cut_above;  // whether it is cut on the right and above
+  std::array<bool, 2> cut_below;  // whether the mesh is cut on the left, and below
+  std::array<bool, 2> cut_above;  // whether the mesh is cut on the right, and above
   bool is_cut() const { return cut_below[0] || cut_below[1] || cut_above[0] || cut_above[1]; }
 };
 
-// The sight contains the surface. Along an axis on which the mesh is not much larger, it also contains the mesh. So pictures of
-// a valve that moves in one mesh can be compared. Along other axes it contains the surface's neighbourhood.
-//   mesh    NULL: none
-//   aspect  the panel's width over its height
+// Returns a sight that contains the surface. Along an axis on which the mesh is not much larger, it also contains the mesh. So
+// pictures of a valve that moves in one mesh can be compared. Along other axes it contains the surface's neighbourhood.
+//   mesh    NULL if there is none
+//   aspect  the panel's width divided by its height
 Sight sight_of(const Extents &surface, const Extents *mesh, double aspect);
 
 void aim_camera(vtkCamera *camera, const View &view, const Sight &sight);
@@ -63,7 +63,7 @@ void aim_camera(vtkCamera *camera, const View &view, const Sight &sight);
 // Returns planes for the mapper of the mesh. There are none if the whole mesh is in sight.
 std::vector<vtkSmartPointer<vtkPlane>> cutting_planes(const View &view, const Sight &sight);
 
-// Returns dashed lines at which the planes cut the boundary. They are nearer to the eye than everything else.
+// Returns dashed lines where the planes cut the boundary. The lines are nearer to the eye than everything else.
 vtkSmartPointer<vtkPolyData> dashes_where_cut(const View &view, const Sight &sight, vtkPolyData *boundary);
 
 }  // namespace riis::vtk

@@ -64,15 +64,15 @@ std::array<double, 3> area_of(vtkPointSet *data, const vtkIdList *ids, vtkIdType
   return {area[0], area[1], area[2]};
 }
 
-// Tells whether the diagonal from corner i to the opposite corner cuts a quad into two triangles that face the same way.
+// Returns whether the diagonal from corner i to the opposite corner cuts a quad into two triangles that face the same way.
 bool is_inner_diagonal(vtkPointSet *data, const vtkIdList *ids, vtkIdType i) {
   const std::array<double, 3> one = area_of(data, ids, i, i + 1, i + 2);
   const std::array<double, 3> other = area_of(data, ids, i, i + 2, (i + 3) % 4);
   return vtkMath::Dot(one.data(), other.data()) > 0;
 }
 
-// Quads are cut from their first corner to their third, here and in the core. If that diagonal is outside a concave quad and
-// the other one is inside, the list of corners is rotated by one.
+// Rotates the list of corners by one, if only the other diagonal lies inside the quad. The reason is that quads are cut from
+// their first corner to their third, both here and in the core.
 void put_inner_diagonal_first(vtkPointSet *data, vtkIdList *ids) {
   if (!is_inner_diagonal(data, ids, 0) && is_inner_diagonal(data, ids, 1)) {
     std::rotate(ids->begin(), ids->begin() + 1, ids->end());
@@ -107,7 +107,7 @@ bool holds_quads_only(vtkPointSet *data) {
   return true;
 }
 
-// Returns one leaflet id per cell, or none if there is no such array. Fails if that array is required.
+// Returns one leaflet id for each cell, or none if the array is missing. Fails if it is missing and required.
 std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet *data, const LeafletArray &wanted) {
   const std::string name = "cell array " + wanted.name;
   vtkAbstractArray *abstract = data->GetCellData()->GetAbstractArray(wanted.name.c_str());
@@ -130,7 +130,7 @@ std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet
   return leaflets;
 }
 
-// Returns a vertex's place as bits, so that places can be sorted even if the file contains NaN. 0 and -0 are the same place.
+// Returns a vertex's position as bits. Bits can be sorted even if the file contains NaN. 0 and -0 give the same bits.
 std::array<std::uint64_t, 3> place_of(const Faces &faces, std::size_t vertex) {
   std::array<std::uint64_t, 3> bits;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -140,7 +140,7 @@ std::array<std::uint64_t, 3> place_of(const Faces &faces, std::size_t vertex) {
   return bits;
 }
 
-// Disjoint sets that can be joined. Each set has one member that stands for it.
+// Disjoint sets that can be joined. One member of each set represents the set.
 class Sets {
  public:
   explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Has the edges of all types of cells, and lists volume cells and their edges.
+// The edges of all types of cells, and the lists of volume cells and of their edges.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,7 +32,7 @@ bool is_linear_volume(int type) {
 
 Edge edge_between(vtkIdType a, vtkIdType b) { return {std::min(a, b), std::max(a, b)}; }
 
-// Sorts edges. Removes repeated ones, and those from a node to itself.
+// Sorts edges. Removes repeated edges, and edges from a node to itself.
 void sort_edges(std::vector<Edge> &edges) {
   edges.erase(std::remove_if(edges.begin(), edges.end(), [](const Edge &edge) { return edge[0] == edge[1]; }),
               edges.end());
@@ -40,8 +40,8 @@ void sort_edges(std::vector<Edge> &edges) {
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
 }
 
-// Adds the edges of a face. A side of higher order has a node in its middle. The face may also have a node in its middle, its
-// last one.
+// Adds the edges of a face. A side of higher order has a node in its middle. The face itself may also have a node in its middle,
+// which is then its last node.
 void add_face(vtkCell *face, std::vector<Edge> &edges) {
   std::vector<vtkIdType> middles;
   const int n_sides = face->GetNumberOfEdges();
@@ -67,21 +67,21 @@ void add_face(vtkCell *face, std::vector<Edge> &edges) {
   }
 }
 
-// Adds the edges inside the cell, which are on no face.
+// Adds the edges inside the cell. They are on no face.
 void add_inner_edges(int type, std::vector<Edge> &edges) {
   const auto add_star = [&](vtkIdType centre, vtkIdType first) {
     for (vtkIdType i = first; i < centre; ++i) edges.push_back(edge_between(i, centre));
   };
   if (type == VTK_TRIQUADRATIC_HEXAHEDRON) add_star(26, 20);
   if (type == VTK_TRIQUADRATIC_PYRAMID) add_star(18, 13);
-  // The middles of the quads are the corners of a triangle at half height.
+  // The nodes in the middles of the quads form a triangle at half height.
   if (type == VTK_BIQUADRATIC_QUADRATIC_WEDGE) edges.insert(edges.end(), {{15, 16}, {16, 17}, {15, 17}});
 }
 
-// The common properties of all cells of a type.
+// The properties that all cells of a type have in common.
 struct Shape {
   int dimension = 0;
-  std::vector<Edge> edges;  // pairs of positions in the cell's list of nodes; none if they depend on the cell
+  std::vector<Edge> edges;  // pairs of positions in the cell's list of nodes; empty if they depend on the cell
 };
 
 Shape shape_of(int type) {
@@ -109,11 +109,11 @@ const Shape &known_shape(int type) {
   return view(shapes)[type];
 }
 
-// Nodes on a lattice have edges along its lines.
+// The functions below add the edges between neighbouring nodes of a lattice.
 using Orders = std::array<int, 4>;  // the orders along three axes, then the number of nodes, as in VTK
 
 void add_tetrahedron_lattice(int order, std::vector<Edge> &edges) {
-  // Each place of the lattice with one order less belongs to a small tetrahedron.
+  // Each position of the lattice of one order less belongs to a small tetrahedron.
   for (vtkIdType i = 0; i < order; ++i)
     for (vtkIdType j = 0; i + j < order; ++j)
       for (vtkIdType k = 0; i + j + k < order; ++k) {
@@ -155,7 +155,7 @@ void add_wedge_lattice(const Orders &orders, std::vector<Edge> &edges) {
       }
 }
 
-// Returns the number of nodes of a lattice, as a double because the orders may be arbitrarily large.
+// Returns the number of nodes of a lattice. It is a double, because the orders may be arbitrarily large.
 double n_lattice_nodes(int type, const Orders &orders) {
   const double n[3] = {orders[0] + 1.0, orders[1] + 1.0, orders[2] + 1.0};
   if (type == VTK_LAGRANGE_TETRAHEDRON || type == VTK_BEZIER_TETRAHEDRON) return n[0] * (n[0] + 1) * (n[0] + 2) / 6;
@@ -180,8 +180,8 @@ std::vector<Edge> lattice_edges(int type, const Orders &orders) {
   return edges;
 }
 
-// Finds the orders of a cell of n_nodes. The orders are given, or they are equal along all axes. Returns false if neither fits,
-// because the cell's nodes are then no lattice.
+// Finds the orders of a cell with n_nodes nodes. They are `given`, or they are equal along all axes. Returns false if neither
+// fits. Then the cell's nodes do not form a lattice.
 bool find_orders(int type, vtkIdType n_nodes, const double *given, Orders &orders) {
   orders[3] = static_cast<int>(n_nodes);
   const auto fit = [&] {
@@ -209,15 +209,16 @@ bool is_long_and_near(const double *a, const double *b, double least_square, con
   return true;
 }
 
-// The edges of cells with straight sides are their sides. The nodes of a cell of higher order cut it into linear cells, and it
-// has their edges. A face without a node in its middle has edges between the middles of neighbouring sides.
+// The edges of cells. If a cell has straight sides, its edges are these sides. The nodes of a cell of higher order divide it
+// into linear cells, and the cell has the edges of these. A face without a node in its middle has edges between the middles of
+// neighbouring sides.
 class CellEdges {
  public:
   explicit CellEdges(vtkUnstructuredGrid *grid) : grid_(grid), degrees_(grid->GetCellData()->GetHigherOrderDegrees()) {
     if (degrees_ && degrees_->GetNumberOfComponents() != 3) degrees_ = nullptr;
   }
 
-  // Tells whether the cell is a volume. Other cells bound volumes, or stand alone.
+  // Returns whether the cell is a volume. Other cells are on the boundary of volumes or do not belong to any.
   bool is_volume(vtkIdType cell) const { return known_shape(grid_->GetCellType(cell)).dimension == 3; }
 
   // Calls visit with both nodes of each edge of a face or a volume. Returns false if the edges are not known.
@@ -230,7 +231,7 @@ class CellEdges {
   }
 
  private:
-  // Returns each edge once, as a pair of positions in the list of nodes ids. If ids is NULL, the pairs are nodes.
+  // Returns each edge once, as a pair of positions in the list of nodes `ids`. If `ids` is NULL, the pairs are nodes.
   const std::vector<Edge> &pairs_of(vtkIdType cell, const vtkIdType *&ids) {
     const int type = grid_->GetCellType(cell);
     if (type == VTK_POLYHEDRON) {
@@ -242,7 +243,7 @@ class CellEdges {
     return is_lattice(type) ? lattice_of(type, cell, n) : known_shape(type).edges;
   }
 
-  // A polyhedron's stream of faces has the number of faces, then each face's size and nodes.
+  // Lists the edges of a polyhedron. Its stream of faces has the number of faces, and then the size and the nodes of each face.
   void list_polyhedron(vtkIdType cell) {
     edges_.clear();
     grid_->GetFaceStream(cell, faces_);
@@ -268,7 +269,7 @@ class CellEdges {
   }
 
   vtkUnstructuredGrid *grid_;
-  vtkDataArray *degrees_;  // of cells of higher order; may be NULL
+  vtkDataArray *degrees_;  // the orders of cells of higher order; may be NULL
   vtkNew<vtkIdList> faces_;
   std::vector<Edge> edges_;                                   // of a polyhedron
   std::map<std::array<int, 4>, std::vector<Edge>> lattices_;  // by the type and the three orders
@@ -329,7 +330,8 @@ VolumeCells volume_cells_of(vtkUnstructuredGrid *grid) {
     const vtkIdType *ids = nullptr;
     grid->GetCells()->GetCellAtId(cell_id, n, ids);
     if (type == VTK_VOXEL) {
-      // A voxel's nodes run along x, then y, then z. A hexahedron's nodes run round its base, then round its top.
+      // The nodes of a voxel are ordered along x, then y, then z. Those of a hexahedron run round its base and then round its
+      // top.
       cells.node_ids.insert(cells.node_ids.end(), {ids[0], ids[1], ids[3], ids[2], ids[4], ids[5], ids[7], ids[6]});
     } else {
       cells.node_ids.insert(cells.node_ids.end(), ids, ids + n);

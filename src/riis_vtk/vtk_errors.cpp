@@ -15,10 +15,11 @@
 namespace riis::vtk {
 namespace {
 
-// Leaves room for a reason in the core's message.
+// This limit leaves room for the reason in the core's message.
 constexpr std::size_t longest_path = 250;
 
-// VTK's message is "ERROR: In FILE, line N\nvtkClass (0xADDRESS): message\n\n". Only the last part is useful to users.
+// Returns the useful part of a message of VTK. The message is "ERROR: In FILE, line N\nvtkClass (0xADDRESS): message\n\n", and
+// only its last part helps users.
 std::string message_of(const std::string &vtk_text) {
   const std::size_t object = vtk_text.find("): ");
   const std::string message = object == std::string::npos ? vtk_text : vtk_text.substr(object + 3);
@@ -35,15 +36,15 @@ std::string message_of(const std::string &vtk_text) {
   return line;
 }
 
-// Makes a text fit for a message of one line. A path may contain any byte.
+// Replaces control characters, so that a message stays on one line. A path may contain any byte.
 char printable(char c) { return static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c; }
 std::string printable(std::string text) {
   for (char &c : text) c = printable(c);
   return text;
 }
 
-// Thrown if memory runs out while a file is read or written. It contains the message itself, because there may be no memory for
-// a string.
+// Thrown if memory runs out while a file is read or written. It contains the text itself, because there may be no memory for a
+// string.
 struct OutOfMemory {
   char text[longest_path + 32];
 };
@@ -100,7 +101,7 @@ CaughtOutput::CaughtOutput()
       caller_displays_(vtkObject::GetGlobalWarningDisplay()),
       caller_log_level_(vtkLogger::GetCurrentVerbosityCutoff()) {
   vtkOutputWindow::SetInstance(window_);
-  // If the warning display is off, VTK drops errors before they reach any window.
+  // If the warning display is off, VTK drops errors before they reach a window.
   vtkObject::SetGlobalWarningDisplay(1);
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reports the failures of this library. fail() throws, and guarded() turns any exception into a status and the core's last
-// error. While a body runs, VTK's messages are caught and not printed.
+// error. While guarded() runs a body, VTK's messages are caught and not printed.
 #pragma once
 
 #include <locale.h>
@@ -27,7 +27,8 @@ struct Failure {
 
 [[noreturn]] void fail(riis_status status, std::string text);
 
-// Returns words and numbers as one text. A real number has its shortest exact text, such as "nan" and "0.1".
+// Returns words and numbers as one text. A real number is written as the shortest text that reads back exactly, such as "0.1" or
+// "nan".
 template <class... Parts>
 std::string joined(const Parts &...parts) {
   std::string text;
@@ -43,13 +44,13 @@ std::string joined(const Parts &...parts) {
   return text;
 }
 
-// Throws RIIS_INVALID_ARGUMENT with a message of these parts.
+// Throws RIIS_INVALID_ARGUMENT. The parts form the message.
 template <class... Parts>
 [[noreturn]] void refuse_argument(const Parts &...parts) {
   fail(RIIS_INVALID_ARGUMENT, joined(parts...));
 }
 
-// Throws a RIIS_FILE_ERROR with the message "PATH: reason". A path that is too long for the message loses its beginning. The
+// Throws RIIS_FILE_ERROR with the message "PATH: reason". If the path is too long for the message, its beginning is cut off. The
 // reason stays complete.
 [[noreturn]] void fail_reason(const std::string &path, const std::string &reason);
 template <class... Parts>
@@ -57,7 +58,7 @@ template <class... Parts>
   fail_reason(path, joined(parts...));
 }
 
-// Throws RIIS_OUT_OF_MEMORY with the message "PATH: out of memory". It takes no memory itself.
+// Throws RIIS_OUT_OF_MEMORY with the message "PATH: out of memory". Allocates no memory itself.
 [[noreturn]] void fail_memory(const std::string &path);
 // Calls `work`, which reads or writes the file. If memory runs out, the error names the file.
 template <class Work>
@@ -68,10 +69,10 @@ auto naming(const std::string &path, const Work &work) {
     fail_memory(path);
   }
 }
-// Passes on an error of the core, with the core's message.
+// Throws if `status` is an error of the core. Keeps the core's message.
 void check_core(riis_status status);
-// Fails unless a struct has the size of some release. first_size is its size in the first release that had it, and size_here
-// its size in this release.
+// Fails unless the struct had this size in some release. first_size is its size in its first release, and size_here is its size
+// in this release.
 void check_struct_size(std::int64_t size, std::int64_t first_size, std::int64_t size_here, const char *name);
 
 template <class T>
@@ -80,9 +81,9 @@ T *require(T *pointer, const char *argument) {
   return pointer;
 }
 
-// Replaces VTK's process-wide output window while it lives, and silences VTK's log on stderr, which repeats every error. VTK
-// does not give the level of the log on stderr, only the highest level of all logs. So the destructor restores this highest
-// level.
+// While an object of this type lives, it replaces VTK's process-wide output window, and silences VTK's log on stderr, which
+// repeats every error. VTK does not tell the level of the log on stderr, but only the highest level of all logs. So the
+// destructor restores this highest level.
 class CaughtOutput {
  public:
   CaughtOutput();
@@ -90,8 +91,8 @@ class CaughtOutput {
   CaughtOutput(const CaughtOutput &) = delete;
   CaughtOutput &operator=(const CaughtOutput &) = delete;
 
-  // Fails with RIIS_FILE_ERROR for the path if VTK reported an error. The message is the first error since the scope began, in
-  // one line without VTK's source positions. The first error is the cause. Later errors come from higher layers of VTK.
+  // Fails with RIIS_FILE_ERROR for the path if VTK reported an error. The message is the first error since this object was made,
+  // in one line without VTK's source positions. The first error is the cause, and later ones come from higher layers of VTK.
   void check(const std::string &path) const;
 
  private:
@@ -102,9 +103,9 @@ class CaughtOutput {
   int caller_log_level_;
 };
 
-// Numbers have decimal points while this object lives. After a caller's setlocale(LC_ALL, "de_DE.UTF-8") VTK's readers would
-// read "1.5" as 1. Only this thread's locale changes. VTK's legacy reader also sets the process's locale to "C" and leaves it
-// there, so the destructor restores the caller's locale.
+// While an object of this type lives, numbers have decimal points. After a caller's setlocale(LC_ALL, "de_DE.UTF-8"), VTK's
+// readers would read "1.5" as 1. Only this thread's locale changes. But VTK's legacy reader sets the locale of the process to
+// "C" and leaves it so. Therefore the destructor also restores the process's locale.
 class NumericLocale {
  public:
   NumericLocale() : callers_(setlocale(LC_ALL, nullptr)), points_(newlocale(LC_NUMERIC_MASK, "C", nullptr)) {
@@ -120,7 +121,7 @@ class NumericLocale {
   NumericLocale &operator=(const NumericLocale &) = delete;
 
  private:
-  std::string callers_;  // the process's locale
+  std::string callers_;  // the process's locale before
   locale_t points_;
   locale_t threads_;
 };
@@ -128,7 +129,7 @@ class NumericLocale {
 // Records the message of the current exception, and returns its status.
 riis_status record_current_exception() noexcept;
 
-// Every public function's body runs in this function and receives the caught output.
+// Runs the body of a public function, and passes the caught output to it.
 template <class Body>
 riis_status guarded(Body &&body) noexcept {
   const FloatEnvironment environment;

@@ -20,18 +20,19 @@
 namespace riis::vtk {
 namespace {
 
-// A start tag: the element's name and the values of its attributes "type" and "NumberOfComponents", or "" if it lacks one.
+// A start tag: the element's name, and the values of its attributes "type" and "NumberOfComponents". A missing attribute has the
+// value "".
 struct Tag {
   std::string_view name, type, n_components;
 };
 
-// Walks the start tags of an XML text and passes over comments, instructions and end tags. In an attribute's value, '>' does not
-// end the tag and a word is not an attribute.
+// Walks through the start tags of an XML text. Skips comments, instructions and end tags. Within an attribute's value, '>' does
+// not end the tag, and words are not attributes.
 class Tags {
  public:
   explicit Tags(std::string_view text) : rest_(text) {}
 
-  // Returns false at the end.
+  // Finds the next start tag. Returns false at the end of the text.
   bool next(Tag &tag) {
     for (;;) {
       rest_.remove_prefix(std::min(rest_.find('<'), rest_.size()));
@@ -63,8 +64,8 @@ class Tags {
     return text;
   }
 
-  // Moves to the value of the tag's next attribute. Sets attribute_ to its name and returns its quotation mark, or 0 at the
-  // tag's end.
+  // Moves to the value of the tag's next attribute, and sets attribute_ to the attribute's name. Returns the value's quotation
+  // mark, or 0 at the end of the tag.
   char next_attribute() {
     attribute_ = take_until("=\"'<>");
     if (rest_.empty() || rest_[0] == '<' || rest_[0] == '>') return 0;
@@ -77,7 +78,7 @@ class Tags {
   std::string_view attribute_;
 };
 
-// VTK looks for a name of each component before it looks for the data.
+// Checks the number of components early, because VTK looks for a name of each component before it looks for the data.
 void check_components(const std::string &path, std::string_view text, std::string_view given) {
   const std::string_view number = take_word(given);
   std::int64_t n = 0;
@@ -98,7 +99,7 @@ void check_arrays(const std::string &path, std::string_view text) {
   }
 }
 
-// Returns the type in the VTKFile element at the beginning of an XML file, or "" if there is none.
+// Returns the type of the VTKFile element at the beginning of an XML file, or "" if there is none.
 std::string xml_type(std::string_view head) {
   Tag tag;
   for (Tags tags(head); tags.next(tag);) {
@@ -107,7 +108,7 @@ std::string xml_type(std::string_view head) {
   return "";
 }
 
-// Returns the least number of bits of a value. A string takes at least its final byte.
+// Returns the least number of bits that a value takes. A string takes at least its final byte.
 std::uint64_t bits_of(const char *type) {
   static const std::map<std::string_view, std::uint64_t> sizes = {{"Bit", 1},    {"Int16", 16},  {"UInt16", 16},
                                                                   {"Int32", 32}, {"UInt32", 32}, {"Float32", 32},
@@ -122,14 +123,14 @@ std::uint64_t bits_of(vtkAbstractArray *array) {
   return 8 * static_cast<std::uint64_t>(array->GetDataTypeSize());
 }
 
-// The largest number of bytes that one byte of compressed data can stand for. Runs of zeros shrink to 1/1032 of their size in
-// zlib and to 1/255 in LZ4. LZMA has no such bound, and 1/7000 was measured.
+// Returns the largest number of bytes that one byte of compressed data can represent. Runs of zeros shrink to 1/1032 of their
+// size in zlib and to 1/255 in LZ4. LZMA has no such bound, and 1/7000 was measured.
 std::uint64_t most_from_a_byte(vtkDataCompressor *compressor) {
   return std::strcmp(compressor->GetClassName(), "vtkLZMADataCompressor") == 0 ? 20'000 : 1'100;
 }
 
-// Returns the six bits of a character of base64, and 0 for the padding behind the data. Other characters also give 0, since VTK
-// stops at them.
+// Returns the six bits that a character of base64 represents. Returns 0 for the padding at the end and for other characters,
+// since VTK stops at them.
 std::uint32_t bits_of_character(char c) {
   if (c >= 'A' && c <= 'Z') return static_cast<std::uint32_t>(c - 'A');
   if (c >= 'a' && c <= 'z') return static_cast<std::uint32_t>(c - 'a' + 26);
@@ -167,7 +168,7 @@ void XmlSizes::refuse(vtkXMLDataElement *element, const Parts &...parts) const {
   fail_file(path_, "is damaged: array ", name ? std::string(name).substr(0, 40) : "without a name", " ", parts...);
 }
 
-// Finds the data as VTK does. With an offset the data is appended, whatever the format says.
+// Finds the data in the same way as VTK. If there is an offset, the data is appended, whatever the format attribute says.
 XmlSizes::ArrayData XmlSizes::data_of(vtkXMLDataParser *parser, vtkXMLDataElement *element) const {
   const std::size_t size = bytes_.size();
   if (element->GetAttribute("offset")) {
@@ -176,7 +177,7 @@ XmlSizes::ArrayData XmlSizes::data_of(vtkXMLDataParser *parser, vtkXMLDataElemen
     vtkXMLDataElement *appended = parser->GetRootElement()->FindNestedElementWithName("AppendedData");
     const char *encoding = appended ? appended->GetAttribute("encoding") : nullptr;
     const vtkTypeInt64 start = parser->GetAppendedDataPosition();
-    // This comparison avoids a sum that might overflow.
+    // Compares in this way, because the sum of offset and start could overflow.
     const bool is_inside = offset >= 0 && start >= 0 && start <= static_cast<vtkTypeInt64>(size) &&
                            offset <= static_cast<vtkTypeInt64>(size) - start;
     return {encoding && std::strcmp(encoding, "raw") == 0 ? ArrayData::raw : ArrayData::base64,
@@ -189,7 +190,7 @@ XmlSizes::ArrayData XmlSizes::data_of(vtkXMLDataParser *parser, vtkXMLDataElemen
           std::min(bytes_.find('<', begin), size)};
 }
 
-// Returns the first n words, and fails if there are fewer.
+// Returns the first n words. Fails if there are fewer.
 std::vector<std::uint64_t> XmlSizes::words(const ArrayData &data, int size, bool is_big, std::uint64_t n) const {
   const auto byte = [&](std::uint64_t i) -> std::uint64_t {
     if (data.form == ArrayData::raw) return static_cast<unsigned char>(bytes_[data.begin + i]);
@@ -206,9 +207,9 @@ std::vector<std::uint64_t> XmlSizes::words(const ArrayData &data, int size, bool
   return made;
 }
 
-// Returns how many bytes of values a block of binary data claims. An uncompressed block begins with this number. A compressed
-// block begins with the number of its parts, the size of a part, the size of a smaller last part, and the compressed sizes. In
-// base64 these numbers are encoded separately from the data.
+// Returns the number of bytes of values that a block of binary data claims. An uncompressed block begins with this number. A
+// compressed block begins with the number of its parts, the size of a part, the size of a smaller last part, and the compressed
+// sizes. In base64, these numbers are encoded separately from the data.
 std::uint64_t XmlSizes::n_bytes_in(vtkXMLDataParser *parser, vtkXMLDataElement *element, const ArrayData &data) const {
   vtkXMLDataElement *root = parser->GetRootElement();
   const char *header_type = root->GetAttribute("header_type"), *byte_order = root->GetAttribute("byte_order");
@@ -255,7 +256,7 @@ void XmlSizes::check_bits(vtkXMLDataParser *parser, vtkXMLDataElement *element, 
   if (is_new) {
     const ArrayData data = data_of(parser, element);
     held.is_text = data.form == ArrayData::ascii;
-    // A number takes a character at least, and a blank before the next.
+    // A number takes at least one character, and a blank separates it from the next.
     held.n = held.is_text ? (data.end - data.begin + 1) / 2 : n_bytes_in(parser, element, data);
   }
   // Each number of a text is one value, or eight values of one bit.
@@ -280,7 +281,8 @@ void XmlSizes::check_array(vtkXMLDataParser *parser, vtkXMLDataElement *element,
   check_bits(parser, element, n * n_components, bits_of(element->GetAttribute("type")));
 }
 
-// Returns 0 for an attribute that is missing or is no number. VTK also reads it as 0, or refuses the file.
+// Returns the value of an attribute. Returns 0 if it is missing or not a number. In this case VTK also reads 0, or refuses the
+// file.
 std::int64_t XmlSizes::count(vtkXMLDataElement *element, const char *attribute) const {
   vtkIdType n = 0;
   if (!element->GetScalarAttribute(attribute, n)) return 0;

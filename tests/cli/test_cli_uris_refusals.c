@@ -133,7 +133,7 @@ static void test_folders(void **state) {
           "0.01", RAMPS);
   snprintf(text, sizeof text, "FOLDER: %s: the folder %s does not exist", scratch_path("no/uris"), scratch_path("no"));
   REFUSED(1, text, "export", scratch_path("no/uris"), "--resistance", "1", "--time-step", "0.01", RAMPS);
-  REFUSED(2, "has a blank, and svMultiPhysics reads no path with one", "export", "my folder", "--resistance", "1",
+  REFUSED(2, "has a blank, and svMultiPhysics cannot read such a path", "export", "my folder", "--resistance", "1",
           "--time-step", "0.01", RAMPS);
   /* An empty folder is filled, and so is one that ends in a slash. */
   const int n_files = scratch_n_files();

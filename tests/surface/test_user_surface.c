@@ -233,7 +233,7 @@ static void vertices_alone_are_refused_without_their_faces(void **state) {
   const riis_surface_arrays arrays = triangle_arrays(3, square, 1, faces);
   riis_surface_arrays vertices = triangle_arrays(4, square, 0, NULL);
   riis_surface *surface = surface_from(&arrays, NULL), *none = NULL;
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "arrays.n_vertices is 4|faces are of 3",
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "arrays.n_vertices is 4|faces are for 3 vertices",
                 riis_surface_update_from_arrays(surface, &vertices, NULL));
   vertices.n_vertices = 3;
   vertices.leaflet_id = leaflet_id;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_closest_*: argument checks around closest points.
+// riis_closest_*: argument checks around the search for closest points.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -47,7 +47,7 @@ void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Su
   }
 }
 
-// Writes entry i for a closest point on the patches. There is no triangle id and no side.
+// Writes entry i for a closest point on the patches, which have no triangle id and no side.
 void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::PatchDistance &method,
                    const riis::ClosestOnPatches &found) {
   const riis::PlacedPatch &patch = riis::view(method.patches().patches)[found.patch];
@@ -60,12 +60,12 @@ void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Pa
   if (to.normal) riis::put_vector(to.normal, i, patch.normal_at(found.u, found.v));
 }
 
-// Refuses arrays that need triangles: a caller who gives them means to use them.
+// Refuses arrays that only triangles can fill. A caller who passes such an array expects values in it.
 void refuse_what_is_of_triangles(const riis_closest_arrays &to, const riis::PatchDistance &method) {
   for (const char *name : {to.barycentric ? "barycentric" : nullptr, to.side ? "side" : nullptr})
     if (name)
-      riis::fail(RIIS_INVALID_ARGUMENT, "arrays.", name, " is given, but the surface's distances are by ",
-                 method.name(), ": that is of triangles");
+      riis::fail(RIIS_INVALID_ARGUMENT, "arrays.", name,
+                 " is given, but only triangles can fill it, and the surface's distances are by ", method.name());
 }
 
 void write_far(const riis_closest_arrays &to, std::int64_t i, double far_distance) {
@@ -86,7 +86,7 @@ double checked_limit(const riis_closest_options &options) {
   return options.distance_limit;
 }
 
-// The wanted points: all points, a mask's points, or a list's points.
+// The points that the caller wants: all points, those of a mask, or those of a list.
 class WantedPoints {
  public:
   template <class Points>
@@ -118,7 +118,7 @@ class WantedPoints {
   }
 
   std::int64_t n() const { return n_; }
-  // Returns the number of the k-th point.
+  // Returns the id of the k-th wanted point.
   std::int64_t id(std::int64_t k) const { return ids_ ? ids_[k] : k; }
   bool is_wanted(std::int64_t id) const { return !mask_ || mask_[id] != 0; }
 
@@ -128,16 +128,16 @@ class WantedPoints {
   std::int64_t n_;
 };
 
-// Writes the wanted entries of the arrays for the points, whose options were checked.
+// Writes the wanted entries of the arrays. The caller has checked the options.
 template <class Points>
 void find_closest(const riis::Surface &content, const Points &points, const riis_closest_options &options, double limit,
                   const riis_closest_arrays &to) {
   const WantedPoints wanted(options, points);
   if (wanted.n() == 0) return;
   const int n_threads = riis::threads_for(options.n_threads, "options.n_threads", wanted.n(), riis::points_per_thread);
-  // If memory runs out here, the arrays are still untouched.
+  // Makes the pseudonormals before anything is written: if memory runs out here, the arrays are still unchanged.
   if (to.side) content.pseudonormals();
-  // write_found(i) returns false where nothing is within the limit.
+  // write_found(i) writes entry i and returns true, or returns false if nothing lies within the limit of point i.
   const auto for_each_point = [&](const auto &write_found) {
     constexpr std::int64_t points_per_block = 512;
     riis::parallel_for_ranges(wanted.n(), points_per_block, n_threads, [&](const riis::Range &range, int) {

@@ -22,8 +22,8 @@
 
 namespace riis {
 
-// The first word of every handle holds its kind. Fortran passes all handles as one type, so its compiler does not notice swapped
-// ones.
+// The first word of every handle holds its kind. Fortran passes all handles as one type, so its compiler cannot notice that
+// two were swapped.
 enum class HandleKind : std::uint64_t {
   valve = 0x7269697376616c76,
   surface = 0x7269697373757266,
@@ -68,8 +68,8 @@ struct riis_surface : riis::Handle<riis::HandleKind::surface> {
   riis::KeepsArenas keeps_arenas;
   riis::KeepsMemory keeps_memory;
   riis::UpdatableSurface updatable;
-  riis_surface_options options;  // of the last update, completed by defaults
-  // No earlier surface had this number. An address may be used again, so it does not identify a surface.
+  riis_surface_options options;  // the options of the last update, with defaults for the fields that the caller lacked
+  // Identifies the surface: no earlier one had this number. An address would not do, because a later object may get it again.
   const std::uint64_t number = next_number();
 
  private:

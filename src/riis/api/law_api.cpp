@@ -27,7 +27,7 @@ void write(const riis::ValueAndRate &made, double *opening, double *rate) {
   riis::put(rate, made.rate);
 }
 
-// The body of both functions that advance a state. `now` may be `before`.
+// The body of both functions that advance a state. `now` and `before` may be the same struct.
 template <class Law, class State>
 void advance(const Law *law, const Law &default_law, const State *before, const State &default_state, double time,
              double pressure_difference, double flow, State *now) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_mark_*, riis_marks_*, riis_find_leaks and its neighbours: argument checks around marking.
+// riis_mark_*, riis_marks_*, riis_leaks_*, riis_find_*: argument checks around marking.
 #include <limits>
 #include <optional>
 
@@ -55,7 +55,7 @@ riis::InstructionSet instructions_asked_for(std::int32_t instructions) {
   return set;
 }
 
-// Returns the arrays of a list, NULL where they are empty. Fields that were made for K alone are not given.
+// Returns the arrays of a list, with NULL for an empty one. A field that was made only to compute K is not given out.
 riis_mark_list arrays_of(const riis::ListedNodes &list, std::int32_t given_fields) {
   const auto array = [](const auto &values) { return values.empty() ? nullptr : values.data(); };
   const auto field = [&](std::int32_t which, const auto &values) {
@@ -101,7 +101,7 @@ void check_stride(const char *name, std::int64_t stride, std::int64_t n_nodes) {
                " entries at this stride exceed what memory can hold");
 }
 
-// Checks that all components of a vector are given, or none where that is allowed.
+// Checks that all three components of a vector are given. If may_lack is true, all three may also be NULL.
 template <class Real>
 void check_components(const char *name, Real *const (&components)[3], bool may_lack) {
   if (may_lack && !components[0] && !components[1] && !components[2]) return;
@@ -109,7 +109,7 @@ void check_components(const char *name, Real *const (&components)[3], bool may_l
     if (!components[c]) riis::fail(RIIS_INVALID_ARGUMENT, name, "[", c, "] is NULL");
 }
 
-// Checks an array of the caller's with an entry for each node. A process without nodes may have none.
+// Checks the caller's array that has one entry for each node. A process without nodes may pass NULL.
 const double *require_of_nodes(const double *array, const char *name, std::int64_t n_nodes) {
   return n_nodes == 0 ? array : require(array, name);
 }
@@ -132,7 +132,7 @@ riis::SearchRequest request_of(const riis::Surface &surface, const riis_mesh *me
           instructions_asked_for(options.instructions)};
 }
 
-// Checks the handles of a marking, the surface first, and returns its content.
+// Checks the three handles of a marking, the surface first, and returns the surface's content.
 const riis::Surface &require_handles(const riis_surface *surface, const riis_mesh *mesh, const riis_marks *marks) {
   const riis::Surface &content = riis::content_of(surface);
   require_handle(mesh, "mesh");
@@ -158,7 +158,7 @@ const riis::Adjacency &require_adjacency(const riis::Mesh &mesh, const char *pur
   return *mesh.adjacency();
 }
 
-// Refuses marks that were not marked with this mesh, as far as its size shows it.
+// Refuses marks that were made with another mesh. Only a different number of nodes can show this.
 void check_are_of_mesh(const riis::Mesh &mesh, const riis::Marks &marks) {
   if (!marks.was_marked) riis::fail(RIIS_INVALID_ARGUMENT, "marks are empty: call riis_mark_nodes with them first");
   if (marks.stats.n_nodes != mesh.nodes().n)
@@ -166,16 +166,17 @@ void check_are_of_mesh(const riis::Mesh &mesh, const riis::Marks &marks) {
                mesh.nodes().n);
 }
 
-// Refuses marks that were not marked with this surface and mesh, as far as its sizes show it.
+// Refuses marks that were made with another mesh or surface. Only a different number of nodes or half thickness can show
+// this.
 void check_are_of_marking(const riis::SearchRequest &request, const riis::Marks &marks) {
-  require_adjacency(request.mesh, "whose edges may leak");
+  require_adjacency(request.mesh, "which a search for leaks needs");
   check_are_of_mesh(request.mesh, marks);
   if (marks.half_thickness != request.surface.half_thickness())
     riis::fail(RIIS_INVALID_ARGUMENT, "marks are of a surface with the half thickness ", marks.half_thickness,
                ", surface has ", request.surface.half_thickness(), ": mark the nodes again");
 }
 
-// Checks an end of a passage, `name`.
+// Checks the nodes of one end of a passage. `name` is the end's name, "from" or "to".
 riis::ArrayView<const std::int64_t> checked_end(const riis::SearchRequest &request, const char *name, std::int64_t n,
                                                 const std::int64_t *ids) {
   const std::int64_t n_nodes = request.mesh.nodes().n;
@@ -358,7 +359,7 @@ riis_status riis_label_open_regions(const riis_mesh *mesh, const riis_marks *mar
     const riis::Marks &content = require_handle(marks, "marks")->marks;
     const riis_mark_options whole = whole_of(options);
     const int n_threads = threads_of(whole, nodes);
-    const riis::Adjacency &adjacency = require_adjacency(nodes, "whose edges join nodes");
+    const riis::Adjacency &adjacency = require_adjacency(nodes, "which a search for regions needs");
     check_are_of_mesh(nodes, content);
     check_search(whole.search);
     limit_of(whole, content.half_thickness);
@@ -383,7 +384,7 @@ riis_status riis_find_passage(const riis_surface *surface, const riis_mesh *mesh
     const riis::SearchRequest request = request_of(content, mesh, whole_of(options));
     riis::check_struct_size<riis_passage>(struct_size, "passage");
     require(passage, "passage");
-    require_adjacency(request.mesh, "whose edges join nodes");
+    require_adjacency(request.mesh, "which a search for a passage needs");
     const riis::PassageEnds sets{checked_end(request, "from", whole.n_from, whole.from),
                                  checked_end(request, "to", whole.n_to, whole.to)};
     riis::write_struct(passage, struct_size, "passage", riis::find_passage(request, sets));

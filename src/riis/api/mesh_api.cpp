@@ -23,7 +23,7 @@ void check_n_nodes(std::int64_t n, const char *name) {
   if (n > riis::max_nodes) riis::fail(RIIS_LIMIT_EXCEEDED, name, " is ", n, "; it must be at most ", riis::max_nodes);
 }
 
-// Returns the nodes' box, which is empty if there are none.
+// Checks the nodes and returns their box, which is empty if there are none.
 riis::Bounds check_nodes(const riis::StridedPoints &nodes) {
   check_n_nodes(nodes.n, "n_nodes");
   if (nodes.n == 0) return {};
@@ -59,7 +59,8 @@ riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, 
                              int64_t stride) {
   return guarded([&] {
     riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
-    content.forget_places();  // the nodes moved, even if the new coordinates are refused
+    content
+        .forget_places();  // these are wrong now even if the new coordinates are refused, because the nodes have moved
     const riis::StridedPoints nodes{n_nodes, x, y, z, stride};
     content.borrow_nodes(nodes, check_nodes(nodes));
   });
@@ -83,8 +84,8 @@ riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads) {
     const riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
     const int n = riis::threads_for(n_threads, "n_threads", content.nodes().n, riis::nodes_per_thread);
     if (content.nodes().n > riis::max_clustered_nodes)
-      riis::fail(RIIS_LIMIT_EXCEEDED, "a mesh of ", content.nodes().n, " nodes is not made clusters of: at most ",
-                 riis::max_clustered_nodes);
+      riis::fail(RIIS_LIMIT_EXCEEDED, "a mesh of ", content.nodes().n,
+                 " nodes is too large for clusters, which hold at most ", riis::max_clustered_nodes);
     if (content.nodes().n > 0) content.clusters(n);
   });
 }

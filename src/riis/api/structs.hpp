@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structs cross the interface with their size, so that a caller compiled against an older header keeps working. A field that
-// the caller does not know takes its default on the way in and is not written on the way out.
+// Every struct crosses the interface with its size, so that callers compiled against an older header keep working. A field
+// that the caller's header lacks takes its default on the way in, and is not written on the way out.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace riis {
 
 const riis_points default_points{sizeof(riis_points), 0, nullptr, nullptr, nullptr, 1, 64, 0};
 
-// The struct's size in the first release that had it.
+// The size that the struct had in the first release that contained it.
 constexpr std::int64_t first_size_of(const riis_points *) { return 56; }
 constexpr std::int64_t first_size_of(const riis_patches *) { return 72; }
 constexpr std::int64_t first_size_of(const riis_parameter *) { return 72; }
@@ -52,7 +52,7 @@ constexpr std::int64_t first_size_of(const riis_opening_switch_state *) { return
 constexpr std::int64_t first_size_of(const riis_opening_angle *) { return 56; }
 constexpr std::int64_t first_size_of(const riis_opening_angle_state *) { return 64; }
 
-// All sizes after the first are larger multiples of 8.
+// The size must be that of the first release or a larger multiple of 8, but not larger than the library's own struct.
 template <class Struct>
 void check_struct_size(std::int64_t size, const char *name) {
   static_assert(std::is_trivially_copyable_v<Struct> && sizeof(Struct) % 8 == 0);
@@ -63,7 +63,7 @@ void check_struct_size(std::int64_t size, const char *name) {
          " knows ", first_size, " to ", size_here, ": use its init function, and a header no newer than the library");
 }
 
-// Copies the first bytes of a struct: as many as check_struct_size accepted.
+// Copies the first `size` bytes of a struct. check_struct_size must have accepted the size.
 inline void copy_bytes(void *to, const void *from, std::int64_t size) {
   std::memcpy(to, from, static_cast<std::size_t>(size));
 }
@@ -77,7 +77,7 @@ void init_struct(Struct *out, std::int64_t size, const char *name, const Struct 
   out->struct_size = size;
 }
 
-// Returns the caller's struct, completed by defaults. Returns the defaults for NULL.
+// Returns the caller's struct, with defaults for the fields that its size leaves out. Returns all defaults for NULL.
 template <class Struct>
 Struct completed(const Struct *in, const char *name, const Struct &defaults) {
   Struct whole = defaults;
@@ -89,7 +89,7 @@ Struct completed(const Struct *in, const char *name, const Struct &defaults) {
   return whole;
 }
 
-// Writes as much of the value as the caller has room for.
+// Writes as many fields of the value as the caller's struct has.
 template <class Struct>
 void write_struct(Struct *out, std::int64_t size, const char *name, const Struct &value) {
   require(out, name);
@@ -97,13 +97,13 @@ void write_struct(Struct *out, std::int64_t size, const char *name, const Struct
   copy_bytes(out, &value, size);
 }
 
-// Writes an output that the caller may leave out by passing null.
+// Writes an output, unless the caller passed null to leave it out.
 template <class T>
 void put(T *to, T value) {
   if (to) *to = value;
 }
 
-// Refuses a value for far points that could be mistaken for a near distance.
+// Refuses a value for far points that could be mistaken for a distance within the limit.
 inline void check_far_distance(const char *name, double far_distance, double distance_limit) {
   if (far_distance >= 0 && far_distance <= distance_limit)
     fail(RIIS_INVALID_ARGUMENT, name, " is ", far_distance, "; it must not lie between 0 and the distance limit ",
@@ -118,7 +118,7 @@ inline void check_threads(std::int32_t n_threads, const char *name) {
          "; this process was forked after riis had used several threads, so it may use 1 only");
 }
 
-// Checks an option, and returns the number of threads that it stands for.
+// Checks the caller's n_threads, and returns the threads to use. 0 stands for the default.
 inline Threads threads_for(std::int32_t n_threads, const char *name, std::int64_t n_items, std::int64_t per_thread) {
   check_threads(n_threads, name);
   return threads_for(n_threads, n_items, per_thread);

@@ -56,7 +56,7 @@ void check_flag(const char *name, std::int32_t value) {
     riis::fail(RIIS_INVALID_ARGUMENT, "options.", name, " is ", value, "; it must be 0 or 1");
 }
 
-// `name` is the name of the argument.
+// Checks the fields of the placement. `name` is the argument that has them.
 void check_placement(const riis_surface_options &options, const char *name) {
   check_range(name, "scale", options.scale, 1e-12, 1e12);
   check_range(name, "rotation_angle", options.rotation_angle, -1e6, 1e6);
@@ -88,7 +88,7 @@ void check_options(const riis_surface_options &options) {
 
 riis::Placement placement_of(const riis_surface_options &options) {
   const double *axis = options.rotation_axis, *t = options.translation;
-  // hypot scales before it squares, so very long and very short axes are safe.
+  // std::hypot avoids overflow and underflow of the squares, so the axis may be very long or very short.
   const double size = std::hypot(axis[0], axis[1], axis[2]);
   return {options.scale,
           riis::rotation_about({axis[0] / size, axis[1] / size, axis[2] / size}, options.rotation_angle),
@@ -99,13 +99,13 @@ double half_thickness_of(const riis_surface_options &options) {
   return options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
 }
 
-// Returns measure_tolerance * half_thickness. The tolerance stands in where measure_tolerance is RIIS_AUTO.
+// Returns measure_tolerance * half_thickness. If measure_tolerance is RIIS_AUTO, uses tolerance instead.
 double distance_error_of(const riis_surface_options &options) {
   return half_thickness_of(options) *
          (options.measure_tolerance == RIIS_AUTO ? options.tolerance : options.measure_tolerance);
 }
 
-// Refuses a translation so far that the rounding of coordinates would flatten the valve.
+// Refuses a translation so large that rounding the coordinates would flatten the valve.
 void check_precision(const riis_surface_options &options, const char *name, double wanted) {
   const double *t = options.translation;
   const double largest = std::max({std::abs(t[0]), std::abs(t[1]), std::abs(t[2])});
@@ -114,12 +114,12 @@ void check_precision(const riis_surface_options &options, const char *name, doub
                ", where coordinates round by more than a thousandth of ", name, " * half_thickness, ", wanted);
 }
 
-// The surface decides how many threads 0 stands for.
+// Returns the request. It passes on n_threads even if it is 0, because the surface itself chooses the default.
 riis::SurfaceRequest request_of(const riis_surface_options &options) {
   return {half_thickness_of(options), placement_of(options), options.flip_normals != 0, options.n_threads};
 }
 
-// The state before a moving update, and the arguments that it comes from.
+// The state before a moving update, and the time since then.
 struct MotionArguments {
   const riis_valve *valve_before;
   double dt;
@@ -127,10 +127,10 @@ struct MotionArguments {
 };
 
 riis::ValveMotion motion_of(const MotionArguments &motion, const riis_surface_options &options_now) {
-  // A shorter or longer time is a mistake. Within these limits the velocity stays far from overflow.
+  // A dt outside of these limits is a mistake. Within them no velocity comes near overflow.
   if (!(std::abs(motion.dt) >= 1e-30 && std::abs(motion.dt) <= 1e30))
     riis::fail(RIIS_INVALID_ARGUMENT, "dt is ", motion.dt,
-               "; it must be the time from valve_before to valve, from 1e-30 to 1e+30, or that much below 0");
+               "; it must be the time from valve_before to valve, from 1e-30 to 1e+30 in magnitude");
   const riis_surface_options before =
       riis::completed(motion.options_before, "options_before", motion.options_before ? default_options : options_now);
   check_placement(before, "options_before");
@@ -151,7 +151,7 @@ void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_
   surface.options = options;
 }
 
-// Checks all handles before the options. motion may be NULL.
+// Checks all handles before it checks the options. `motion` may be NULL.
 void update_from_valve(riis_surface *surface, const riis_valve *valve, const riis_surface_options *options,
                        const MotionArguments *motion) {
   require_handle(surface, "surface");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Constants of mathematics.
+// Mathematical constants.
 #pragma once
 
 namespace riis {

@@ -17,7 +17,7 @@ thread_local char last_error[message_size] = "";
 
 riis_status record_error(riis_status status, const char *text) noexcept {
   const std::size_t n = std::min(std::strlen(text), message_size - 1);
-  std::memmove(last_error, text, n);  // text may be the last error itself, which a component passes on
+  std::memmove(last_error, text, n);  // memmove, because a component may pass the last error itself as text
   last_error[n] = '\0';
   return status;
 }
@@ -31,7 +31,7 @@ riis_status record_current_exception() noexcept {
     return record_error(error.status, error.message.text());
   } catch (const std::bad_alloc &) {
     return record_error(RIIS_OUT_OF_MEMORY, "out of memory");
-  } catch (const std::length_error &) {  // a container needs more than memory can hold
+  } catch (const std::length_error &) {  // a container would need more elements than it can ever hold
     return record_error(RIIS_OUT_OF_MEMORY, "out of memory");
   } catch (const std::exception &exception) {
     return record_error(RIIS_INTERNAL_ERROR, Message("internal error: ", exception.what()).text());

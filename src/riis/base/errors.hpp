@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A failure travels as an exception: fail() throws, and guarded() is the wall that turns any exception into a status and a
-// message. The message lives in the exception and in the thread, so the library itself allocates nothing to report an error.
+// A failure travels as an exception: fail() throws it, and guarded() turns it into a status and a message. The message is stored
+// in the exception and then in the thread's own memory, so reporting an error allocates nothing.
 #pragma once
 
 #include <riis/riis.h>
@@ -17,7 +17,7 @@ struct Error {
   Message message;
 };
 
-// Throws an Error. Its message names the argument and its value, and is put together from words and numbers.
+// Throws an Error. The parts are the words and numbers of its message, which names the argument and its value.
 template <class... Parts>
 [[noreturn]] void fail(riis_status status, const Parts &...parts) {
   throw Error{status, Message(parts...)};
@@ -26,13 +26,14 @@ template <class... Parts>
 // Makes the text the calling thread's last error and returns the status.
 riis_status record_error(riis_status status, const char *text) noexcept;
 
-// Returns the calling thread's last error, "" if it has none.
+// Returns the calling thread's last error, or "" if it has none.
 const char *recorded_error() noexcept;
 
 // Records the message of the exception that is being handled, and returns its status.
 riis_status record_current_exception() noexcept;
 
-// Runs the body of a public function: no exception leaves, and the floating-point environment is the default one.
+// Runs the body of a public function. Turns every exception into a status. The body runs in the default floating-point
+// environment.
 template <class Body>
 riis_status guarded(Body &&body) noexcept {
   const FloatEnvironment environment;
@@ -50,8 +51,8 @@ T *require(T *pointer, const char *argument) {
   return pointer;
 }
 
-// Refuses a field outside of least to most, also NaN. `owner` is the argument that has the field, or "" if the number is the
-// argument itself.
+// Refuses a number outside of [least, most], and NaN. `owner` is the argument whose field has the number, or "" if the number
+// is itself an argument.
 inline void check_range(const char *owner, const char *name, double value, double least, double most) {
   if (!(value >= least && value <= most))
     fail(RIIS_INVALID_ARGUMENT, owner, *owner ? "." : "", name, " is ", value, "; it must be from ", least, " to ",

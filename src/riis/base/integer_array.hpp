@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the caller's integers where they lie, 32 or 64 bits wide and counted from 0 or 1, and checks the fields that say so.
+// Reads the caller's integers in place, 32 or 64 bits wide and counted from 0 or 1. Also checks the fields that state the
+// width and the base.
 #pragma once
 
 #include <cstdint>

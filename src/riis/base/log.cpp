@@ -11,7 +11,7 @@ struct Sink {
   void *user_data = nullptr;
 };
 
-// Both are constant-initialised and never destroyed, so they are usable from the first to the last instruction of the process.
+// Both objects are constant-initialised and never destroyed, so they can be used during the whole life of the process.
 std::mutex sink_mutex;
 Sink sink;
 
@@ -25,7 +25,7 @@ Sink current_sink() noexcept {
 bool is_logging() noexcept { return current_sink().function != nullptr; }
 
 void log_message(std::int32_t level, const Message &message) noexcept {
-  // The function is called without the lock, so that it may take its time or set another function.
+  // Calls the function without holding the lock, so that it may take long or set another function.
   const Sink to = current_sink();
   if (to.function) to.function(to.user_data, level, message.text());
 }

@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-// A sanitizer that watches memory has to see each array come and go.
+// A memory sanitizer has to see every allocation and release, so nothing is recycled under one.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define RIIS_OWN_MEMORY
 #elif defined(__has_feature)
@@ -32,20 +32,20 @@ KeepsMemory::~KeepsMemory() = default;
 
 namespace {
 
-// Blocks have 2^k bytes, from 64 bytes to 4 MiB. A block that is kept holds the address of the next one of its size. Larger
-// arrays are rare, and their memory is worth more than the time to allocate it again.
+// Blocks have 2^k bytes, from 64 bytes to 4 MiB. A kept block holds the address of the next kept block of its size. Larger
+// arrays are rare, so keeping their memory would cost more than allocating it again.
 struct Block {
   Block *next;
 };
 constexpr int smallest = 6, largest = 22;
 constexpr std::size_t largest_block = std::size_t{1} << largest;
 
-// Each thread takes from a pool of its own first, so that threads seldom wait for each other. A thread may give back memory that
-// another thread took. So a thread with an empty pool looks into the other pools before it goes to the system.
+// Each thread takes from its own pool first, so that threads seldom wait for each other. A thread may give back memory that
+// another thread took. So a thread whose pool is empty looks into the other pools before it asks the system.
 constexpr unsigned n_pools = 16;
 
-// A lock that is held for a few instructions, and that two threads seldom want at once. A mutex would take half of an array's
-// time.
+// A lock that is held for a few instructions only and that two threads seldom want at once. With a mutex, locking would take
+// half of the time that an array takes.
 class ShortLock {
  public:
   void lock() noexcept {
@@ -61,7 +61,7 @@ struct alignas(64) Pool {
   ShortLock in_use;
   std::array<Block *, largest - smallest + 1> kept{};
 
-  // Returns null if there is none.
+  // Returns a kept block of this size class, or null if there is none.
   Block *take(std::size_t size) {
     const std::lock_guard<ShortLock> lock(in_use);
     Block *first = kept[size];
@@ -70,7 +70,7 @@ struct alignas(64) Pool {
   }
 };
 
-// The pools need neither constructors nor destructors at run time, so arrays of other static objects may outlive everything.
+// The pools are constant-initialised and never destroyed, so arrays in static objects may use them until the process ends.
 std::array<Pool, n_pools> pools;
 std::atomic<int> n_keepers{0};
 
@@ -80,7 +80,8 @@ unsigned own_pool() {
   return own;
 }
 
-// A process may be forked while another thread has locked a pool. The child lacks that thread, so nothing would unlock the pool.
+// A process may be forked while another thread holds a pool's lock. The child lacks that thread, so the lock would stay held.
+// Therefore the forking thread takes all locks first.
 bool prepare_for_forks() noexcept {
   const auto unlock = [] {
     for (Pool &pool : pools) pool.in_use.unlock();
@@ -113,7 +114,8 @@ void give_memory_back(void *memory, std::size_t n_bytes) noexcept {
   if (n_bytes <= largest_block) {
     Pool &to = pools[own_pool()];
     const std::lock_guard<ShortLock> lock(to.in_use);
-    // The last keeper empties the pools after it has left, and waits for this lock.
+    // The last keeper first lowers the count and then empties the pools under this lock. So a block is kept here only if it
+    // will still be emptied.
     if (n_keepers.load(std::memory_order_acquire) > 0) {
       Block *&first = to.kept[static_cast<std::size_t>(size_class(n_bytes) - smallest)];
       first = new (memory) Block{first};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arrays whose memory is kept for later arrays. An update of a surface makes a thousand short arrays and drops them again. In a
-// time loop their memory comes from the update before, not from the system.
+// Arrays whose memory is kept for later arrays. An update of a surface makes and drops about a thousand short arrays. In a
+// time loop their memory comes from the update before instead of the system.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,15 @@
 
 namespace riis {
 
-// Returns memory for n_bytes bytes, aligned for any fundamental type. Throws std::bad_alloc. Any thread may give it back.
+// Returns memory for n_bytes bytes, aligned for any fundamental type. Throws std::bad_alloc. Any thread may give the memory
+// back.
 void *take_memory(std::size_t n_bytes);
 void give_memory_back(void *memory, std::size_t n_bytes) noexcept;
 
-// Frees the memory that is kept now. It is for the end of work that took much more memory than a step takes.
+// Frees the memory that is kept now. Call it after work that took much more memory than a time step takes.
 void free_kept_memory() noexcept;
 
-// Memory is kept while an object of this type lives. The last object frees it.
+// Memory is kept while at least one object of this type exists. The last object's destructor frees it.
 class KeepsMemory {
  public:
   KeepsMemory() noexcept;
@@ -58,7 +59,7 @@ struct RecyclingAllocator {
 template <class T>
 using Vector = std::vector<T, RecyclingAllocator<T>>;
 
-// Every element must be written after resize(), as in an UnfilledVector.
+// After resize(), every new element must be written before it is read, as in an UnfilledVector.
 template <class T>
 using UnfilledShortVector = std::vector<T, UnfilledAllocator<T, RecyclingAllocator>>;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arrays whose new elements have no value yet. resize() does not write them, so that a large array goes to memory once: when its
-// owner fills it.
+// Arrays whose resize() leaves new elements without a value. So a large array is written once, when its owner fills it, and
+// not twice.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace riis {
 
-// Takes its memory from another allocator.
+// An allocator that takes its memory from the allocator `Memory` and leaves new elements without a value.
 template <class T, template <class> class Memory>
 struct UnfilledAllocator : Memory<T> {
   static_assert(std::is_trivially_default_constructible_v<T>);
@@ -27,7 +27,7 @@ struct UnfilledAllocator : Memory<T> {
   }
 };
 
-// Every element must be written after resize().
+// After resize(), every new element must be written before it is read.
 template <class T>
 using UnfilledVector = std::vector<T, UnfilledAllocator<T, std::allocator>>;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Distances by minimisation (paper, 4.1 "Minimization"): Powell's method minimises |S(u,v) - P|^2 on every patch, from
-// (0.5, 0.5). It ends in a local minimum. So the result is the distance to a point of S, but not always to the closest
-// one (docs/theory.md, section 9).
-// In: placed patches, when to stop. Out: the least local minimum of all patches.
+// Distances by minimisation (paper, 4.1 "Minimization"): Powell's method minimises |S(u,v) - P|^2 on every patch, starting at
+// (0.5, 0.5). It ends in a local minimum. So the result is always the distance to some point of S, but not always to the
+// closest point (docs/theory.md, section 9).
+// In: placed patches, the tolerance of the minimisation. Out: the least of all patches' local minima.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace riis {
 
 class Minimizer final : public PatchDistance {
  public:
-  // Iterations end when an iteration lowers the distance by no more than `enough`, in placed units.
+  // Powell's method stops after an iteration that lowers the distance by no more than `enough`, in placed units.
   Minimizer(PlacedPatches patches, double enough);
 
   ClosestOnPatches closest(Vec3 p, double limit) const override;
@@ -32,9 +32,9 @@ class Minimizer final : public PatchDistance {
   double lower_bound(const Bounds &box, Vec3 p) const;
 
   double enough_;
-  double rounding_ = 0;             // of a point S(u,v), which may be outside of the box by as much
-  std::vector<Measures> measures_;  // of each patch
-  Bounds box_;                      // of all patches
+  double rounding_ = 0;             // how far a computed point S(u,v) may lie outside of its box
+  std::vector<Measures> measures_;  // one for each patch
+  Bounds box_;                      // of all patches together
 };
 
 }  // namespace riis

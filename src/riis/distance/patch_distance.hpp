@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the distance of a point to the surface by another method than triangles (paper, 4.1), for comparison.
+// Measures the distance of a point to the surface without triangles (paper, 4.1), for comparison.
 // In: a point, a limit. Out: the closest point that the method finds, with its patch, u and v.
 #pragma once
 
@@ -23,15 +23,16 @@ class PatchDistance {
  public:
   virtual ~PatchDistance() = default;
 
-  // Returns the point that the method finds closest to p, if its distance is at most limit (>= 0, may be infinite). Otherwise
-  // patch is -1. The limit does not change the bits of a result within it. Several threads may call this function at once.
+  // Returns the closest point that the method finds, if its distance from p is at most limit (>= 0, may be infinite).
+  // Otherwise patch is -1. The limit never changes the bits of a result within it. Several threads may call this function at
+  // once.
   virtual ClosestOnPatches closest(Vec3 p, double limit) const = 0;
 
-  // Returns false only if nothing is within the limit of p.
+  // Returns false only if no point lies within the limit of p.
   virtual bool may_be_within(Vec3 p, double limit) const = 0;
 
-  // Returns true if the distance is to a set of points that is the same for every p. The distance then differs between
-  // two p by at most the distance between them.
+  // Returns true if the method measures the distance to a fixed set of points, the same for every p. The distances of two p
+  // then differ by at most the distance between the two.
   virtual bool is_of_fixed_points() const = 0;
 
   virtual const char *name() const = 0;
@@ -49,7 +50,8 @@ struct DistanceRequest {
   double max_error;     // measure_tolerance * half_thickness, placed units
 };
 
-// Makes the method that a surface's options choose. Fails with RIIS_LIMIT_EXCEEDED if patches or samples would be too many.
+// Makes the method that a surface's options choose. Fails with RIIS_LIMIT_EXCEEDED if it would need too many patches or
+// samples.
 std::unique_ptr<const PatchDistance> make_distance(const PatchSet &set, const DistanceRequest &request,
                                                    const Placement &placement, bool flip_normals);
 

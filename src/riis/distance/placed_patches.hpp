@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Placed patches as S(u,v) that can be evaluated anywhere (paper, 3.3), for sampling and minimisation.
-// In: curves and patches of a valve, the allowed error, the placement. Out: a grid of quads for each image of a patch.
+// Placed patches as functions S(u,v) that can be evaluated anywhere (paper, 3.3), for sampling and minimisation.
+// In: a valve's curves and patches, the allowed error, the placement. Out: a grid of quads for each image of a patch.
 #pragma once
 
 #include <array>
@@ -22,24 +22,24 @@ struct PlacedPatch {
   bool is_turned_over;  // S_u x S_v points against the normal
 
   Vec3 at(double u, double v) const { return evaluate(grid, u, v); }
-  // Returns the unit normal by the right-hand rule of the triangles; 0 if S has none, as at a collapsed side. On a grid
-  // line it is the normal of the quad behind the line.
+  // Returns the unit normal by the right-hand rule of the triangles, or 0 if S has no normal there, for example at a
+  // collapsed side. On a grid line it returns the normal of the quad after the line.
   Vec3 normal_at(double u, double v) const;
 };
 
 struct PlacedPatches {
   std::vector<PlacedPatch> patches;
-  // Bound for each patch on the distance of S from the smooth surface at equal (u,v), in placed units. It is at most
+  // For each patch, a bound on the distance between S and the smooth surface at equal (u,v), in placed units. It is at most
   // max_error times the scale.
   std::vector<double> errors;
 
-  // max_error is in the patches' units, before placement. Fails with RIIS_LIMIT_EXCEEDED as make_grids does.
+  // max_error is in the patches' units before placement. Fails with RIIS_LIMIT_EXCEEDED if make_grids does.
   PlacedPatches(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals);
   double largest_error() const;
 };
 
-// Calls visit(along_u, along_v) with the derivatives of S in every quad, two of each, at the quad's two ends. In
-// between, S_u is a mean of the two along_u, at the lower and the upper v; S_v is a mean of the two along_v.
+// Calls visit(along_u, along_v) for every quad. along_u has S_u at the lower and the upper v, and along_v has S_v at the
+// lower and the upper u. Elsewhere in the quad, S_u and S_v are means of these two.
 template <class Visit>
 void for_each_derivatives(const QuadGrid &grid, const Visit &visit) {
   for (std::size_t j = 0; j + 1 < grid.v.size(); ++j)
@@ -61,8 +61,8 @@ Speeds largest_speeds(const QuadGrid &grid);
 // Returns the box of the grid's points. It also holds S, which is a mean of these points everywhere.
 Bounds bounds_of(const QuadGrid &grid);
 
-// Returns the square of the distance from p to a box. It is no larger, in every bit, than the square of the distance to
-// any point q in the box, computed as dot(q - p, q - p). Rounding keeps the order of differences, squares and sums.
+// Returns the square of the distance from p to a box. For any point q in the box, it is no larger, even in the last bit, than
+// dot(q - p, q - p): rounding keeps the order of differences, squares and sums.
 double distance_sq_to(const Bounds &box, Vec3 p);
 
 }  // namespace riis

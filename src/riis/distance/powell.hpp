@@ -3,7 +3,7 @@
 // minimum of a function of several variables without calculating derivatives", The Computer Journal 7 (1964) 155-162,
 // with that paper's modified rule for the direction to give up. Lines are searched by Brent's method: R. P. Brent,
 // "Algorithms for Minimization without Derivatives" (1973), chapter 5.
-// In: a function, a start, when to stop. Out: a local minimum, never above the start.
+// In: a function, a start, the tolerance. Out: a local minimum whose value is at most the start's.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct LocalMinimum {
   double value;
 };
 
-// The steps t for which from + t * along is in [0,1]^2. They are an interval around 0 for any point in the square.
+// The steps t for which from + t * along lies in [0,1]^2. For any `from` in the square they are an interval that contains 0.
 struct Segment {
   double low, high;
 };
@@ -42,9 +42,9 @@ inline Parameters step(Parameters from, double t, Parameters along) {
   return {std::clamp(from.u + t * along.u, 0.0, 1.0), std::clamp(from.v + t * along.v, 0.0, 1.0)};
 }
 
-// Finds a minimum of f(t) on [low, high] by Brent's localmin, with t right to about 3 tolerance. Returns the least of
-// all values that it saw, so f may have more than one minimum. Uses parabolas through the last three points, and golden
-// sections where parabolas do not help.
+// Finds a minimum of f(t) on [low, high] by Brent's localmin, with t right to about 3 tolerance. Returns the least of all values
+// computed, so f may have several minima. Uses parabolas through the last three points, and golden sections where a parabola
+// does not help.
 template <class Function>
 std::array<double, 2> minimum_on_segment(const Function &f, double low, double high, double tolerance) {
   constexpr double golden = 0.3819660112501051;  // (3 - sqrt 5) / 2
@@ -89,10 +89,11 @@ std::array<double, 2> minimum_on_segment(const Function &f, double low, double h
   return {x, fx};
 }
 
-// Minimises f >= 0 over [0,1]^2 from a start in it. No line leaves the square. Each line is searched over its whole segment
-// inside, and also at both ends. Closest points at the rim are common, but Brent's method only tends to the ends.
-//   enough       iterations end when an iteration lowers the root of f by no more than this
-//   step_of(d)   how far along d, in units of d, a line search may be off
+// Minimises f >= 0 over [0,1]^2 from a start in the square. Each line is searched over its whole segment in the square. The
+// search also evaluates both ends of the segment, because closest points at the rim are common and Brent's method only
+// approaches the ends.
+//   enough       iterations end after one that lowers the root of f by no more than this
+//   step_of(d)   the allowed error of a line search along d, in units of d
 template <class Function, class StepOf>
 LocalMinimum minimize_by_powell(const Function &f, Parameters start, double enough, const StepOf &step_of) {
   LocalMinimum best{start, f(start)};
@@ -123,7 +124,8 @@ LocalMinimum minimize_by_powell(const Function &f, Parameters start, double enou
       if (value - best.value > largest_gain) largest_gain = value - best.value, of_largest = k;
     }
     if (std::sqrt(before.value) - std::sqrt(best.value) <= enough) break;
-    // The step goes as far again as the iteration came, or to the edge of the square.
+    // Extrapolates: the point lies as far beyond the end of this iteration as the iteration came, or on the edge of the
+    // square.
     const Parameters whole = best.at - before.at;
     const double beyond = f(step(best.at, std::min(1.0, segment_within_square(best.at, whole).high), whole));
     if (!(beyond < before.value)) continue;

@@ -11,7 +11,7 @@
 namespace riis {
 namespace {
 
-// Returns the least whole number n of equal steps from 0 to 1 that are no longer than h, at most too_many.
+// Returns the least number n, at most too_many, of equal steps from 0 to 1 that are no longer than h.
 std::int64_t n_steps(double h) {
   constexpr double too_many = 1e15;
   return h < 1 ? static_cast<std::int64_t>(std::min(std::ceil(1 / h), too_many)) : 1;
@@ -32,11 +32,12 @@ double covering_radius(const QuadGrid &grid, double h_u, double h_v) {
 }
 
 SampleCounts samples_within(const QuadGrid &grid, double radius) {
-  // The steps make squares where the lines are at right angles. A patch without noticeable width or height has one step there.
+  // These steps make squares where grid lines meet at right angles. A patch of negligible width or height has one step in
+  // that direction.
   const Speeds speeds = largest_speeds(grid);
   const double h_u = std::min(1.0, radius / speeds.u), h_v = std::min(1.0, radius / speeds.v);
   const double of_squares = covering_radius(grid, h_u, h_v);
-  // The radius grows in proportion to both steps; no step can be above 1.
+  // The covering radius grows in proportion to both steps. No step can be above 1.
   const double factor = of_squares > 0 ? radius / of_squares : 1;
   return {n_steps(factor * h_u), n_steps(factor * h_v)};
 }
@@ -54,7 +55,7 @@ SampleSet::SampleSet(PlacedPatches patches, double max_error) : PatchDistance(st
   add_patches(0, static_cast<std::int32_t>(patches_.patches.size()));
 }
 
-// The tree halves the patches by number, and a patch's samples along the longer side.
+// The tree halves the list of patches, and within a patch the longer side of a block of samples.
 std::int32_t SampleSet::add_patches(std::int32_t begin, std::int32_t end) {
   if (end - begin == 1) {
     const SampleCounts &counts = view(counts_)[begin];
@@ -76,7 +77,7 @@ std::int32_t SampleSet::add_samples(std::int32_t patch, const Samples &samples) 
     add_leaf(patch, samples, nodes_.back());
     return node;
   }
-  // Steps are about as long in u as in v, so the longer side is the side with more of them.
+  // A step in u is about as long as a step in v, so the longer side is the one with more steps.
   if (n_columns >= n_rows) {
     const std::int32_t half = n_columns / 2;
     add_samples(patch, {column, row, half, n_rows});
@@ -112,7 +113,7 @@ void SampleSet::join(std::int32_t node, std::int32_t second) {
 
 struct SampleSet::Query {
   Vec3 p;
-  double most;  // larger squares do not matter
+  double most;  // the bound on squares that are still of interest
   double distance_sq = std::numeric_limits<double>::infinity();
   std::int64_t sample = -1;
   std::int32_t leaf = -1;
@@ -128,7 +129,8 @@ void SampleSet::visit(std::int32_t at, Query &query) const {
       std::swap(near, far);
       std::swap(to_near, to_far);
     }
-    // Equal distances are also visited: the first of equally near samples is wanted, whatever the order of visits.
+    // A box at exactly this distance is also visited, because the first of equally near samples is wanted in any order of
+    // visits.
     if (to_near <= query.most) visit(near, query);
     if (to_far <= query.most) visit(far, query);
     return;
@@ -149,7 +151,7 @@ void SampleSet::visit(std::int32_t at, Query &query) const {
 }
 
 ClosestOnPatches SampleSet::closest(Vec3 p, double limit) const {
-  // The factor covers the rounding of the limit's square, and of the root that is compared with the limit.
+  // The factor covers the rounding of limit * limit and of the square root below.
   Query query{p, limit * limit * (1 + 1e-15)};
   visit(0, query);
   if (query.sample < 0 || !(std::sqrt(query.distance_sq) <= limit)) return {};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Distances by sampling (paper, 4.1 "Sampling"): the method finds the nearest of evenly spaced points S(u,v). Each
-// patch has as many as its width and height need (docs/theory.md, section 9).
-// In: placed patches, how far a distance may be off. Out: nearest samples.
+// Distances by sampling (paper, 4.1 "Sampling"): the method finds the nearest of evenly spaced points S(u,v). The number of
+// samples of a patch depends on its width and height (docs/theory.md, section 9).
+// In: placed patches, the allowed error of a distance. Out: nearest samples.
 #pragma once
 
 #include <cstdint>
@@ -12,27 +12,27 @@
 
 namespace riis {
 
-// The most samples that the library accepts. Each takes 24 bytes, and a little for the boxes around it.
+// The most samples that the library accepts. Each takes 24 bytes, and the boxes of the tree take a little more.
 inline constexpr std::int64_t max_samples = 16'777'216;
 
-// s_u and s_v: samples stand at u = 0, 1/s_u, ..., 1 and v = 0, 1/s_v, ..., 1.
+// Numbers of steps: samples stand at u = 0, 1/s_u, ..., 1 and at v = 0, 1/s_v, ..., 1, with s_u = `u` and s_v = `v`.
 struct SampleCounts {
   std::int64_t u, v;
   double n() const { return static_cast<double>(u + 1) * static_cast<double>(v + 1); }
 };
 
-// Bounds the distance of any S(u,v) from the sample nearest to it in u and in v. The bound is half the length of the
-// longest diagonal of parameter steps h_u, h_v in any tangent plane of S.
+// Bounds the distance of any S(u,v) from the sample nearest to it in u and in v. The bound is half the longest diagonal
+// that a parallelogram h_u S_u, h_v S_v has anywhere on S.
 double covering_radius(const QuadGrid &grid, double h_u, double h_v);
 
-// Returns the fewest samples that keep the covering radius within `radius`, in the proportion of the patch's width to
-// its height. They may be too many to have.
+// Returns the fewest samples that keep the covering radius within `radius`. Their numbers in u and v are in the proportion of
+// the patch's width to its height. The result may exceed max_samples.
 SampleCounts samples_within(const QuadGrid &grid, double radius);
 
 class SampleSet final : public PatchDistance {
  public:
-  // Distances are within max_error of the distances to the smooth surface, in placed units. The covering radius is max_error
-  // minus the patches' own error. Fails with RIIS_LIMIT_EXCEEDED for more than max_samples.
+  // Every distance differs from that to the smooth surface by at most max_error, in placed units. The covering radius is
+  // max_error minus the patches' own error. Fails with RIIS_LIMIT_EXCEEDED for more than max_samples.
   SampleSet(PlacedPatches patches, double max_error);
 
   ClosestOnPatches closest(Vec3 p, double limit) const override;
@@ -46,15 +46,15 @@ class SampleSet final : public PatchDistance {
  private:
   static constexpr std::int64_t samples_per_leaf = 64;
 
-  // A box of samples or of two other boxes, of which the first follows it.
+  // A box around the samples of a leaf or around two other nodes. The first of the two follows this node in the array.
   struct Node {
     Bounds box;
-    std::int32_t second = -1;  // -1 for a leaf
+    std::int32_t second = -1;  // the position of the second node, or -1 in a leaf
     std::int32_t leaf = -1;
   };
-  // A block of a patch's samples, row by row.
+  // A block of one patch's samples, stored row by row.
   struct Leaf {
-    std::int64_t first;  // position of its first sample
+    std::int64_t first;  // the position of its first sample
     std::int32_t patch;
     std::int32_t column, row, n_columns, n_rows;
   };
@@ -69,7 +69,7 @@ class SampleSet final : public PatchDistance {
   void join(std::int32_t node, std::int32_t second);
   void visit(std::int32_t at, Query &query) const;
 
-  std::vector<SampleCounts> counts_;  // of each patch
+  std::vector<SampleCounts> counts_;  // one for each patch
   std::vector<double> xyz_;           // (3, n_samples), leaf after leaf
   std::vector<Node> nodes_;
   std::vector<Leaf> leaves_;

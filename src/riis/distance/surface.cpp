@@ -10,7 +10,7 @@
 namespace riis {
 namespace {
 
-// Sums block by block, so that less is lost by rounding.
+// Sums the areas block by block, which loses less to rounding.
 double area_of(const TriangleSet &set) {
   const std::int64_t n = set.n_triangles();
   constexpr std::int64_t triangles_per_block = 4096;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A surface for queries: triangles, their scene, the half thickness, and another method for distances if one is wanted.
+// A surface that answers queries. It has triangles, their scene, the half thickness, and optionally another method to measure
+// distances.
 // In: triangles. Out: closest triangles, sides.
 #pragma once
 
@@ -19,14 +20,14 @@ namespace riis {
 
 class Surface {
  public:
-  // Makes the surface, again after it moved, and reuses its memory. The surface is of no use after a failure.
+  // Makes the surface, or makes it again after it moved and reuses its memory. After a failure the surface must not be used.
   void make(TriangleSet triangles, double half_thickness, int n_threads);
-  // Moves the triangles out, so that the next ones can reuse their memory.
+  // Moves the triangles out, so that the next surface's triangles can reuse their memory.
   TriangleSet take_triangles() { return std::move(triangles_); }
-  // Sets another method for distances. Without it, distances are to the triangles.
+  // Sets another method to measure distances. Without it, distances are to the triangles.
   void measure_by(std::unique_ptr<const PatchDistance> other_distance, double triangle_error);
 
-  // Takes the states that the velocities come from.
+  // Takes the two states that the velocities were computed from.
   void moved_between(TwoStates states) { states_.emplace(std::move(states)); }
 
   const TriangleSet &triangles() const { return triangles_; }
@@ -35,13 +36,13 @@ class Surface {
   // Returns the area of all triangles. The first call computes it. Several threads may call this function at once.
   double area() const;
 
-  // Bounds how far a velocity is from that of the smooth valve at the same patch, u and v; 0 without a motion of patches. The
-  // first call computes it. Several threads may call this function at once.
+  // Bounds the difference between a velocity and the smooth valve's velocity at the same patch, u and v. It is 0 without a
+  // motion of patches. The first call computes it. Several threads may call this function at once.
   double velocity_error_bound() const;
 
-  // Returns the method that measures distances. Null means the triangles' scene.
+  // Returns the other method that measures distances, or null if the triangles' scene does.
   const PatchDistance *other_distance() const { return other_distance_.get(); }
-  // The distance to the triangles exceeds the distance to any point of the method's patches by at most this.
+  // Bounds the distance to the triangles minus the distance to any point of the method's patches.
   double triangle_error() const { return triangle_error_; }
 
   // Returns the normals for sides and rims. The first call makes them. Several threads may call this function at once.
@@ -58,13 +59,13 @@ class Surface {
   TriangleSet triangles_;
   TriangleScene scene_;
   double half_thickness_ = 0;
-  // Marking never needs the area. Any thread that computes it gets the same bits.
+  // Computed on demand, because marking never needs it. Threads that compute it at the same time get the same bits.
   mutable std::atomic<double> area_{not_known};
   std::optional<TwoStates> states_;
   mutable std::atomic<double> velocity_error_bound_{not_known};
   std::unique_ptr<const PatchDistance> other_distance_;
   double triangle_error_ = 0;
-  // They are made at the first query of a side: marking never needs them.
+  // Made when a side is first queried, because marking never needs them.
   mutable std::mutex pseudonormals_mutex_;
   mutable std::optional<const Pseudonormals> pseudonormals_owner_;
   mutable std::atomic<const Pseudonormals *> pseudonormals_{nullptr};

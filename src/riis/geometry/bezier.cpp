@@ -21,7 +21,7 @@ double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
   return distance(p, a + t * ab);
 }
 
-// Two numbers in one register, which every processor of the baseline has.
+// Two numbers in one register. Every processor of the baseline instruction set has such registers.
 typedef double Two __attribute__((vector_size(16)));
 
 Two root(Two a) {
@@ -42,7 +42,7 @@ struct Speed {
     quadratic = curve.degree == 3 ? 3.0 * ((q[3] - q[0]) - 3.0 * (q[2] - q[1])) : Vec3{0, 0, 0};
   }
   double operator()(double t) const { return length(constant + t * (linear + t * quadratic)); }
-  // Does the same for two parameters at once, with the same bits.
+  // Computes |B'(t)| for two parameters at once, with the same bits as one at a time.
   Two operator()(Two t) const {
     const Two x = constant.x + t * (linear.x + t * quadratic.x), y = constant.y + t * (linear.y + t * quadratic.y),
               z = constant.z + t * (linear.z + t * quadratic.z);
@@ -76,7 +76,7 @@ double adaptive_length(const Speed &speed, double t0, double t1, double whole, d
          adaptive_length(speed, middle, t1, right, 0.5 * tolerance, depth - 1);
 }
 
-// Returns a negligible error of a length.
+// Returns an error that is negligible for the length of this curve.
 double length_tolerance(const Bezier &curve) {
   double control_length = 0, largest = 0;
   for (std::size_t i = 0; i <= degree_of(curve); ++i) {
@@ -84,18 +84,18 @@ double length_tolerance(const Bezier &curve) {
     if (i > 0) control_length += distance(curve.control[i - 1], q);
     largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
   }
-  // If the curve is short for its coordinates, two halves differ only by the coordinates' rounding. If it is shorter
-  // than any triangle may be (surface/triangle_set.hpp), its squares underflow.
+  // The second term is for a curve that is short compared with its coordinates: rounding alone changes its length by so much.
+  // The third term is for a curve shorter than any triangle may be (surface/triangle_set.hpp), because its squares underflow.
   return 1e-13 * control_length + 1e-14 * largest + 1e-74;
 }
 
 double length_between(const Speed &speed, double tolerance, double t0, double t1) {
-  // A cusp (|B'| = 0) inside converges linearly with depth: 40 halvings leave an error of about 1e-12 of the length.
+  // At a cusp (|B'| = 0) each halving only halves the error. So 40 halvings leave an error of about 1e-12 of the length.
   return adaptive_length(speed, t0, t1, quadrature(speed, t0, t1), tolerance, 40);
 }
 
-// Returns the parameter that leaves a share of the length behind if the speed is the parabola through its values at 0,
-// 1/2 and 1.
+// Returns the parameter up to which the curve has a given share of its length. Approximates the speed by the parabola through
+// its values at 0, 1/2 and 1.
 double first_guess(const Speed &speed, double share) {
   const double start = speed(0), middle = speed(0.5), end = speed(1);
   const double slope = 4 * middle - 3 * start - end, bend = 2 * (start - 2 * middle + end);
@@ -110,14 +110,15 @@ double first_guess(const Speed &speed, double share) {
   return t;
 }
 
-// Integrates the speed over a range so short, below a thousandth, that the rule with 2 points is exact to rounding.
+// Integrates the speed over a range shorter than a thousandth. There the rule with 2 points is exact to rounding.
 double short_quadrature(const Speed &speed, double t0, double t1) {
   constexpr double node = 0.57735026918962576451;
   const double middle = 0.5 * (t0 + t1), half = 0.5 * (t1 - t0);
   return half * (speed(middle - half * node) + speed(middle + half * node));
 }
 
-// Integrates over steps so short that the rule with 8 points is exact to rounding, except for curves that nearly stop.
+// Integrates in steps of at most a twelfth. In such steps the rule with 8 points is exact to rounding, unless the curve nearly
+// stops.
 double stepwise_quadrature(const Speed &speed, double t0, double t1) {
   constexpr double longest = 1.0 / 12;
   if (t1 - t0 <= longest) return quadrature(speed, t0, t1);
@@ -127,8 +128,8 @@ double stepwise_quadrature(const Speed &speed, double t0, double t1) {
   return sum;
 }
 
-// Finds the parameters of ascending lengths, each from the one before. Returns false if the lengths do not add up to that of
-// the curve. The speed is no polynomial then, as at a cusp, and one quadrature a step is not enough.
+// Finds the parameters of ascending lengths, each from the one before. Returns false if the lengths do not add up to the length
+// of the curve. The speed is then too far from a polynomial, as at a cusp, and one quadrature for each step is not enough.
 bool find_in_one_pass(const Speed &speed, double curve_length, const Vector<double> &behind, double *t) {
   const double close_enough = 1e-14 * curve_length;
   double at = 0, at_length = 0;
@@ -144,7 +145,7 @@ bool find_in_one_pass(const Speed &speed, double curve_length, const Vector<doub
                                              : stepwise_quadrature(speed, next, closer);
       next = closer;
     }
-    // At a near-cusp Newton's method may not come close in so few steps.
+    // Near a cusp, Newton's method may not converge in so few steps.
     if (!(std::abs(made - wanted) <= 1e-13 * curve_length)) return false;
     at = t[k] = next;
     at_length += made;
@@ -204,9 +205,9 @@ double flatness(const Bezier &curve) {
   return largest;
 }
 
-// Bounds the curvature |B' x B''| / |B'|^3; infinite if the curve may turn on the spot. B' and B'' are Bézier curves
-// with differences of control points as control points. Products of these differences bound the numerator. The least
-// component of the differences in B' along the chord bounds the denominator from below.
+// Bounds the curvature |B' x B''| / |B'|^3. The bound is infinite if the curve may turn on the spot. B' and B'' are Bézier
+// curves whose control points are differences of the curve's control points. Products of these differences bound the numerator.
+// The least component of B' along the chord, taken over its control points, bounds the denominator from below.
 static double rough_curvature(const Bezier &curve) {
   const std::size_t n = degree_of(curve);
   const Vec3 chord = curve.last() - curve.first();
@@ -226,7 +227,8 @@ static double rough_curvature(const Bezier &curve) {
 }
 
 double rough_curvature(const Bezier &curve, double t0, double t1) {
-  // Blossoms of B' and B'' are the control points of the part. Its chord runs along the sum of the first three.
+  // Blossoms of B' and B'' give the control points of this part's derivatives. Its chord is parallel to the sum of the three
+  // `first`.
   const Speed along(curve);
   const Vec3 first[3] = {along.constant + t0 * (along.linear + t0 * along.quadratic),
                          along.constant + (0.5 * (t0 + t1)) * along.linear + (t0 * t1) * along.quadratic,
@@ -246,7 +248,7 @@ double rough_curvature(const Bezier &curve, double t0, double t1) {
 }
 
 double largest_curvature(const Bezier &curve) {
-  // The bound from control points is loose if they vary much; in quarters of the curve they vary little.
+  // The bound from control points is loose if they vary much. Within a quarter of the curve they vary little.
   const auto [left, right] = split(curve, 0.5);
   const auto [first, second] = split(left, 0.5);
   const auto [third, fourth] = split(right, 0.5);
@@ -257,7 +259,7 @@ double parameter_at_length(const Bezier &curve, double curve_length, double behi
   if (!(curve_length > 0)) return 0;
   const Speed speed(curve);
   const double tolerance = length_tolerance(curve), close_enough = 1e-14 * curve_length;
-  // Newton's method on the length from 0 to t stays inside a shrinking bracket.
+  // Newton's method for the length from 0 to t, inside a bracket that shrinks.
   double below = 0, above = 1, t = first_guess(speed, behind / curve_length);
   double excess = length_between(speed, tolerance, 0, t) - behind;
   for (int i = 0; i < 60 && !(std::abs(excess) <= close_enough); ++i) {

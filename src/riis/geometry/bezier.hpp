@@ -19,7 +19,7 @@ struct Bezier {
   static Bezier quadratic(Vec3 q0, Vec3 q1, Vec3 q2) { return {2, {q0, q1, q2, Vec3{0, 0, 0}}}; }
   static Bezier cubic(Vec3 q0, Vec3 q1, Vec3 q2, Vec3 q3) { return {3, {q0, q1, q2, q3}}; }
   static Bezier line(Vec3 q0, Vec3 q1) { return quadratic(q0, 0.5 * (q0 + q1), q1); }
-  // Returns a curve that never leaves its point: the collapsed side of a patch.
+  // Returns a curve that stays in one point, for the collapsed side of a patch.
   static Bezier point(Vec3 q) { return quadratic(q, q, q); }
 
   Bezier reversed() const {
@@ -31,7 +31,7 @@ struct Bezier {
   Vec3 last() const { return view(control)[degree]; }
 };
 
-// Returns B(t) for t in [0,1]; exactly the end points at 0 and 1.
+// Returns B(t) for t in [0,1]. At 0 and 1 it is exactly the end point.
 Vec3 evaluate(const Bezier &curve, double t);
 
 // Returns the first three derivatives by t.
@@ -51,17 +51,19 @@ std::pair<Bezier, Bezier> split(const Bezier &curve, double t);
 // curve_length is the length of the whole curve. If it is 0, t is 0.
 double parameter_at_length(const Bezier &curve, double curve_length, double behind);
 
-// Writes to t the results of parameter_at_length for ascending lengths `behind`. One pass over the curve takes a fraction of the
-// time.
+// Writes to t the results of parameter_at_length for ascending lengths `behind`. It goes over the curve once, in a fraction of
+// the time of separate calls.
 void parameters_at_lengths(const Bezier &curve, double curve_length, const Vector<double> &behind, double *t);
 
-// Returns kappa, the largest distance of an inner control point to the segment from the first to the last. (The paper
-// measures to the line, which is 0/0 for a closed curve and blind to control points beyond the ends.)
+// Returns kappa, the largest distance of an inner control point from the segment between the first and the last. The paper takes
+// the distance from the line through both. That distance is 0/0 for a closed curve, and it misses control points beyond the
+// ends.
 double flatness(const Bezier &curve);
 
-// Bounds the curvature everywhere on the curve; infinite if the curve may turn on the spot.
+// Bounds the curvature everywhere on the curve. The bound is infinite if the curve may turn on the spot.
 double largest_curvature(const Bezier &curve);
-// Bounds the curvature from parameter t0 to t1, t0 < t1. This bound is looser and takes a tenth of the time.
+// Bounds the curvature from parameter t0 to t1, t0 < t1. Compared with largest_curvature, this bound is looser and takes a tenth
+// of the time.
 double rough_curvature(const Bezier &curve, double t0, double t1);
 
 }  // namespace riis

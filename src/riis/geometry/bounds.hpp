@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A box along the axes.
+// A box whose sides are parallel to the coordinate axes.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace riis {
 
-// The box is empty until something is added.
+// The box is empty until a point or a box is added.
 struct Bounds {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -21,7 +21,7 @@ struct Bounds {
     upper = {std::max(upper.x, other.upper.x), std::max(upper.y, other.upper.y), std::max(upper.z, other.upper.z)};
   }
 
-  // Coordinates are halved before they are added, so that they may have any size.
+  // Coordinates are halved before they are added, so that the sum of two large ones does not overflow.
   Vec3 middle() const { return 0.5 * lower + 0.5 * upper; }
   Vec3 half_extent() const { return 0.5 * upper - 0.5 * lower; }
 };

@@ -24,20 +24,21 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Returns the hull of the control points of a Bézier curve's derivative, in which the derivative stays.
+// Returns the hull of control points of a Bézier curve's derivative. The derivative stays inside it.
 IntervalVector hull_of(const Vec3 *control, std::size_t n) {
   IntervalVector all = IntervalVector::of(control[0]);
   for (std::size_t i = 1; i < n; ++i) all = hull(all, IntervalVector::of(control[i]));
   return all;
 }
 
-// A curve's unit tangent on a range of u, with derivatives by u. The curve has the speed |d curve / du| on that range.
+// A curve's unit tangent on a range of u, with its derivatives by u, and the speed |d curve / du| there.
 struct Along {
   JetVector tangent;
   double speed;
 };
 
-// Returns the tangent as a jet, from the derivatives of a Bézier piece by its own parameter t: dt/du = speed / |B'(t)|.
+// Returns the tangent as a jet, from derivatives of a Bézier piece by its own parameter t. The chain rule uses dt/du = speed /
+// |B'(t)|.
 JetVector tangent_jet(const IntervalVector &d1, const IntervalVector &d2, const IntervalVector &d3, double speed) {
   const JetVector along = JetVector::of(d1, d2, d3);
   const Jet size = root(dot_self(along)), inverse_size = inverse(size);
@@ -64,7 +65,8 @@ struct Derivatives {
   Vec3 third;
 };
 
-// Bounds how far a function is from the line between its ends on a range of length du.
+// Bounds the distance of a function from the line between its ends, on a range of length du. `second` holds its second
+// derivative.
 double deviation(const Interval &second, double du) { return 0.125 * du * du * second.magnitude(); }
 
 void narrow(Jet &a, double start, double end, double du) {
@@ -76,7 +78,7 @@ Vec3 unit(Vec3 a) {
   return size > 0 ? (1 / size) * a : a;
 }
 
-// Returns the tangent on the whole of a piece, which spans at most du.
+// Returns the tangent over a whole piece, which spans at most du.
 Along along_piece(const Bezier &piece, double speed, double du) {
   if (!(speed > 0)) return {JetVector{}, 0};
   const Derivatives d(piece);
@@ -100,11 +102,11 @@ Along along_end(const Bezier &piece, double speed, bool at_end) {
 
 double norm(const IntervalVector &a) {
   const double bound = length(a.magnitudes());
-  return bound >= 0 ? bound : infinity;  // NaN if infinities met
+  return bound >= 0 ? bound : infinity;  // the length is NaN if infinities met
 }
 
-// Returns O from W and the base's tangent. The derivatives of W are those of edge minus base. Returns nothing if W may
-// run along the base, because O then may have no direction.
+// Returns O as a jet, from W and the base's tangent. The derivative of W is the edge's derivative minus the base's. Returns
+// nothing if W may be parallel to the base: O may have no direction then.
 std::optional<JetVector> offset_jet(const IntervalVector &w, const Along &base, const Along &edge, double factor) {
   const JetVector width = JetVector::of(w, edge.speed * edge.tangent.value() - base.speed * base.tangent.value(),
                                         edge.speed * edge.tangent.first() - base.speed * base.tangent.first());
@@ -115,7 +117,7 @@ std::optional<JetVector> offset_jet(const IntervalVector &w, const Along &base, 
   return (factor * root(dot_self(width) * inverse(across_sq))) * across;
 }
 
-// Returns O at a share of the length of both curves.
+// Returns O at the same share of the length of both curves.
 Vec3 offset_at(const Curve &base, const Curve &edge, double share, double factor) {
   const Curve::Frame on_base = base.frame(share);
   return arc_offset(edge.at(share) - on_base.point, on_base.tangent, factor);
@@ -132,7 +134,7 @@ Vec3 Bulge::at(double u) const { return offset_at(base_, edge_, u, factor_); }
 
 OffsetBounds bound_offset(const ArcRange &range, double factor) {
   const double du = range.du;
-  // W stays near the line between its ends: the largest bend of all pairs of pieces bounds the distance.
+  // W stays near the line between its ends. The largest bend over all pairs of pieces bounds the distance from it.
   const Vec3 start = range.edge.front().first() - range.base.front().first();
   const Vec3 end = range.edge.back().last() - range.base.back().last();
   Vector<Along> along_base, along_edge;
@@ -154,7 +156,7 @@ OffsetBounds bound_offset(const ArcRange &range, double factor) {
       const std::optional<JetVector> offset = offset_jet(w, b, e, factor);
       second = std::max(second, offset ? norm(offset->second()) : infinity);
     }
-  // |O| and the length of its linear interpolation are never more than |factor| |W|.
+  // Neither |O| nor the length of its linear interpolation exceeds |factor| |W|.
   return {second, 2 * std::abs(factor) * norm(w)};
 }
 
@@ -162,14 +164,15 @@ double Bulge::linear_error(double u0, double u1, double enough) const {
   const Curve base = base_.between(u0, u1), edge = edge_.length() > 0 ? edge_.between(u0, u1) : edge_;
   const OffsetBounds bounds =
       bound_offset({base.pieces(), edge.pieces(), base_.length(), edge_.length(), u1 - u0}, factor_);
-  // Intervals overestimate |O''| several times over. So O is evaluated at a few points, and the bound serves only
-  // between neighbouring points. If the range has n parts, the bound counts n^2 times less.
+  // Intervals overestimate |O''| several times over. So O is evaluated at a few points, and the bound on |O''| is used only
+  // between neighbouring points. With n parts, it contributes n^2 times less.
   double error = infinity;
   for (int n = 1; n <= 8 && !(error <= enough); n *= 8) error = sampled_error(base, edge, u0, u1, n, bounds.second);
   return error <= bounds.largest ? error : bounds.largest;  // also if the error is NaN
 }
 
-// Bounds the error from O at n - 1 points between u0 and u1, and from the bound on |O''|.
+// Bounds the error of linear interpolation. Evaluates O at n - 1 points between u0 and u1, and uses the bound on |O''| between
+// them.
 double Bulge::sampled_error(const Curve &base, const Curve &edge, double u0, double u1, int n, double second) const {
   double off_line = 0;
   if (n > 1) {
@@ -181,8 +184,8 @@ double Bulge::sampled_error(const Curve &base, const Curve &edge, double u0, dou
   }
   const double step = (u1 - u0) / n;
   double between = 0.125 * step * step * second;
-  // O' may jump at a joint. That adds a kink of height |jump| a b / (a + b), with the distances a and b to the points
-  // before and after it.
+  // O' may jump at a joint. The jump adds a kink of height |jump| a b / (a + b), where a and b are the distances to the
+  // evaluated points before and after the joint.
   for (const double joint : joints_) {
     if (!(joint > u0 && joint < u1)) continue;
     const double behind = std::fmod(joint - u0, step);
@@ -191,7 +194,7 @@ double Bulge::sampled_error(const Curve &base, const Curve &edge, double u0, dou
   return off_line + between;
 }
 
-// Bounds |O' on one side of u - O' on the other side|.
+// Bounds |jump of O' at u|, the difference between both sides.
 double Bulge::jump(double u) const {
   const IntervalVector w = IntervalVector::of(edge_.at(u) - base_.at(u));
   const auto beside = [&](bool after) {

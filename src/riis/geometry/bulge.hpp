@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Patches of arcs from one curve to another (paper, appendix, "Leaflet surfaces"). Each line from a point of the base
 // (the annulus) to the point of the edge (the leaflet's free edge) at the same u is a quadratic Bézier curve. Its
-// middle control point lies off the straight line's middle by
-//     O(u) = factor |W| unit(W x T),  W(u) = edge(u) - base(u),  T(u) the base's direction,
-// so that D(u,v) = (1-v) base(u) + v edge(u) + 2 v (1-v) O(u). (The paper offsets along edge' x base', by a number that
-// is not a length. That product vanishes where the edge stands still, and turns over at its corners: docs/theory.md.)
-// In: two curves and the factor. Out: O(u), and how far it may be from linear between two u.
+// middle control point is the middle of the straight line plus the offset
+//     O(u) = factor |W| unit(W x T),  W(u) = edge(u) - base(u),  T(u) the base's direction.
+// So D(u,v) = (1-v) base(u) + v edge(u) + 2 v (1-v) O(u). (The paper offsets along edge' x base', by a number that is not a
+// length. That product vanishes where the edge stands still, and changes its sign at the edge's corners: docs/theory.md.)
+// In: two curves and the factor. Out: O(u), and a bound on its distance from linear between two u.
 #pragma once
 
 #include "base/recycled.hpp"
@@ -14,10 +14,11 @@
 
 namespace riis {
 
-// Returns O from W and T; 0 if O has no direction.
+// Returns O from W and T, or 0 if O has no direction.
 Vec3 arc_offset(Vec3 width, Vec3 along, double factor);
 
-// Returns O of a side that is an arc, from its control points: both patches at the side get the same bits.
+// Returns O on a side that is itself an arc, from the arc's control points. So the two patches that share the side get the same
+// bits.
 inline Vec3 arc_offset(const Bezier &arc) { return arc.control[1] - 0.5 * (arc.control[0] + arc.control[2]); }
 
 // The parts of both curves on a range of u that is du wide, and the lengths of the whole curves.
@@ -27,10 +28,10 @@ struct ArcRange {
   double du;
 };
 
-// Bounds on such a range.
+// Bounds on O within such a range.
 struct OffsetBounds {
-  double second;   // of |O''| on the smooth parts; infinite if W may run along T
-  double largest;  // of twice |O|
+  double second;   // bounds |O''| on the smooth parts; infinite if W may be parallel to T
+  double largest;  // bounds 2 |O|
 };
 OffsetBounds bound_offset(const ArcRange &range, double factor);
 
@@ -39,18 +40,18 @@ class Bulge {
   // Keeps copies of both curves. The edge may be a point.
   Bulge(Curve base, Curve edge, double factor);
 
-  // Returns O(u). It is 0 where base and edge touch.
+  // Returns O(u), which is 0 where base and edge touch.
   Vec3 at(double u) const;
 
   // Returns the point where the arc at u begins.
   Vec3 on_base(double u) const { return base_.at(u); }
 
-  // Bounds |O(u) - its linear interpolation between u0 and u1| for u0 <= u <= u1. The bound falls with (u1 - u0)^2. If
-  // W gets parallel to T, O has no direction, and the bound stays at 2 |factor| |W|. Refines the bound no further once
-  // it is at most `enough`.
+  // Bounds |O(u) - its linear interpolation between u0 and u1| for u0 <= u <= u1. The bound falls with (u1 - u0)^2. Where W gets
+  // parallel to T, O has no direction, and the bound stays at 2 |factor| |W|. The bound is not refined further once it is at
+  // most `enough`.
   double linear_error(double u0, double u1, double enough) const;
 
-  // Returns the u at which O may change its course, ascending: the joints of the curves.
+  // Returns the u of the curves' joints, ascending. O may have kinks there.
   const Vector<double> &joints() const { return joints_; }
 
  private:

@@ -12,7 +12,7 @@
 namespace riis {
 namespace {
 
-// Returns the parameters that a side contributes; only the ends if it is collapsed.
+// Returns the parameters of a side's vertices, or only 0 and 1 if the side is collapsed.
 Vector<double> own_parameters(const Polyline &side) { return side.length > 0 ? side.t : Vector<double>{0.0, 1.0}; }
 
 double smallest_step(const Vector<double> &t) {
@@ -21,8 +21,8 @@ double smallest_step(const Vector<double> &t) {
   return smallest;
 }
 
-// Bounds how far a side is from its curve between each two grid lines. The bound is the error of the segment there plus
-// the shift of shared lines along the side.
+// Between each two neighbouring grid lines, bounds the distance of a side from its curve. The bound is the error of the side's
+// segment there plus the distance that shared lines are shifted along the side.
 Vector<double> errors_between(const Vector<GridLine> &lines, const Polyline &side, double GridLine::*t) {
   Vector<double> errors(lines.size() - 1, 0.0);
   if (!(side.length > 0)) return errors;
@@ -37,11 +37,11 @@ Vector<double> errors_between(const Vector<GridLine> &lines, const Polyline &sid
 
 Vector<GridLine> lines_between(const Polyline &side0, const Polyline &side1, double max_merge_shift) {
   const double longer = std::max(side0.length, side1.length);
-  // Each side moves by at most half the difference of the parameters, since the line stands at their mean.
+  // A shared line stands at the mean of both parameters. So each side moves by at most half their difference.
   return merge_parameters(side0, side1, longer > 0 ? 2.0 * max_merge_shift / longer : 0.0);
 }
 
-// Adds grid lines between the last one and `to` until O is nearly linear between them.
+// Adds grid lines between the last line and `to` until O is nearly linear between neighbouring lines.
 class ArcRefinement {
  public:
   ArcRefinement(const Bulge &bulge, const ArcLimits &limits, ArcLines &lines)
@@ -70,7 +70,7 @@ class ArcRefinement {
   }
 
  private:
-  // Returns the middle, or a joint that is not too near an end: a cut at a kink removes it.
+  // Returns where to cut the range: at a joint that is not too near an end, because this removes a kink, or else in the middle.
   double cut(double from, double to) const {
     for (const double joint : bulge_.joints())
       if (joint > 0.875 * from + 0.125 * to && joint < 0.125 * from + 0.875 * to) return joint;
@@ -102,11 +102,11 @@ Vector<double> middles(const Vector<GridLine> &lines) {
 
 Vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, double merge_tolerance) {
   const Vector<double> t0 = own_parameters(side0), t1 = own_parameters(side1);
-  // The tolerance is never so wide that two vertices of one side compete for a partner.
+  // The tolerance is so small that no two vertices of one side can match the same vertex of the other.
   const double tolerance = std::min(merge_tolerance, 0.49 * std::min(smallest_step(t0), smallest_step(t1)));
   Vector<GridLine> lines{{0.0, 0.0, 0.0, true, true}};
   for (std::size_t i = 1, j = 1; i + 1 < t0.size() || j + 1 < t1.size();) {
-    // Past the last inner vertex of a side, its parameter is infinite.
+    // When a side has no more inner vertices, its next parameter counts as infinite.
     const double a = i + 1 < t0.size() ? t0[i] : std::numeric_limits<double>::infinity();
     const double b = j + 1 < t1.size() ? t1[j] : std::numeric_limits<double>::infinity();
     if (std::abs(a - b) <= tolerance) {
@@ -133,7 +133,7 @@ Vector<Vec3> coons_combination(const Vector<double> &u, const Vector<double> &v,
   Vector<Chords> chords;
   chords.reserve(n_u);
   for (const double at : u) chords.push_back({mix(p00, p10, at), mix(p01, p11, at)});
-  // The boundary consists of the sides' own vectors, to the last bit, because neighbouring patches share it.
+  // The boundary has exactly the vectors of the sides, because neighbouring patches share them.
   Vector<Vec3> made;
   made.reserve(n_u * n_v);
   made.insert(made.end(), sides.v0.begin(), sides.v0.end());
@@ -172,7 +172,7 @@ QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines) {
     sides_on_lines.u1.push_back(evaluate(*sides.side_u1, line.t1));
   }
   grid.points = coons_combination(grid.u, grid.v, sides_on_lines);
-  // A point of the patch inherits the errors of its four side points, with their weights.
+  // A point of the patch takes over the errors of four side points, with the same weights as their positions.
   const Vector<double> error_v0 = errors_between(u_lines, *sides.side_v0, &GridLine::t0);
   const Vector<double> error_v1 = errors_between(u_lines, *sides.side_v1, &GridLine::t1);
   const Vector<double> error_u0 = errors_between(v_lines, *sides.side_u0, &GridLine::t0);
@@ -221,8 +221,8 @@ QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size
   }
   grid.points.insert(grid.points.end(), edge.begin(), edge.end());
 
-  // Between two lines, the base, the edge and O differ from linear by their errors. On a line, the chords differ from the arc by
-  // |O| / 2 times the square of the row's height.
+  // Between two lines, base, edge and O differ from linear interpolation by their errors. On a line, the chords differ from the
+  // arc by |O| / 2 times the square of the row's height.
   const Vector<double> base_errors = errors_between(lines.u_lines, *sides.side_v0, &GridLine::t0);
   const Vector<double> edge_errors = errors_between(lines.u_lines, *sides.side_v1, &GridLine::t1);
   const double row = 1 / static_cast<double>(n_rows);

@@ -11,23 +11,22 @@
 
 namespace riis {
 
-// The sides of a patch have the name of the parameter that is constant on them. side_v0 and side_v1 run with u, side_u0
-// and side_u1 run with v. A collapsed side has length 0.
+// Each side of a patch is named after the parameter that is constant on it. side_v0 and side_v1 run along u, side_u0 and side_u1
+// run along v. A collapsed side has length 0.
 struct PatchSides {
   const Polyline *side_v0, *side_v1, *side_u0, *side_u1;
 };
 
-// A line of the grid. Vertices of two opposite sides share a line if they nearly coincide in parameter, and each side
-// keeps its own vertex. So there are no sliver quads, and no vertex of a shared curve is lost or moved: neighbouring
-// patches stay without cracks.
+// A line of the grid. Two vertices on opposite sides share a line if their parameters nearly agree, and each stays where it is.
+// So there are no sliver quads. Neighbouring patches fit without cracks, because no vertex of a shared curve is lost or moved.
 struct GridLine {
-  double t0, t1;                                // parameter on the first and the second side that the line ends on
-  double middle;                                // their mean: the line's u (or v)
-  bool is_vertex0 = false, is_vertex1 = false;  // whether it ends on a vertex there
+  double t0, t1;  // the line's parameter on the first and on the second of the two sides that it joins
+  double middle;  // the mean of both, which is the line's u (or v) in the grid
+  bool is_vertex0 = false, is_vertex1 = false;  // whether the line ends on a vertex of that side
 };
 
-// Returns the union of two polylines' parameters. Values closer than merge_tolerance share a line. A polyline without
-// length contributes none.
+// Returns the union of two polylines' parameters. Parameters closer than merge_tolerance share a line. A polyline without length
+// contributes no parameters.
 Vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, double merge_tolerance);
 
 // The lines that a grid was made from.
@@ -36,38 +35,41 @@ struct GridLines {
 };
 
 struct QuadGrid {
-  Vector<double> u, v;    // ascending from 0 to 1
-  Vector<Vec3> points;    // points[j * u.size() + i] at (u[i], v[j])
-  Vector<double> errors;  // errors[j * (u.size() - 1) + i] of the quad between lines i, i + 1 and j, j + 1: a bound
-                          // of its distance, at equal (u,v), from the patch between the exact curves
+  Vector<double> u, v;  // ascending from 0 to 1
+  Vector<Vec3> points;  // points[j * u.size() + i] at (u[i], v[j])
+  // errors[j * (u.size() - 1) + i] belongs to the quad between lines i, i + 1 and j, j + 1. It bounds the distance, at equal
+  // (u,v), between the quad and the patch between the exact curves.
+  Vector<double> errors;
 
-  GridLines lines{};  // that the grid was made from; empty unless requested
+  GridLines lines{};  // the lines that the grid was made from; empty unless requested
 
   const Vec3 &point(std::size_t i, std::size_t j) const { return points[j * u.size() + i]; }
   double error(std::size_t i, std::size_t j) const { return errors[j * (u.size() - 1) + i]; }
 };
 
-// Vectors on the four sides of a patch, one for each line of its grid that ends there.
+// Vectors on the four sides of a patch, one for each end of a grid line.
 struct SideVectors {
   Vector<Vec3> v0, v1;  // on the lines u
-  Vector<Vec3> u0, u1;  // on the lines v; the first and the last are not read, because they are corners
+  Vector<Vec3> u0, u1;  // on the lines v; the first and the last are corners and are not read
 };
 
-// Returns the Coons combination of the sides' vectors, points or displacements, in the order of QuadGrid::points.
+// Returns the Coons combination of vectors on the sides, which may be points or displacements. The order is that of
+// QuadGrid::points.
 Vector<Vec3> coons_combination(const Vector<double> &u, const Vector<double> &v, const SideVectors &sides);
 
-// Makes the Coons patch on the grid. It is bilinear inside every quad, so the grid loses nothing. Lines are merged if that moves
-// a point by at most max_merge_shift along a side. Writes the lines to `lines` unless it is null.
+// Makes the grid of the Coons patch. The patch is bilinear inside every quad, so the grid represents it exactly. Lines are
+// merged if this moves a point along a side by at most max_merge_shift. Writes the lines to `lines` unless it is null.
 QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift, GridLines *lines = nullptr);
-// Makes the grid on given lines, which end on vertices of the sides.
+// Makes the grid on given lines, whose ends are vertices of the sides.
 QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines);
 
 // A patch of arcs consists of the straight lines from side_v0, the base, to side_v1, the edge, plus 2 v (1-v) O(u)
-// (geometry/bulge.hpp). It is made in two steps, because patches that share an arc must agree on the number of rows.
+// (geometry/bulge.hpp). Its grid is made in two steps, lines and then rows, because patches that share an arc must have equally
+// many rows.
 struct ArcLines {
   Vector<GridLine> u_lines;
   Vector<Vec3> offsets;   // O on each line
-  Vector<double> errors;  // between each two lines: how far O may be from linear
+  Vector<double> errors;  // for each two neighbouring lines, a bound on O's distance from linear
   double largest_offset() const;
 };
 
@@ -76,32 +78,32 @@ struct ArcLimits {
   std::size_t max_lines;
 };
 
-// Returns the grid lines of the two sides, and more lines until O is within max_error of linear between them. Adds none
-// once there are more than max_lines. offset_u0 and offset_u1 are O at the ends as the neighbours have it, to the last
-// bit. Uses side_v0 and side_v1 only. Fails with RIIS_INVALID_PARAMETER if O has no direction.
+// Returns the grid lines of the two sides side_v0 and side_v1, and adds lines until O is within max_error of linear between
+// neighbouring lines. Adds no more once there are more than max_lines. offset_u0 and offset_u1 are O at the two ends, with the
+// same bits as in the neighbouring patches. Fails with RIIS_INVALID_PARAMETER if O has no direction.
 ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset_u0, Vec3 offset_u1,
                         const ArcLimits &limits);
 
-// Makes rows of equal height h. An arc is at most |O| / 2 times h squared from its chords.
+// Makes the grid with n_rows rows of equal height h. An arc lies within |O| / 2 times h squared of its chords.
 QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size_t n_rows);
 
-// Returns the larger of two values, at `from` and at `to`, of the linear function that is at0 at 0 and at1 at 1.
+// A linear function is at0 at 0 and at1 at 1. Returns the larger of its values at `from` and `to`.
 double larger_mix(double at0, double at1, double from, double to);
-// Returns the largest 2 v (1-v) from one v to another.
+// Returns the largest value of 2 v (1-v) between two v.
 double largest_arc_weight(double from, double to);
 
-// Returns the parameters of lines.
+// Returns the member `middle` of all lines.
 Vector<double> middles(const Vector<GridLine> &lines);
 
-// Returns the lines of that grid.
+// Returns the lines of the grid that make_arc_grid made from `lines`.
 GridLines lines_of_arc_grid(const ArcLines &lines, const QuadGrid &grid);
 
-// Returns the index of the interval of ascending values that holds x. A value belongs to the interval behind it, and the upper
-// end belongs to the last interval.
+// Returns the index of the interval that holds x, between ascending values. An x that equals a value belongs to the interval
+// after it. An x at the upper end belongs to the last interval.
 std::size_t interval_of(const Vector<double> &values, double x);
 
-// Returns S(u,v) by bilinear interpolation inside the quad that holds (u,v) in [0,1]^2. (The paper prints u - u_o for
-// the weight's numerator; it is u - u_{o-1}.)
+// Returns S(u,v) by bilinear interpolation inside the quad that holds (u,v) in [0,1]^2. (The paper prints u - u_o as the
+// numerator of the weight. It must be u - u_{o-1}.)
 Vec3 evaluate(const QuadGrid &grid, double u, double v);
 
 }  // namespace riis

@@ -10,9 +10,9 @@
 namespace riis {
 namespace {
 
-// An exact number: the sum of doubles that do not overlap, by ascending magnitude and without zeros (Shewchuk, "Adaptive
-// Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997). Sums are exact unless doubles overflow.
-// Products are exact unless doubles overflow or underflow. The range of the coordinates excludes both.
+// An exact number. It is the sum of doubles that do not overlap, without zeros and in ascending order of magnitude (Shewchuk,
+// "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997). Sums are exact unless doubles
+// overflow. Products are exact unless doubles overflow or underflow. The range of the coordinates excludes both.
 template <int capacity>
 struct Exact {
   std::array<double, capacity> part;
@@ -25,7 +25,7 @@ struct Exact {
 };
 
 struct TwoDoubles {
-  double high, low;  // high is their sum in double precision
+  double high, low;  // the sum of both numbers, rounded to double precision
 };
 
 TwoDoubles two_sum(double a, double b) {
@@ -33,7 +33,7 @@ TwoDoubles two_sum(double a, double b) {
   return {sum, (a - a_in_sum) + (b - b_in_sum)};
 }
 
-// Splits a double into two halves of 26 bits.
+// Splits a double into two parts of at most 26 bits.
 TwoDoubles split(double a) {
   const double c = 134217729.0 * a, high = c - (c - a);
   return {high, a - high};
@@ -54,8 +54,8 @@ Exact<2> difference(double a, double b) {
   return made;
 }
 
-// Adds one double of b after the other. Each pass appends at most one part for each part that it has read, so it overwrites
-// only parts that it no longer needs.
+// Adds the doubles of b one after another. Each pass appends at most one part for each part that it has read. So it overwrites
+// only parts that are no longer needed.
 template <int n, int m>
 Exact<n + m> operator+(const Exact<n> &a, const Exact<m> &b) {
   Exact<n + m> sum;
@@ -101,7 +101,7 @@ Exact<2 * n> scaled(const Exact<n> &a, double factor) {
   return made;
 }
 
-// Multiplies by a number of at most two parts; longer factors are not needed.
+// Multiplies by a number of at most two parts. Longer factors do not occur.
 template <int n>
 Exact<4 * n> operator*(const Exact<n> &a, const Exact<2> &b) {
   Exact<4 * n> made;
@@ -117,8 +117,8 @@ Exact<4 * n> operator*(const Exact<n> &a, const Exact<2> &b) {
 
 int sign(double x) { return (x > 0) - (x < 0); }
 
-// Coordinates are 0 or at least negligible_coordinate in magnitude. So underflow changes a product of three of their differences
-// by far less than this.
+// Each coordinate is 0 or at least negligible_coordinate in magnitude. So underflow changes a product of three coordinate
+// differences by far less than this number.
 constexpr double underflow = 1e-290;
 
 struct Point2 {
@@ -129,11 +129,11 @@ int orientation_exactly(Point2 a, Point2 b, Point2 c) {
   return (difference(a.u, c.u) * difference(b.v, c.v) - difference(a.v, c.v) * difference(b.u, c.u)).sign();
 }
 
-// Returns +1, -1 or 0 if a, b, c run counter-clockwise, run clockwise, or lie on a line.
+// Returns +1 if a, b, c run counter-clockwise, -1 if they run clockwise, and 0 if they lie on a line.
 int orientation(Point2 a, Point2 b, Point2 c) {
   const double left = (a.u - c.u) * (b.v - c.v), right = (a.v - c.v) * (b.u - c.u);
   const double determinant = left - right;
-  // Shewchuk's bound, (3 + 16 e) e with e = 2^-53, with room.
+  // Shewchuk's bound is (3 + 16 e) e with e = 2^-53. 2^-51 is larger, to be safe.
   if (std::abs(determinant) > 0x1p-51 * (std::abs(left) + std::abs(right)) + underflow) return sign(determinant);
   return orientation_exactly(a, b, c);
 }
@@ -145,7 +145,7 @@ int orientation_exactly(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   return ((bx * cy - by * cx) * az + (cx * ay - cy * ax) * bz + (ax * by - ay * bx) * cz).sign();
 }
 
-// Returns the sign of the volume that a, b, c and d span; 0 if they lie in a plane.
+// Returns the sign of the volume of the tetrahedron a, b, c, d, or 0 if the four points lie in a plane.
 int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   const Vec3 p = a - d, q = b - d, r = c - d;
   const double qxry = q.x * r.y, qyrx = q.y * r.x, rxpy = r.x * p.y, rypx = r.y * p.x, pxqy = p.x * q.y,
@@ -154,15 +154,15 @@ int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   const double magnitude = std::abs(p.z) * (std::abs(qxry) + std::abs(qyrx)) +
                            std::abs(q.z) * (std::abs(rxpy) + std::abs(rypx)) +
                            std::abs(r.z) * (std::abs(pxqy) + std::abs(pyqx));
-  // Shewchuk's bound, (7 + 56 e) e with e = 2^-53, with room.
+  // Shewchuk's bound is (7 + 56 e) e with e = 2^-53. 2^-50 is larger, to be safe.
   if (std::abs(determinant) > 0x1p-50 * magnitude + underflow) return sign(determinant);
   return orientation_exactly(a, b, c, d);
 }
 
-// Returns whether no two of the signs are opposite.
+// Returns true if no two of the signs are opposite.
 bool agree(int a, int b, int c) { return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0); }
 
-// Returns whether c lies between a and b. It must be on the line through them.
+// Returns whether c lies between a and b. The three points must lie on one line.
 bool is_between(Point2 a, Point2 b, Point2 c) {
   return std::min(a.u, b.u) <= c.u && c.u <= std::max(a.u, b.u) && std::min(a.v, b.v) <= c.v &&
          c.v <= std::max(a.v, b.v);
@@ -176,7 +176,7 @@ bool segments_meet(Point2 a, Point2 b, Point2 c, Point2 d) {
          (c_side == 0 && is_between(a, b, c)) || (d_side == 0 && is_between(a, b, d));
 }
 
-// Decides for a segment in the triangle's plane. Everything is projected along an axis that leaves the triangle an area.
+// Decides for a segment in the plane of the triangle. Projects everything along an axis along which the triangle keeps an area.
 bool meets_in_plane(Vec3 a, Vec3 b, const std::array<Vec3, 3> &corners) {
   const auto along = [](int axis, Vec3 p) {
     return axis == 0 ? Point2{p.y, p.z} : axis == 1 ? Point2{p.z, p.x} : Point2{p.x, p.y};
@@ -213,7 +213,7 @@ bool segment_meets_triangle(Vec3 a, Vec3 b, const std::array<Vec3, 3> &corners) 
   const int a_side = orientation(c[0], c[1], c[2], a), b_side = orientation(c[0], c[1], c[2], b);
   if (a_side * b_side > 0) return false;
   if (a_side == 0 && b_side == 0) return meets_in_plane(a, b, c);
-  // The line meets the plane in one point. The point is inside if the line passes all edges on the same side.
+  // The segment's line meets the plane in one point. The point is in the triangle if the line passes all edges on the same side.
   return agree(orientation(a, b, c[0], c[1]), orientation(a, b, c[1], c[2]), orientation(a, b, c[2], c[0]));
 }
 

@@ -11,19 +11,20 @@
 namespace riis {
 namespace {
 
-// A curve has at most 2^20 parts. Only requests that no surface of this library could meet reach this limit.
+// A curve has at most 2^20 parts. A request that reaches this limit would make more triangles than this library can hold.
 constexpr int max_depth = 20;
-// Narrower parts are not halved for the velocity. Where a curve nearly turns on the spot, halving would not end.
+// Parts narrower than this are not halved for the velocity. Otherwise the halving would not end where a curve nearly turns on
+// the spot.
 constexpr double narrowest_for_velocity = 1.0 / 32;
 
-// Collects the chords of parts that are within max_error of them.
+// Collects the chords of parts. Each part is within max_error of its chord.
 class Flattening {
  public:
   // `bend` is null if the velocity does not matter.
   Flattening(Vec3 first, double max_error, const VelocityBend *bend, double max_bend)
       : max_error_(max_error), bend_(bend), max_bend_(max_bend), flattened_{{first}, {0.0}, {}} {}
 
-  // Adds a part of one piece, from share t0 to t1 of the whole curve.
+  // Adds a part of one piece. The part goes from share t0 to t1 of the whole curve.
   void add(const Bezier &part, double part_length, double t0, double t1, int depth) {
     const double distance_to_chord = flatness(part) * (part.degree == 2 ? 0.5 : 0.75);
     const bool is_bent = bend_ && t1 - t0 > narrowest_for_velocity && bend_->off_linear(t0, t1) > max_bend_;
@@ -37,7 +38,7 @@ class Flattening {
     add(right, 0.5 * part_length, middle, t1, depth + 1);
   }
 
-  // Adds a part of one or several pieces, from share t0 to t1 of the whole curve.
+  // Adds a part of one or several pieces. The part goes from share t0 to t1 of the whole curve.
   void add(const Curve &part, double t0, double t1, int depth) {
     const Vector<Bezier> &pieces = part.pieces();
     if (pieces.size() == 1) {
@@ -59,9 +60,9 @@ class Flattening {
   Flattened take() { return std::move(flattened_); }
 
  private:
-  // Let the part and its chord be parametrised by the share of their own length. They are then at most length^2 / 8 times the
-  // largest curvature apart. (That is linear interpolation of a function with that second derivative. Joints do not matter,
-  // because the direction is continuous there.) If the curve may turn on the spot, they are at most the length apart.
+  // Compares points of the part and of its chord at equal shares of their own lengths. Their distance is at most length^2 / 8
+  // times the largest curvature, as for the linear interpolation of a function with that second derivative. Joints do not
+  // matter, because the direction is continuous there. If the curve may turn on the spot, the distance is at most the length.
   template <class LargestCurvature>
   bool accept(Vec3 last, double distance_to_chord, double part_length, const LargestCurvature &largest_curvature,
               double t1) {
@@ -80,7 +81,7 @@ class Flattening {
            ": tolerance * half_thickness is too small for it");
   }
 
-  // A curve is no farther from a segment than its control points are.
+  // A curve lies no farther from a segment than the farthest of its control points.
   static double distance_to_chord(const Curve &part) {
     double largest = 0;
     for (const Bezier &piece : part.pieces())
@@ -113,7 +114,7 @@ Vector<double> Curve::joints() const {
 PointOnPiece Curve::on_piece(double share) const {
   if (share >= 1 || !(length() > 0)) return {pieces_.size() - 1, 1};
   const double behind = std::max(share, 0.0) * length();
-  // A point at a joint, or off it by rounding, is the start of the later piece.
+  // A point at a joint belongs to the later piece, also if rounding puts it slightly before the joint.
   std::size_t piece = 0;
   while (piece + 1 < pieces_.size() && behind >= ends_[piece] - negligible_share * length()) ++piece;
   const double start = piece == 0 ? 0 : ends_[piece - 1];
@@ -181,7 +182,7 @@ VelocityBend::VelocityBend(const Bezier &curve, double curve_length, const Bezie
   struct Sample {
     Vec3 first, second, third, tangent, rate_first, rate_second;
     double speed;
-    double behind, rate_behind;  // the length up to here, and its rate
+    double behind, rate_behind;  // the length from the curve's start to this point, and its rate
   };
   std::array<Sample, n_cells + 1> samples;
   for (std::size_t k = 0; k <= n_cells; ++k) {
@@ -205,13 +206,14 @@ VelocityBend::VelocityBend(const Bezier &curve, double curve_length, const Bezie
     view(u_)[k] = k == n_cells ? 1 : at.behind / total;
     view(bend_)[k] = 0;
     if (!(at.speed > 0)) continue;
-    // The rate of the parameter of share u.
+    // The rate at which the parameter of a fixed share u of the length changes.
     const double t_rate = -(at.rate_behind - view(u_)[k] * rate_total) / at.speed;
     const Vec3 first_rate = at.rate_first + t_rate * at.second, second_rate = at.rate_second + t_rate * at.third;
     const double speed_rate = dot(at.tangent, first_rate), inverse = 1 / at.speed;
     const Vec3 tangent_rate = inverse * (first_rate - speed_rate * at.tangent);
     const double along = dot(at.tangent, at.second);
-    // The curvature vector and its rate. The vector times the length squared is the second derivative by the share.
+    // The curvature vector and its rate of change. The vector times the squared length of the curve is the second derivative by
+    // the share.
     const Vec3 curvature = inverse * inverse * (at.second - along * at.tangent);
     const Vec3 curvature_rate = inverse * inverse *
                                     (second_rate - along * tangent_rate -

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Curves of one or several Bézier pieces, parametrised by the share of their length.
-// In: Bézier pieces. Out: points and parts by share of the length, and points close enough together to replace the curve.
+// Curves of one or several Bézier pieces, parametrised by the share of the length.
+// In: Bézier pieces. Out: points and parts of the curve by share, and polylines that approximate the curve.
 #pragma once
 
 #include <array>
@@ -14,17 +14,17 @@ namespace riis {
 // A share of a curve's length that is negligible.
 inline constexpr double negligible_share = 1e-14;
 
-// A point of a curve: the position of its piece, and the parameter there.
+// A point of a curve: the index of its piece, and the parameter on that piece.
 struct PointOnPiece {
   std::size_t piece;
   double t;
 };
 
-// Every piece but the first begins at the end of the piece before, in the direction of that end. So the curve may change its
-// curvature there, but not its course. (A curve with corners is several curves, and its patch several patches.)
+// Every piece but the first begins where the piece before ends, and in the same direction. So the curve's curvature may jump
+// there, but its direction does not. (A curve with corners is several curves, and its patch is several patches.)
 class Curve {
  public:
-  Curve(const Bezier &piece);  // NOLINT(google-explicit-constructor): a piece is a curve
+  Curve(const Bezier &piece);  // NOLINT(google-explicit-constructor): a single piece is a curve
   explicit Curve(Vector<Bezier> pieces);
 
   const Vector<Bezier> &pieces() const { return pieces_; }
@@ -33,50 +33,50 @@ class Curve {
   Vec3 first() const { return pieces_.front().first(); }
   Vec3 last() const { return pieces_.back().last(); }
 
-  // Returns the shares of the length at which one piece ends and the next begins, ascending.
+  // Returns the shares of the length at which one piece ends and the next begins, in ascending order.
   Vector<double> joints() const;
 
-  // The point at a share of the length, and the unit vector along the curve there. The vector is 0 if the curve has no
-  // direction.
+  // The point at a share of the length, and the unit tangent there. The tangent is 0 if the curve has no direction.
   struct Frame {
     Vec3 point, tangent;
   };
   Frame frame(double share) const;
   Vec3 at(double share) const;
 
-  // Returns the part of one piece that begins at this share of the length (after), or ends there. Its other end is that of the
-  // piece.
+  // Returns a part of one piece. If `after` is true, the part begins at this share of the length and ends with the piece.
+  // Otherwise it begins with the piece and ends at this share.
   Bezier piece_beside(double share, bool after) const;
 
-  // Returns the part from one share to another, share0 < share1.
+  // Returns the part from share0 to share1, share0 < share1.
   Curve between(double share0, double share1) const;
 
   Curve reversed() const;
 
-  // Returns the same curve with its ends moved, by no more than rounding, to the ends of other curves.
+  // Returns the same curve with its ends moved onto the ends of neighbouring curves. The ends must differ by rounding only.
   Curve through(Vec3 first, Vec3 last) const;
 
  private:
   PointOnPiece on_piece(double share) const;
 
   Vector<Bezier> pieces_;
-  Vector<double> ends_;  // length from the start of the curve to the end of each piece
+  Vector<double> ends_;  // the length from the start of the curve to the end of each piece
 };
 
-// Returns whether both have the same control points, to the last bit.
+// Returns whether both curves have exactly the same control points.
 bool are_equal(const Curve &a, const Curve &b);
 
-// Estimates how far the velocity of a curve's points is from linear along it. A point keeps its share of the length.
+// Estimates the distance between the velocity of a curve's points and its linear interpolation along the curve. Each point keeps
+// its share of the length while the curve moves.
 class VelocityBend {
  public:
-  // The control points of `velocity` are the velocities of the curve's control points.
+  // The control points of `velocity` are the velocities of the control points of `curve`.
   VelocityBend(const Bezier &curve, double curve_length, const Bezier &velocity);
 
   // Estimates the largest distance of the velocity from its linear interpolation between shares u0 and u1.
   double off_linear(double u0, double u1) const;
 
  private:
-  // The bend at a share in a cell.
+  // Returns the bend at share u, which lies in the cell.
   double at(double u, std::size_t cell) const;
 
   static constexpr std::size_t n_cells = 8;
@@ -84,20 +84,20 @@ class VelocityBend {
   std::array<double, n_cells + 1> bend_;  // the velocity's second derivative by the share
 };
 
-// A curve replaced by chords.
+// A polyline whose chords replace a curve.
 struct Flattened {
   Vector<Vec3> points;    // on the curve, from its first to its last; only the first if the length is 0
-  Vector<double> t;       // of every point: share of the curve's length, binary fractions from 0 to 1
-  Vector<double> errors;  // of every chord: how far it may be from the curve, at equal shares of their own lengths
+  Vector<double> t;       // the share of the curve's length at every point, a binary fraction from 0 to 1
+  Vector<double> errors;  // for every chord: a bound on its distance from the curve, at equal shares of their lengths
 };
 
-// Halves the curve until two conditions hold for every part. Its flatness keeps it within max_error (> 0) of its chord,
-// and it is at most max_error from the chord at equal shares of their lengths. A Bézier piece lies within 3/4 (cubic)
-// or 1/2 (quadratic) of its flatness from its chord. Parts are halved by length; the paper (algorithm "Recursive de
-// Casteljau subdivision") halves the parameter. So shares of two curves either agree to the last bit or differ by at
-// least a part, and patches have no slivers between them. A shared middle point appears once. Fails with
-// RIIS_LIMIT_EXCEEDED for more than 2^20 parts. A bend also halves parts whose velocity it estimates to be off linear by more
-// than max_bend.
+// Halves the curve until two conditions hold for every part. First, its flatness shows that it lies within max_error (> 0) of
+// its chord. A Bézier piece is at most 3/4 (cubic) or 1/2 (quadratic) of its flatness away from its chord. Second, the part and
+// its chord are at most max_error apart at equal shares of their lengths. With `bend`, a part is also halved if its velocity is
+// estimated to be more than max_bend off linear. Parts are halved by length, whereas the paper (algorithm "Recursive de
+// Casteljau subdivision") halves the parameter. So shares of two curves either agree to the last bit or differ by at least a
+// part, and no slivers arise between them. A common point of two parts appears once. Fails with RIIS_LIMIT_EXCEEDED for more
+// than 2^20 parts.
 Flattened flatten(const Curve &curve, double max_error, const VelocityBend *bend = nullptr, double max_bend = 0);
 
 }  // namespace riis

@@ -27,7 +27,7 @@ CurvePoints::CurvePoints(const Curve &curve, bool is_reversed, const Vector<doub
   for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
     const double length = curve.length(piece);
     const bool is_last = piece + 1 == pieces.size();
-    // A share at a joint, or off it by rounding, is the start of the later piece.
+    // A share at a joint belongs to the later piece, also if rounding puts it slightly before the joint.
     const double end = is_last ? curve.length() : start + length - negligible_share * curve.length();
     in_piece.clear();
     for (std::size_t i = points_.size(); i < n && (is_last || behind(i) < end); ++i) {
@@ -41,7 +41,7 @@ CurvePoints::CurvePoints(const Curve &curve, bool is_reversed, const Vector<doub
     for (std::size_t k = 0; k < t.size(); ++k) points_[first + k].t = in_piece[k] == 0 ? 0 : t[k];
     start += length;
   }
-  // The ends are the curve's own points, to the last bit.
+  // The first and the last point are exactly the curve's end points.
   points_.front() = {0, 0};
   points_.back() = {pieces.size() - 1, 1};
 }
@@ -65,7 +65,7 @@ const Vector<Bezier> &CurvePoints::between(std::size_t i, std::size_t j) {
   parts_.reserve(to.piece - from.piece + 1);
   for (std::size_t piece = from.piece; piece <= to.piece; ++piece) {
     const double t0 = piece == from.piece ? from.t : 0, t1 = piece == to.piece ? to.t : 1;
-    // A part that ends where the later piece starts has nothing of that piece.
+    // If the last point lies at the start of its piece, the part contains nothing of that piece.
     if (t1 > t0) parts_.push_back(part_of(curve_.pieces()[piece], t0, t1));
   }
   if (parts_.empty()) parts_.push_back(Bezier::point(point(i)));

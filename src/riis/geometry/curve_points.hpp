@@ -12,24 +12,24 @@ namespace riis {
 
 class CurvePoints {
  public:
-  // Finds the points at these shares, which ascend from 0 to 1. The shares of a reversed curve count from its last point. The
-  // curve and the shares must outlive this object. A curve without length has all its points in one place.
+  // Finds the points at these shares, which ascend from 0 to 1. If is_reversed, the shares count from the curve's last point.
+  // The curve and the shares must outlive this object. On a curve without length, all points coincide.
   CurvePoints(const Curve &curve, bool is_reversed, const Vector<double> &shares);
 
   std::size_t size() const { return points_.size(); }
   Vec3 point(std::size_t i) const;
-  // Return the piece that point i is on, and its parameter there.
+  // These two return the piece that point i lies on, and the parameter on that piece.
   std::size_t piece(std::size_t i) const { return on_piece(i).piece; }
   double parameter(std::size_t i) const { return on_piece(i).t; }
-  // Returns the unit vector along the curve, or 0 if the curve has no direction there.
+  // Returns the unit tangent, or 0 if the curve has no direction there.
   Vec3 tangent(std::size_t i) const;
 
-  // Returns the pieces of the curve from share i to share j, i < j, in the order of the shares. The reference is good until the
+  // Returns the pieces of the curve from share i to share j, i < j, in the order of the shares. The reference is valid until the
   // next call.
   const Vector<Bezier> &between(std::size_t i, std::size_t j);
 
-  // Bounds how far the chord from share i to share j is from the curve, at equal shares of their lengths (docs/theory.md,
-  // "Chord error"). Refines the bound no further once it is at most `enough`.
+  // Bounds the distance between the chord from share i to share j and the curve, at equal shares of their lengths
+  // (docs/theory.md, "Chord error"). The bound is not refined further once it is at most `enough`.
   double chord_error(std::size_t i, std::size_t j, double enough);
 
  private:
@@ -38,7 +38,7 @@ class CurvePoints {
   const Curve &curve_;
   bool is_reversed_;
   const Vector<double> &shares_;
-  Vector<PointOnPiece> points_;  // along the curve
+  Vector<PointOnPiece> points_;  // in the order along the curve
   Vector<Bezier> parts_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interval arithmetic with first and second derivatives bounds a function and its derivatives on a range.
-// In: ranges. Out: ranges that hold every value, to rounding. Rounding is not counted: it is far below these bounds.
+// Interval arithmetic with first and second derivatives. It bounds a function and its derivatives on a range.
+// In: ranges. Out: ranges that hold every value. Rounding of the bounds is ignored, because it is far smaller than they are.
 #pragma once
 
 #include <algorithm>
@@ -23,11 +23,11 @@ struct Interval {
 
 inline Interval operator+(Interval a, Interval b) { return {a.low + b.low, a.high + b.high}; }
 inline Interval operator-(Interval a, Interval b) { return {a.low - b.high, a.high - b.low}; }
-// A bound of 0 times any number is 0. Infinity only stands for a number that may be arbitrarily large.
+// A bound of 0 times any bound is 0. Infinity only stands for a number that may be arbitrarily large.
 inline double bound_product(double x, double y) { return x == 0 || y == 0 ? 0.0 : x * y; }
 inline Interval operator*(Interval a, Interval b) {
   double p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, s = a.high * b.high;
-  // 0 times infinity is not a number here, and neither is a sum with it.
+  // Finds out whether a product is infinite, or NaN from 0 times infinity. Only then is the sum not finite.
   const double sum = (p + q) + (r + s);
   if (!(sum - sum == 0))
     p = bound_product(a.low, b.low), q = bound_product(a.low, b.high), r = bound_product(a.high, b.low),
@@ -42,9 +42,9 @@ inline Interval square(Interval a) {
   const double p = a.low * a.low, q = a.high * a.high;
   return {a.low <= 0 && a.high >= 0 ? 0.0 : std::min(p, q), std::max(p, q)};
 }
-// Takes the root of values that cannot be negative: a bound below 0 means 0.
+// Takes the root of values that cannot be negative. A bound below 0 comes from overestimation and counts as 0.
 inline Interval root(Interval a) { return {std::sqrt(std::max(a.low, 0.0)), std::sqrt(std::max(a.high, 0.0))}; }
-// Inverts values that are above 0. The upper bound is infinite if the lower bound of the values is not above 0.
+// Inverts positive values. If their lower bound is not above 0, the upper bound of the result is infinite.
 inline Interval inverse(Interval a) {
   return {1 / a.high, a.low > 0 ? 1 / a.low : std::numeric_limits<double>::infinity()};
 }
@@ -67,7 +67,7 @@ inline Jet operator*(double a, const Jet &b) { return {a * b.value, a * b.first,
 inline Jet square(const Jet &a) {
   return {square(a.value), 2 * (a.value * a.first), 2 * (square(a.first) + a.value * a.second)};
 }
-// Takes the root of values above 0.
+// Takes the root of positive values.
 inline Jet root(const Jet &a) {
   const Interval value = root(a.value), half_inverse = 0.5 * inverse(value), first = half_inverse * a.first;
   return {value, first, half_inverse * a.second - inverse(value) * square(first)};

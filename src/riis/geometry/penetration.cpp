@@ -8,16 +8,16 @@
 namespace riis {
 namespace {
 
-// The faces of the Minkowski difference of two triangles have the normals of the triangles, or are spanned by an edge of each. So
-// the least overlap over these directions is the distance from the origin to the boundary of the difference: the penetration
-// depth.
+// Finds the least overlap of two triangles over the directions that are passed to along(). Each face of the Minkowski difference
+// of two triangles has the normal of one triangle, or it is spanned by an edge of each. So the least overlap over these normals
+// is the distance from the origin to the boundary of the difference. This distance is the penetration depth.
 class Overlap {
  public:
   Overlap(const Triangle &a, const Triangle &b, double limit) : a_(a), b_(b), limit_(limit) {}
 
   double least() const { return least_; }
 
-  // Compares one direction. Returns whether the least overlap is still above the limit.
+  // Takes one more direction into account. Returns whether the least overlap is still above the limit.
   bool along(Vec3 w) {
     const auto [a_low, a_high] = extent(w, a_);
     const auto [b_low, b_high] = extent(w, b_);
@@ -39,20 +39,20 @@ Triangle moved(const Triangle &t, Vec3 origin) { return {t[0] - origin, t[1] - o
 
 std::array<Vec3, 3> edges_of(const Triangle &t) { return {t[1] - t[0], t[2] - t[1], t[0] - t[2]}; }
 
-// Returns whether the corners of t, relative to a point of a plane, are higher and lower than the limit. w is the plane's normal.
+// Returns whether t reaches beyond the limit on both sides of a plane. Its corners are relative to a point of the plane, and w
+// is the plane's normal.
 bool cuts_plane(const Triangle &t, Vec3 w, double limit) {
   const double x = dot(w, t[0]), y = dot(w, t[1]), z = dot(w, t[2]), least = limit * length(w);
   return std::max({x, y, z}) > least && -std::min({x, y, z}) > least;
 }
 
-// Returns whether e and f, with the cross product w, span a face narrower than 1e-8 of an edge.
+// Returns whether e and f, whose cross product is w, are so parallel that their parallelogram is narrower than 1e-8 of an edge.
 bool are_parallel(Vec3 w, Vec3 e, Vec3 f) { return dot(w, w) <= 1e-16 * dot(e, e) * dot(f, f); }
 
 }  // namespace
 
 double penetration_depth(const Triangle &a, const Triangle &b, double limit) {
-  // Most pairs end here. Points are taken relative to a corner of the plane's triangle, so the plane is at the height 0 without
-  // rounding.
+  // Most pairs end here. Points are taken relative to a corner of the plane's triangle. So the plane's height is exactly 0.
   const Vec3 normal_a = cross(a[1] - a[0], a[2] - a[0]), normal_b = cross(b[1] - b[0], b[2] - b[0]);
   const Triangle b_from_a = moved(b, a[0]);
   if (!cuts_plane(b_from_a, normal_a, limit) || !cuts_plane(moved(a, b[0]), normal_b, limit)) return 0;

@@ -16,8 +16,8 @@ inline Vec3 operator*(const Rotation &rotation, Vec3 a) {
   return {dot(rotation.row_x, a), dot(rotation.row_y, a), dot(rotation.row_z, a)};
 }
 
-// Rotates by an angle in degrees about an axis of any length > 0, counter-clockwise seen against the axis. Exact for
-// multiples of 90 degrees about a coordinate axis.
+// Rotates by an angle in degrees about an axis of any length > 0, counter-clockwise for a viewer towards whom the axis points.
+// The result is exact for multiples of 90 degrees about a coordinate axis.
 Rotation rotation_about(Vec3 axis, double degrees);
 
 // Rotates by degrees about x, then about y, then about z. The paper's rotation [x, y, z] of a cusp has this meaning.

@@ -8,17 +8,17 @@ namespace riis {
 namespace {
 
 struct Weights {
-  double b, c;  // of the second and third corner; the first has the rest
+  double b, c;  // of the second and the third corner; the first corner has the weight 1 - b - c
 };
 
-// Returns the weights of the point of the triangle's plane closest to a + r, with n = ab x ac.
+// Returns the weights of the point in the triangle's plane that is closest to a + r, with n = ab x ac.
 Weights plane_weights(Vec3 r, Vec3 ab, Vec3 ac, Vec3 n, double inverse_nn) {
   return {dot(cross(r, ac), n) * inverse_nn, dot(cross(ab, r), n) * inverse_nn};
 }
 
 bool inside(Weights w) { return w.b >= 0 && w.c >= 0 && w.b + w.c <= 1; }
 
-// For the segment from a to a + edge, returns the parameter in [0, 1] of its point closest to a + r.
+// Returns the parameter in [0, 1] of the point closest to a + r on the segment from a to a + edge.
 double segment_parameter(Vec3 r, Vec3 edge) {
   const double t = dot(r, edge) / dot(edge, edge);
   return t > 0 ? (t < 1 ? t : 1.0) : 0.0;
@@ -37,7 +37,8 @@ PointOnTriangle closest_point_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
     const double distance_sq = dot(difference, difference);
     if (distance_sq < best.distance_sq) best = {distance_sq, point, {weight_a, weight_b, weight_c}};
   };
-  // A clamped end is the corner itself, so that triangles that share it agree on the distance to the last bit.
+  // At a clamped end the result is the corner itself. So all triangles that share the corner agree on the distance to the last
+  // bit.
   const auto on_edge = [](Vec3 first, Vec3 edge, Vec3 last, double t) { return t == 1.0 ? last : first + t * edge; };
   offer(on_edge(a, ab, b, t_ab), 1 - t_ab, t_ab, 0);
   offer(on_edge(b, bc, c, t_bc), 0, 1 - t_bc, t_bc);
@@ -47,8 +48,8 @@ PointOnTriangle closest_point_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
   const double inverse_nn = 1.0 / dot(n, n);
   Weights w = plane_weights(ap, ab, ac, n, inverse_nn);
   if (inside(w)) {
-    // The weights of a needle carry an error of rounding divided by its sine. Each projection of the rest reduces the
-    // error by that factor. Other triangles are done after the first projection.
+    // In a needle, the error of the weights is rounding divided by the sine of its smallest angle. Each projection of the
+    // remaining vector multiplies the error by about that ratio. Other triangles are done after the first projection.
     for (int repeat = 0; repeat < 6; ++repeat) {
       const Weights rest = plane_weights(ap - (w.b * ab + w.c * ac), ab, ac, n, inverse_nn);
       const Weights refined{w.b + rest.b, w.c + rest.c};

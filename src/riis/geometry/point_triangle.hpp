@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The decision kernel finds the closest point of one triangle to one point, in double precision. Every mark and every
-// reported distance comes from it. So it is compiled once, for the baseline instruction set and without contraction,
-// and every caller gets the same bits.
+// The decision kernel finds the point of one triangle closest to a given point, in double precision. Every mark and every
+// reported distance comes from it. It is compiled once, for the baseline instruction set and without contraction. So every
+// caller gets the same bits.
 #pragma once
 
 #include <array>
@@ -14,12 +14,12 @@ namespace riis {
 struct PointOnTriangle {
   double distance_sq;
   Vec3 point;
-  std::array<double, 3> barycentric;  // >= 0; exactly 0 for a corner that the point's edge or vertex does not touch
+  std::array<double, 3> barycentric;  // >= 0; exactly 0 for a corner that is not on the point's edge or vertex
 };
 
-// The triangle must have an area (has_zero_area in surface/triangle_set.hpp). The point is the best of four candidates,
-// each on the triangle to rounding: the clamped points of the three edges, and the foot of the perpendicular if it is
-// inside. So a misjudged "inside" costs rounding only, never a distance that is too small.
+// The triangle must have an area (has_zero_area in surface/triangle_set.hpp). The result is the best of four candidates: the
+// clamped points of the three edges, and the foot of the perpendicular if it is inside. Each candidate lies on the triangle to
+// rounding. So a wrong answer to "inside" costs only rounding and never gives a distance that is too small.
 PointOnTriangle closest_point_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c);
 
 // The closest of several triangles has the smallest square and, among equals, the lowest position.

@@ -13,7 +13,7 @@ Polyline make_polyline(const Vector<Vec3> &points) {
   Polyline polyline{{points.front()}, {0.0}, {}, 0.0};
   for (const Vec3 &point : points) {
     const double step = distance(polyline.points.back(), point);
-    // A step too short to change the sum would repeat a t.
+    // A step that is too short to change the sum would repeat a t.
     if (!(polyline.length + step > polyline.length)) continue;
     polyline.length += step;
     polyline.points.push_back(point);
@@ -21,7 +21,7 @@ Polyline make_polyline(const Vector<Vec3> &points) {
     polyline.errors.push_back(0.0);
   }
   if (polyline.length > 0) {
-    // The end point is the given one even if a step before it was dropped, because neighbours share it.
+    // The last point is always the given one, even if the step to it was dropped, because neighbours share it.
     polyline.points.back() = points.back();
     for (double &t : polyline.t) t /= polyline.length;
   }

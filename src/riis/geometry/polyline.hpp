@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Polylines parametrised by length (paper, 3.2.2 "Polyline").
-// In: points or a curve. Out: C(t) for t in [0,1], the share of the length.
+// In: points or a curve. Out: C(t) for t in [0,1], where t is the share of the length.
 #pragma once
 
 #include "base/recycled.hpp"
@@ -12,25 +12,25 @@ namespace riis {
 struct Polyline {
   Vector<Vec3> points;    // at least 1
   Vector<double> t;       // of every point, ascending from 0 to 1; a single 0 if the length is 0
-  Vector<double> errors;  // of every segment: how far it may be, at equal t, from the curve that it stands for
-  double length;          // length of that curve
+  Vector<double> errors;  // for every segment, a bound on its distance at equal t from the curve that it replaces
+  double length;          // the length of that curve
 };
 
-// Returns the polyline through the points, parametrised by its own length and standing for itself. Drops repeated
-// points, so that t ascends strictly. Needs at least one point.
+// Returns the polyline through the points, parametrised by its own length. It replaces no curve, so its errors are 0. Drops
+// repeated points, so that t ascends strictly. Needs at least one point.
 Polyline make_polyline(const Vector<Vec3> &points);
 
-// Returns the polyline that stands for a curve, with every segment within max_error (> 0) of it. Its t is the share of the
-// curve's length, not of its own length as in the paper. So a vertex is where the curve is at that t, whatever the tolerance.
+// Returns a polyline that replaces a curve. Every segment is within max_error (> 0) of it. A vertex's t is its share of the
+// curve's length, not of the polyline's length as in the paper. So the vertex is the curve's point at that t for any tolerance.
 Polyline make_polyline(const Curve &curve, double max_error);
-// Also keeps the velocity within max_bend of linear on each segment, as far as it is estimated.
+// Also keeps the estimated distance of the velocity from linear within max_bend on each segment.
 Polyline make_polyline(const Curve &curve, double max_error, const Bezier &velocity, double max_bend);
 
-// Returns the same polyline from its last point to its first.
+// Returns the same polyline in the opposite direction.
 Polyline reversed(const Polyline &polyline);
 
-// Returns C(t) by linear interpolation, t in [0,1]. A vertex is exact at its own t, and C(1) is the last point. (The
-// paper's smallest t_i > t does not exist at t = 1.)
+// Returns C(t) by linear interpolation, t in [0,1]. At the t of a vertex the result is exactly the vertex, and C(1) is the last
+// point. (The paper uses the smallest t_i > t, which does not exist at t = 1.)
 Vec3 evaluate(const Polyline &polyline, double t);
 
 }  // namespace riis

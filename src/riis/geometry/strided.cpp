@@ -9,7 +9,7 @@
 namespace riis {
 namespace {
 
-// Two doubles in one register. Comparing them one at a time would take longer than reading the memory.
+// Two doubles in one register. Comparing one double at a time would take longer than reading the memory.
 typedef double Two __attribute__((vector_size(16)));
 
 struct Spread {
@@ -20,7 +20,7 @@ struct Spread {
   }
 };
 
-// Takes x and y of one point in a register, and z of two points in another.
+// Takes two points. x and y of each point are in one register, and z of both points is in a third.
 struct PairSpread {
   Spread xy[2], z;
   Two sum{};
@@ -41,11 +41,11 @@ struct PairSpread {
   }
 };
 
-// If a coordinate is NaN, `sum` becomes and stays NaN. The comparisons for the bounds ignore a NaN.
+// If a coordinate is NaN, `sum` becomes NaN and stays so. The comparisons for the bounds ignore NaN.
 Bounds bounds_of(const StridedPoints &points, double &sum) {
   const double *const x = points.x, *const y = points.y, *const z = points.z;
   const std::int64_t stride = points.stride;
-  // There are two, because a comparison waits for the last comparison of the same bounds.
+  // Two separate spreads are faster, because each comparison has to wait for the last comparison of the same bounds.
   PairSpread pairs[2];
   std::int64_t i = 0;
   for (; i + 4 <= points.n; i += 4)
@@ -64,7 +64,7 @@ Bounds bounds_of(const StridedPoints &points, double &sum) {
   return bounds;
 }
 
-// Single precision is rare, so one point at a time is fast enough.
+// Single precision is rare, so reading one point at a time is fast enough.
 Bounds bounds_of(const StridedReals<float> &points, double &sum) {
   Bounds bounds;
   for (std::int64_t i = 0; i < points.n; ++i) {
@@ -115,7 +115,7 @@ Bounds check_points(const StridedReals<Real> &points, const char *what, riis_sta
   check_pointers(points, what, prefix);
   double sum = 0;
   const Bounds bounds = bounds_of(points, sum);
-  // Usable coordinates are too small for their sum to be infinite.
+  // Usable coordinates are so small that their sum is finite.
   const bool usable = points.n == 0 || (is_usable(bounds.lower) && is_usable(bounds.upper) && std::isfinite(sum));
   if (!usable) refuse_first_unusable(points, what, bad_coordinate);
   return bounds;

@@ -22,7 +22,7 @@ inline double length(Vec3 a) { return std::sqrt(dot(a, a)); }
 inline double distance(Vec3 a, Vec3 b) { return length(b - a); }
 inline Vec3 mix(Vec3 a, Vec3 b, double t) { return (1.0 - t) * a + t * b; }
 
-// Writes entry i of a list (3, n).
+// Writes entry i of an array (3, n).
 inline void put_vector(double *list, std::int64_t i, Vec3 value) {
   list[3 * i] = value.x;
   list[3 * i + 1] = value.y;

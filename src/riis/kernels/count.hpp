@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts the operations of kernels that are compiled with RIIS_COUNT_OPERATIONS. Only ./run bench roofline links such kernels. In
-// all other kernels the counts are no code.
+// Counts the operations of kernels that are compiled with RIIS_COUNT_OPERATIONS. Only ./run bench roofline links such kernels.
+// In all other kernels, counting compiles to nothing.
 #pragma once
 
 #include <stdint.h>
 
 namespace riis {
 
-// An operation is an arithmetic instruction or a comparison in one lane. A multiply-add is one. A pair is a node and a triangle
-// whose distance the filter computed.
+// `operations` counts arithmetic instructions and comparisons in one lane, with a multiply-add as one. `pairs` counts the pairs
+// of a node and a triangle whose distance the filter computed.
 struct Counts {
   int64_t operations, pairs;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Double precision, eight at a time. The decision kernel repeats geometry/point_triangle.cpp operation by operation, so
-// every lane has its bits. The file also makes the frames of triangles for the filter. It is compiled for each
-// instruction set and never contracted.
+// Computations in double precision for eight triangles at a time. The decision kernel repeats geometry/point_triangle.cpp
+// operation by operation, so every lane has the same bits. The file also makes the triangles' frames for the filter. It is
+// compiled for each instruction set and never contracted.
 #include "kernels/lanes.hpp"
 #include "kernels/table.hpp"
 
@@ -69,7 +69,7 @@ RIIS_INLINE Doubles segment_parameter(Doubles3 r, Doubles3 edge) {
   return choose(t > zero, choose(t < one, t, one), zero);
 }
 
-// The closest points on eight triangles. `distance_sq` alone is cheaper.
+// The closest points on eight triangles. If a caller needs only `distance_sq`, the rest is not computed.
 struct ClosestPoints {
   Doubles distance_sq;
   Doubles3 point, weights;
@@ -175,7 +175,7 @@ void find_sides(const PointsAndTriangles &pairs, const PointsOnTriangles &locate
     side[lane] = static_cast<int32_t>(above >> lane & 1) - static_cast<int32_t>(below >> lane & 1);
 }
 
-// One point in a register, with a lane to spare.
+// A point in one register. The fourth lane is unused.
 typedef double Point __attribute__((vector_size(32)));
 
 void take_corners(const double *vertices, const int64_t *vertex_id, int64_t n, double *corners, double *lower,
@@ -183,19 +183,20 @@ void take_corners(const double *vertices, const int64_t *vertex_id, int64_t n, d
   Point least_of = Point{} + __builtin_inf(), greatest_of = -least_of;
   const auto take = [&](int64_t i, int64_t size) RIIS_LAMBDA {
     const double *const from = vertices + 3 * vertex_id[i];
-    // The vertex may be the last one, so nothing behind it is read.
+    // Reads no fourth number, because the vertex may be the last one of the array.
     const Point p = {from[0], from[1], from[2], 0};
     __builtin_memcpy(corners + 3 * i, &p, static_cast<__SIZE_TYPE__>(size));
     least_of = p < least_of ? p : least_of;
     greatest_of = greatest_of < p ? p : greatest_of;
   };
-  // The spare lane goes where the next corner will be.
+  // Each store also writes the unused lane, and the next corner overwrites it. The last corner is stored without that lane.
   for (int64_t i = 0; i + 1 < 3 * n; ++i) take(i, sizeof(Point));
   take(3 * n - 1, 3 * sizeof *corners);
   for (int c = 0; c < 3; ++c) lower[c] = least_of[c], upper[c] = greatest_of[c];
 }
 
-// The corners of up to eight triangles, given by the ids of vertices. Lanes without a triangle repeat the first.
+// The corners of up to eight triangles, looked up by the ids of their vertices. Lanes without a triangle repeat the first
+// triangle.
 struct Corners {
   Doubles3 a, b, c;
 };
@@ -220,7 +221,7 @@ void place_points(const PlacedBy &by, const double *points, int64_t n, double *p
     const Point at = by.scale * (image[0] * columns[4] + image[1] * columns[5] + image[2] * columns[6]) + columns[7];
     __builtin_memcpy(placed + 3 * i, &at, static_cast<__SIZE_TYPE__>(size));
   };
-  // The spare lane goes where the next point will be.
+  // Each store also writes the unused lane, and the next point overwrites it. The last point is stored without that lane.
   for (int64_t i = 0; i + 1 < n; ++i) place(i, sizeof(Point));
   if (n > 0) place(n - 1, 3 * sizeof *placed);
 }
@@ -250,12 +251,12 @@ void measure_triangles(const double *vertices, const int64_t *vertex_id, int32_t
 
 void frame_group(const SurfaceFrame &frame, const double *corners, const int32_t *triangle, int32_t n,
                  GroupCorners &framed) {
-  // The addresses of a register's triangles stay in registers of their own.
+  // Takes only as many triangles at a time as fit in one register, so that their addresses also stay in registers.
   constexpr int at_once = Doubles::per_register;
   const DoubleRegister scale = frame.scale - DoubleRegister{};
   for (int from = 0; from < triangles_per_group; from += at_once) {
     const double *of_lane[at_once];
-    // Lanes without a triangle repeat the first.
+    // Lanes without a triangle repeat the first triangle.
     for (int lane = 0; lane < at_once; ++lane)
       of_lane[lane] = corners + int64_t{9} * triangle[from + lane < n ? from + lane : 0];
 #pragma GCC unroll 9
@@ -280,7 +281,8 @@ RIIS_INLINE void put(Doubles3 v, float (*to)[triangles_per_group], int from) {
   put(v.z, to[2] + from);
 }
 
-// A direction and its length. A vector without direction has length 0 and the direction that the caller gives.
+// The unit vector and the length of a vector. If the vector has no direction, the length is 0, and `unit` is a vector that the
+// caller passes.
 struct Direction {
   Doubles3 unit;
   Doubles length;
@@ -295,7 +297,8 @@ RIIS_INLINE Direction direction(Doubles3 v, Doubles3 otherwise) {
 
 constexpr int halves = triangles_per_group / Doubles::n;
 
-// Both round outwards by more than a number's rounding to single precision, so that bounds also hold for rounded numbers.
+// Both functions move a bound outwards by more than rounding to single precision may change a number. So the results also bound
+// numbers that were rounded to single precision.
 RIIS_INLINE float round_down(double x) {
   const double unit = (x < 0 ? -x : x) * 0x1p-22 + 0x1p-120;
   return static_cast<float>(x - unit);
@@ -318,7 +321,7 @@ RIIS_INLINE double sum_of(Doubles x) {
   return sum;
 }
 
-// Makes the length 1 where there is a length. Returns the lanes that have one.
+// Scales vectors to length 1, except those without a length. Returns the lanes that have a length.
 RIIS_INLINE Doubles::Mask normalize(Doubles3 &a) {
   const Doubles length = root(dot(a, a));
   const Doubles::Mask has_one = length > Doubles::all(1e-12);
@@ -330,11 +333,12 @@ struct Axes {
   alignas(64) double of[3][3][Doubles::n];
 };
 
-// Chooses unit vectors across the triangles of eight groups, along their first edges, and across both. Any three at right angles
-// are right; these make a small box. `across` is the sum of the triangles' normals, each as long as twice its area.
+// Chooses the axes of eight groups: across a group's triangles, along its first edge, and at right angles to both. Any three
+// axes at right angles would be correct, but these give a small box. `across` is the sum of the triangles' normals, each as long
+// as twice the triangle's area.
 RIIS_INLINE void choose_axes(Doubles3 across, Doubles3 along, Axes &axes) {
   const Doubles zero = Doubles::all(0), one = Doubles::all(1);
-  // The largest component is the unit, so that the squares for small triangles do not vanish.
+  // Divides by the largest component, so that the squares do not underflow for small triangles.
   const Doubles largest = greatest(greatest(magnitude(across.x), magnitude(across.y)), magnitude(across.z));
   const Doubles::Mask has_largest = largest > Doubles::all(1e-300);
   const Doubles inverse = one / choose(has_largest, largest, one);
@@ -345,7 +349,7 @@ RIIS_INLINE void choose_axes(Doubles3 across, Doubles3 along, Axes &axes) {
   const Doubles::Mask has_edge = normalize(along);
   const Doubles::Mask steep = magnitude(across.x) < Doubles::all(0.6);
   along = choose(has_edge, along, {choose(steep, one, zero), choose(steep, zero, one), zero});
-  // Removes the rest that rounding left, which is large for an edge nearly across the triangles.
+  // Removes the part along `across` that rounding left. It is large for an edge nearly along `across`.
   for (int i = 0; i < 2; ++i) {
     along = take_across_away(along);
     normalize(along);
@@ -358,12 +362,12 @@ RIIS_INLINE void choose_axes(Doubles3 across, Doubles3 along, Axes &axes) {
   }
 }
 
-// Bounds the corners, rounded to single precision, of a group in the surface's frame.
+// Computes the bounds of a group from its corners. The corners are in the surface's frame and rounded to single precision.
 RIIS_INLINE void bound_group(const float (*rounded)[triangles_per_group], GroupBounds &bounds) {
   const Floats3 corner[3] = {load3(rounded), load3(rounded + 3), load3(rounded + 6)};
   const Floats zero = Floats::all(0);
-  // The box along the axes has three intervals, and so has the box along the group's own axes. An interval is its lower end and
-  // its negative upper end.
+  // The box along the coordinate axes and the box along the group's own axes have three intervals each. An interval is stored as
+  // its lower end and its negated upper end.
   Floats ends[3][4];
   const auto set_ends = [&](int at, Floats a, Floats b, Floats c) RIIS_LAMBDA {
     ends[at / 2][at % 2 * 2] = least(least(a, b), c);
@@ -379,7 +383,7 @@ RIIS_INLINE void bound_group(const float (*rounded)[triangles_per_group], GroupB
   }
   float end[12];
   for (int i = 0; i < 3; ++i) least_lanes(ends[i], end + 4 * i);
-  // The products are right to 9 units, since coordinates are at most 1.
+  // The error of a product is at most 9 units of rounding, since coordinates are at most 1.
   constexpr double products = 0x1p-20;
   for (int i = 0; i < 3; ++i) {
     bounds.lower[i] = round_down(end[2 * i]);
@@ -387,7 +391,7 @@ RIIS_INLINE void bound_group(const float (*rounded)[triangles_per_group], GroupB
     bounds.from[i] = round_down(end[6 + 2 * i] - products);
     bounds.to[i] = -round_down(end[6 + 2 * i + 1] - products);
   }
-  // Finds the corner that is nearest to the middle. Lanes without a triangle have the first triangle's corners.
+  // Finds the corner nearest to the middle of the box. Lanes without a triangle repeat the first triangle.
   const auto middle = [&](int i) RIIS_LAMBDA { return Floats::all(0.5f * (end[2 * i] - end[2 * i + 1])); };
   const Floats3 to = {middle(0), middle(1), middle(2)};
   Floats distances[4];
@@ -404,8 +408,8 @@ RIIS_INLINE void bound_group(const float (*rounded)[triangles_per_group], GroupB
   for (int i = 0; i < 3; ++i) bounds.corner[i] = rounded[3 * k + i][lane];
 }
 
-// Makes the frames of a group's triangles, rounds the corners, and returns the sum of the normals, each as long as twice the
-// area.
+// Makes the frames of a group's triangles, and rounds their corners. Also sums the triangles' normals, each as long as twice the
+// triangle's area.
 RIIS_INLINE void make_frames(const GroupCorners &corners, TriangleGroup &group,
                              float (&rounded)[9][triangles_per_group], double (&normal)[3]) {
   const Doubles zero = Doubles::all(0), one = Doubles::all(1);
@@ -424,10 +428,10 @@ RIIS_INLINE void make_frames(const GroupCorners &corners, TriangleGroup &group,
     const Direction e = direction(b - a, {one, zero, zero});
     put(e.unit, group.e, from);
     put(e.length, group.ab + from);
-    // Returns the part of v across e. It is called twice: the second call removes the part along e that rounding leaves
-    // in a needle.
+    // Returns the part of v at right angles to e. It is called twice, because in a needle rounding leaves a part along e, which
+    // the second call removes.
     const auto across = [&](Doubles3 v) RIIS_LAMBDA { return v - dot(v, e.unit) * e.unit; };
-    // If rounding has left nothing of the triangle's height, the part across e is noise and may again be along e.
+    // If rounding left nothing of the triangle's height, the part at right angles to e is noise and may again run along e.
     Doubles3 over = across(ac);
     const Doubles over_sq = dot(over, over);
     const Doubles::Mask has_height = both(over_sq > Doubles::all(0x1p-88) * dot(ac, ac), over_sq > Doubles::all(1e-59));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The filter leaves out pairs of nodes and triangles that cannot matter, in single precision. It is compiled for each instruction
-// set.
+// The filter dismisses pairs of nodes and triangles that cannot matter. It computes in single precision and is compiled for each
+// instruction set.
 #include "kernels/lanes.hpp"
 #include "kernels/table.hpp"
 
@@ -18,15 +18,15 @@ RIIS_INLINE Floats3 load(const float (*from)[16]) {
   return {Floats::load(from[0]), Floats::load(from[1]), Floats::load(from[2])};
 }
 
-// Returns how far x is outside from..to.
+// Returns the distance of x from the interval from..to.
 RIIS_INLINE Floats outside(Floats x, Floats from, Floats to) {
   return greatest(greatest(from - x, x - to), Floats::all(0));
 }
 
-// Computes the squares of the distances of n points to sixteen triangles, points together, so that a triangle's numbers are
-// loaded once. Every result is the distance to a point of the triangle, to rounding. A point counts as inside only if it is
-// inside by a margin. Next to the edges, the nearest edge is as near, to that margin. The results are written directly to their
-// place: GCC would copy them in pieces, for which later loads wait.
+// Computes the squares of the distances of n points to sixteen triangles. The points are computed together, so that a triangle's
+// numbers are loaded once. Every result is the distance to some point of the triangle, to rounding. A point counts as inside
+// only if it is inside by a margin. A point inside by less gets the distance to the nearest edge, which differs by at most that
+// margin. The results are written directly to memory: GCC would copy them in pieces, and later loads would wait for these.
 template <int n>
 RIIS_INLINE void distances_to_group(const TriangleGroup &group, const Floats3 (&p)[n], Floats margin,
                                     Floats *distances) {
@@ -89,8 +89,9 @@ bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candi
 
 constexpr int halves = nodes_per_leaf / 16;
 
-// Computes squares of bounds for the nodes p of a leaf, in the surface's frame. Every group gets a lower bound of their
-// distance to it. The nearest corner of the groups is an upper bound of their distance to the surface.
+// Computes squares of bounds for the nodes p of a leaf, in the surface's frame. For every group and every node, computes a lower
+// bound on their distance. For every node, computes an upper bound on its distance to the surface: the distance to the nearest
+// of the groups' corners.
 RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, const Floats3 *p) {
   Floats best[halves];
   for (int h = 0; h < halves; ++h) best[h] = Floats::all(task.reach_sq);
@@ -111,8 +112,8 @@ RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, const Floats
   for (int h = 0; h < halves; ++h) best[h].store(leaf.best + 16 * h);
 }
 
-// Moves the group that is nearest to two of the leaf's nodes to the front. Near triangles are found early, and farther
-// groups then need no comparison.
+// Moves to the front the group that is nearest to two of the leaf's nodes. So near triangles are found early, and groups farther
+// away need no comparison.
 RIIS_INLINE void nearest_first(const LeafTask &leaf) {
   int32_t nearest = 0;
   float least_sum = __builtin_inff();
@@ -142,16 +143,16 @@ RIIS_INLINE uint32_t nodes_near(const FilterTask &task, const LeafTask &leaf, in
   return near & leaf.wanted;
 }
 
-// A node and the triangles of a group that were close to it when it was compared with them.
+// A node and a group, with the triangles of the group that were close to the node when both were compared.
 struct Close {
   float nearest_sq;
-  int32_t group;  // position in near_groups of the leaf
+  int32_t group;  // position in the leaf's near_groups
   uint32_t triangles;
   int32_t lane;
 };
 
-// Compares a group with four nodes of the rest, or with as many as there are. Adds the nodes that are close to some of
-// its triangles and returns their number.
+// Compares a group with the next four nodes of `rest`, or with fewer if fewer are left. Appends the nodes that are close to some
+// of the group's triangles, and returns the number of these nodes.
 RIIS_INLINE int32_t compare(const FilterTask &task, LeafTask &leaf, const float (*xyz)[nodes_per_leaf], int32_t k,
                             uint32_t *rest, Close *found) {
   const GroupBounds &bounds = task.bounds[leaf.near_groups[k]];
@@ -164,7 +165,7 @@ RIIS_INLINE int32_t compare(const FilterTask &task, LeafTask &leaf, const float 
 #pragma GCC unroll 2
   for (int i = 0; i < n; i += n_together) {
     if (!*rest) {
-      // The lanes that are left out here are never used. Without this loop, GCC would copy these numbers by memset and in pieces.
+      // The remaining lanes are never used. Without this loop, GCC would copy their distances by memset and in pieces.
 #pragma GCC unroll 4
       for (int j = i; j < n; ++j) {
         lanes[j] = -1;
@@ -226,7 +227,7 @@ int32_t filter_leaf(const FilterTask &task, LeafTask &leaf, const PairArrays &pa
   }
   leaf.next_group = k;
   leaf.rest = rest;
-  // Leaves out pairs that were near only until a nearer triangle was found.
+  // Drops pairs that counted as near only because a nearer triangle had not been found yet.
   int32_t n = 0;
   uint32_t nodes = 0;
   for (int32_t i = 0; i < n_found; ++i) {
@@ -255,7 +256,7 @@ void rank(const int32_t *key, int32_t n, int32_t *n_less) {
   const auto *const keys = reinterpret_cast<const InMemory *>(key);
   auto *const to = reinterpret_cast<InMemory *>(n_less);
   constexpr int n_registers = keys_at_once * static_cast<int>(sizeof *key) / register_bytes;
-  constexpr int together = 4;  // registers that a key is compared with, once it is loaded
+  constexpr int together = 4;  // registers that each loaded key is compared with at once
   for (int first = 0; first < n_registers; first += together) {
     IntRegister of[together], less[together] = {};
     for (int k = 0; k < together; ++k) of[k] = keys[first + k];

@@ -9,7 +9,7 @@ bool has(InstructionSet set) {
     case InstructionSet::baseline:
       return true;
 #if defined(RIIS_X86_KERNELS)
-    // These functions also check whether the operating system keeps the wider registers.
+    // __builtin_cpu_supports also checks that the operating system saves the wider registers.
     case InstructionSet::avx2:
       return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     case InstructionSet::avx512:

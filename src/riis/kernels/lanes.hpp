@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sixteen floats or eight doubles are computed together, in registers of the instruction set that the including file is
-// compiled for. Everything has internal linkage: files compiled for different instruction sets must not share a
-// function that the linker could take from the wrong one. For the same reason, no header is included that has inline
-// functions with code of their own.
+// Computes with sixteen floats or eight doubles at once, in the registers of the instruction set that the including file is
+// compiled for. Everything has internal linkage: files compiled for different instruction sets must not share a function,
+// because the linker could take it from the wrong file. For the same reason, this file includes no header with inline functions
+// that leave code.
 #pragma once
 
-// RIIS_PORTABLE_LANES requests the code of processors without any of these instruction sets. Tests run it on processors with one.
+// RIIS_PORTABLE_LANES selects the code for processors without any of these instruction sets. Tests run that code on other
+// processors.
 #if defined(__SSE2__) && !defined(RIIS_PORTABLE_LANES)
 #define RIIS_SSE2
 #include <immintrin.h>
@@ -67,7 +68,7 @@ RIIS_INLINE FloatRegister greatest(FloatRegister a, FloatRegister b) {
 #endif
 }
 
-// Returns a * b + c, in one rounding if there is an instruction for that.
+// Returns a * b + c, rounded only once if the instruction set can do that.
 RIIS_INLINE FloatRegister multiply_add(FloatRegister a, FloatRegister b, FloatRegister c) {
 #if defined(__AVX512F__)
   return (FloatRegister)_mm512_fmadd_ps((__m512)a, (__m512)b, (__m512)c);
@@ -78,7 +79,7 @@ RIIS_INLINE FloatRegister multiply_add(FloatRegister a, FloatRegister b, FloatRe
 #endif
 }
 
-// Lanes of a register type. All lanes of a comparison are 0 or -1.
+// The lanes of several registers. A comparison gives 0 or -1 in each lane.
 template <class Scalar, class Register, int n_lanes>
 struct Lanes {
   static constexpr int n = n_lanes;
@@ -99,8 +100,8 @@ struct Lanes {
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = x - Register{};
     return lanes;
   }
-  // load and store need memory aligned to 64 bytes. Each register is moved as a whole: GCC copies longer memory in other pieces,
-  // and a register that is read from two pieces has to wait until both are written.
+  // load and store need memory aligned to 64 bytes. Each register is moved as a whole. GCC copies longer memory in pieces of
+  // another size, and a register that is read from two pieces has to wait until both are written.
   static RIIS_INLINE Lanes load(const Scalar *from) {
     Lanes lanes;
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = reinterpret_cast<const InMemory *>(from)[i];
@@ -111,7 +112,7 @@ struct Lanes {
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = reinterpret_cast<const Unaligned *>(from)[i];
     return lanes;
   }
-  // Gathers one number from each of the places of a register.
+  // Fills a register with one number from each of as many addresses.
   static RIIS_INLINE Register gather_register(const Scalar *const *f, int64_t offset) {
     if constexpr (per_register == 8)
       return Register{f[0][offset], f[1][offset], f[2][offset], f[3][offset],
@@ -124,7 +125,7 @@ struct Lanes {
       return r;
     }
   }
-  // Gathers one number from each of n places.
+  // Gathers one number from each of n addresses.
   static RIIS_INLINE Lanes gather(const Scalar *const *from, int64_t offset) {
     Lanes lanes;
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = gather_register(from + i * per_register, offset);
@@ -213,7 +214,7 @@ RIIS_LANES Lanes<S, R, n> choose(typename Lanes<S, R, n>::Mask where, Lanes<S, R
   RIIS_LANEWISE(L, where.part[i] ? yes.part[i] : no.part[i]);
 }
 
-// Returns a bit for each lane. The first lane has the lowest bit.
+// Returns one bit for each lane. The lowest bit is that of the first lane.
 RIIS_INLINE uint32_t bits(Floats::Mask mask) {
 #if defined(__AVX512DQ__)
   return _mm512_movepi32_mask((__m512i)mask.part[0]);
@@ -269,7 +270,7 @@ RIIS_INLINE Floats zero_where_at_least(Floats a, Floats b, Floats x) {
 #endif
 }
 
-// Copies the integers whose bits are set, out of 16, one after the other. It may write to all 16 places, however few these are.
+// Copies those of 16 integers whose bits are set, without gaps. It may write to all 16 places, even if it copies fewer.
 RIIS_INLINE void compress(uint32_t lanes, const int32_t *from, int32_t *to) {
 #if defined(__AVX512F__)
   _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(lanes), _mm512_loadu_si512(from)));
@@ -288,7 +289,7 @@ RIIS_INLINE bool any(Doubles::Mask mask) {
   return r != 0;
 }
 
-// Writes the least of the lanes of each of four Floats.
+// For each of four Floats, writes the least of its lanes.
 RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
   count(&Counts::operations, 4 * (Floats::n - 1));
 #if defined(RIIS_SSE2)
@@ -305,7 +306,7 @@ RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
     m[i] = (__m128)least(least(of[i].part[0], of[i].part[1]), least(of[i].part[2], of[i].part[3]));
 #endif
   }
-  // Takes the least of neighbouring halves, twice.
+  // Twice combines neighbouring halves, and keeps the lesser of each two lanes.
   const __m128 first = _mm_min_ps(_mm_unpacklo_ps(m[0], m[1]), _mm_unpackhi_ps(m[0], m[1]));
   const __m128 last = _mm_min_ps(_mm_unpacklo_ps(m[2], m[3]), _mm_unpackhi_ps(m[2], m[3]));
   _mm_storeu_ps(least_lane, _mm_min_ps(_mm_movelh_ps(first, last), _mm_movehl_ps(last, first)));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each file of kernels gives one table, under a name with its instruction set.
+// Each file with kernels defines one table. The table's name ends with the instruction set.
 #pragma once
 
 #include "kernels/kernels.hpp"
 
-// RIIS_INSTRUCTION_SET names the instruction set that this is compiled for: baseline, avx2 or avx512. There are two more names.
-// `portable` is the code for processors without any of these sets, which only tests link. `counted` is linked only by ./run bench
-// roofline.
+// RIIS_INSTRUCTION_SET names the instruction set that the file is compiled for: baseline, avx2 or avx512. Two more names exist.
+// `portable` is the code for processors without any of these sets, and only tests link it. `counted` is linked only by ./run
+// bench roofline.
 #define RIIS_JOIN(a, b) a##_##b
 #define RIIS_JOINED(a, b) RIIS_JOIN(a, b)
 #define RIIS_KERNELS(name) RIIS_JOINED(name, RIIS_INSTRUCTION_SET)

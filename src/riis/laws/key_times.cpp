@@ -11,12 +11,13 @@ namespace riis {
 namespace {
 
 constexpr double largest_time = 1e30, infinity = std::numeric_limits<double>::infinity();
-// Times such as 0.1 and 0.8 are a period of 0.7 apart, whatever the last bit says.
+// A relative tolerance: times such as 0.1 and 0.8 are a period of 0.7 apart, even if rounding changes the last bit.
 constexpr double rounding = 1e-9;
 constexpr std::int64_t max_keys = 1'000'000;
 
-// Returns the derivative of the monotone cubic at a key: the weighted harmonic mean of the slopes on either side. It is 0 where
-// they differ in sign, and at an end without a neighbour (F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5(2), 1984).
+// Returns the derivative of the monotone cubic at a key. It is the weighted harmonic mean of the slopes before and after the key
+// (F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5(2), 1984). It is 0 if the slopes differ in sign, or if the key has no
+// neighbour on one side.
 double tangent(double slope_before, double slope_behind, double width_before, double width_behind) {
   if (!(slope_before * slope_behind > 0) || width_before == infinity || width_behind == infinity) return 0;
   const double w_before = 2 * width_behind + width_before, w_behind = width_behind + 2 * width_before;
@@ -40,7 +41,7 @@ KeyTimes::KeyTimes(const char *name, std::int64_t n_keys, const double *time, do
            largest_time, " in magnitude");
     if (i > 0 && !(time[i] > time[i - 1]))
       fail(RIIS_INVALID_ARGUMENT, name, ".time of key ", i, " is ", time[i],
-           "; it must be above that of the key before, ", time[i - 1]);
+           "; it must be above the time of the key before, ", time[i - 1]);
     if (period > 0 && time[i] - time[0] > (1 + rounding) * period)
       fail(RIIS_INVALID_ARGUMENT, name, ".time of key ", i, " is ", time[i], ", beyond the period of ", period,
            " that begins with the first key, at ", time[0]);
@@ -48,12 +49,12 @@ KeyTimes::KeyTimes(const char *name, std::int64_t n_keys, const double *time, do
   is_closed_ = period > 0 && n_keys > 1 && time[n_keys - 1] - time[0] >= (1 - rounding) * period;
 }
 
-// Adding and subtracting periods rounds, here and in the caller's time. If rounding made a key's time earlier, it would have the
-// rate before the key.
+// Adding and subtracting periods rounds, both here and in the caller's time. If rounding took a key's time to just before the
+// key, the time would get the rate before the key.
 double KeyTimes::from_key(std::int64_t i, double time) const {
   const auto if_at = [&](double key) {
     const double difference = time - key, key_lost = difference - time;
-    const double rest = (time - (difference - key_lost)) - (key + key_lost);  // the rounding of the subtraction
+    const double rest = (time - (difference - key_lost)) - (key + key_lost);  // the rounding error of the subtraction
     const double distance = std::abs((period_ > 0 ? std::remainder(difference, period_) : difference) + rest);
     constexpr double unit = std::numeric_limits<double>::epsilon();
     return distance <= 8 * unit * std::max({std::abs(time), std::abs(key), period_}) ? distance : infinity;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interpolates between keys in time, once or in periods. Openings (laws/opening_laws.hpp) and the vertices of keyframes
-// (surface/keyframes.hpp) use it.
-// In: times of keys, a period. Out: the keys around a time, and the values and rates between them.
+// Interpolates between keys in time, once or periodically. It serves openings (laws/opening_laws.hpp) and the vertices of
+// keyframes (surface/keyframes.hpp).
+// In: times of keys, a period. Out: the keys around a time, and values and rates between them.
 #pragma once
 
 #include <riis/riis.h>
@@ -17,27 +17,27 @@ struct ValueAndRate {
 
 class KeyTimes {
  public:
-  // Checks the fields of the struct with this name and borrows its times. Fails with RIIS_INVALID_ARGUMENT; the message names
-  // the field or key, and its value.
+  // Borrows the keys' times and checks the fields. `name` is the name of the struct with these fields. Fails with
+  // RIIS_INVALID_ARGUMENT. The message names the field or key, and its value.
   KeyTimes(const char *name, std::int64_t n_keys, const double *time, double period, std::int32_t interpolation);
 
-  // Returns whether the last key is a period after the first. The values of both must then be equal.
+  // Returns whether the last key is one period after the first. Then the values of the two keys must be equal.
   bool is_closed() const { return is_closed_; }
 
-  // A value at a time depends on the keys around it and on the times between them. Keys are positions in the arrays, so a time
-  // in a later period has the same keys.
+  // The keys around a time and the times between these keys. They determine the value. Keys are positions in the arrays, so a
+  // time one period later has the same keys.
   struct KeysAround {
-    std::array<std::int64_t, 4> key;  // before the interval, at its two ends, behind it
-    std::array<double, 3> width;      // from each of these to the next; infinite where there is no key
+    std::array<std::int64_t, 4> key;  // before the interval, at its two ends, after it
+    std::array<double, 3> width;      // from each of these keys to the next; infinite where a key is missing
     double since;                     // time since the interval's first end
-    bool is_at_rest;                  // before the first or behind the last key: the value is that of key[1]
+    bool is_at_rest;                  // before the first or after the last key, where the value is that of key[1]
   };
-  // A time counts as a key if it is within 8 units of rounding of that key, give or take whole periods. The key is then the first
-  // end of the interval. The unit is 2^-52 of the largest of time, key and period. Fails with RIIS_INVALID_ARGUMENT for a time
-  // that is not finite; the message names it by `name`.
+  // A time counts as a key if it is within 8 units of rounding of that key, after subtracting whole periods. The key is then the
+  // first end of the interval. The unit is 2^-52 times the largest of time, key and period. Fails with RIIS_INVALID_ARGUMENT for
+  // a time that is not finite. `name` is the time's name in the message.
   KeysAround around(double time, const char *name = "time") const;
 
-  // Returns the value and the rate at the time between these keys, from the values at all four.
+  // Returns the value and the rate at the time, from the values at these four keys.
   ValueAndRate between(const KeysAround &around, const std::array<double, 4> &values) const;
 
  private:
@@ -45,7 +45,8 @@ class KeyTimes {
   double time(std::int64_t i) const {
     return i < 0 ? time_[i + n()] - period_ : i >= n() ? time_[i - n()] + period_ : time_[i];
   }
-  // Returns the distance of a time from a key, give or take whole periods. Returns infinity if the time is not that key.
+  // Returns the distance of a time from a key, after subtracting whole periods. Returns infinity if the time does not count as
+  // the key.
   double from_key(std::int64_t i, double time) const;
   std::int64_t position(std::int64_t i) const { return i < 0 ? i + n() : i >= n() ? i - n() : i; }
 

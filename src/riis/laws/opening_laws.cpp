@@ -19,8 +19,8 @@ constexpr double degree = pi / 180;
 
 void check_time(double time) { check_range("", "time", time, -largest, largest); }
 
-// Rises from 0 at x = 0 to 1 at x = 1. Its first two derivatives are 0 at both ends, so neither the velocity nor the
-// acceleration of the valve jumps. Just below x = 1 the polynomial rounds to more than 1, which no valve takes.
+// Rises from 0 at x = 0 to 1 at x = 1. Its first two derivatives are 0 at both ends, so neither the valve's velocity nor its
+// acceleration jumps. Just below x = 1 the polynomial rounds to more than 1, but no valve accepts an opening above 1.
 double ramp(double x) { return x <= 0 ? 0 : x >= 1 ? 1 : std::min(1.0, x * x * x * (10 + x * (-15 + 6 * x))); }
 double ramp_rate(double x) { return x <= 0 || x >= 1 ? 0 : 30 * x * x * (1 - x) * (1 - x); }
 
@@ -36,12 +36,12 @@ ValueAndRate opening_from_table(const riis_opening_table &table, double time) {
   const double first = table.opening[0], last = table.opening[table.n_keys - 1];
   if (keys.is_closed() && first != last)
     fail(RIIS_INVALID_ARGUMENT, "table.opening of the last key, a period after the first, is ", last,
-         "; it must be that of the first, ", first);
+         "; it must equal that of the first, ", first);
   const KeyTimes::KeysAround around = keys.around(time);
   std::array<double, 4> openings;
   for (std::size_t k = 0; k < 4; ++k) openings[k] = table.opening[around.key[k]];
   const ValueAndRate made = keys.between(around, openings);
-  // Rounding must not leave the range of openings.
+  // Rounding must not take the opening out of its range.
   return {std::clamp(made.value, 0.0, 1.0), made.rate};
 }
 
@@ -65,7 +65,7 @@ ValueAndRate opening_from_times(const riis_opening_times &times, double time) {
   const double opened = since / times.opening_duration;
   const double closed = (since - (times.closing_start - times.opening_start)) / times.closing_duration;
   const double height = times.open - times.closed;
-  // Rounding must not leave the range of openings.
+  // Rounding must not take the opening out of its range.
   return {std::clamp(times.closed + height * (ramp(opened) - ramp(closed)), std::min(times.closed, times.open),
                      std::max(times.closed, times.open)),
           height * (ramp_rate(opened) / times.opening_duration - ramp_rate(closed) / times.closing_duration)};
@@ -73,7 +73,7 @@ ValueAndRate opening_from_times(const riis_opening_times &times, double time) {
 
 namespace {
 
-// Returns the time since the state before. It also checks the values that drive the law.
+// Returns the time since the state before. Also checks the values that drive the law.
 double checked_step(double before, double time, double pressure_difference, double flow) {
   check_range("before", "time", before, -largest, largest);
   check_range("", "time", time, before, largest);
@@ -82,7 +82,7 @@ double checked_step(double before, double time, double pressure_difference, doub
   return time - before;
 }
 
-// Returns the new value of a filter of first order. The value before is NaN if there was none.
+// Returns the new value of a first-order filter. `before` is NaN if there was no value yet.
 double filtered(double before, double now, double step, double filter_time) {
   if (std::isnan(before) || filter_time == 0) return now;
   return before - std::expm1(-step / filter_time) * (now - before);
@@ -114,7 +114,8 @@ riis_opening_switch_state advance(const riis_opening_switch &law, const riis_ope
     now.pressure_difference = filtered(before.pressure_difference, pressure_difference, step, law.filter_time);
     now.flow = filtered(before.flow, flow, step, law.filter_time);
   }
-  // A valve that has just turned does not turn back for a while, so the noise of a solver does not matter.
+  // A valve that has just turned does not turn back within dwell_time. So noise in the solver's pressure and flow does not make
+  // it flutter.
   const bool may_turn = std::isnan(before.turn_time) || time - before.turn_time >= law.dwell_time;
   const bool opens = before.phase == RIIS_PHASE_CLOSING && now.pressure_difference > law.open_above;
   const bool closes = before.phase == RIIS_PHASE_OPENING && now.flow < law.close_below;
@@ -122,7 +123,8 @@ riis_opening_switch_state advance(const riis_opening_switch &law, const riis_ope
     now.phase = opens ? RIIS_PHASE_OPENING : RIIS_PHASE_CLOSING;
     now.turn_time = time;
   }
-  // The valve moves by the phase that it had during the step, because a turn is known only at the step's end.
+  // During a step, the valve moves in the phase that it had at the start. A change of phase is known only at the end of the
+  // step.
   const bool is_opening = before.phase == RIIS_PHASE_OPENING;
   const double per_second = is_opening ? 1 / law.opening_duration : -1 / law.closing_duration;
   now.progress = std::clamp(before.progress + step * per_second, 0.0, 1.0);
@@ -134,7 +136,7 @@ riis_opening_switch_state advance(const riis_opening_switch &law, const riis_ope
 
 namespace {
 
-// An angle in radians and its rate.
+// An angle in radians and its rate of change.
 struct Motion {
   double angle, rate;
 };
@@ -142,7 +144,7 @@ struct Motion {
 Motion operator+(Motion a, Motion b) { return {a.angle + b.angle, a.rate + b.rate}; }
 Motion operator*(double s, Motion a) { return {s * a.angle, s * a.rate}; }
 
-// The law of Korakianitis and Shi, driven by a pressure difference and a flow that are linear in time.
+// The law of Korakianitis and Shi. Its drive is a pressure difference and a flow, both linear in time during a step.
 class AngleLaw {
  public:
   struct Drive {
@@ -150,7 +152,7 @@ class AngleLaw {
   };
   AngleLaw(const riis_opening_angle &law, Drive from, Drive to) : law_(law), from_(from), to_(to) {}
 
-  // Returns the derivative of a motion at a share of the step.
+  // Returns the time derivative of angle and rate at a share of the step.
   Motion derivative(Motion at, double share) const {
     const double pressure = (1 - share) * from_.pressure_difference + share * to_.pressure_difference;
     const double flow = (1 - share) * from_.flow + share * to_.flow;
@@ -159,7 +161,7 @@ class AngleLaw {
                          law_.vortex_gain * std::max(flow, 0.0) * std::sin(2 * at.angle)};
   }
 
-  // Bounds how fast the motion changes. The number of steps follows from it.
+  // Bounds the rate at which the motion changes. The number of steps follows from it.
   double fastest() const {
     const double pressure = std::max(std::abs(from_.pressure_difference), std::abs(to_.pressure_difference));
     const double flow = std::max(std::abs(from_.flow), std::abs(to_.flow));
@@ -172,7 +174,7 @@ class AngleLaw {
   Drive from_, to_;
 };
 
-// Takes one step of the classical Runge-Kutta method, from one share of the caller's step to another.
+// Takes one step of the classical Runge-Kutta method. `from` and `to` are shares of the caller's step.
 Motion runge_kutta(const AngleLaw &law, Motion at, double from, double to, double seconds) {
   const double middle = 0.5 * (from + to);
   const Motion k1 = law.derivative(at, from), k2 = law.derivative(at + (0.5 * seconds) * k1, middle),
@@ -180,7 +182,7 @@ Motion runge_kutta(const AngleLaw &law, Motion at, double from, double to, doubl
   return at + (seconds / 6) * (k1 + 2 * k2 + 2 * k3 + k4);
 }
 
-// Keeps the leaflet between its stops, which take all of its speed.
+// Keeps the leaflet between its stops. A stop takes away all speed towards it.
 Motion stopped(Motion at, double least, double most) {
   if (at.angle <= least) return {least, std::max(at.rate, 0.0)};
   if (at.angle >= most) return {most, std::min(at.rate, 0.0)};
@@ -200,8 +202,8 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
   if (!(law.angle_max > law.angle_min))
     fail(RIIS_INVALID_ARGUMENT, "law.angle_max is ", law.angle_max, "; it must be above law.angle_min, ",
          law.angle_min);
-  // A first state has no drive, so the present drive stands for it. Its angle of 0 stands for angle_min,
-  // where the valve is closed.
+  // A first state has no drive, so the present drive is used for it. Its angle of 0 then means angle_min, where the valve is
+  // closed.
   const bool has_drive = !std::isnan(before.pressure_difference) && !std::isnan(before.flow);
   const double angle = has_drive || before.angle != 0 ? before.angle : law.angle_min;
   check_range("before", "angle", angle, law.angle_min, law.angle_max);
@@ -210,7 +212,8 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
 
   const AngleLaw::Drive to{pressure_difference, flow};
   const AngleLaw angle_law(law, has_drive ? AngleLaw::Drive{before.pressure_difference, before.flow} : to, to);
-  // The method's error falls with the fourth power of this length. So it is far below the error of taking the drive as linear.
+  // The method's error falls with the fourth power of the step. At this step it is far below the error of assuming a linear
+  // drive.
   constexpr double largest_step = 0.05;
   const double n_wanted = std::ceil(step * angle_law.fastest() / largest_step);
   constexpr double max_steps = 1e6;

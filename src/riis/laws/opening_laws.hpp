@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Laws of opening: pure functions from time, pressure and flow to a valve's opening. A solver keeps the state, so a restart
-// continues with the same bits.
-// In: checked laws and the state before. Out: the opening now and its rate.
+// Laws of opening: pure functions from time, pressure and flow to a valve's opening. The solver keeps the state, so a restarted
+// run continues with the same bits.
+// In: laws, and the state before. Out: the opening now and its rate.
 #pragma once
 
 #include <riis/riis.h>
@@ -10,7 +10,7 @@
 
 namespace riis {
 
-// All fail with RIIS_INVALID_ARGUMENT, naming the field and its value.
+// All of these fail with RIIS_INVALID_ARGUMENT. The message names the field and its value.
 ValueAndRate opening_from_table(const riis_opening_table &table, double time);
 ValueAndRate opening_from_times(const riis_opening_times &times, double time);
 riis_opening_switch_state advance(const riis_opening_switch &law, const riis_opening_switch_state &before, double time,

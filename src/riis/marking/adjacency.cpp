@@ -22,8 +22,8 @@ void check_count(const char *field, std::int64_t n, std::int64_t least) {
 }
 
 constexpr std::int64_t rows_per_block = 4096;
-// Makes rows from a function that appends the neighbours of a node, in any order and with repeats. The function is called twice
-// for each node: for the row's length, then for its columns. So no list of all pairs is ever held.
+// Makes rows. append(i, neighbors) appends the neighbours of node i in any order, perhaps repeatedly. It is called twice for
+// each node, first for the row's length and then for its columns. So memory never holds a list of all pairs.
 template <class Append>
 OwnAdjacency rows_of(std::int64_t n_nodes, int n_threads, const Append &append) {
   OwnAdjacency made;
@@ -64,7 +64,7 @@ OwnAdjacency rows_of(std::int64_t n_nodes, int n_threads, const Append &append) 
   return made;
 }
 
-// Lists for incidence.hpp of the faces between two cells: the cells are the nodes. An entry is a face.
+// Lists of the faces between two cells, for incidence.hpp. Its nodes are the cells, and an entry is a face.
 struct InnerFaces {
   static constexpr std::int64_t most_neighbors = 1;
 
@@ -92,7 +92,8 @@ struct InnerFaces {
 template <class Id>
 OwnAdjacency adjacency_from_cells_with(const riis_mesh_cells &given, int n_threads, const NarrowLimits &limits) {
   const Cells<Id> cells(given, n_threads);
-  // Code for one shape takes three quarters of the time. Beyond the limits, hardly any mesh would use such code.
+  // Code for cells of one shape takes three quarters of the time of general code. It is not compiled for larger meshes, because
+  // hardly any mesh would use it.
   if (given.offsets || cells.n_nodes() > limits.n_nodes || cells.n_listed() > limits.n_entries)
     return adjacency_of_lists(CellsOfAnyShape<Id>(cells), cells.n_listed(), n_threads, limits);
   const auto made_of = [&](const auto &lists) { return narrow_adjacency_of_lists(lists, n_threads); };
@@ -131,7 +132,7 @@ Adjacency checked_adjacency(const riis_csr &csr, std::int64_t n_nodes) {
     if (end < begin)
       fail(RIIS_INVALID_MESH, "row ", i, " of the adjacency ends at ", end, ", before it begins, at ", begin);
   }
-  // The offsets ascend, so no row reaches beyond the columns that the last offset promises.
+  // The offsets ascend, so no row goes beyond the columns that the last offset announces.
   for (std::int64_t i = 0; i < csr.n_rows; ++i) {
     const std::int64_t begin = made.offsets[i], end = made.offsets[i + 1];
     if (end > begin) require(csr.columns, "csr.columns");
@@ -183,7 +184,7 @@ OwnAdjacency adjacency_from_faces(const riis_mesh_faces &faces, int n_threads) {
   }
   const IntegerArray owner{faces.owner, faces.id_bits == 64}, neighbor{faces.neighbor, faces.id_bits == 64};
   const std::int64_t base = faces.index_base;
-  // Checks the numbers as they are given: subtracting unchecked numbers may overflow.
+  // Compares the numbers before subtracting the base, because subtracting from an unchecked number may overflow.
   const auto check = [&](const char *which, std::int64_t face, const IntegerArray &ends, std::int64_t least) {
     const std::int64_t given = ends[face * faces.stride];
     if (given < least || given >= faces.n_cells + base)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caller's cells, checked, and their edges by shape.
+// The caller's cells, checked, and the edges of each shape of cell.
 #pragma once
 
 #include <riis/riis.h>
@@ -15,7 +15,7 @@
 
 namespace riis {
 
-// A cell's edges, as pairs of positions in its list of nodes. The number of nodes decides the shape.
+// The edges of one shape of cell, as pairs of positions in a cell's list of nodes. The number of nodes decides the shape.
 struct CellShape {
   int n_nodes, n_edges;
   std::array<std::array<std::uint8_t, 2>, 12> edges;
@@ -26,14 +26,14 @@ inline constexpr CellShape prism{6, 9, {{{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5},
 inline constexpr CellShape hexahedron{
     8, 12, {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}}};
 
-// The positions that share an edge with each position of a cell.
+// For each position in a cell's list of nodes, the positions that are joined to it by an edge.
 struct CellNeighbors {
   struct Positions {
     std::int64_t n = 0;
     std::array<std::uint8_t, 4> at{};
   };
   std::array<Positions, 8> of{};
-  std::int64_t most = 0;  // of one position
+  std::int64_t most = 0;  // the most neighbours of one position
 
   constexpr explicit CellNeighbors(const CellShape &shape) {
     for (int e = 0; e < shape.n_edges; ++e) {
@@ -64,7 +64,7 @@ inline const CellNeighbors *neighbors_in_cell(std::int64_t n_nodes) {
   }
 }
 
-// The lists of the caller's cells, as they are given: each cell's nodes follow those of the cell before it.
+// The caller's lists of cells as given: the nodes of each cell follow those of the cell before it.
 template <class Id>
 struct CellNodes {
   const Id *ids, *offsets;  // offsets is NULL if all cells have the same number of nodes
@@ -80,7 +80,7 @@ struct CellNodes {
 template <class Id>
 class Cells {
  public:
-  // Checks the sizes of all cells before any node: only then is it known where the nodes end.
+  // Checks the sizes of all cells before any node, because the sizes tell how many nodes there are.
   Cells(const riis_mesh_cells &cells, int n_threads)
       : n_cells_(cells.n_cells),
         n_nodes_(cells.n_nodes),
@@ -105,7 +105,7 @@ class Cells {
   std::int64_t n_nodes() const { return n_nodes_; }
   std::int64_t n_cells() const { return n_cells_; }
   const CellNodes<Id> &nodes() const { return nodes_; }
-  // Returns the length of all cells' lists.
+  // Returns the total length of all cells' lists.
   std::int64_t n_listed() const { return nodes_.begin(n_cells_); }
 
  private:
@@ -115,7 +115,7 @@ class Cells {
     parallel_for_ranges(n_cells_, cells_per_block, n_threads, [&](const Range &range, int) { check(range); });
   }
 
-  // Checks the numbers as they are given: subtracting unchecked numbers may overflow.
+  // Compares the numbers before subtracting the base, because subtracting from an unchecked number may overflow.
   void check_size(std::int64_t cell) const {
     const std::int64_t from = nodes_.offsets[cell], to = nodes_.offsets[cell + 1];
     if (to < from || !neighbors_in_cell(to - from))
@@ -145,7 +145,7 @@ class Cells {
   CellNodes<Id> nodes_;
 };
 
-// Lists for incidence.hpp of cells of one shape. An entry is a position in the cells' lists.
+// Lists of cells of one shape, for incidence.hpp. An entry is a position in the cells' lists.
 template <class Id, const CellShape &shape>
 struct CellsOfOneShape {
   static constexpr std::int64_t most_neighbors = neighbors_in<shape>.most;
@@ -170,10 +170,10 @@ struct CellsOfOneShape {
   void prefetch(std::int64_t entry) const { nodes.prefetch(entry); }
 };
 
-// Lists of cells of any shapes. An entry is a cell.
+// Lists of cells of any shapes, for incidence.hpp. An entry is a cell.
 template <class Id>
 struct CellsOfAnyShape {
-  static constexpr std::int64_t most_neighbors = 7;  // a node that is in a cell twice may have all others
+  static constexpr std::int64_t most_neighbors = 7;  // a node listed twice in a cell may be joined to all other nodes
 
   explicit CellsOfAnyShape(const Cells<Id> &cells)
       : nodes(cells.nodes()), n_nodes(cells.n_nodes()), n_items(cells.n_cells()) {}

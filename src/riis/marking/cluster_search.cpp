@@ -12,7 +12,7 @@
 namespace riis {
 namespace {
 
-// The mesh's frame relative to the surface's.
+// Maps the mesh's frame to the surface's frame.
 struct Placing {
   double ratio;
   Vec3 shift;
@@ -38,7 +38,8 @@ class ClusterSearch {
     const Frame &frame = groups_.frame;
     const Placing placing(clusters_, frame);
     const double limit = request.distance_limit * frame.scale;
-    // The second term covers the rounding of the decision's distances. The third covers ties, which are that much farther.
+    // The second term covers the rounding of the distances that are decided in double precision. The third covers ties, which
+    // may be farther than the closest triangle by this amount.
     const double error = filter_error(placing.ratio, placing.largest_shift, limit, groups_.longest_edge) +
                          4 * scene_.rounding() * frame.scale + request.ties.of_leaflets * frame.scale;
     reach_ = static_cast<float>(limit + 2 * error);
@@ -55,8 +56,8 @@ class ClusterSearch {
     own_.prepare(request.n_threads);
   }
 
-  // Finds the clusters that may be near the surface. Each cluster gets the groups that may be near it. Each of these groups gets
-  // the leaves of the cluster that may be near it.
+  // Finds the clusters that may be near the surface. For each cluster it lists the groups that may be near it. For each of these
+  // groups it marks the cluster's leaves that may be near the group.
   void find_near_clusters() {
     const Bounds &bounds = scene_.bounds();
     const Vec3 lower = groups_.frame(bounds.lower), upper = groups_.frame(bounds.upper);
@@ -75,7 +76,7 @@ class ClusterSearch {
       }
       if (gap_sq <= task_.reach_sq) own_.near_regions.push_back(region);
     }
-    constexpr std::int64_t few = 64;  // they take a few tenths of a millisecond
+    constexpr std::int64_t few = 64;  // searching so few takes a few tenths of a millisecond
     const auto n_near = view(own_.near_regions).size();
     const int n_ran = parallel_for(n_near, request_.n_threads.for_part(n_near, few), [&](std::int64_t i, int thread) {
       search_region(view(own_.near_regions)[i], view(own_.threads)[thread]);
@@ -91,7 +92,7 @@ class ClusterSearch {
         item.thread = static_cast<int>(thread);
         items.push_back(item);
       }
-    constexpr std::int64_t few = 128;  // they take about half a millisecond
+    constexpr std::int64_t few = 128;  // searching so few takes about half a millisecond
     const auto n = view(items).size();
     const int n_ran = parallel_for(n, request_.n_threads.for_part(n, few), [&](std::int64_t i, int thread) {
       search_cluster(view(items)[i], view(own_.threads)[thread], thread);
@@ -106,7 +107,7 @@ class ClusterSearch {
   }
 
  private:
-  // The bounds of a box along an axis, in the surface's frame.
+  // The extent of a box along one axis, in the surface's frame.
   struct Interval {
     float from, to;
   };
@@ -134,13 +135,13 @@ class ClusterSearch {
       add_cluster(cluster, cluster - of_region.begin, own);
   }
 
-  // Appends the numbers whose bits have the given bit, and returns their count.
+  // Appends the numbers[k] for which bits[k] has the given bit, and returns how many they are.
   static std::size_t add_marked(const std::int32_t *numbers, const std::uint16_t *bits, std::size_t n, std::int64_t bit,
                                 std::vector<std::int32_t> &to) {
     const std::size_t first = to.size();
     to.resize(first + n);
     std::int32_t *next = to.data() + first;
-    // Every number is written and only kept ones advance: a branch here could not be predicted.
+    // Avoids a branch, which the processor could not predict: writes every number, but moves on only after a kept one.
     for (std::size_t k = 0; k < n; ++k) {
       *next = numbers[k];
       next += bits[k] >> bit & 1;
@@ -165,7 +166,7 @@ class ClusterSearch {
     }
   }
 
-  // The pairs of node and triangle that the filter leaves in a cluster, until they are decided.
+  // The pairs of node and triangle that the filter leaves in a cluster. They wait here to be decided.
   struct Pairs {
     std::int64_t first_leaf;
     Ties *ties;  // or null
@@ -205,7 +206,7 @@ class ClusterSearch {
     if (pairs.ties) settle_ties(own, pairs);
   }
 
-  // Turns the cluster's candidates into ties of nodes within the limit.
+  // Turns the cluster's candidates for ties into ties, for the nodes within the limit.
   __attribute__((noinline)) void settle_ties(const ClusterScratch::Thread &own, const Pairs &pairs) const {
     const auto closest_to = [&](std::int64_t node) -> auto & {
       const ClosestTriangle &closest = view(own.closest)[node];
@@ -264,7 +265,7 @@ class ClusterSearch {
     pairs.n = 0;
   }
 
-  // Not inlined, so that a search without ties keeps its registers.
+  // Not inlined, so that the search without ties can use all registers.
   __attribute__((noinline)) void take_closest_and_ties(ClusterScratch::Thread &own, const Pairs &pairs) const {
     for (std::int64_t i = 0; i < pairs.n; ++i) {
       const std::int32_t node = view(own.pair_nodes)[i];
@@ -309,7 +310,7 @@ void ClusterScratch::prepare(int n_threads) {
     thread.items.clear();
     thread.near_groups.clear();
     thread.leaf_bits.clear();
-    // The kernels write whole registers.
+    // There is room to spare, because the kernels write whole registers.
     constexpr std::int64_t room = room_for_pairs + 16;
     resize(thread.pair_nodes, room);
     resize(thread.pair_triangles, room);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The search over clusters of nodes, and the memory that it reuses from marking to marking. It filters in single precision,
-// sixteen triangles at a time, and decides in double (docs/theory.md, section 8).
+// The search over clusters of nodes, and the memory that it reuses from one marking to the next. It filters in single precision,
+// sixteen triangles at a time, and decides in double precision (docs/theory.md, section 8).
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace riis {
 struct ClusterScratch {
   static constexpr std::int32_t room_for_pairs = 4096;
 
-  // A near cluster, the thread that holds its near groups, and their places in that thread's lists.
+  // A near cluster and its near groups: the thread whose lists hold them, and their range there.
   struct Item {
     std::int64_t cluster;
     std::size_t first, n;
@@ -25,15 +25,15 @@ struct ClusterScratch {
   };
   struct alignas(64) Thread {
     std::vector<std::int32_t> candidates;  // groups near a region
-    std::vector<std::uint16_t> bits;       // for each candidate, the region's clusters that it is near
+    std::vector<std::uint16_t> bits;       // for each candidate, a bit for each cluster of the region that it is near
     std::vector<Item> items;
     std::vector<std::int32_t> near_groups;  // groups near the clusters of the items
-    std::vector<std::uint16_t> leaf_bits;   // for each near group, the leaves that it is near
+    std::vector<std::uint16_t> leaf_bits;   // for each near group, a bit for each leaf that it is near
     std::vector<std::int32_t> leaf_groups;
     struct alignas(64) NodeBounds {
       float of_node[nodes_per_leaf];
     };
-    std::vector<NodeBounds> lower_bounds;  // of a leaf's nodes, for each of its groups
+    std::vector<NodeBounds> lower_bounds;  // for each group near a leaf, bounds of the leaf's nodes
     std::vector<std::int32_t> pair_nodes, pair_triangles;
     std::vector<double> pair_decided;      // squares of distances
     std::vector<ClosestTriangle> closest;  // of a cluster's nodes
@@ -51,12 +51,12 @@ struct ClusterScratch {
   void prepare(int n_threads);
 };
 
-// Returns false if single precision does not separate near from far. Either the limit, the mesh or its distance from the surface
-// is then about a million times the surface's size, or the mesh is extremely small beside the surface.
+// Returns false if single precision cannot separate near from far. This happens if the limit, the mesh or its distance from the
+// surface is about a million times the surface's size. It also happens if the mesh is extremely small compared with the surface.
 bool separates_in_single_precision(const SearchRequest &request, const Clusters &clusters);
 
-// The clusters must belong to the request's mesh, and separates_in_single_precision must be true of them. The kernels are those
-// of the request's instructions. ./run bench roofline passes kernels of its own, which measure.
+// The clusters must belong to the request's mesh, and separates_in_single_precision must hold. `kernels` must be those of the
+// request's instructions, except that ./run bench roofline passes kernels that count operations.
 SearchReport search_clusters(const SearchRequest &request, const Clusters &clusters, const Kernels &kernels,
                              ClusterScratch &scratch, FoundNodes &found);
 

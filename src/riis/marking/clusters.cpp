@@ -30,7 +30,8 @@ NodeBox box_of(const Boxes &boxes) {
   return box;
 }
 
-// Unused lanes have empty boxes: the lower bounds are +infinity and the upper ones -infinity, so nothing is near them.
+// Returns boxes that are all empty: lower bounds are +infinity and upper bounds are -infinity, so nothing is near them. Unused
+// lanes keep such boxes.
 Boxes no_boxes() {
   Boxes boxes;
   for (int i = 0; i < 3; ++i)
@@ -40,8 +41,8 @@ Boxes no_boxes() {
 
 std::int64_t n_of(std::int64_t n, std::int64_t size) { return (n + size - 1) / size; }
 
-// Fills leaves with the nodes node_of(position), then makes the boxes. If memory runs out, clusters that were not made yet still
-// count as not made.
+// Fills leaves with the nodes node_of(position), and then makes the boxes. If memory runs out, clusters that were never made
+// still count as not made.
 template <class NodeOf>
 void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const NodeOf &node_of) {
   const std::int64_t n_nodes = nodes.n;
@@ -49,7 +50,7 @@ void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const N
   const std::int64_t n_clusters = n_of(n_nodes, nodes_per_cluster);
   if (n_leaves != clusters.n_leaves) {
     clusters.n_leaves = 0;
-    // The memory is not filled with zeros: the thread that uses a page should be the first to write it.
+    // The memory is not filled with zeros, so that the thread that uses a page is also the first to write it.
     const auto n = static_cast<std::size_t>(n_leaves);
     clusters.leaves.reset(new Leaf[n]);
     clusters.points.reset(new LeafPoints[n]);
@@ -72,7 +73,8 @@ void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const N
         Leaf &leaf = clusters.leaves.get()[l];
         double *xyz = clusters.points.get()[l].xyz;
         const std::int64_t first = l * nodes_per_leaf, last = clusters.n_nodes - 1;
-        // The next leaf's nodes lie anywhere in the caller's memory. The nodes of the next region are for another thread.
+        // Prefetches the next leaf's nodes, because they may lie anywhere in the caller's memory. Stops at the end of this
+        // region, because another thread reads the next one.
         for (std::int64_t i = first + nodes_per_leaf; i < std::min(first + 2 * nodes_per_leaf, end); ++i)
           nodes.prefetch(node_of(i));
         NodeBox box;
@@ -97,8 +99,8 @@ void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const N
   });
 }
 
-// The caller may have moved nodes since they were given, without telling the mesh. The errors of single precision are bounded for
-// coordinates that are at most 1.
+// Checks that all boxes lie within the frame. The caller may have moved nodes without telling the mesh. The errors of single
+// precision are bounded only for coordinates of at most 1.
 bool are_within_frame(const Clusters &clusters) {
   return std::all_of(clusters.boxes.begin(), clusters.boxes.end(), [](const Clusters::Box &box) {
     return std::all_of(box.lower, box.lower + 3, [](float x) { return x >= -1; }) &&
@@ -137,7 +139,7 @@ void sort_into_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_
 }
 
 void place_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_threads, Clusters &clusters) {
-  // Each leaf is read and written in place: a node's number is read before it is overwritten.
+  // Each leaf is read and written in place. A node's number is read before it is overwritten.
   const Leaf *leaves = clusters.leaves.get();
   const auto place = [&](const Bounds &around) {
     clusters.frame = frame_around(around);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mesh's nodes in leaves, clusters and regions. A leaf has 32 nodes near each other, a cluster 16 leaves, a region 16 clusters.
-// Each has a box, so that a search can dismiss its nodes together. The order is made once for a mesh. When nodes move, the order
-// stays; places and boxes are made again.
+// A mesh's nodes in leaves, clusters and regions. A leaf holds 32 nodes near each other, a cluster holds 16 leaves, and a region
+// holds 16 clusters. Each has a box, so that a search can dismiss all its nodes at once. The order of the nodes is made once for
+// a mesh. When nodes move, the order stays, and coordinates and boxes are made again.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@
 
 namespace riis {
 
-// The coordinates of a leaf's nodes in double precision, side by side: in the caller's array they lie anywhere, and the decision
-// reads them together.
+// The coordinates of a leaf's nodes in double precision, stored together. The caller's array may have them far apart, and the
+// decision reads them together.
 struct LeafPoints {
   double xyz[3 * nodes_per_leaf];
 };
@@ -26,7 +26,7 @@ struct Clusters {
   static constexpr std::int64_t clusters_per_region = 16;
 
   std::int64_t n_nodes = 0;
-  NodeFrame frame;  // the coordinates in leaves and boxes are in this frame
+  NodeFrame frame;  // the frame of the coordinates in leaves and boxes
   std::int64_t n_leaves = 0;
   std::unique_ptr<Leaf[]> leaves;
   std::unique_ptr<LeafPoints[]> points;  // one per leaf
@@ -45,10 +45,10 @@ struct Clusters {
 // A leaf stores node numbers in 32 bits.
 inline constexpr std::int64_t max_clustered_nodes = INT64_C(0xffffffff);
 
-// Both functions fail with RIIS_INVALID_MESH for an unusable coordinate. Clusters with n_nodes 0 have not been made yet.
-//   bounds  of the nodes when they were given
+// Both functions fail with RIIS_INVALID_MESH for an unusable coordinate. n_nodes is 0 in clusters that were never made.
+//   bounds  the box of the nodes at the time when the caller gave them
 void sort_into_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_threads, Clusters &clusters);
-// Keeps the order and updates places and boxes to the nodes' new coordinates.
+// Keeps the order, and updates coordinates and boxes to the nodes' new positions.
 void place_clusters(const StridedPoints &nodes, const Bounds &bounds, int n_threads, Clusters &clusters);
 
 }  // namespace riis

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How searches query distances: a surface measures them to its triangles or by another method. Searches are compiled once for
-// each way, so distances to triangles cost no virtual call.
+// The two ways in which a search measures distances: to a surface's triangles, or by the surface's other method. Searches are
+// compiled once for each way, so distances to triangles cost no virtual call.
 #pragma once
 
 #include <cmath>
@@ -16,26 +16,26 @@ struct TriangleDistances {
   InstructionSet instructions;
 
   bool may_be_within(Vec3 p, double limit) const { return scene.may_be_within(p, limit); }
-  // Replaces the candidates of `ties`, which may be null, by p's.
+  // Returns the triangle closest to p. Replaces the candidates of `ties`, which may be null, by those of p.
   ClosestTriangle closest(Vec3 p, double limit, Ties *ties = nullptr) const {
     return scene.closest(p, limit, instructions, ties);
   }
 
-  // Returns a number d such that every point q has a distance of at least d - |q - p|. This proves that points near p are far.
-  // Returns infinity where d is above the limit.
+  // Returns a lower bound d: every point q has a distance of at least d - |q - p|. So a large d proves that points near p are
+  // far from the surface. Returns infinity if d is above the limit.
   double lower_bound(Vec3 p, double limit) const {
     return std::sqrt(scene.closest(p, limit, instructions).distance_sq);
   }
 
-  // Returns the absolute part of a distance's error. The rest is in proportion to the distance and to p.
+  // Returns the absolute part of a distance's error. The rest is proportional to the distance and to |p|.
   double rounding() const { return scene.rounding(); }
 };
 
-// Distances by another method. The position of a patch stands in place of a triangle's.
+// Distances by another method. The index of a patch takes the place of a triangle's index.
 struct OtherDistances {
   const PatchDistance &method;
   const TriangleScene &scene;
-  double triangle_error;  // distances to the triangles are at most this above those to S(u,v)
+  double triangle_error;  // a distance to the triangles exceeds the one to S(u,v) by at most this
 
   bool may_be_within(Vec3 p, double limit) const { return method.may_be_within(p, limit); }
   ClosestTriangle closest(Vec3 p, double limit, Ties * = nullptr) const {
@@ -43,8 +43,8 @@ struct OtherDistances {
     return {found.distance_sq, found.patch};
   }
 
-  // A method that may end anywhere on S proves nothing about points nearby. But its result is the distance of some point of S. So
-  // the distance to the triangles minus their error is a lower bound.
+  // A method that may end anywhere on S proves nothing about points nearby. But its result is the distance to some point of S.
+  // So the distance to the triangles minus triangle_error is a lower bound.
   double lower_bound(Vec3 p, double limit) const {
     if (method.is_of_fixed_points()) return std::sqrt(method.closest(p, limit).distance_sq);
     const double infinity = std::numeric_limits<double>::infinity();
@@ -55,7 +55,7 @@ struct OtherDistances {
   double rounding() const { return scene.rounding(); }
 };
 
-// Calls visit(distances) with the surface's way of measuring.
+// Calls visit(distances) with the way in which the surface measures.
 template <class Visit>
 auto with_distances(const Surface &surface, InstructionSet instructions, const Visit &visit) {
   if (const PatchDistance *method = surface.other_distance())

@@ -12,7 +12,8 @@
 namespace riis {
 namespace {
 
-// Blocks are so small that two threads share a band of a coarse mesh evenly, and so large that handing them out costs nothing.
+// A block is so small that two threads get equal shares of a coarse mesh's band, and so large that handing out blocks costs
+// nothing.
 constexpr std::int64_t nodes_per_block = 2048;
 
 template <class Distances>

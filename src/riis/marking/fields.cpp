@@ -16,7 +16,7 @@ namespace {
 constexpr std::int32_t all_fields = RIIS_FIELD_POINT | RIIS_FIELD_NORMAL | RIIS_FIELD_BARYCENTRIC | RIIS_FIELD_SIDE |
                                     RIIS_FIELD_RIM | RIIS_FIELD_UV | RIIS_FIELD_VELOCITY | RIIS_FIELD_PATCH;
 
-// Calls visit(pointer to the member of NodeFields, numbers per node) for every field in `fields`.
+// Calls visit(pointer to a member of NodeFields, numbers per node) for every field in `fields`.
 template <class Visit>
 void for_each_array(std::int32_t fields, const Visit &visit) {
   const auto has = [&](std::int32_t field) { return (fields & field) != 0; };
@@ -30,7 +30,8 @@ void for_each_array(std::int32_t fields, const Visit &visit) {
   if (has(RIIS_FIELD_PATCH)) visit(&NodeFields::patch_id, std::int64_t{1});
 }
 
-// Finds the positions of triangles in the set. They are the ids, unless triangles of the caller's arrays were left out.
+// Finds the position of a triangle in the set from its id. The two are equal, unless the set left out some of the caller's
+// triangles.
 class Positions {
  public:
   explicit Positions(const TriangleSet &set)
@@ -45,11 +46,11 @@ class Positions {
   bool are_ids_;
 };
 
-// Two numbers in one register, which every processor of the baseline has.
+// Two numbers in one register. Every processor of the baseline instruction set has such registers.
 typedef double Two __attribute__((vector_size(16)));
 
-// The mean of the velocities of leaflets. A leaflet's velocity is the mean over its places. The velocity at the closest triangle
-// is given first. The places of each other leaflet then follow each other.
+// The mean of the velocities of the leaflets that tie at a node. A leaflet's velocity is the mean over its tied points. The
+// velocity at the closest triangle is given first. Then the points of one other leaflet after another are added.
 class MeanOfLeaflets {
  public:
   MeanOfLeaflets(std::int32_t closest_leaflet, Vec3 velocity) : closest_leaflet_(closest_leaflet) {
@@ -91,7 +92,7 @@ class MeanOfLeaflets {
   std::int32_t closest_leaflet_, leaflet_ = -1;
 };
 
-// Fields of nodes whose closest point lies on a triangle.
+// Writes the fields of nodes whose closest point lies on a triangle.
 class TriangleFields {
  public:
   TriangleFields(const SearchRequest &request, std::int32_t fields, const NodeList &list, const FieldScratch &scratch,
@@ -109,7 +110,7 @@ class TriangleFields {
         made_(made) {}
 
   void write(const Range &range) const {
-    // Nodes of a list are far apart in memory: their coordinates are fetched while earlier nodes are computed.
+    // The nodes of a list lie far apart in memory. So their coordinates are fetched while earlier nodes are computed.
     constexpr std::int64_t ahead = 4 * pairs_at_once;
     for (std::int64_t first = range.begin; first < range.end; first += pairs_at_once) {
       for (std::int64_t i = first + ahead; i < std::min(first + ahead + pairs_at_once, range.end); ++i)
@@ -118,8 +119,8 @@ class TriangleFields {
     }
   }
 
-  // Replaces the velocities of nodes with ties by the mean of all leaflets that are equally near. A leaflet's velocity is the
-  // mean over its places. A node belongs to the range that its first tie is in.
+  // Replaces the velocity of each node with ties by the mean over all leaflets that are equally near. A leaflet's velocity is
+  // the mean over its tied points. A node belongs to the range that holds its first tie.
   void take_means(const Range &range) const {
     const std::int64_t begin = next_node(range.begin), end = next_node(range.end);
     MeanOfLeaflets mean(-1, {0, 0, 0});
@@ -145,7 +146,7 @@ class TriangleFields {
 
   bool has(std::int32_t field) const { return (fields_ & field) != 0; }
 
-  // Writes the fields of at most pairs_at_once nodes. Each field is written in a loop of its own, which stays short.
+  // Writes the fields of at most pairs_at_once nodes. Each field has its own short loop.
   void write_at_once(std::int64_t first, std::int64_t end) const {
     const std::int64_t n = end - first;
     PointsAndTriangles pairs;
@@ -171,7 +172,7 @@ class TriangleFields {
     if (has(RIIS_FIELD_SIDE | RIIS_FIELD_RIM)) write_sides(triangle, pairs, on, first, n);
   }
 
-  // Writes the velocities and (u,v), which are those of the vertices mixed by the weights.
+  // Writes the velocities and (u,v). They are interpolated from the vertices by the weights.
   void write_mixed(const std::int64_t *triangle, const PointsOnTriangles &on, std::int64_t first,
                    std::int64_t n) const {
     const std::int64_t *vertex[pairs_at_once];
@@ -188,7 +189,8 @@ class TriangleFields {
     }
   }
 
-  // Returns the first tie, from `tie` on, that is the first one of its node. Returns the number of all ties if there is none.
+  // Starting from `tie`, returns the position of the next tie at which a new node begins. Returns the number of all ties if
+  // there is none.
   std::int64_t next_node(std::int64_t tie) const {
     while (tie > 0 && tie < ties_.size() && ties_[tie].point == ties_[tie - 1].point) ++tie;
     return tie;
@@ -248,7 +250,7 @@ class TriangleFields {
 
   const TriangleSet &set_;
   Positions positions_;
-  const double *corners_;  // of the triangles, nine numbers each
+  const double *corners_;  // of the triangles, nine numbers for each
   const StridedPoints &nodes_;
   const Kernels &simd_;
   std::int32_t fields_;
@@ -259,7 +261,7 @@ class TriangleFields {
   NodeFields &made_;
 };
 
-// Orders ties by node, then by leaflet, and a leaflet's by distance.
+// Orders ties by node, then by leaflet, then by distance.
 struct TieOrder {
   const std::int32_t *leaflet_id;
 
@@ -270,7 +272,7 @@ struct TieOrder {
   }
 };
 
-// Puts the numbers of each vertex that the fields need beside each other.
+// Stores the numbers of each vertex that the fields need next to each other.
 void gather_at_vertices(const TriangleSet &set, std::int32_t fields, int n_threads, FieldScratch &scratch) {
   const bool has_velocity = fields & RIIS_FIELD_VELOCITY, has_uv = fields & RIIS_FIELD_UV;
   if (!has_velocity && !has_uv) return;
@@ -285,7 +287,7 @@ void gather_at_vertices(const TriangleSet &set, std::int32_t fields, int n_threa
   });
 }
 
-// Writes the fields of a node whose distance is by sampling or minimisation. It finds the closest point again.
+// Writes the fields of a node whose distance was measured by sampling or minimisation. Finds the closest point again.
 void write_patch_fields(const SearchRequest &request, std::int32_t fields, std::int64_t node, std::int64_t i,
                         NodeFields &made) {
   const PatchDistance &method = *request.surface.other_distance();
@@ -311,7 +313,7 @@ bool NodeFields::has_room(std::int32_t fields, std::int64_t n) const {
 
 void NodeFields::resize(std::int32_t fields, std::int64_t n) {
   for_each_array(all_fields & ~fields, [&](auto member, std::int64_t) { (this->*member).clear(); });
-  // Old entries need not be cleared, because every entry is written.
+  // Old entries are not cleared first, because every entry will be written.
   for_each_array(fields, [&](auto member, std::int64_t per_node) { riis::resize(this->*member, per_node * n); });
 }
 
@@ -329,7 +331,8 @@ void FieldScratch::prepare(const SearchRequest &request, std::int32_t fields, co
   const auto is_one_leaflet = [&](const Tie &a, const Tie &b) {
     return rule.leaflet_id[a.triangle.triangle] == rule.leaflet_id[b.triangle.triangle];
   };
-  // Each leaflet keeps its closest triangle, and one triangle on each other patch of its own that ties with it.
+  // For each leaflet, keeps its closest triangle. Also keeps one triangle on each other patch of the leaflet that ties with the
+  // closest one.
   auto closest = ties.begin(), end = ties.begin();
   for (const Tie &tie : ties) {
     const bool is_first = end == ties.begin() || tie.point != closest->point || !is_one_leaflet(*closest, tie);
@@ -363,12 +366,12 @@ void check_fields(const Surface &surface, std::int32_t fields) {
 bool need_normals(const Surface &surface, std::int32_t fields, std::int64_t n_nodes) {
   if (surface.other_distance()) return false;
   if (fields & (RIIS_FIELD_SIDE | RIIS_FIELD_RIM)) return true;
-  // A normal for each triangle is cheaper than one for each node if there are fewer triangles.
+  // With fewer triangles than nodes, making a normal for each triangle is cheaper than making one for each node.
   return (fields & RIIS_FIELD_NORMAL) && n_nodes > surface.triangles().n_triangles();
 }
 
 TieRule ties_for(const Surface &surface, std::int32_t fields) {
-  constexpr double of_leaflets = 1e-6, of_patches = 1e-9;  // half thicknesses
+  constexpr double of_leaflets = 1e-6, of_patches = 1e-9;  // in half thicknesses
   const TriangleSet &set = surface.triangles();
   const auto are_several = [](const std::vector<std::int32_t> &ids) {
     return std::any_of(ids.begin(), ids.end(), [&](std::int32_t id) { return id != ids.front(); });

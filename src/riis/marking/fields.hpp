@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Data about a node's closest point besides its distance: the fields that a solver's force needs.
+// Fields: data about a node's closest point, besides its distance, that a solver's force needs.
 // In: nodes within the limit with their decided triangles. Out: an array for each requested field.
 #pragma once
 
@@ -14,41 +14,41 @@
 
 namespace riis {
 
-// Arrays of the fields of one list of nodes, in the list's order. An array that was not requested is empty.
+// The fields of one list of nodes, in the list's order. The array of a field that was not requested is empty.
 struct NodeFields {
   UnfilledVector<double> point, normal, barycentric, velocity;  // (3, n)
   UnfilledVector<double> uv;                                    // (2, n)
   UnfilledVector<std::int32_t> side, rim, patch_id;             // (n)
 
-  // Reserves memory for n nodes, so that resize(m) with m <= n does not throw.
+  // Reserves memory for n nodes. Then resize(m) with m <= n does not throw.
   void reserve(std::int32_t fields, std::int64_t n);
   bool has_room(std::int32_t fields, std::int64_t n) const;
   void resize(std::int32_t fields, std::int64_t n);
 };
 
-// Memory for the next marking's fields.
+// Memory that the next marking's fields reuse.
 struct FieldScratch {
   UnfilledVector<VertexNumbers> at_vertices;
-  std::vector<Tie> ties;  // by node, then by leaflet: its closest triangle, then those of its other patches
+  std::vector<Tie> ties;  // by node, then by leaflet: first its closest triangle, then those on its other patches
 
-  // Reserves memory for the fields of the nodes that a search found, and puts their ties in order.
+  // Reserves memory for the fields of the nodes that a search found, and sorts their ties.
   void prepare(const SearchRequest &request, std::int32_t fields, const FoundNodes &found);
 };
 
-// Fails with RIIS_INVALID_ARGUMENT for fields (the sum of RIIS_FIELD_*) that the surface lacks.
+// Fails with RIIS_INVALID_ARGUMENT if `fields`, a sum of RIIS_FIELD_*, contains a field that the surface lacks.
 void check_fields(const Surface &surface, std::int32_t fields);
 
-// Returns whether the surface has to make the normals of its triangles first, for n_nodes nodes (Surface::prepare_sides).
+// Returns whether the fields of n_nodes nodes need Surface::pseudonormals().
 bool need_normals(const Surface &surface, std::int32_t fields, std::int64_t n_nodes);
 
-// Returns which ties a search has to find for these fields.
+// Returns the rule for the ties that a search has to find for these fields.
 TieRule ties_for(const Surface &surface, std::int32_t fields);
 
-// Writes the fields of the nodes in the list. Memory was reserved for both, so this does not throw.
+// Writes the fields of the nodes in the list. The memory must be reserved, so this function does not throw.
 void make_fields(const SearchRequest &request, std::int32_t fields, const NodeList &list, FieldScratch &scratch,
                  NodeFields &made);
 
-// Writes the fields of the nodes of `some`, which is a part of `all`. Both ascend.
+// Writes the fields of the nodes in `some`, which is a part of `all`. Both lists are in ascending order of nodes.
 void select_fields(std::int32_t fields, const NodeList &all, const NodeFields &fields_of_all, const NodeList &some,
                    NodeFields &made);
 

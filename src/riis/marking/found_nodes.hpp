@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nodes that a search finds, in one list per thread that found them. The memory is reused: in a steady run of steps the
-// library allocates nothing itself.
+// The nodes that a search finds, in one list for each thread. The lists' memory is reused, so the library allocates nothing in a
+// steady run of time steps.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +15,11 @@
 
 namespace riis {
 
-// No memory holds the coordinates of this many nodes.
+// A limit on the number of nodes. No memory holds the coordinates of so many.
 inline constexpr std::int64_t max_nodes = std::int64_t{1} << 40;
 
 // A node within the distance limit. `triangle` is a position in the surface's set of triangles. If another method measures the
-// distances, it is the position of a patch.
+// distances, `triangle` is the position of a patch.
 struct FoundNode {
   std::uint64_t node : 40, triangle : 24;
   double distance;
@@ -32,8 +32,8 @@ struct FoundNode {
 };
 static_assert(sizeof(FoundNode) == 16);
 
-// Gives the list of each thread room for twice the longest one, because the threads' shares differ from step to step. The room is
-// a power of two. Then a step that needs a little more than all before it needs no new memory.
+// Gives each thread's list room for twice the longest list, because the threads' shares differ from step to step. The room is a
+// power of two. So a step that needs a little more than all steps before it needs no new memory.
 template <class Threads, class ListOf>
 void make_room(Threads &threads, const ListOf &list_of) {
   std::size_t largest = 0, room = 1;
@@ -43,14 +43,14 @@ void make_room(Threads &threads, const ListOf &list_of) {
   for (auto &thread : threads) list_of(thread).reserve(room);
 }
 
-// One list per thread, each in no particular order.
+// One list for each thread. The order within a list has no meaning.
 struct FoundNodes {
   std::vector<std::vector<FoundNode>> by_thread;
-  std::vector<Ties> ties_by_thread;  // without content unless a rule says which ties are wanted
+  std::vector<Ties> ties_by_thread;  // stay empty unless the rule asks for ties
 
-  // Empties the lists, and makes room for the next ones.
+  // Empties the lists, and makes room for the next search.
   void prepare(int n_threads, const TieRule &ties = {}) {
-    // Each list is resized on its own, because memory may have run out between them.
+    // Resizes each list on its own, because an earlier call may have run out of memory after the first.
     if (view(by_thread).size() < n_threads) resize(by_thread, n_threads);
     if (view(ties_by_thread).size() < n_threads) resize(ties_by_thread, n_threads);
     make_room(
@@ -67,13 +67,13 @@ struct FoundNodes {
     }
   }
 
-  // Returns where a thread keeps ties, or null if they are not wanted.
+  // Returns the place for a thread's ties, or null if ties are not wanted.
   Ties *ties_of(int thread) {
     Ties &ties = view(ties_by_thread)[thread];
     return ties.rule.leaflet_id ? &ties : nullptr;
   }
 
-  // Adds a node with its closest triangle and its ties. All candidates must belong to the node.
+  // Adds a node with its closest triangle and its ties. All candidates for ties must belong to this node.
   void add(int thread, std::int64_t node, const ClosestTriangle &closest) {
     view(by_thread)[thread].push_back({node, std::sqrt(closest.distance_sq), closest.triangle});
     if (Ties *const ties = ties_of(thread))

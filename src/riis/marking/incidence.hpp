@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes an adjacency from items, which are cells or faces, by way of the items that each node is in.
-// In: lists of items. Out: rows, each sorted and without repeats, the same for any number of threads.
+// Makes an adjacency from items, which are cells or faces. First it lists the items that each node is in.
+// In: lists of items. Out: sorted rows without repeats, which do not depend on the number of threads.
 #pragma once
 
 #include <algorithm>
@@ -18,10 +18,10 @@
 
 namespace riis {
 
-// Memory from malloc, which can shrink where it is. Its content is plain data.
+// Memory from malloc, which realloc can shrink in place. The content must be plain data.
 class PlainMemory {
  public:
-  // Keeps as much of the content as both sizes hold.
+  // Keeps as much of the content as fits in both the old and the new size.
   void resize(std::int64_t n_bytes) {
     if (n_bytes == 0) return memory_.reset();
     void *const moved = std::realloc(memory_.get(), static_cast<std::size_t>(n_bytes));
@@ -41,14 +41,15 @@ class PlainMemory {
   std::unique_ptr<void, Free> memory_;
 };
 
-// Entries tell which items each node is in. They lie in blocks of nodes, node after node, and rows take their place.
+// Makes the rows. An entry tells that a node is in an item. Entries are stored in blocks of nodes, and within a block node by
+// node. Later the rows overwrite them.
 // Lists is a type with
 //   n_nodes, n_items
 //   most_neighbors                         the most different nodes that for_each_neighbor visits
 //   for_each_entry(range, visit)           calls visit(node, entry) for every node of every item in a range
 //   for_each_neighbor(entry, node, visit)  calls visit(other) for the neighbours that an entry gives its node, in any order
 //   prefetch(entry)                        requests the memory that for_each_neighbor reads
-// Entry holds the number of all entries, Column the number of nodes.
+// The type Entry can hold the number of all entries, and Column the number of nodes.
 template <class Entry, class Column, class Lists>
 class RowMaker {
  public:
@@ -68,9 +69,9 @@ class RowMaker {
 
  private:
   static constexpr std::int64_t nodes_per_block = 4096;
-  // Each part of the items has its own count for each node. More parts would take more memory than they save time.
+  // Each part of the items has its own count for each node. More parts would cost more memory than the time saved is worth.
   static constexpr std::int64_t most_parts = 8;
-  static constexpr std::int64_t items_ahead = 16, entries_ahead = 24;  // memory is requested this early
+  static constexpr std::int64_t items_ahead = 16, entries_ahead = 24;  // how far ahead memory is requested
   static constexpr std::int64_t most_inserted =
       64;  // rows of more entries are sorted as a whole: insertion would be too slow
 
@@ -83,7 +84,8 @@ class RowMaker {
     return {block * nodes_per_block, std::min((block + 1) * nodes_per_block, lists_.n_nodes)};
   }
 
-  // Counts the entries of each part at each node, then replaces each count by the place in the block where they begin.
+  // Counts the entries of each part at each node. Then replaces each count by the position in the block where these entries
+  // begin.
   void count() {
     resize(next_, n_parts_ * lists_.n_nodes);
     parallel_for(n_parts_, n_threads_, [&](std::int64_t part, int) {
@@ -106,7 +108,7 @@ class RowMaker {
     });
   }
 
-  // Writes the entries. Each place moves on to the end of its entries.
+  // Writes the entries. Afterwards each position in next_ is the end of its entries.
   void fill() {
     parallel_for(n_parts_, n_threads_, [&](std::int64_t part, int) {
       Entry *const next = next_of(part);
@@ -126,13 +128,13 @@ class RowMaker {
     });
   }
 
-  // The memory of a thread that makes rows.
+  // The memory of one thread while it makes rows.
   struct Scratch {
-    std::vector<std::uint8_t> is_seen;  // for each node, if the row has it already
-    UnfilledVector<Column> columns;     // of a block
+    std::vector<std::uint8_t> is_seen;  // for each node, whether the row has it already
+    UnfilledVector<Column> columns;     // of one block
   };
 
-  // Makes the rows of each block in the place of its entries, and puts their lengths in the places of their offsets.
+  // Makes the rows of each block in the memory of its entries. Writes the rows' lengths where the offsets will be.
   void make_rows(UnfilledVector<std::int64_t> &offsets) {
     resize(offsets, lists_.n_nodes + 1);
     view(offsets)[0] = 0;
@@ -145,7 +147,7 @@ class RowMaker {
       const Range nodes = nodes_of(number);
       const Entry *const ends = next_of(n_parts_ - 1);
       const ArrayView<const Entry> entries(block.as<Entry>(), static_cast<std::int64_t>(ends[nodes.end - 1]));
-      const Lists lists = lists_;  // a copy, which stores to is_seen cannot change as far as the compiler knows
+      const Lists lists = lists_;  // a copy: so the compiler knows that stores to is_seen do not change it
       std::int64_t begin = 0, n_columns = 0;
       for (std::int64_t node = nodes.begin; node < nodes.end; ++node) {
         const auto end = static_cast<std::int64_t>(ends[node]);
@@ -164,12 +166,12 @@ class RowMaker {
     });
   }
 
-  // Writes the row of a node and returns its length. is_seen is 0 before and after.
+  // Writes the row of a node and returns its length. is_seen is all 0 before and after.
   static std::int64_t make_row(const Lists &lists, std::int64_t node, const ArrayView<const Entry> &entries,
                                const Range &of_node, std::uint8_t *is_seen, Column *row) {
     const bool inserts = of_node.end - of_node.begin <= most_inserted;
     std::int64_t n = 0;
-    is_seen[node] = 1;  // a node that is twice in an item is no neighbour of itself
+    is_seen[node] = 1;  // a node that is listed twice in an item is no neighbour of itself
     for (std::int64_t k = of_node.begin; k < of_node.end; ++k) {
       lists.prefetch(static_cast<std::int64_t>(entries[std::min(k + entries_ahead, entries.size() - 1)]));
       lists.for_each_neighbor(static_cast<std::int64_t>(entries[k]), node, [&](std::int64_t other) {
@@ -188,7 +190,7 @@ class RowMaker {
     return n;
   }
 
-  // Turns lengths into offsets and copies the blocks' rows, one after the other.
+  // Turns lengths into offsets, and copies the rows of one block after another.
   void join(UnfilledVector<std::int64_t> &offsets, UnfilledVector<Column> &columns) {
     for (std::int64_t node = 0; node < lists_.n_nodes; ++node) view(offsets)[node + 1] += view(offsets)[node];
     resize(columns, view(offsets)[lists_.n_nodes]);
@@ -204,10 +206,10 @@ class RowMaker {
   int n_threads_;
   std::int64_t n_parts_, n_blocks_;
   UnfilledVector<Entry> next_;       // (n_nodes, n_parts)
-  std::vector<PlainMemory> blocks_;  // of entries, then of columns
+  std::vector<PlainMemory> blocks_;  // hold entries first and columns later
 };
 
-// For lists within the limits.
+// For lists within NarrowLimits.
 template <class Lists>
 OwnAdjacency narrow_adjacency_of_lists(const Lists &lists, int n_threads) {
   OwnAdjacency made;
@@ -215,7 +217,7 @@ OwnAdjacency narrow_adjacency_of_lists(const Lists &lists, int n_threads) {
   return made;
 }
 
-// There are at most n_entries entries.
+// The lists must have at most n_entries entries.
 template <class Lists>
 OwnAdjacency adjacency_of_lists(const Lists &lists, std::int64_t n_entries, int n_threads, const NarrowLimits &limits) {
   OwnAdjacency made;

@@ -22,15 +22,16 @@ struct Edge {
   bool operator==(const Edge &other) const { return a == other.a && b == other.b; }
 };
 
-// An edge of at most this length that meets the surface has a node within the half thickness: its nearer node is at most half its
-// length from the crossing. The margins count rounding more than once, so this also holds for computed distances. Returns -1 if
-// marks may be missing or do not follow the distances to the triangles: then no edge counts as short.
+// Returns a length such that no edge of at most this length leaks. If such an edge meets the surface, its nearer node is at most
+// half the length from the crossing, so the node is within the half thickness and marked. The margins are several times the
+// rounding, so this also holds for computed distances. Returns -1, so that no edge counts as short, if marks may be missing or
+// do not follow the distances to the triangles.
 double length_that_cannot_leak(const Surface &surface, const Marks &marks) {
   if (surface.other_distance() || !marks.stats.complete) return -1;
   return 2 * surface.half_thickness() * (1 - 0x1p-40) - 4 * surface.scene().rounding();
 }
 
-// The search of one thread, and its memory.
+// The search of one thread and its memory.
 struct alignas(64) Finder {
   const SearchRequest *request = nullptr;
   const std::vector<std::int64_t> *marked = nullptr;
@@ -53,8 +54,8 @@ struct alignas(64) Finder {
     return crosses;
   }
 
-  // Returns false only where no point of the surface is within the radius of p. This query saves many others. The margin counts
-  // rounding more than once, also the rounding of p, which is somewhere near the surface.
+  // Returns false only if no point of the surface is within the radius of p. This query saves many others. The margin is several
+  // times the rounding, including that of p, which lies near the surface.
   bool may_be_within(Vec3 p, double radius) const {
     const TriangleScene &scene = request->surface.scene();
     return scene.closest(p, radius * (1 + 1e-9) + 4 * scene.rounding(), request->instructions).triangle >= 0;
@@ -76,11 +77,11 @@ struct alignas(64) Finder {
     adjacency.for_each_neighbor(i, [&](std::int64_t j) { longest = std::max(longest, distance(p, nodes[j])); });
     if (longest <= too_short || !is_open(i) || !may_be_within(p, longest)) return;
     adjacency.for_each_neighbor(i, [&](std::int64_t j) {
-      if (j < i && adjacency.has_neighbor(j, i)) return;  // found in that row
+      if (j < i && adjacency.has_neighbor(j, i)) return;  // the edge is found in row j
       const Vec3 q = checked_point(nodes, j, "node", RIIS_INVALID_MESH);
       const double length = distance(p, q);
       if (length <= too_short || !is_open(j)) return;
-      // The edge is followed from the same end whichever row it is in.
+      // Each edge is followed from the end with the lower number, whichever row it is found in.
       if (crosses(i < j ? p : q, i < j ? q : p)) found.push_back({std::min(i, j), std::max(i, j), length});
     });
   }
@@ -107,11 +108,11 @@ std::vector<Edge> leaking_edges(const SearchRequest &request, const Marks &marks
   parallel_for_ranges(n_blocks, blocks_per_task, request.n_threads, search);
   for (const Finder &finder : finders) found.insert(found.end(), finder.found.begin(), finder.found.end());
   std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());  // columns may be repeated
+  found.erase(std::unique(found.begin(), found.end()), found.end());  // the caller's rows may repeat columns
   return found;
 }
 
-// Returns the distance of the nearer node, equal bit for bit to the marking's.
+// Returns the distance of the edge's nearer node, with the same bits as in the marking.
 double closing_distance(const SearchRequest &request, const Edge &edge) {
   const StridedPoints &nodes = request.mesh.nodes();
   return with_distances(request.surface, request.instructions, [&](const auto &distances) {

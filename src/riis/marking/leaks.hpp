@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edges of the mesh that cross the surface between two unmarked nodes: paths that the marks leave open.
-// In: a surface, a mesh with an adjacency, a marking's marks. Out: these edges, ascending.
+// Leaks: edges of the mesh that cross the surface between two unmarked nodes. The marks leave these paths open.
+// In: a surface, a mesh with an adjacency, the marks. Out: the leaking edges in ascending order.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace riis {
 
-// Edges between two unmarked nodes that cross the surface, ascending. riis_leak_list explains the members.
+// Edges between two unmarked nodes that cross the surface, in ascending order. riis_leak_list documents the members.
 struct Leaks {
   std::vector<std::int64_t> node_id;  // (2, n)
   std::vector<double> length, distance;
@@ -23,7 +23,7 @@ struct Leaks {
   double seconds = 0;
 };
 
-// Fails with RIIS_INVALID_MESH if a coordinate is not usable. Does not use the request's limit.
+// Finds the leaks. Fails with RIIS_INVALID_MESH for an unusable coordinate. Does not use the request's distance limit.
 Leaks find_leaks(const SearchRequest &request, const Marks &marks);
 
 }  // namespace riis

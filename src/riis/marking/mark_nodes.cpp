@@ -12,19 +12,20 @@
 namespace riis {
 namespace {
 
-// Returns false for a limit so wide that most triangles are near most nodes: there clusters do not help.
+// Returns whether most triangles are far from most nodes. With a wider limit, clusters do not help.
 bool has_few_near(const SearchRequest &request) {
   const Bounds &bounds = request.surface.scene().bounds();
   const Vec3 extent = bounds.upper - bounds.lower;
   return request.distance_limit <= 0.5 * std::max({extent.x, extent.y, extent.z});
 }
 
-// RIIS_SEARCH_AUTO becomes clusters once these pay for themselves: a mesh's first marking queries the nodes one by one.
+// Chooses the search. With RIIS_SEARCH_AUTO, a mesh's first marking queries nodes one by one, and later markings use clusters.
+// Making clusters pays only if they are used again.
 std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
   const PatchDistance *other = request.surface.other_distance();
   if (other && asked_for == RIIS_SEARCH_CLUSTERS)
     fail(RIIS_INVALID_ARGUMENT, "options.search is ", asked_for,
-         ", clusters, which are decided on triangles, but the surface's distances are by ", other->name());
+         ", clusters, which need distances to triangles, but the surface's distances are by ", other->name());
   const bool is_first = !request.mesh.record_marking();
   if (asked_for == RIIS_SEARCH_AUTO)
     asked_for = !other && !is_first && has_few_near(request) ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_EXHAUSTIVE;
@@ -35,13 +36,14 @@ std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
   return asked_for;
 }
 
-// The search that ran, and its report.
+// The search that ran and its report.
 struct SearchRun {
   std::int32_t search;
   SearchReport report;
 };
 
-// Searches clusters, or exhaustively where the mesh has too many nodes for clusters or single precision is too coarse.
+// Searches over clusters. Searches exhaustively instead if the mesh has too many nodes for clusters or if single precision is
+// too coarse.
 SearchRun run_clusters(const SearchRequest &request, Marks &marks) {
   if (request.mesh.nodes().n <= max_clustered_nodes) {
     const Clusters &clusters = request.mesh.clusters(request.n_threads);
@@ -55,14 +57,14 @@ SearchRun run_clusters(const SearchRequest &request, Marks &marks) {
 SearchRun run(const SearchRequest &request, std::int32_t search, Marks &marks) {
   static const std::vector<std::int64_t> nowhere;
   if (request.mesh.nodes().n == 0) {
-    // A rank may have no nodes. Then every search is complete and finds nothing.
+    // A process of a parallel solver may have no nodes. Every search is then complete and finds nothing.
     marks.found.prepare(1);
     return {search, {0, 1, true, 0}};
   }
   switch (search) {
     case RIIS_SEARCH_NEIGHBOR: {
-      // A moving valve is near its last place, so the walk starts at the nodes found last. A list from another mesh with as many
-      // nodes does no harm.
+      // A moving valve is near its last position, so the walk starts at the nodes found last. A list from another mesh with as
+      // many nodes does no harm.
       const bool fits = marks.stats.n_nodes == request.mesh.nodes().n;
       return {search, search_neighbors(request, fits ? marks.within.nodes.node_id : nowhere, marks.neighbor_scratch,
                                        marks.found)};
@@ -76,7 +78,7 @@ SearchRun run(const SearchRequest &request, std::int32_t search, Marks &marks) {
   }
 }
 
-// Returns the data that the caller requested, and the fields that K and K u_surface are made of.
+// Returns the data that the caller requested, together with the fields from which K and K u_surface are computed.
 WantedData wanted_data(const SearchRequest &request, const MarkingRequest &asked) {
   WantedData data{asked.fields, asked.fields, asked.resistance != nullptr, false};
   if (!data.k) return data;
@@ -86,8 +88,8 @@ WantedData wanted_data(const SearchRequest &request, const MarkingRequest &asked
   return data;
 }
 
-// Gives the lists room for their new entries. A list that is too short is made anew. The new list takes the place of the old one
-// when nothing can fail any more.
+// Gives the lists room for their new entries. If a list is too short, new lists replace both, but only after all memory was
+// reserved.
 void make_room(const WantedData &data, const OrderScratch::Counts &n, Marks &marks) {
   if (!marks.within.has_room(data, n.n_within) || !marks.marked.has_room(data, n.n_marked)) {
     ListedNodes within, marked;
@@ -122,7 +124,7 @@ void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks
   request.ties = ties_for(request.surface, data.fields);
   const auto [search, report] = run(request, search_for(request, marking.search), marks);
   const bool limit_is_wider = request.distance_limit > request.surface.half_thickness();
-  // Calls that may fail come before the lists are overwritten.
+  // Everything that may fail comes before the lists are overwritten.
   marks.field_scratch.prepare(request, data.fields, marks.found);
   if (need_normals(request.surface, data.fields, marks.found.size())) request.surface.pseudonormals();
   make_room(data,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Marking from request to marks: runs the search, then makes the lists.
+// The whole marking, from the request to the marks: runs the search and then makes the lists.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,17 @@
 
 namespace riis {
 
-// A marking besides its search for nodes.
+// The options of a marking that its search for nodes does not need, and the kind of search.
 struct MarkingRequest {
   std::int32_t search;           // RIIS_SEARCH_*
   std::int32_t fields;           // a sum of RIIS_FIELD_*
-  const Resistance *resistance;  // null: none
+  const Resistance *resistance;  // null if not wanted
 };
 
-// A failure leaves the lists as they were and where they were.
+// Marks the nodes. If it fails, the marks' lists keep their content and their addresses.
 void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks &marks);
 
-// Writes the marks to the caller's arrays, whose far_distance was checked.
+// Writes the marks to the caller's arrays. The caller must have checked far_distance.
 void write_dense(const Marks &marks, const riis_dense_arrays &to);
 
 }  // namespace riis

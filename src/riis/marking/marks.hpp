@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a marking made, and the memory that markings reuse from step to step.
+// The results of a marking, and the memory that markings reuse from step to step.
 #pragma once
 
 #include <riis/riis.h>
@@ -18,14 +18,14 @@
 
 namespace riis {
 
-// The data that a marking makes of its nodes besides their distances.
+// The data that a marking computes for its nodes, besides their distances.
 struct WantedData {
-  std::int32_t fields = 0;        // the sum of RIIS_FIELD_* that are made
-  std::int32_t given_fields = 0;  // those of them that the caller requested
+  std::int32_t fields = 0;        // the sum of RIIS_FIELD_* that are computed
+  std::int32_t given_fields = 0;  // the sum of those that the caller requested
   bool k = false, k_u_surface = false;
 };
 
-// The nodes of a list with the data that the marking made of them.
+// The nodes of a list with the data computed for them.
 struct ListedNodes {
   NodeList nodes;
   NodeFields fields;
@@ -39,15 +39,15 @@ struct ListedNodes {
 struct Marks {
   ListedNodes within;       // nodes within the distance limit
   ListedNodes marked;       // used only if the limit is wider than the half thickness; otherwise `within` has them
-  bool was_marked = false;  // false for empty marks
-  WantedData data;          // of the last marking
+  bool was_marked = false;  // false until the first marking
+  WantedData data;          // as in the last marking
   bool limit_is_wider = false;
   double distance_limit = 0;
   double half_thickness = 0;
-  Threads n_threads = 1;  // of the marking
+  Threads n_threads = 1;  // of the last marking
   riis_mark_stats stats{};
 
-  // Memory for the next marking.
+  // Memory that the next marking reuses.
   FoundNodes found;
   NeighborScratch neighbor_scratch;
   ClusterScratch cluster_scratch;

@@ -60,7 +60,7 @@ const NodeBalls &Mesh::balls(int n_threads) const {
   if (has_balls_.load(std::memory_order_acquire)) return balls_;
   const std::lock_guard<std::mutex> lock(balls_mutex_);
   if (!has_balls_.load(std::memory_order_relaxed)) {
-    // Nodes that moved keep their order, which stays good as long as they do not mix.
+    // Nodes that moved keep their order. It stays good while nodes near each other stay together.
     if (balls_.order.empty()) sort_into_balls(nodes_, bounds_, n_threads, balls_);
     enclose(nodes_, n_threads, balls_);
     has_balls_.store(true, std::memory_order_release);

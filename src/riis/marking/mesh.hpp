@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caller's nodes and adjacency, borrowed and checked when they are given. The mesh also owns the searches' data about the
-// nodes: balls, clusters and blocks of edges, each made when it is first needed.
+// The caller's nodes and adjacency, which are checked and normally borrowed. The mesh also owns data that searches need about
+// the nodes: balls, clusters and blocks of edges. Each is made when it is first needed.
 #pragma once
 
 #include <atomic>
@@ -20,16 +20,16 @@
 namespace riis {
 
 // The edges of a mesh in blocks of 64 rows, each with the length of its longest edge and a box. A search for long edges near the
-// surface passes over the other blocks as a whole.
+// surface can pass over most blocks as a whole.
 struct EdgeBlocks {
   static constexpr std::int64_t rows_per_block = 64;
 
   struct Block {
-    double longest = 0;  // length of the longest edge of its rows
-    Bounds bounds;       // box of its edges
+    double longest = 0;  // the length of the longest edge in its rows
+    Bounds bounds;       // the box around its edges
   };
   std::vector<Block> blocks;
-  double longest = 0;  // length of the mesh's longest edge
+  double longest = 0;  // the length of the mesh's longest edge
 };
 
 class Mesh {
@@ -37,20 +37,20 @@ class Mesh {
   Mesh(const StridedPoints &nodes, const Bounds &bounds) : nodes_(nodes), bounds_(bounds) {}
 
   const StridedPoints &nodes() const { return nodes_; }
-  // Returns the box of the nodes as they were last given.
+  // Returns the box that the nodes had when the caller last gave them.
   const Bounds &bounds() const { return bounds_; }
   const std::optional<Adjacency> &adjacency() const { return adjacency_; }
 
-  // Call this when the nodes have moved: balls, clusters and edges are made again when they are next needed.
+  // To be called when the nodes have moved. Balls, clusters and edges are then made again when they are next needed.
   void forget_places() {
     has_balls_.store(false, std::memory_order_relaxed);
     has_clusters_.store(false, std::memory_order_relaxed);
     has_edges_.store(false, std::memory_order_relaxed);
   }
 
-  // Both set other coordinates of the same nodes, or other nodes. Another number of nodes removes the adjacency.
+  // These two set new coordinates of the same nodes, or other nodes. A different number of nodes removes the adjacency.
   void borrow_nodes(const StridedPoints &nodes, const Bounds &bounds);
-  // A failure leaves the mesh as it was.
+  // If this function fails, the mesh keeps its nodes.
   template <class Real>
   void copy_nodes(const StridedReals<Real> &nodes, const Bounds &bounds) {
     const auto n = static_cast<std::size_t>(3 * nodes.n);
@@ -68,18 +68,19 @@ class Mesh {
     has_edges_.store(false, std::memory_order_relaxed);
   }
 
-  // Returns the nodes in balls. Several threads may call this and the two functions below at once.
+  // Returns the nodes in balls. Several threads may call this function and the next two at once.
   const NodeBalls &balls(int n_threads) const;
-  // Returns the nodes in clusters. The mesh must have at most max_clustered_nodes.
+  // Returns the nodes in clusters. The mesh must have at most max_clustered_nodes nodes.
   const Clusters &clusters(int n_threads) const;
-  // Returns the edges in blocks of rows. The mesh must have an adjacency. Fails with RIIS_INVALID_MESH if a coordinate is not
-  // usable.
+  // Returns the edges in blocks of rows. The mesh must have an adjacency. Fails with RIIS_INVALID_MESH for an unusable
+  // coordinate.
   const EdgeBlocks &edges(int n_threads) const;
 
-  // Records a marking of these nodes. Returns true if clusters pay: a marking was recorded before, or clusters were made.
+  // Records that these nodes were marked. Returns true if clusters pay off: a marking was recorded before, or clusters already
+  // exist.
   bool record_marking() const { return was_marked_.exchange(true, std::memory_order_relaxed); }
 
-  // Returns the surfaces that the caller was warned about because their sizes do not fit this mesh.
+  // Returns the surfaces that the caller was already warned about, because their sizes do not fit this mesh.
   WarnedSurfaces &warned_surfaces() const { return warned_surfaces_; }
 
  private:
@@ -91,7 +92,7 @@ class Mesh {
   void set_nodes(const StridedPoints &nodes, const Bounds &bounds);
 
   StridedPoints nodes_;
-  std::vector<double> own_xyz_;  // (3, n), if the nodes are copied
+  std::vector<double> own_xyz_;  // (3, n), used if the nodes are copied
   Bounds bounds_;
   std::optional<Adjacency> adjacency_;
   mutable std::mutex balls_mutex_;

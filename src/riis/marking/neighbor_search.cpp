@@ -16,7 +16,7 @@ namespace riis {
 namespace {
 
 constexpr std::int64_t nodes_per_range = NeighborScratch::nodes_per_range, balls_per_block = 16;
-// Below these numbers a part takes a millisecond or two on one thread.
+// With fewer balls than these, a part of the search takes a millisecond or two on one thread.
 constexpr std::int64_t few_balls = 256, few_large_balls = 64;
 
 template <class Distances>
@@ -34,12 +34,12 @@ class NeighborSearch {
     walked_.prepare(nodes_.n, request.n_threads);
   }
 
-  // Adds a node to begin at. A node is queried once, however often it is added.
+  // Adds a node at which the walk starts. A node that is added repeatedly is still queried once.
   void begin_at(std::int64_t node) {
     if (!request_.is_masked_out(node) && walked_.claim(node)) view(walked_.queue)[n_queued_++] = node;
   }
 
-  // Queries the nodes to begin with. From each node within the limit it goes on to the node's neighbours.
+  // Queries the nodes at which the walk starts. From each node within the limit, it goes on to the node's neighbours.
   void walk(int n_threads) {
     std::vector<Range> &ranges = walked_.ranges;
     ranges.clear();
@@ -70,7 +70,7 @@ class NeighborSearch {
     n_threads_ = std::max(n_threads_, n_ran);
   }
 
-  // Finds the balls that may hold a node within the limit, each with a lower bound on the distance of its centre.
+  // Finds the balls that may hold a node within the limit. For each it stores a lower bound on the distance of its centre.
   void find_near_balls(const NodeBalls &balls) {
     std::vector<NearBall> &near = walked_.near_balls;
     near.clear();
@@ -104,11 +104,11 @@ class NeighborSearch {
     });
     n_threads_ = std::max(n_threads_, n_ran);
     for (const auto &own : walked_.threads) near.insert(near.end(), own.near_balls.begin(), own.near_balls.end());
-    // The order must not depend on the threads.
+    // Sorts them, because their order must not depend on the threads.
     std::sort(near.begin(), near.end(), [](const auto &a, const auto &b) { return a.ball < b.ball; });
   }
 
-  // Begins at one node in every near ball, the first that is not proven far.
+  // Starts the walk at one node in every near ball: the first node that is not proven far.
   void begin_in_near_balls(const NodeBalls &balls) {
     for (const NearBall &near : walked_.near_balls) {
       const Range range = balls.nodes_of(near.ball);
@@ -121,7 +121,8 @@ class NeighborSearch {
     }
   }
 
-  // Every node of a near ball that the walk did not reach is proven far by its ball's centre, or queried.
+  // Deals with the nodes of near balls that the walk did not reach. Each is proven far by means of its ball's centre, or
+  // queried.
   void prove(const NodeBalls &balls) {
     const auto n = view(walked_.near_balls).size();
     const int n_ran = parallel_for_ranges(n, balls_per_block, threads_near(), [&](const Range &block, int thread) {
@@ -141,7 +142,7 @@ class NeighborSearch {
     n_threads_ = std::max(n_threads_, n_ran);
   }
 
-  // Returns the number of threads for the nodes of the near balls.
+  // Returns the number of threads for work on the nodes of the near balls.
   int threads_near() const { return request_.n_threads.for_part(view(walked_.near_balls).size(), few_balls); }
 
   SearchReport report(bool complete) {
@@ -151,7 +152,7 @@ class NeighborSearch {
   }
 
  private:
-  // Queries the distance of a node. If it is within the limit, adds the node to the found ones and returns true.
+  // Queries the distance of a node. If it is within the limit, adds the node to the found nodes and returns true.
   bool query(std::int64_t node, int thread) {
     const Vec3 p = checked_point(nodes_, node, "node", RIIS_INVALID_MESH);
     if (!distances_.may_be_within(p, limit_)) return false;
@@ -162,16 +163,16 @@ class NeighborSearch {
     return true;
   }
 
-  // Returns true if the node is farther from the surface than the limit, whatever its direction from the ball's centre. The
-  // centre's distance minus the node's distance from the centre is a lower bound of the node's distance.
+  // Returns true if the node is certainly farther from the surface than the limit. The proof is that the distance of the ball's
+  // centre minus the node's distance from the centre is a lower bound of the node's distance.
   bool is_far(const NodeBalls &balls, const NearBall &near, std::int64_t node) const {
     const Vec3 centre = view(balls.balls)[near.ball].centre;
     const double from_centre = distance(centre, nodes_[node]);
     return near.distance - from_centre > limit_ + slack(near.distance + from_centre, centre);
   }
 
-  // Covers the rounding of two distances and of a ball's radius. It is in proportion to them, to the nodes' coordinates and to
-  // the triangles' coordinates.
+  // Bounds the rounding of two distances and of a ball's radius. It is proportional to these and to the coordinates of the nodes
+  // and the triangles.
   double slack(double distances, Vec3 centre) const {
     return 1e-14 * (distances + std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z)) +
            2 * distances_.rounding();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The searches that walk along the mesh's adjacency, and the memory that they reuse from marking to marking.
+// The searches that walk along the mesh's adjacency, and the memory that they reuse from one marking to the next.
 #pragma once
 
 #include <atomic>
@@ -17,12 +17,12 @@ namespace riis {
 // A ball that may hold nodes within the limit.
 struct NearBall {
   std::int64_t ball;
-  double distance;  // a lower bound on the distance of the ball's centre
+  double distance;  // a lower bound on the distance of its centre
 };
 
 class NeighborScratch {
  public:
-  // The memory of one thread, on cache lines of its own.
+  // The memory of one thread, on cache lines that no other thread uses.
   struct alignas(64) Thread {
     std::vector<std::int64_t> next;
     std::vector<NearBall> near_balls;
@@ -40,7 +40,7 @@ class NeighborScratch {
   std::vector<std::int64_t> near_large_balls;
   std::vector<NearBall> near_balls;
 
-  // The number of nodes that a thread hands on together.
+  // The number of nodes that a thread passes on at once.
   static constexpr std::int64_t nodes_per_range = 128;
 
   void prepare(std::int64_t n_nodes, int n_threads);
@@ -57,13 +57,13 @@ class NeighborScratch {
   std::uint8_t walk_ = 0;
 };
 
-// Walks from neighbour to neighbour (paper, 4.2.2 "Recursive neighbor search"), and proves that the other nodes are far or
-// queries them (docs/theory.md, section 7). The walk starts at the nodes of `last`, usually the last marking's. The mesh must
-// have an adjacency.
+// Walks from neighbour to neighbour (paper, 4.2.2 "Recursive neighbor search"). Then proves that each other node is far, or
+// queries it (docs/theory.md, section 7). The walk starts at the nodes in `last`, usually those found by the last marking. The
+// mesh must have an adjacency.
 SearchReport search_neighbors(const SearchRequest &request, const std::vector<std::int64_t> &last,
                               NeighborScratch &scratch, FoundNodes &found);
 
-// Runs the paper's algorithm to the letter, without the proof. The mesh must have an adjacency.
+// Runs the paper's algorithm exactly, without the proof. The mesh must have an adjacency.
 SearchReport search_as_the_paper(const SearchRequest &request, NeighborScratch &scratch, FoundNodes &found);
 
 }  // namespace riis

@@ -20,12 +20,13 @@ void for_each(std::int64_t n, int n_threads, const Visit &visit) {
   });
 }
 
-// A computed radius is off by at most a few units of rounding of the coordinates, which this adds.
+// Adds a few units of rounding of the coordinates, because a computed radius may be too small by that much.
 double rounded_up(double radius, Vec3 centre) {
   return radius * (1 + 1e-15) + 1e-15 * (std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z));
 }
 
-// Returns a ball around the balls of a range, centred in the middle of their centres' box. A node is a ball of radius 0.
+// Returns a ball around the balls of a range. Its centre is the middle of the box around their centres. A node counts as a ball
+// of radius 0.
 template <class BallAt>
 Ball ball_around(const Range &range, const BallAt &ball_at) {
   Bounds box;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arrays that a caller gets from a marking: one entry per node, ascending by node.
+// The arrays that a caller gets from a marking. They have one entry for each node, in ascending order.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,15 @@
 
 namespace riis {
 
-// Reserves memory for n elements, and then half as much again: a moving valve would otherwise need more memory at every new
-// largest number of nodes.
+// Makes room for n elements, and for half as many more if it has to reserve memory. Otherwise a moving valve would need new
+// memory at every new largest number of nodes.
 template <class Array>
 void reserve_amply(Array &array, std::int64_t n) {
   const auto needed = static_cast<std::size_t>(n);
   if (needed > array.capacity()) array.reserve(needed + needed / 2);
 }
 
-// Returns whether resize(n) keeps the array where it is.
+// Returns whether resize(n) keeps the array at its address.
 template <class Array>
 bool has_room(const Array &array, std::int64_t n) {
   return static_cast<std::size_t>(n) <= array.capacity();
@@ -41,7 +41,7 @@ struct NodeList {
     reserve_amply(triangle_id, n);
     reserve_amply(leaflet_id, n);
   }
-  // Does not throw after reserve(n).
+  // Does not throw if reserve(n) was called before.
   void resize(std::int64_t n) {
     riis::resize(node_id, n);
     riis::resize(distance, n);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An order of nodes in which near ones follow each other, with its frame and boxes. Clusters and balls share it.
+// Puts nodes in an order in which near nodes follow each other. Clusters and balls share this file.
 // In: the caller's nodes. Out: their numbers in that order.
 #pragma once
 
@@ -23,13 +23,13 @@ namespace riis {
 
 inline constexpr std::int64_t nodes_per_sorting_block = 32768;
 
-// Fails with RIIS_INVALID_MESH for a coordinate that became unusable after the nodes were checked.
+// Returns a node's coordinates. Fails with RIIS_INVALID_MESH if one became unusable after the nodes were checked.
 inline Vec3 node_at(const StridedPoints &nodes, std::int64_t i) {
   return checked_point(nodes, i, "node", RIIS_INVALID_MESH);
 }
 
 // The frame of a mesh's coordinates: (x - centre) * scale. The scale is a power of two that brings them between -1 and 1. A
-// coordinate far outside becomes 2, which is a number in single precision.
+// coordinate far outside becomes 2 or -2, which single precision can hold.
 struct NodeFrame {
   Vec3 centre{0, 0, 0};
   double scale = 1;
@@ -45,10 +45,11 @@ inline NodeFrame frame_around(const Bounds &nodes) {
   const Vec3 extent = nodes.half_extent();
   int exponent = 0;
   std::frexp(std::max({extent.x, extent.y, extent.z}), &exponent);
-  return {nodes.middle(), std::ldexp(1.0, -std::max(exponent, -1000))};  // a denormal extent would make it infinite
+  // Without std::max, a denormal extent would make the scale infinite.
+  return {nodes.middle(), std::ldexp(1.0, -std::max(exponent, -1000))};
 }
 
-// A box in the frame of the mesh, in single precision.
+// A box in the mesh's frame, in single precision.
 struct NodeBox {
   static constexpr float inf = std::numeric_limits<float>::infinity();
   float lower[3] = {inf, inf, inf}, upper[3] = {-inf, -inf, -inf};
@@ -71,7 +72,7 @@ struct NodeBox {
   }
 };
 
-// A node's coordinates and its number. The integer type Node is wide enough for all nodes of the mesh.
+// A node's coordinates and its number. The integer type Node must be wide enough for all nodes of the mesh.
 template <class Node>
 struct NodeItem {
   float x[3];
@@ -81,8 +82,9 @@ struct NodeItem {
 template <class Node>
 using NodeItems = UnfilledVector<NodeItem<Node>>;
 
-// Sorts nodes so that near ones follow each other. Each pass counts a part's nodes in bins along the longest axis of its box.
-// Then it cuts the part at multiples of a unit: first clusters, then leaves. Items go from one array to the other and back.
+// Sorts nodes so that near nodes follow each other. Each pass counts the nodes of a part in bins along the longest axis of its
+// box. Then it cuts the part, first into whole clusters and later into whole leaves. The items move from one array to the other
+// and back.
 template <class Node>
 class NodeSorter {
  public:
@@ -92,7 +94,7 @@ class NodeSorter {
       : items_(std::move(items)), buffer_(items_.size()), n_threads_(n_threads) {}
 
   const NodeItems<Node> &sort() {
-    // While there are too few parts for the threads, all threads share each part. Then each thread takes whole parts.
+    // While there are fewer parts than the threads need, all threads share each part. Afterwards each thread takes whole parts.
     Item *at = items_.data(), *other = buffer_.data();
     std::vector<Part> parts{{0, view(items_).size()}}, next;
     const std::int64_t enough = n_threads_ == 1 ? 1 : 4 * n_threads_;
@@ -112,12 +114,12 @@ class NodeSorter {
 
  private:
   static constexpr int n_bins = 256, most_parts = 4;
-  // Parts up to this size have fewer bins: clearing and summing more bins would take longer than the nodes.
+  // Smaller parts have fewer bins, because clearing and summing many bins would take longer than counting their nodes.
   static constexpr std::int64_t small_size = 1024;
   static constexpr int n_small_bins = 64;
   typedef std::array<Node, n_bins> Counts;
-  // Items are counted and put four at a time, one from each quarter of a block. Each quarter has counts of its own, because an
-  // update of a count waits for the last update of the same count. Neighbours are often in the same bin and stream.
+  // Items are counted and moved four at a time, one from each quarter of a block. Neighbouring items are often in the same bin
+  // and stream, and an update of a count has to wait for the last update of the same count. So each quarter has its own counts.
   static constexpr int n_quarters = 4;
   typedef std::array<Node, n_quarters> OfQuarters;
   typedef std::array<OfQuarters, n_bins> QuarterCounts;
@@ -125,7 +127,7 @@ class NodeSorter {
     std::int64_t begin, end;
     std::int64_t size() const { return end - begin; }
   };
-  // Divides n by an extent. Returns 0 if the quotient would be infinite.
+  // Returns n / extent, or 0 if the quotient would be infinite.
   static float per_unit_of(float n, float extent) {
     const float per_unit = extent > 0 ? n / extent : 0;
     return per_unit <= std::numeric_limits<float>::max() ? per_unit : 0;
@@ -144,14 +146,15 @@ class NodeSorter {
     }
   };
 
-  // Bins whose items go to the same place, one item after the other. A bin that a cut goes through is a stream of its own, and so
-  // are all bins between two such places. Fewer streams than bins are written faster.
+  // A stream is a run of bins whose items are written to the same place, one item after another. A bin that contains a cut is a
+  // stream by itself. All bins between two such bins are one stream. There are fewer streams than bins, so writing is faster.
   struct Streams {
     static constexpr int most = 2 * most_parts - 1;
     std::array<std::uint8_t, n_bins> of_bin;
     int n = 1;
 
-    // `counts` has the number of items in each bin of a part. `ends` has the places of the cuts in the part, ascending.
+    // `counts` has the number of items in each bin of a part. `ends` has the positions of the cuts in the part, in ascending
+    // order.
     Streams(const Counts &counts, int n_in_use, const std::array<std::int64_t, most_parts> &ends, int n_parts) {
       int first_of_stream = 0, bin = 0;
       const auto begin_stream = [&](int at) {
@@ -160,7 +163,7 @@ class NodeSorter {
         first_of_stream = at;
         ++n;
       };
-      std::int64_t end = 0;  // of the items in the bins before
+      std::int64_t end = 0;  // the end of the items in the earlier bins
       for (int cut = 0; cut + 1 < n_parts; ++cut) {
         const std::int64_t at = view(ends)[cut];
         for (; end + static_cast<std::int64_t>(view(counts)[bin]) <= at; ++bin)
@@ -172,8 +175,8 @@ class NodeSorter {
     }
   };
 
-  // A part in blocks that threads share, each with its box, its counts and the places of its streams. OneBlock is a part in one
-  // block, for one thread.
+  // A part in blocks that threads share. Each block has its box, its counts and the positions of its streams. OneBlock is the
+  // same for one thread and one block.
   struct ManyBlocks {
     const Part &part;
     int n_threads;
@@ -207,7 +210,7 @@ class NodeSorter {
     }
   };
 
-  // Cuts a part into two or four. Every cut is at a multiple of a unit: a cluster, or a leaf within a cluster.
+  // Cuts a part into two or four. Every cut is at the border of a cluster, or of a leaf within a cluster.
   template <class Visit>
   static void for_each_cut(const Part &part, const Visit &visit) {
     const std::int64_t unit = part.size() > nodes_per_cluster ? nodes_per_cluster : nodes_per_leaf;
@@ -221,12 +224,12 @@ class NodeSorter {
     }
   }
 
-  // Returns the box of some items. Four numbers are compared at once: comparing one at a time would take longer than reading the
-  // memory. The fourth number is arbitrary and is not used.
+  // Returns the box of some items. Compares four numbers at once, because comparing one at a time would take longer than reading
+  // the memory. The fourth number is arbitrary and is not used.
   static NodeBox box_of(const Item *items, const Part &part) {
     typedef float Four __attribute__((vector_size(16)));
     static_assert(sizeof(Item) >= sizeof(Four));
-    // There are two, because a comparison waits for the last comparison of the same bounds.
+    // Two separate boxes are faster, because each comparison has to wait for the last comparison of the same bounds.
     Four lower[2], upper[2];
     for (int k = 0; k < 2; ++k) lower[k] = Four{} + NodeBox::inf, upper[k] = Four{} - NodeBox::inf;
     for (std::int64_t i = part.begin; i < part.end; i += 2)
@@ -244,7 +247,7 @@ class NodeSorter {
     return box;
   }
 
-  // Calls visit(item, quarter) for all items of a part, each quarter's in their order.
+  // Calls visit(item, quarter) for all items of a part. Within each quarter it keeps their order.
   template <class Visit>
   static void for_each_by_quarters(const Item *items, const Part &part, const Visit &visit) {
     const std::int64_t size = part.size() / n_quarters;
@@ -265,7 +268,8 @@ class NodeSorter {
     for (int quarter = 0; quarter < n_quarters; ++quarter) view(to)[quarter] += view(numbers)[quarter];
   }
 
-  // Puts items so that those of each cut follow each other. In a stream they keep their order, whatever the number of blocks.
+  // Moves items so that the items of each new part are together. Within a stream they keep their order, for any number of
+  // blocks.
   template <class Blocks>
   static void sort_once(const Part &part, const Item *from, Item *to, Blocks &blocks) {
     blocks.for_each(
@@ -310,11 +314,11 @@ class NodeSorter {
     });
   }
 
-  // Sorts a short part by its longest axis, where counting in bins would take longer.
+  // Sorts a short part completely along its longest axis. For so few items, counting in bins would take longer.
   static void sort_whole(const Part &part, const Item *from, Item *to) {
     const NodeBox box = box_of(from, part);
     const int axis = box.longest_axis();
-    // A key has the place along the axis in its upper bits and the item's number in its lower bits. So all keys are different.
+    // A key holds the position along the axis in its upper bits, and the item's number in its lower bits. So all keys differ.
     constexpr std::int32_t most = (1 << 24) - 1;
     const float per_unit = per_unit_of(static_cast<float>(most), box.upper[axis] - box.lower[axis]);
     static_assert(most < std::numeric_limits<std::int32_t>::max() / keys_at_once);
@@ -328,7 +332,7 @@ class NodeSorter {
     for (std::int32_t i = 0; i < n; ++i) to[part.begin + view(rank)[i]] = from[part.begin + i];
   }
 
-  // Sorts down to leaves, on one thread.
+  // Sorts down to leaves on one thread.
   void sort_alone(const Part &part, Item *at, Item *other) {
     if (part.size() <= nodes_per_leaf) {
       if (at != items_.data()) std::copy(at + part.begin, at + part.end, items_.data() + part.begin);

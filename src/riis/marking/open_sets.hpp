@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sets of nodes that threads unite at the same time without locks. An array holds each node's parent, which has a lower id. So
-// the root of a set is its lowest node, whatever the order of the unions.
+// Disjoint sets of nodes that several threads unite at the same time without locks. An array holds each node's parent, which is
+// a lower node. So the root of a set is its lowest node, in any order of the unions.
 #pragma once
 
 #include <cstdint>
@@ -13,25 +13,25 @@ class OpenSets {
  public:
   static constexpr std::int64_t closed = -1;  // the parent of a node that is in no set
 
-  // Borrows the array, whose entries must be closed, the node itself, or a lower node of the set.
+  // Borrows the array. Each entry must be `closed`, the node itself, or a lower node of the same set.
   explicit OpenSets(ArrayView<std::int64_t> parent) : parent_(parent) {}
 
   bool is_open(std::int64_t node) const { return load(node) != closed; }
-  // Makes a set of one node.
+  // Puts the node into a new set of its own.
   void open(std::int64_t node) { parent_[node] = node; }
 
-  // Returns the lowest node of the set, and halves the way to it for later calls.
+  // Returns the lowest node of the set. Also halves the path to it, which makes later calls faster.
   std::int64_t root(std::int64_t node) {
     for (;;) {
       std::int64_t parent = load(node);
       const std::int64_t above = load(parent);
       if (above == parent) return parent;
-      replace(node, parent, above);  // another thread may have found a still lower parent
+      replace(node, parent, above);  // fails if another thread has found a still lower parent
       node = above;
     }
   }
 
-  // Makes the lowest node of the set the node's parent, and returns it. No set may be united at the same time.
+  // Makes the lowest node of the set the node's parent, and returns it. Must not run while other threads unite sets.
   std::int64_t flatten(std::int64_t node) {
     const std::int64_t lowest = root(node);
     __atomic_store_n(&parent_[node], lowest, __ATOMIC_RELAXED);
@@ -44,12 +44,12 @@ class OpenSets {
       b = root(b);
       if (a == b) return;
       if (replace(a < b ? b : a, a < b ? b : a, a < b ? a : b)) return;
-      // Another thread has hooked the higher root to a lower node.
+      // Tries again, because another thread has given the higher root a parent.
     }
   }
 
  private:
-  // Relaxed operations are enough: a parent stands for nothing but itself, and the end of a loop orders the rest.
+  // Relaxed operations are enough. The parents guard no other data, and the end of the parallel loop orders everything else.
   std::int64_t load(std::int64_t node) const { return __atomic_load_n(&parent_[node], __ATOMIC_RELAXED); }
   bool replace(std::int64_t node, std::int64_t before, std::int64_t parent) {
     return __atomic_compare_exchange_n(&parent_[node], &before, parent, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);

@@ -19,7 +19,7 @@
 namespace riis {
 namespace {
 
-// Returns the largest distance of the nodes, and refuses nodes in the band.
+// Returns the largest distance of the nodes to the surface. Refuses nodes in the band.
 double largest_distance(const SearchRequest &request, const char *name, ArrayView<const std::int64_t> ids) {
   constexpr std::int64_t nodes_per_task = 256, few = 2048;
   const int n_threads = request.n_threads.for_part(ids.size(), few);
@@ -46,20 +46,20 @@ struct Candidate {
   double distance;
   std::int64_t node;
 
-  // Orders the farthest first, and the lowest id first among equal distances.
+  // Puts the farthest node first and, among equal distances, the lowest id first.
   bool operator<(const Candidate &other) const {
     return distance != other.distance ? distance > other.distance : node < other.node;
   }
 };
 
-// An edge that stands in the row of `other` only.
+// An edge that is in the row of `other` only.
 struct OneWayEdge {
   std::int64_t node, other;
 
   bool operator<(const OneWayEdge &edge) const { return node != edge.node ? node < edge.node : other < edge.other; }
 };
 
-// Opens nodes from far to near until the ends are joined.
+// Opens nodes in the order from far to near, until they join the ends.
 class Opening {
  public:
   Opening(const SearchRequest &request, const PassageEnds &ends)
@@ -74,7 +74,7 @@ class Opening {
     std::sort(to_ids_.begin(), to_ids_.end());
   }
 
-  // Opens the nodes beyond the limit, and returns whether they join the ends.
+  // Opens the nodes beyond the limit. Returns whether they join the ends.
   bool joins_beyond(double limit) {
     const SearchRequest within{request_.surface,   request_.mesh,      limit,
                                request_.node_mask, request_.n_threads, request_.instructions};
@@ -90,8 +90,8 @@ class Opening {
     return is_joined();
   }
 
-  // Opens the other nodes that are farther than `nearest`, one after the other. Returns the node that joins the ends, or a
-  // candidate with the id -1.
+  // Opens the other nodes that are farther than `nearest`, one by one. Returns the node that joins the ends. If no node does,
+  // returns a candidate with the id -1.
   Candidate open_until_joined(double nearest) {
     const std::vector<OneWayEdge> one_way = one_way_edges();
     OpenSets sets = this->sets();
@@ -124,7 +124,8 @@ class Opening {
     return made;
   }
 
-  // Returns the edges to nodes that are not open and whose own rows lack the edge. Most adjacencies have none.
+  // Returns the edges that lead to nodes that are not open and that are missing in these nodes' own rows. Most adjacencies have
+  // no such edges.
   std::vector<OneWayEdge> one_way_edges() {
     constexpr std::int64_t rows_per_task = 4096;
     std::vector<std::vector<OneWayEdge>> by_thread;
@@ -144,13 +145,13 @@ class Opening {
 
   const SearchRequest &request_;
   const Adjacency &adjacency_;
-  std::int64_t from_, to_;  // two more nodes, which all nodes of an end are joined to
+  std::int64_t from_, to_;  // two extra nodes, each joined to all nodes of one end
   std::vector<std::int64_t> from_ids_, to_ids_;
   Marks near_;
   UnfilledVector<std::int64_t> parent_;
 };
 
-// No node is this far from a surface.
+// A distance that no node reaches.
 constexpr double beyond_all = 10 * max_coordinate;
 
 }  // namespace
@@ -158,14 +159,14 @@ constexpr double beyond_all = 10 * max_coordinate;
 riis_passage find_passage(const SearchRequest &request, const PassageEnds &ends) {
   const auto start = std::chrono::steady_clock::now();
   const double half_thickness = request.surface.half_thickness();
-  // No path is farther from the surface than its ends.
+  // A path comes at least as near to the surface as its two ends.
   const double widest =
       std::min(largest_distance(request, "from", ends.from), largest_distance(request, "to", ends.to));
   Opening opening(request, ends);
   double limit = half_thickness, beyond = -1, growth = 2;
   for (int step = 0; opening.joins_beyond(limit); ++step) {
     beyond = limit;
-    if (step >= 4) growth *= growth;  // the surface may be tiny beside the mesh
+    if (step >= 4) growth *= growth;  // growth squares, in case the surface is tiny compared with the mesh
     limit = std::min(growth * limit, limit < widest ? widest : beyond_all);
   }
   const Candidate nearest = opening.open_until_joined(beyond);

@@ -14,7 +14,7 @@ double largest_side(const Bounds &bounds) {
   return std::max({extent.x, extent.y, extent.z});
 }
 
-// Returns a message about the sizes that do not fit, or NULL.
+// Returns a message that names two sizes that do not fit together, or NULL if all fit.
 const char *misfit(double mesh, double surface, double half_thickness) {
   constexpr double most = 50;
   if (surface > most * mesh) return "the surface is more than 50 times as large as the mesh";
@@ -42,7 +42,7 @@ bool WarnedSurfaces::is_first(std::uint64_t surface_number) {
 }
 
 void check_proportions(const Sizes &sizes, std::uint64_t surface_number, WarnedSurfaces &warned) {
-  // The box of fewer nodes may be of any size.
+  // With fewer nodes, the mesh's box may have any size.
   constexpr std::int64_t fewest_nodes = 1000;
   if (sizes.n_nodes < fewest_nodes) return;
   const double mesh = largest_side(sizes.mesh), surface = largest_side(sizes.surface);

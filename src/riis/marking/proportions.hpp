@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks whether a mesh, a surface and its half thickness can be in one unit.
-// In: boxes that are known anyway. Out: a warning to the caller's log function, once for a mesh and a surface.
+// Checks whether a mesh, a surface and its half thickness can be in the same unit.
+// In: boxes that are known already. Out: a warning to the caller's log function, once for each pair of a mesh and a surface.
 #pragma once
 
 #include <array>
@@ -11,10 +11,11 @@
 
 namespace riis {
 
-// The surfaces that a mesh was warned about. Several threads may call both functions at once.
+// The surfaces that were reported as misfits for a mesh. Several threads may call both functions at once.
 class WarnedSurfaces {
  public:
-  // Returns true once for every number other than 0. Returns false for every new number once the list is full.
+  // Records the number, which must not be 0. Returns true if it is new. Once the list is full, returns false for new numbers
+  // too.
   bool is_first(std::uint64_t surface_number);
   bool has(std::uint64_t surface_number) const;
 
@@ -29,8 +30,8 @@ struct Sizes {
   double half_thickness;
 };
 
-// Makes a few comparisons, whatever the size of the mesh. Compares sizes only, not places: a rank's part of a mesh may be
-// elsewhere.
+// Takes a few comparisons for a mesh of any size. Compares sizes and not positions, because one process's part of a mesh may lie
+// far from the surface.
 void check_proportions(const Sizes &sizes, std::uint64_t surface_number, WarnedSurfaces &warned);
 
 }  // namespace riis

@@ -10,11 +10,12 @@
 namespace riis {
 namespace {
 
-// Nodes are sorted a stretch (a range of node numbers) at a time, through a set with one bit for each node of the stretch.
+// Nodes are sorted stretch by stretch. A stretch is a range of node numbers. It is sorted by means of a set with one bit for
+// each of its nodes.
 constexpr std::int64_t nodes_per_stretch = 16384, bits_per_word = 64;
 constexpr std::size_t n_words = nodes_per_stretch / bits_per_word;
 
-// The set of a stretch's found nodes, which knows the rank of each.
+// The set of a stretch's found nodes. It returns the rank of each node among them.
 class Ranks {
  public:
   void clear() { bits_.fill(0); }
@@ -34,7 +35,8 @@ class Ranks {
  private:
   static std::int64_t word(std::int64_t node) { return node % nodes_per_stretch / bits_per_word; }
   static std::uint64_t bit(std::int64_t node) { return std::uint64_t{1} << node % bits_per_word; }
-  // This is written out because the compiler would call a function for an x86-64 without the popcount instruction.
+  // Counts bits without the popcount instruction. For processors that may lack it, the compiler's built-in would call a
+  // function.
   static std::uint32_t n_bits(std::uint64_t x) {
     x -= x >> 1 & 0x5555555555555555;
     x = (x & 0x3333333333333333) + (x >> 2 & 0x3333333333333333);
@@ -61,8 +63,8 @@ class Ordering {
         n_stretches_((n_nodes + nodes_per_stretch - 1) / nodes_per_stretch),
         scratch_(scratch) {}
 
-  // Pass 1. Counts the nodes of each list in each stretch, then replaces each count by the place where its nodes begin. Returns
-  // the sums.
+  // Pass 1. Counts the nodes of each list in each stretch. Then replaces each count by the position where these nodes will
+  // begin. Returns the sums.
   OrderScratch::Counts count() {
     scratch_.counts.clear();
     resize(scratch_.counts, n_stretches_ * n_lists_ + 1);
@@ -81,7 +83,7 @@ class Ordering {
     return sum;
   }
 
-  // Pass 2. Copies the found nodes stretch by stretch. Each place moves on to the end of its nodes.
+  // Pass 2. Copies the found nodes so that each stretch's nodes are together. Afterwards each position is the end of its nodes.
   void gather() {
     for_each_list([&](std::int64_t list, const FoundNode &found) {
       std::int64_t &at = counts_of(found, list).n_within;
@@ -89,11 +91,11 @@ class Ordering {
     });
   }
 
-  // Pass 3. Writes each stretch's nodes in their order.
+  // Pass 3. Writes each stretch's nodes in ascending order.
   void write(NodeList &within, NodeList &marked) {
     parallel_for(n_stretches_, n_threads_, [&](std::int64_t stretch, int) {
       const OrderScratch::Counts *lists = scratch_.counts.data() + stretch * n_lists_;
-      // A stretch begins where the one before it ends.
+      // A stretch begins where the stretch before it ends.
       const std::int64_t begin = stretch == 0 ? 0 : lists[-1].n_within, end = lists[n_lists_ - 1].n_within;
       if (begin == end) return;
       const FoundNode *nodes = scratch_.by_stretch.data();
@@ -118,7 +120,7 @@ class Ordering {
     });
   }
 
-  // Writes the wanted nodes of a stretch to the list by their ranks, from position `first` on.
+  // Writes the wanted nodes of a stretch to the list in the order of their ranks. The first one gets position `first`.
   template <class IsWanted>
   void write_ranked(const FoundNode *begin, const FoundNode *end, std::int64_t first, NodeList &list,
                     const IsWanted &is_wanted) const {
@@ -148,7 +150,7 @@ class Ordering {
   OrderScratch &scratch_;
 };
 
-// Other threads would come too late for few nodes.
+// For few nodes, other threads would start too late to help.
 int threads_for_order(std::int64_t n_within, int n_threads) {
   constexpr std::int64_t few = 4096;
   return n_within < few ? 1 : n_threads;

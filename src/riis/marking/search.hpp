@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The request and the report of every search.
-// In: surface, mesh, limit. Out: the nodes within the limit, with distance and triangle, in any order.
+// The request and the report that all searches share.
+// In: surface, mesh, limit. Out: the nodes within the limit in any order, with distance and triangle.
 #pragma once
 
 #include <cstdint>
@@ -28,10 +28,10 @@ struct SearchReport {
   std::int64_t n_queries;
   int n_threads;
   bool complete;
-  std::int64_t n_unreached;  // found by the neighbour search's proof
+  std::int64_t n_unreached;  // number of nodes that only the neighbour search's proof found
 };
 
-// Every search fills FoundNodes in any order, and fails with RIIS_INVALID_MESH if it reads an unusable coordinate.
+// Every search fills FoundNodes in any order. It fails with RIIS_INVALID_MESH if it reads an unusable coordinate.
 
 // Queries every node (paper, 4.2.1 "Exhaustive node iteration").
 SearchReport search_exhaustively(const SearchRequest &request, FoundNodes &found);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Work in an arena of the pool, and TBB's limit of threads around it. Embree's scenes and walks run in such an arena. So TBB
-// lends them the caller's n_threads threads, not all threads of the process.
+// Runs work in an arena of the pool, with TBB's limit of threads adjusted for it. Embree's scenes and concurrent walks run in
+// such an arena. So TBB gives them the caller's n_threads threads instead of all threads of the process.
 #pragma once
 
 #if !defined(RIIS_STD_THREADS)
@@ -16,9 +16,10 @@
 
 namespace riis {
 
-// An arena of up to n_threads threads, including the calling one. The pool lends it while this object lives. TBB limits the
-// threads of the process. If that limit is lower than n_threads, this object raises it while it lives, unless the caller set
-// it. The arena stays within the limit, because TBB would announce a larger one on stderr. An arena of one thread calls no other.
+// Borrows an arena of up to n_threads threads, including the calling one, for as long as this object lives. TBB has a limit on
+// the threads of the process. If the limit is lower than n_threads and the caller did not set it, this object raises it while it
+// lives. The arena stays within the limit, because TBB would print a message about a larger arena on stderr. An arena of one
+// thread uses only the calling thread.
 class Arena {
  public:
   explicit Arena(int n_threads) {
@@ -50,7 +51,7 @@ class Arena {
 
 namespace riis {
 
-// The thread sanitizer does not understand TBB, so the library itself does without it there.
+// The thread sanitizer does not understand TBB. Under the sanitizer the library itself does not use TBB.
 class Arena {
  public:
   explicit Arena(int) {}

@@ -15,12 +15,12 @@
 namespace riis {
 namespace {
 
-// Nothing destroys the pool when the process exits, because destructors of a caller's static objects may still walk.
+// The pool is not destroyed when the process exits, because destructors of the caller's static objects may still run walks.
 struct Pool {
   std::mutex mutex;
   std::int64_t n_keepers = 0;
   std::size_t n_arenas = 0;
-  PooledArena *idle = nullptr;  // a list, since giving back must not need memory
+  PooledArena *idle = nullptr;  // a linked list, because giving back must not need memory
   pid_t process = 0;            // the process that made the arenas
 };
 Pool pool;
@@ -40,9 +40,9 @@ PooledArena *take_idle(int n_threads) noexcept {
 void destroy(PooledArena *first) noexcept {
   std::optional<tbb::global_control> no_workers;
   try {
-    // TBB then frees an arena at once, even if workers that it called have not come.
+    // With this limit TBB frees an arena at once, even if workers that it called have not come yet.
     no_workers.emplace(tbb::global_control::max_allowed_parallelism, 1);
-  } catch (...) {  // no memory: TBB frees the arena later, or keeps it
+  } catch (...) {  // no memory for the limit: TBB frees the arena later or keeps it
   }
   while (first) delete std::exchange(first, first->next);
 }
@@ -78,7 +78,7 @@ KeepsArenas::~KeepsArenas() {
   {
     const std::lock_guard<std::mutex> lock(pool.mutex);
     --pool.n_keepers;
-    // A child of fork() lacks the workers, and TBB may wait there for the things that they held.
+    // A child of fork() lacks the worker threads, and TBB might wait for what they held.
     if (pool.n_keepers > 0 || getpid() != pool.process) return;
     first = std::exchange(pool.idle, nullptr);
     for (const PooledArena *arena = first; arena; arena = arena->next) --pool.n_arenas;

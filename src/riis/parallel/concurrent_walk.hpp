@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every loop whose bodies add more work goes through this file. Only this file, arena.hpp and arena_pool.* name TBB.
+// Loops whose bodies add more work. Only this file, arena.hpp and arena_pool.* use TBB.
 #pragma once
 
 #if defined(RIIS_STD_THREADS)
@@ -20,10 +20,10 @@
 
 namespace riis {
 
-// Runs body(range, add, thread) for every range of the list, and for every range that a body adds by add(range). Up to
-// n_threads threads run bodies in no particular order, 0 <= thread < n_threads. Returns how many threads ran. The first
-// exception is thrown again here. A walk may start anywhere: a caller's parallel regions, tasks, settings and limits stay as
-// they are. With n_threads = 1 the calling thread runs all bodies without TBB and empties the list.
+// Runs body(range, add, thread) for every range of the list, and for every range that a body adds by add(range). Up to n_threads
+// threads run bodies in no particular order, 0 <= thread < n_threads. Returns how many threads ran. Rethrows the first
+// exception. A walk may start anywhere in the caller's program: the caller's parallel regions, tasks, settings and limits stay
+// as they are. With n_threads = 1 the calling thread runs all bodies without TBB and empties the list.
 template <class Body>
 int concurrent_walk(std::vector<Range> &ranges, int n_threads, const Body &body) {
   if (n_threads == 1 || !begin_threads()) {

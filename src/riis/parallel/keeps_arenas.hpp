@@ -3,9 +3,9 @@
 
 namespace riis {
 
-// The pool (arena_pool.hpp) keeps its arenas while an object of this type lives. Each handle that a walk or a scene needs has
-// one. The arenas go with the last object: a caller may want to end TBB (tbb::finalize), and TBB refuses that while there are
-// arenas.
+// The pool (arena_pool.hpp) keeps its arenas while at least one object of this type exists. Each handle that needs a walk or a
+// scene has such an object. The last object's destructor frees the arenas, because a caller may want to end TBB (tbb::finalize),
+// and TBB refuses that while there are arenas.
 class KeepsArenas {
  public:
   KeepsArenas() noexcept;

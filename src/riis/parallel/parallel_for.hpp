@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every parallel loop goes through this file. No other file names OpenMP.
+// Loops over a fixed number of blocks. No other file uses OpenMP.
 #pragma once
 
 #include <omp.h>
@@ -14,31 +14,33 @@
 
 namespace riis {
 
-// Returns the number of processors that the calling thread may use, by its affinity mask; n_threads = 0 takes no more.
-// If OpenMP itself binds threads to places, the mask is the one with which the process started.
+// Returns the number of processors in the affinity mask of the calling thread. n_threads = 0 never stands for more threads. If
+// OpenMP itself binds threads to places, the mask is the one with which the process started.
 inline int default_thread_count() noexcept {
   const int n = omp_get_num_procs();
   return n < 1 ? 1 : n;
 }
 
-// By default a call takes one more thread for each such amount of work, half a millisecond or more. Waking and awaiting a
-// thread takes a hundredth of that on a quiet machine. On a busy one it takes as long as the system lets other work run.
+// By default a call uses one more thread for each such amount of work, which takes half a millisecond or more. On a quiet
+// machine, waking a thread and waiting for it takes a hundredth of that. On a busy machine it takes as long as the system lets
+// other processes run.
 constexpr std::int64_t triangles_per_thread = 4096, points_per_thread = 2048;
-constexpr std::int64_t nodes_per_thread = 16384;  // of a mesh, its cells or faces
+constexpr std::int64_t nodes_per_thread = 16384;  // of a mesh, or cells or faces
 
-// Returns the number of threads that a caller requests or, if it is 0, the number that n_items of work feed.
+// Returns the number of threads that a caller requests. If it is 0, returns the number that n_items of work keep busy.
 inline Threads threads_for(std::int32_t n_threads, std::int64_t n_items, std::int64_t per_thread) {
   return n_threads > 0 ? Threads(n_threads)
                        : Threads::by_default(n_items, per_thread, has_lost_threads() ? 1 : default_thread_count());
 }
 
 // Runs body(block, thread) once for every block in [0, n_blocks) on up to n_threads threads, and returns how many threads ran.
-// Blocks are handed out in ascending order, so each thread sees ascending block numbers. After all threads have stopped, the
-// exception of the lowest block is thrown again here. A single thread meets the same exception, because all blocks before it were
-// handed out before it and run to their end. No setting of the caller's OpenMP changes. Inside a caller's parallel region, the
-// loop runs on as many threads as nesting allows. One thread means the calling thread without OpenMP, whose run-time ends the
-// process if it has no memory. A loop of fewer blocks than threads leaves some threads idle: GCC's run-time ends the threads that
-// a smaller team leaves out, and the next loop waits for new ones.
+// Blocks are handed out in ascending order, so each thread sees ascending block numbers. If bodies throw, all threads stop, and
+// then the exception of the lowest block is rethrown. It is the exception that a single thread would meet, because all lower
+// blocks were handed out earlier and ran to their end.
+// The caller's OpenMP settings do not change. Inside a caller's parallel region, the loop uses as many threads as nesting
+// allows. With one thread, the calling thread runs the loop without OpenMP, whose run-time ends the process if it has no memory.
+// If there are fewer blocks than threads, some threads stay idle. A smaller team would be slower: GCC's run-time ends the
+// threads that are left out, and the next loop has to wait for new ones.
 template <class Body>
 int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
   if (n_blocks <= 1 || (n_threads > 1 && !begin_threads())) n_threads = 1;
@@ -74,7 +76,7 @@ int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
   return n_ran;
 }
 
-// Does the same over [0, n) in ranges of per_block, the last one possibly shorter, with body(range, thread).
+// Does the same for [0, n) in ranges of per_block, with body(range, thread). The last range may be shorter.
 template <class Body>
 int parallel_for_ranges(std::int64_t n, std::int64_t per_block, int n_threads, const Body &body) {
   return parallel_for((n + per_block - 1) / per_block, n_threads, [&](std::int64_t block, int thread) {

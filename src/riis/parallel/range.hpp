@@ -5,7 +5,7 @@
 
 namespace riis {
 
-// Positions in a list, begin <= i < end.
+// The positions i of a list with begin <= i < end.
 struct Range {
   std::int64_t begin, end;
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Implements concurrent_walk with standard threads, for the thread sanitizer, which understands them but not TBB. It
-// orders no more than TBB does. A range comes after the call of add that hands it on, and the end of the walk comes
-// after everything. Relaxed atomics count everything else and order nothing. A lock around a common queue would put
-// bodies in an order and hide their races.
+// Implements concurrent_walk with standard threads for the thread sanitizer, which does not understand TBB. This version
+// guarantees no more order than TBB: a range runs after the call of add that passed it on, and the walk ends after everything.
+// Relaxed atomics do all other counting, because they order nothing. A lock around a common queue would order the bodies and so
+// hide their races.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 
 namespace riis {
 
-// Slots for any number of ranges. A slot never moves.
+// Slots for any number of ranges. A slot keeps its address.
 class RangeSlots {
  public:
   struct Slot {
@@ -79,7 +79,7 @@ int concurrent_walk(const std::vector<Range> &ranges, int n_threads, const Body 
       RangeSlots::Slot &slot = slots[n_taken.fetch_add(1, std::memory_order_relaxed)];
       while (!slot.is_filled.load(std::memory_order_acquire)) {
         if (n_left.load(std::memory_order_relaxed) == 0) return;
-        std::this_thread::sleep_for(std::chrono::microseconds(20));  // a busy wait would flood the sanitizer's history
+        std::this_thread::sleep_for(std::chrono::microseconds(20));  // a busy wait would fill the sanitizer's history
       }
       if (!is_counted) n_ran.fetch_add(1, std::memory_order_relaxed);
       is_counted = true;

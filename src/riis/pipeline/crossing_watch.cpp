@@ -10,17 +10,17 @@
 namespace riis {
 namespace {
 
-// Depths in half thicknesses. Pairs count from the first depth on, which is the default of riis_find_crossings. Rounding makes no
-// pair as deep as the second one.
+// Depths in half thicknesses. Pairs count if they are at least least_depth deep, which is the default of riis_find_crossings. A
+// pair as deep as least_deepest cannot come from rounding.
 constexpr double least_depth = 1e-6, least_deepest = 1e-3;
 
-// Returns the depth that triangles of leaflets which only touch may have (docs/theory.md, section 16).
+// Returns the depth up to which triangles of leaflets may cross although the leaflets only touch (docs/theory.md, section 16).
 double depth_of_contacts(const Valve &valve, const Surface &surface) {
   if (valve.kind().has_exact_contacts) return least_deepest * surface.half_thickness();
   return 2 * surface.triangles().error_bound;
 }
 
-// Warns of crossings. Returns whether there were any.
+// Logs a warning if there are crossings. Returns whether it did.
 bool say(const Valve &valve, const Surface &surface, int n_threads) {
   const TriangleSet &set = surface.triangles();
   const Crossings pairs =
@@ -28,7 +28,8 @@ bool say(const Valve &valve, const Surface &surface, int n_threads) {
   const auto leaflet = [&](std::int64_t pair, int k) {
     return view(set.leaflet_id)[view(pairs.triangle)[2 * pair + k]];
   };
-  // Hinges reach into recesses of the housing, which the model lacks.
+  // Hinges reach into recesses of the housing, and the model of the housing lacks these recesses. So crossings with the housing
+  // do not count.
   const std::int32_t housing = valve.kind().housing;
   std::int64_t n = 0, deepest = -1;
   for (std::int64_t i = 0; i < view(pairs.depth).size(); ++i) {
@@ -71,7 +72,7 @@ void CrossingWatch::look(const Valve &valve, const Surface &surface, int n_threa
   try {
     shape.is_said = say(valve, surface, n_threads);
   } catch (...) {
-    // There is no memory for the search. The caller did not request it, and the surface is good.
+    // The search ran out of memory. This is no failure, because the caller did not request the search and the surface is good.
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Warns in the log if leaflets go through each other: once for each shape that the user chose.
-// In: the valve and its new surface. Out: a message or none.
+// Logs a warning if leaflets go through each other, once for each shape of the valve.
+// In: the valve and its new surface. Out: a log message or none.
 #pragma once
 
 #include <array>
@@ -14,9 +14,9 @@ namespace riis {
 
 class CrossingWatch {
  public:
-  // Looks at the first surface of each shape in each range of the opening, until it has warned of the shape. Without a log
-  // function it does nothing, allocates nothing and costs nothing. It never fails, because the surface is good: without memory
-  // for the search there is no warning.
+  // Examines the first surface of each shape in each range of the opening, until it has warned about the shape. Without a log
+  // function it does nothing and allocates nothing. It never fails, because the surface is good: if memory for the search is
+  // lacking, there is no warning.
   void look(const Valve &valve, const Surface &surface, int n_threads) noexcept;
 
  private:
@@ -27,7 +27,7 @@ class CrossingWatch {
   };
   Shape &remembered(std::uint64_t digest);
 
-  // A caller that goes back and forth between at most this many shapes gets one warning for each.
+  // The number of shapes that are remembered. A caller that alternates between at most so many gets one warning for each.
   static constexpr std::size_t n_remembered = 8;
 
   std::array<Shape, n_remembered> shapes_{};

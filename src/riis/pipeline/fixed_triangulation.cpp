@@ -9,12 +9,12 @@
 namespace riis {
 namespace {
 
-// The lines are chosen at this many openings, evenly spaced from 0 to 1.
+// The lines are chosen for this many openings, evenly spaced from 0 to 1.
 constexpr int n_openings = 33;
-// They are tried at n_between openings between each two of these. Lines that fail are chosen again with the openings at which
-// they failed, at most n_trials times.
+// Then the lines are tested at n_between openings between every two of these. If some fail, all are chosen again, now also for
+// the openings where they failed. This is repeated at most n_trials times.
 constexpr int n_between = 7, n_trials = 4;
-// The choice holds the patches of all these openings.
+// A limit on the number of patches, because the choice keeps the patches of all these openings in memory.
 constexpr std::size_t max_patches = 10'000;
 
 PatchSet patches_at(Valve &valve, double opening) {

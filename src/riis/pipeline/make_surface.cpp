@@ -26,7 +26,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Bounds the difference between two approximations of the smooth surface by their own errors and by rounding.
+// Bounds the difference between two approximations of the smooth surface. It adds both errors and a margin for rounding.
 double largest_difference(double triangle_error, const PatchDistance &distance) {
   return (triangle_error + distance.patches().largest_error()) * (1 + 1e-6);
 }
@@ -44,27 +44,27 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
   const Placement &placement = request.placement;
   Stopwatch stopwatch;
   if (fixed) fixed->check(valve);
-  // Parameters become curves and patches.
+  // Turns parameters into curves and patches.
   PatchSet patches = valve.make_patches();
-  // So do those of the state before, whose points have the same u and v.
+  // Does the same for the state before. Corresponding points have the same u and v.
   std::optional<PatchSet> patches_before;
   std::optional<Motion> motion;
   if (moved) {
     patches_before = valve.make_patches_before(moved->before);
     motion.emplace(Motion{*patches_before, moved->placement_before, moved->seconds});
   }
-  // Curves become polylines, patches become quads, and quads become triangles.
+  // Turns curves into polylines, patches into quads, and quads into triangles.
   const Triangulation how{accuracy.triangle_error / placement.scale, placement, request.flip_normals, request.n_threads,
                           motion ? &*motion : nullptr};
   TriangleSet triangles = fixed ? triangulate_fixed(patches, how, fixed->plan(), surface.take_triangles())
                                 : triangulate_adapted(patches, how, surface.take_triangles());
   if (triangles.n_triangles() == 0) fail(RIIS_INVALID_PARAMETER, "the valve has no area");
   const double seconds_triangles = stopwatch.lap();
-  // Another method for distances is made before the surface, because it may be refused.
+  // Makes the other method for distances before the surface, because it may be refused.
   std::unique_ptr<const PatchDistance> distance;
   if (accuracy.measure != RIIS_MEASURE_TRIANGLES)
     distance = make_distance(patches, {accuracy.measure, accuracy.distance_error}, placement, request.flip_normals);
-  // Triangles become the scene that answers queries for closest points.
+  // Turns triangles into the scene that answers queries for closest points.
   surface.make(std::move(triangles), request.half_thickness, request.n_threads);
   if (motion)
     surface.moved_between(

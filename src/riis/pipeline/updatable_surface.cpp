@@ -9,7 +9,7 @@
 namespace riis {
 namespace {
 
-// A triangle takes some 300 bytes. Above this number the memory is worth more than the time to allocate it again.
+// A triangle takes some 300 bytes. With more triangles than this, keeping the memory would cost more than allocating it again.
 constexpr std::int64_t max_triangles_kept = 1'000'000;
 
 }  // namespace
@@ -21,7 +21,7 @@ SurfaceRequest UpdatableSurface::with_threads(const SurfaceRequest &request) con
   return made;
 }
 
-// Makes the new surface aside and puts it in place at the end.
+// Makes a new surface and replaces the old one only after it has succeeded.
 template <class Make>
 void UpdatableSurface::replace(const Make &make) {
   std::unique_ptr<Surface> made = std::move(before_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A surface from update to update, with the data that the next update continues or reuses.
-// In: a valve, the caller's arrays or keyframes. Out: the surface, and the seconds that its last update took.
+// A surface that can be updated, with the data that the next update continues from or reuses.
+// In: a valve, the caller's arrays or keyframes. Out: the surface, and the time of its last update in seconds.
 #pragma once
 
 #include <riis/riis.h>
@@ -17,18 +17,18 @@ namespace riis {
 
 class UpdatableSurface {
  public:
-  // Returns the surface of the last update that succeeded. There must have been one.
+  // Returns the surface of the last successful update. There must have been one.
   const Surface &surface() const { return *surface_; }
   const SurfaceSeconds &seconds() const { return seconds_; }
 
-  // All fail as make_surface does, and then leave the surface as it was. If request.n_threads is 0, the number of threads follows
-  // from the last surface's number of triangles. The first update with accuracy.is_fixed fixes the triangulation. An update
-  // without it ends the fixed triangulation.
+  // These functions fail as make_surface does, and a failure leaves the surface unchanged. If request.n_threads is 0, the number
+  // of threads follows from the last surface's number of triangles. The first update with accuracy.is_fixed fixes the
+  // triangulation. An update without it ends the fixed triangulation.
   void update_from_valve(const Valve &valve, const ValveMotion *motion, const SurfaceRequest &request,
                          const ValveAccuracy &accuracy);
-  // Without faces, the arrays are vertices for the faces of the last arrays.
+  // If the arrays contain no faces, they are new vertices for the faces of the last arrays.
   void update_from_arrays(const riis_surface_arrays &arrays, bool skip_zero_area, const SurfaceRequest &request);
-  // Takes the vertices at a time, and the velocities since dt before (Keyframes::at).
+  // Takes the vertices at a time and the mean velocities since dt before that time (Keyframes::at).
   void update_from_keyframes(const Keyframes &frames, double time, double dt, bool skip_zero_area,
                              const SurfaceRequest &request);
 
@@ -39,10 +39,10 @@ class UpdatableSurface {
   void replace_by_faces(const UserFaces &faces, const riis_surface_arrays &arrays, bool skip_zero_area,
                         const SurfaceRequest &request);
 
-  std::unique_ptr<Surface> surface_, before_;        // the one before is kept to reuse its memory
+  std::unique_ptr<Surface> surface_, before_;        // before_ is kept to reuse its memory
   std::unique_ptr<const FixedTriangulation> fixed_;  // null without RIIS_TRIANGULATION_FIXED
   SurfaceSeconds seconds_{};
-  UserFaces faces_, faces_memory_;                  // of the last arrays; no faces after a valve or keyframes
+  UserFaces faces_, faces_memory_;                  // of the last arrays; empty after a valve or keyframes
   std::vector<double> frame_xyz_, frame_velocity_;  // memory for updates from keyframes
   CrossingWatch crossing_watch_;
 };

@@ -15,7 +15,8 @@ namespace {
 
 constexpr float nowhere = std::numeric_limits<float>::infinity();
 
-// A box in the groups' frame. Rounding is monotone there, so boxes that have a point in common keep it.
+// A box in the groups' frame, in single precision. Rounding is monotone, so boxes that have a point in common still have one
+// after rounding.
 struct Box {
   float lower[3]{nowhere, nowhere, nowhere}, upper[3]{-nowhere, -nowhere, -nowhere};
 
@@ -32,7 +33,7 @@ struct Box {
   }
 };
 
-// The boxes of a group's triangles, side by side. Lanes without a triangle are inside out.
+// The boxes of a group's triangles, one in each lane. In lanes without a triangle, lower is above upper.
 struct TriangleBoxes {
   float lower[3][triangles_per_group], upper[3][triangles_per_group];
 
@@ -41,9 +42,9 @@ struct TriangleBoxes {
     for (int i = 0; i < 3; ++i) box.lower[i] = lower[i][lane], box.upper[i] = upper[i][lane];
     return box;
   }
-  // Returns a bit for each lane that overlaps the box.
+  // Returns a bit for each lane whose box overlaps the given box.
   std::uint32_t overlapping(const Box &box) const {
-    std::uint8_t hit[triangles_per_group];  // compilers make vectors of the loop
+    std::uint8_t hit[triangles_per_group];  // an array, because compilers vectorise a loop over it
     for (int k = 0; k < triangles_per_group; ++k)
       hit[k] = (lower[0][k] <= box.upper[0]) & (box.lower[0] <= upper[0][k]) & (lower[1][k] <= box.upper[1]) &
                (box.lower[1] <= upper[1][k]) & (lower[2][k] <= box.upper[2]) & (box.lower[2] <= upper[2][k]);
@@ -58,7 +59,8 @@ void for_each_bit(std::uint32_t bits, const Visit &visit) {
   for (; bits != 0; bits &= bits - 1) visit(__builtin_ctz(bits));
 }
 
-// Boxes of groups, of runs of groups, of runs of runs and so on. Groups follow the surface, so runs are compact.
+// A tree of boxes. The lowest level has the boxes of groups, and each level above has the boxes of runs of boxes below it. The
+// order of groups follows the surface, so runs are compact.
 class BoxTree {
  public:
   explicit BoxTree(Vector<Box> groups) {
@@ -73,7 +75,7 @@ class BoxTree {
 
   const Box &group(std::int64_t g) const { return view(levels_[0])[g]; }
 
-  // Visits the groups from g on whose boxes overlap that of g.
+  // Visits group g and the groups after it, if their boxes overlap the box of g.
   template <class Visit>
   void for_each_from(std::int64_t g, const Visit &visit) const {
     descend(view(levels_).size() - 1, 0, g, group(g), visit);
@@ -86,7 +88,7 @@ class BoxTree {
   void descend(std::int64_t level, std::int64_t at, std::int64_t g, const Box &box, const Visit &visit) const {
     if (!view(view(levels_)[level])[at].overlaps(box)) return;
     if (level == 0) return visit(at);
-    std::int64_t first = g;  // the ancestor of g below
+    std::int64_t first = g;  // the ancestor of g in the level below
     for (std::int64_t i = 1; i < level; ++i) first /= run;
     const std::int64_t end = std::min((at + 1) * run, view(view(levels_)[level - 1]).size());
     for (std::int64_t i = std::max(at * run, first); i < end; ++i) descend(level - 1, i, g, box, visit);
@@ -198,7 +200,7 @@ class Finder {
     return std::any_of(a.begin(), a.end(), [&](Vec3 p) { return std::find(b.begin(), b.end(), p) != b.end(); });
   }
 
-  // Bounds the error of a depth.
+  // Bounds the error of a computed depth.
   double rounding_of(const Triangle &a, const Triangle &b) const {
     double longest = 0;
     for (const Triangle &t : {a, b})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pairs of triangles of a surface that go through each other: its self-intersections.
-// In: triangles and their groups. Out: the pairs, ascending, with their depths and the segments that they have in common.
+// Self-intersections of a surface: pairs of triangles that go through each other.
+// In: triangles and their groups. Out: the pairs in ascending order, with their depths and common segments.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ struct Crossings {
   std::vector<double> depth, length;      // (n_pairs)
 };
 
-// Finds pairs that are deeper in each other than `least_depth`. Triangles of one leaflet that share a vertex, by its coordinates,
-// are no pair.
+// Finds the pairs of triangles that penetrate each other by more than `least_depth`. Two triangles of one leaflet that share a
+// vertex do not count as a pair. Vertices are shared if their coordinates are equal.
 Crossings find_crossings(const TriangleSet &set, const TriangleGroups &groups, double least_depth, int n_threads);
 
 }  // namespace riis

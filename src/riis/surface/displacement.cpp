@@ -11,7 +11,7 @@
 namespace riis {
 namespace {
 
-// A side of a patch at both states.
+// A side of a patch in both states.
 class MovedSide {
  public:
   MovedSide(const MovedPatch &moved, Side Patch::*side)
@@ -23,8 +23,9 @@ class MovedSide {
 
   bool is_at_rest() const { return is_at_rest_; }
 
-  // Returns the displacements at shares of the length that ascend from 0 to 1. `points` has the current points that are known
-  // already. `unknown` lists the others, ascending. If there are any, it also lists the first point and the last.
+  // Returns the displacements at the given shares of the length, which ascend from 0 to 1. `points` has the current points, as
+  // far as they are known already. `unknown` lists the indices of the unknown points in ascending order. If it is not empty, it
+  // also lists the first index and the last.
   Vector<Vec3> displacements(const Vector<double> &shares, Vector<Vec3> points,
                              const Vector<std::size_t> &unknown) const {
     if (!unknown.empty()) {
@@ -48,7 +49,8 @@ class MovedSide {
   bool is_at_rest_;
 };
 
-// The lines of a grid in one direction, and the lines that halve the steps between them as often as the quads there are halved.
+// The lines of a grid in one direction, with additional lines between them. Between two lines, the step is halved as often as
+// the quads there are halved.
 class HalvedLines {
  public:
   HalvedLines(const Vector<GridLine> &lines, const Vector<int> &levels) : lines_(lines) {
@@ -59,7 +61,7 @@ class HalvedLines {
   }
 
   std::size_t size() const { return place_.back() + 1; }
-  // Returns the place of each line of the grid among all lines.
+  // Returns the position of each line of the grid among all lines.
   const Vector<std::size_t> &places() const { return place_; }
   const Vector<GridLine> &lines() const { return lines_; }
   const Vector<double> &middle() const { return middle_; }
@@ -86,12 +88,12 @@ class HalvedLines {
   Vector<double> middle_;
 };
 
-// A side of a patch on its grid.
+// A side of a patch, and where its points are in the grid.
 struct SideOnGrid {
   Side Patch::*side;
   double GridLine::*t;
   bool GridLine::*is_vertex;
-  const Vec3 *first;  // point of the grid; the others follow at distances of `stride`
+  const Vec3 *first;  // the first point in the grid; the others follow at distances of `stride`
   std::size_t stride;
 };
 
@@ -99,7 +101,7 @@ Vector<Vec3> displacements_of(const MovedPatch &moved, const SideOnGrid &on, con
   const MovedSide side(moved, on.side);
   Vector<Vec3> points(lines.size(), Vec3{0, 0, 0});
   if (side.is_at_rest()) return points;
-  // Vertices of polylines are points of the curve.
+  // The vertices of polylines are points of the curve, so they are known.
   Vector<std::size_t> unknown;
   const Vector<std::size_t> &places = lines.places();
   bool has_unknown = false;
@@ -115,7 +117,8 @@ Vector<Vec3> displacements_of(const MovedPatch &moved, const SideOnGrid &on, con
   return side.displacements(lines.shares(on.t), std::move(points), unknown);
 }
 
-// O of a patch of arcs at ascending u. At the ends it is made from the shared sides, as in the neighbours.
+// Returns O of a patch of arcs at ascending u. At the two ends, O comes from the shared sides, as it does in the neighbouring
+// patches.
 Vector<Vec3> offsets_at(const PatchSet &set, const Patch &patch, const CurvePoints &base, const CurvePoints &edge) {
   Vector<Vec3> made(base.size(), Vec3{0, 0, 0});
   if (patch.bulge == 0) return made;
@@ -151,7 +154,7 @@ PatchMotion::PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled)
   const Vec3 *const first = grid.points.data(), *const last = first + grid.points.size();
   sides_.v0 = displacements_of(moved, {&Patch::v0, &GridLine::t0, &GridLine::is_vertex0, first, 1}, u_lines);
   sides_.v1 = displacements_of(moved, {&Patch::v1, &GridLine::t1, &GridLine::is_vertex1, last - n_u, 1}, u_lines);
-  // A patch of arcs without a bulge is the Coons patch of its sides, whose label v is the same.
+  // Without a bulge, a patch of arcs equals the Coons patch of its sides, with the same label v.
   has_arcs_ = moved.now.patches[moved.patch].bulge != 0 || moved.before.patches[moved.patch].bulge != 0;
   if (has_arcs_) {
     offsets_ = offset_displacements(moved, u_lines.middle());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells how far the points of a patch moved since an earlier state of the valve (docs/theory.md, "Velocity").
+// Computes how far the points of a patch moved since an earlier state of the valve (docs/theory.md, "Velocity").
 // In: the patch now and before, its grid. Out: the displacement of every vertex.
 #pragma once
 
@@ -13,37 +13,37 @@
 
 namespace riis {
 
-// The state before the triangulated one, and the time between them.
+// The earlier state of the valve, and the time from it to the triangulated state.
 struct Motion {
   const PatchSet &patches_before;
   Placement placement_before;
-  double seconds;  // not 0; negative if the valve runs backwards
+  double seconds;  // not 0; negative if the valve moves backwards in time
 };
 
-// A patch at both states.
+// A patch in both states.
 struct MovedPatch {
   const PatchSet &now, &before;
   std::size_t patch;
 };
 
-// The displacement S_now(u,v) - S_before(u,v) of a patch, at the vertices of its grid and of its quads that are split further.
-// Both states are evaluated on the smooth patches: on their sides, and inside as the same combination of the sides. The two
-// states share only the label (u,v), so a change of the triangles does not matter. The result is exactly 0 where neither the
-// sides nor the bulge changed.
+// The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. Both states
+// are evaluated on the smooth patches: on their sides and, inside, as the same combination of the sides. A point is identified
+// in both states by its label (u,v) only, so the triangles may change in between. The result is exactly 0 if neither the sides
+// nor the bulge changed.
 class PatchMotion {
  public:
-  // The grid must have kept its lines.
+  // The grid must have been made with its lines kept.
   PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled);
 
   // Returns the displacement at the crossing of two lines of the grid.
   Vec3 at_lines(std::size_t i, std::size_t j) const { return at(column_[i], row_[j]); }
-  // Returns the displacement in the quad behind this crossing, whose sides are halved `level` times.
+  // Returns the displacement inside the quad after this crossing. The sides of the quad are halved `level` times.
   Vec3 in_quad(std::size_t i, std::size_t j, int level, int column, int row) const {
     return at(column_[i] + (static_cast<std::size_t>(column) << (column_levels_[i] - level)),
               row_[j] + (static_cast<std::size_t>(row) << (row_levels_[j] - level)));
   }
-  // Returns the same, but linear along a side between the vertices that the neighbouring quad also has. So the displacement does
-  // not jump from quad to quad.
+  // Returns the same displacement, but interpolated linearly along a side between the vertices that the neighbouring quad also
+  // has. So the displacement does not jump between neighbouring quads.
   Vec3 without_jumps(std::size_t i, std::size_t j, int column, int row) const;
 
   // Returns the displacement of O on each line of a patch of arcs.
@@ -57,7 +57,7 @@ class PatchMotion {
   Vec3 at(std::size_t i, std::size_t j) const;
 
   Vector<int> column_levels_, row_levels_;  // the largest level of the quads between two lines
-  Vector<std::size_t> column_, row_;        // of each line of the grid: its place among the halved lines
+  Vector<std::size_t> column_, row_;        // for each line of the grid, its position among the halved lines
   Vector<double> u_, v_;                    // of the halved lines
   bool has_arcs_;
   const LevelledGrid &levelled_;
@@ -65,21 +65,21 @@ class PatchMotion {
   Vector<Vec3> offsets_;
 };
 
-// The motion of one image of a patch in space: that of the patch, of the image and of the placement together.
+// The motion of one image of a patch in space. It combines the motions of the patch, the image and the placement.
 class ImageMotion {
  public:
   ImageMotion(const PatchImage &now, const PatchImage &before, const Placement &placement_now, const Motion &motion);
 
-  // Returns the mean velocity of a point over the time between the states. Before the image is placed, the point is p now and was
-  // p - displacement. Nothing cancels where image and placement are at rest.
+  // Returns the mean velocity of a point over the time between the two states. Before the image is placed, the point is at p now
+  // and was at p - displacement. If image and placement are at rest, no cancellation occurs.
   Vec3 velocity(Vec3 p, Vec3 displacement) const {
     const Vec3 moved = now_.linear * displacement + difference_.linear * (p - displacement) + difference_.offset;
     return {moved.x / seconds_, moved.y / seconds_, moved.z / seconds_};
   }
 
-  // Bounds the error of that velocity if the displacement and p have errors of at most these.
+  // Bounds the error of that velocity. The displacement and p may have errors up to the given ones.
   double velocity_error(double of_displacement, double of_point) const {
-    const auto norm = [](const Rotation &a) {  // Frobenius's
+    const auto norm = [](const Rotation &a) {  // the Frobenius norm
       return std::sqrt(dot(a.row_x, a.row_x) + dot(a.row_y, a.row_y) + dot(a.row_z, a.row_z));
     };
     return (scale_before_ * of_displacement + norm(difference_.linear) * of_point) / std::abs(seconds_);
@@ -87,7 +87,7 @@ class ImageMotion {
 
  private:
   struct AffineMap {
-    Rotation linear;  // of any scale, and mirrored or not
+    Rotation linear;  // with any scale, perhaps mirrored
     Vec3 offset;
   };
   static AffineMap map_of(const PatchImage &image, const Placement &placement);
@@ -96,7 +96,8 @@ class ImageMotion {
   double seconds_, scale_before_;
 };
 
-// Fails with RIIS_INVALID_PARAMETER unless the patches of both states have the same build: numbers, images and kinds.
+// Fails with RIIS_INVALID_PARAMETER unless the patches of both states have the same build: the same numbers of patches, images
+// and kinds.
 void check_same_build(const PatchSet &now, const PatchSet &before);
 
 }  // namespace riis

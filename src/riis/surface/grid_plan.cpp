@@ -17,13 +17,13 @@
 namespace riis {
 namespace {
 
-// A curve may be halved this often. Only requests that no surface of this library could meet reach the limit.
+// A curve may be halved this often. A request that reaches the limit would make more triangles than this library can hold.
 constexpr int max_rounds = 24;
 
-// The bound counts at most this many parts between two lines.
+// The bound on O uses at most this many parts between two lines.
 constexpr int most_parts = 8;
 
-// Returns the joints of a side, by the patch's parameter.
+// Returns the joints of a side in the patch's parameter.
 Vector<double> joints_of(const PatchSet &set, const Side &side) {
   Vector<double> joints = set.curve_of(side).joints();
   if (!side.reversed) return joints;
@@ -32,7 +32,7 @@ Vector<double> joints_of(const PatchSet &set, const Side &side) {
   return joints;
 }
 
-// Moves lines with the joints between them. Other numbers of joints leave the lines in place.
+// Moves lines along with the joints between which they lie. If the number of joints changed, the lines stay.
 Vector<double> moved(const Vector<double> &lines, const Vector<double> &from, const Vector<double> &to) {
   Vector<double> made = lines;
   if (from.empty() || from.size() != to.size()) return made;
@@ -46,13 +46,13 @@ Vector<double> moved(const Vector<double> &lines, const Vector<double> &from, co
   return made;
 }
 
-// How far a patch of arcs may be from its grid between two lines.
+// Errors of a patch of arcs between two lines of its grid.
 struct ColumnErrors {
-  double base, edge;  // of the chords
-  double off_line;    // distance of O from the line at the points between
-  double second;      // bound on |O''|
+  double base, edge;  // of the chords of both curves
+  double off_line;    // the largest distance of O from linear interpolation, at the points between
+  double second;      // a bound on |O''|
   double largest, width;
-  // Bounds the distance of O from the line, with O evaluated between n parts.
+  // Bounds the distance of O from linear interpolation, with O evaluated at the ends of n parts.
   double offset(int n) const {
     const double step = width / n;
     return std::min(largest, off_line + 0.125 * step * step * second);
@@ -89,7 +89,7 @@ class PlannedArcs {
     return polyline(edge_, set_.curve_of(patch_.v1), errors, &ColumnErrors::edge);
   }
 
-  // The neighbours have the same offsets at the ends, to the last bit.
+  // At both ends, the neighbouring patches have exactly the same offsets.
   ArcLines arc_lines(const Vector<ColumnErrors> &errors, const Vector<int> &n_parts) const {
     ArcLines made;
     made.u_lines.reserve(lines_.size());
@@ -105,7 +105,7 @@ class PlannedArcs {
   }
 
  private:
-  // Returns the lines and the shares between them; at_ tells where the lines are.
+  // Returns the shares of the lines and of the points between them. Records in at_ the positions of the lines.
   Vector<double> shares_for(const Vector<int> &n_parts) {
     Vector<double> shares;
     at_.reserve(lines_.size());
@@ -127,7 +127,7 @@ class PlannedArcs {
     const Vector<Bezier> &on_base = base_.between(i, j), &on_edge = edge_.between(i, j);
     const Curve &base = set_.curve_of(patch_.v0), &edge = set_.curve_of(patch_.v1);
     if (on_base.size() > 1 || on_edge.size() > 1) {
-      // O' may jump inside, which the other bound counts.
+      // O' may jump inside this range, and only the other bound takes jumps into account.
       made.off_line = made.largest = Bulge(along(set_, patch_.v0), along(set_, patch_.v1), patch_.bulge)
                                          .linear_error(shares_[i], shares_[j], offset_share * max_error_);
       return made;
@@ -175,13 +175,14 @@ Polyline polyline_at(const Curve &curve, const Vector<double> &shares, double en
   return made;
 }
 
-// Ascending positions, and a number for each step between two of them. The number times the square of a segment's width bounds
-// the segment's error there, as a share of the allowed error.
+// Ascending positions, and a need for each step between two of them. The need times the square of a segment's width bounds the
+// segment's error within that step, as a share of the allowed error.
 struct Needs {
   Vector<double> at, need;
 };
 
-// Takes the fewest positions, from the first to the last, that keep the error of each segment at most `most` of the allowed one.
+// Takes the fewest of these positions so that each segment's error is at most `most` of the allowed error. The first and the
+// last position are always taken.
 Vector<double> segments(const Needs &needs, double most) {
   Vector<double> made{needs.at.front()};
   for (std::size_t i = 0; i < needs.need.size();) {
@@ -197,7 +198,7 @@ Vector<double> segments(const Needs &needs, double most) {
   return made;
 }
 
-// Does the same with equal errors, as far as the positions allow.
+// Does the same, and also makes the errors of the segments as equal as the positions allow.
 Vector<double> balanced_segments(const Needs &needs, double most) {
   Vector<double> made = segments(needs, most);
   double low = 0, high = most;
@@ -211,15 +212,16 @@ Vector<double> balanced_segments(const Needs &needs, double most) {
   return made;
 }
 
-// Errors of wide segments are bounded a little less closely than those of narrow ones, which the needs come from.
+// Needs come from narrow steps, and errors of wide segments are bounded a little less closely. So some of the allowed error is
+// held back.
 constexpr double most_of_allowed = 0.9;
-// Needs are found on steps. The curve with most segments decides their number: this many for each segment, within these limits.
+// Needs are computed on steps. Their number is this many times the segments of the curve that has most, within these limits.
 constexpr int steps_per_segment = 4;
 constexpr std::size_t least_steps = 64, most_steps = 4096;
-// One state in this many decides how many steps each line needs. Then all states check the lines.
+// One in this many states decides how many steps each line needs. Later all states check the lines.
 constexpr std::size_t states_per_need = 4;
 
-// Halves the steps of a list that are too large. `is_too_large` has an entry for each step.
+// Halves those steps of a list that are too large. `is_too_large` has an entry for each step.
 Vector<double> halved(const Vector<double> &values, const Vector<bool> &is_too_large) {
   Vector<double> made;
   for (std::size_t i = 0; i + 1 < values.size(); ++i) {
@@ -261,7 +263,7 @@ class Planner {
  private:
   double tightness(const Side &side) const { return tightness_[side.curve]; }
 
-  // Gives the four curves of a Coons patch their vertices, and the patch its lines.
+  // Gives the four curves of a Coons patch their vertices, and gives the patch its lines.
   void plan_sides(const Patch &patch) {
     for (const Side &side : {patch.v0, patch.v1, patch.u0, patch.u1})
       if (plan_.shares[side.curve].empty()) plan_.shares[side.curve] = vertices(patch, side);
@@ -269,8 +271,8 @@ class Planner {
     plan.lines = {lines(patch.v0, patch.v1), lines(patch.u0, patch.u1)};
   }
 
-  // The curves at opposite sides of Coons patches, and at the opposite sides of their neighbours: a patch has few lines if its
-  // curves have the same vertices. A curve runs with the first of its family or against it.
+  // Curves at opposite sides of Coons patches, and at the opposite sides of their neighbours, form a family. If they have the
+  // same vertices, the patches have few lines. Each curve runs with the first curve of its family or against it.
   struct Family {
     Vector<std::size_t> curves;
     Vector<bool> runs_against;
@@ -325,7 +327,7 @@ class Planner {
     return shares;
   }
 
-  // Gives each curve the shares of its family's lines that it needs. `vertices` adds to them.
+  // Gives each curve those lines of its family that it needs. `vertices` adds more.
   void plan_families() {
     first_shares_.assign(set_.curves.size(), {0, 1});
     for (const Family &family : families()) {
@@ -333,7 +335,7 @@ class Planner {
       std::size_t n_steps = least_steps;
       for (const std::size_t curve : family.curves)
         n_steps = std::max(n_steps, steps_per_segment * rough_number_of_segments(curve));
-      if (n_steps > most_steps) continue;  // a tolerance so small that vertices are halved from the ends
+      if (n_steps > most_steps) continue;  // the tolerance is so small that curves are halved from end to end instead
       while ((n_steps & (n_steps - 1)) != 0) n_steps += n_steps & -n_steps;
       for (std::size_t k = 0; k < family.curves.size(); ++k)
         needs.push_back(needs_of(family.curves[k], family.runs_against[k], n_steps));
@@ -348,7 +350,7 @@ class Planner {
     }
   }
 
-  // Returns the number of segments that a curve needs if it bends everywhere as much as its control points allow.
+  // Returns the number of segments that a curve needs at the largest bend that its control points allow.
   std::size_t rough_number_of_segments(std::size_t curve) const {
     double most = 1;
     for (std::size_t i = 0; i < states_.size(); i += states_per_need) {
@@ -363,7 +365,7 @@ class Planner {
 
   double allowed(std::size_t curve) const { return of_curves_ * max_error_ * tightness_[curve]; }
 
-  // Finds the needs of a curve, by the shares of the first curve of its family.
+  // Finds the needs of a curve. Its shares are counted along the first curve of its family.
   Needs needs_of(std::size_t curve, bool runs_against, std::size_t n_steps) const {
     Needs made;
     for (std::size_t i = 0; i <= n_steps; ++i) made.at.push_back(static_cast<double>(i) / static_cast<double>(n_steps));
@@ -378,7 +380,7 @@ class Planner {
     return made;
   }
 
-  // Returns the needs on wider steps.
+  // Returns the needs on the wider steps between `lines`.
   static Needs between_lines(const Needs &needs, const Vector<double> &lines) {
     Needs made{lines, Vector<double>(lines.size() - 1, 0)};
     std::size_t step = 0;
@@ -406,14 +408,15 @@ class Planner {
     }
   }
 
-  // Returns the shares by the patch's parameter. A side that is always collapsed has lines at its ends only.
+  // Returns the shares in the patch's parameter. A side that is collapsed at all openings has lines only at its ends.
   Vector<double> shares_along(const Side &side) const {
     if (is_collapsed(side)) return {0, 1};
     const Vector<double> &shares = plan_.shares[side.curve];
     return side.reversed ? turned(shares) : shares;
   }
 
-  // The shares are binary fractions, so they are equal to the last bit or far apart.
+  // Merges the lines of two sides. All shares are binary fractions, so two of them are either equal to the last bit or far
+  // apart.
   Vector<GridLine> lines(const Side &a, const Side &b) const {
     const Vector<double> on_a = shares_along(a), on_b = shares_along(b);
     Vector<double> both;
@@ -426,8 +429,8 @@ class Planner {
     return made;
   }
 
-  // Returns the joints at the first opening, if the lines can move with them: the base has the same number at every
-  // opening, none near an end.
+  // Returns the joints at the first opening, if the lines can move with them. For that, the base must have the same number of
+  // joints at every opening, and none near an end.
   Vector<double> joints(std::size_t patch) const {
     constexpr double near_end = 0.01;
     const Vector<double> first = joints_of(set_, set_.patches[patch].v0);
@@ -439,8 +442,8 @@ class Planner {
     return first;
   }
 
-  // Adds lines until base, edge and O are near enough to linear between them, at every opening. Then takes the fewest parts for O
-  // that are enough.
+  // Adds lines until base, edge and O are nearly linear between them at every opening. Then takes the fewest parts for O that
+  // are enough.
   void plan_arcs(std::size_t patch) {
     PatchPlan &plan = plan_.patches[patch];
     plan.joints = joints(patch);
@@ -465,7 +468,7 @@ class Planner {
     plan_.n_rows = std::max(plan_.n_rows, static_cast<std::size_t>(rows_for(offset, max_error_)));
   }
 
-  // Returns few lines that should be enough, some of them at the joints.
+  // Returns a few lines that should be enough. Some of them are at the joints.
   Vector<double> first_arc_lines(std::size_t patch, const Vector<double> &joints) const {
     const Patch &first = set_.patches[patch];
     Vector<double> ends{0};
@@ -507,7 +510,8 @@ class Planner {
     return (arc_curve_share + merge_share) * max_error_ * std::min(tightness(patch.v0), tightness(patch.v1));
   }
 
-  // Returns for each two lines the least number of parts that is enough at every opening; more than most_parts if none is.
+  // Returns, for each two neighbouring lines, the least number of parts that is enough at every opening. If none is enough, the
+  // number is above most_parts.
   Vector<int> parts_wanted(std::size_t patch, PatchPlan &plan) const {
     const Patch &first = set_.patches[patch];
     const double of_curves = of_arc_curves(first);
@@ -537,7 +541,7 @@ class Planner {
   const PatchSet &set_;
   double max_error_, of_curves_;
   const Vector<double> &tightness_;
-  Vector<Vector<double>> first_shares_;  // of each curve
+  Vector<Vector<double>> first_shares_;  // for each curve
   GridPlan plan_;
   double n_triangles_ = 0;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Grids whose lines stay the same while a valve opens (docs/theory.md, "Fixed triangulation").
-// In: the patches of a valve at many openings, the allowed error. Out: lines that keep the error at all of them; grids
-// on these lines at any opening, with the error that they have there.
+// In: the patches of a valve at many openings, the allowed error. Out: lines that keep the error at all these openings, and
+// grids on these lines at any opening with their errors there.
 #pragma once
 
 #include <cstddef>
@@ -13,25 +13,25 @@
 namespace riis {
 
 struct PatchPlan {
-  bool has_arcs = false;  // at any of the openings
+  bool has_arcs = false;  // at one of the openings at least
 
   GridLines lines;  // of a Coons patch
 
-  // A patch of arcs has the lines in u and the joints of the base that they move with, both at one of the openings. Between two
-  // joints a line keeps its share of the way. Without joints the lines stay.
+  // A patch of arcs has lines in u, and joints of the base that the lines move with. Both are given at one of the openings.
+  // Between two joints, a line keeps its relative position. Without joints the lines do not move.
   Vector<double> u, joints;
-  Vector<int> n_parts;  // between each two lines: the parts that O is evaluated between, to bound its error
+  Vector<int> n_parts;  // the parts between two lines, at whose ends O is evaluated to bound its error
 };
 
-// The numbers that the sides of patches give their curves. A valve may share curves at one opening and not at another, as
-// closed mitral leaflets do.
+// The numbering of curves that the sides of patches use. At different openings a valve may share different curves: closed mitral
+// leaflets share curves that open ones do not.
 class CurveNumbering {
  public:
   explicit CurveNumbering(const PatchSet &set);
-  // Returns whether the patches already number their curves in this way.
+  // Returns whether the patches already use this numbering.
   bool is_of(const PatchSet &set) const;
-  // Returns the patches with curves numbered in this way. Lists by curve then fit all openings. The patches have the same build
-  // but for shared curves (check_same_build).
+  // Returns the patches with this numbering of curves. Then lists with an entry for each curve fit all openings. The patches
+  // must have the same build except for shared curves (check_same_build).
   PatchSet renumbered(const PatchSet &set) const;
 
  private:
@@ -40,19 +40,19 @@ class CurveNumbering {
 };
 
 struct GridPlan {
-  Vector<Vector<double>> shares;  // of each curve's length, at its vertices; empty if only arcs end there
+  Vector<Vector<double>> shares;  // shares of each curve's length at its vertices; empty if only arcs end on it
   Vector<PatchPlan> patches;
-  std::size_t n_rows = 1;  // of patches of arcs
+  std::size_t n_rows = 1;  // of all patches of arcs
 };
 
-// Makes the plan for patches at each of the openings, all with one numbering of curves. Keeps each curve of a Coons patch
-// within max_error times of_curves times its tightness, and curves of other patches within their share. Fails with
+// Makes the plan from the patches at each of the openings. All must use one numbering of curves. Keeps each curve of a Coons
+// patch within max_error times of_curves times its tightness, and the curves of other patches within their own share. Fails with
 // RIIS_LIMIT_EXCEEDED for more than max_triangles, and with RIIS_INVALID_PARAMETER if no lines are enough.
 GridPlan plan_grids(const Vector<PatchSet> &states, double max_error, double of_curves,
                     const Vector<double> &tightness);
 
-// Makes one grid for each patch on the plan's lines, as the other make_grids does on its own lines. Bounds errors no
-// closer than max_error needs.
+// Makes one grid for each patch on the plan's lines. (The other make_grids chooses its own lines.) The bounds of errors are
+// refined no further than max_error requires.
 Vector<QuadGrid> make_grids(const PatchSet &set, const GridPlan &plan, double max_error, int n_threads,
                             bool keeps_lines);
 

@@ -14,7 +14,8 @@
 namespace riis {
 namespace {
 
-// Returns the largest speed per unit of opening at five points of each curve. A cubic that is 0 at all five is 0 everywhere.
+// Returns the largest speed per unit of opening, taken at five points of each curve. A cubic that is 0 at all five points is 0
+// everywhere.
 double largest_rate(const PatchSet &set) {
   double largest = 0;
   for (const Bezier &rate : set.rates)
@@ -34,7 +35,7 @@ class GridMaker {
         polylines_(set.curves.size()),
         reversed_(set.curves.size()) {
     check_precision(set, max_error);
-    // Each curve gets one polyline, as exact as its most demanding patch needs it.
+    // Each curve gets one polyline, which is as exact as the most demanding of its patches requires.
     for (const Patch &patch : set.patches) {
       for (const Side &side : {patch.v0, patch.v1}) allow(side, patch.bulge != 0 ? arc_curve_share : curve_share);
       if (patch.bulge == 0)
@@ -43,7 +44,7 @@ class GridMaker {
     for (std::size_t i = 0; i < tightness.size(); ++i) errors_[i] *= tightness[i];
   }
 
-  // Counts the triangles at each step, before anything large is made.
+  // Makes the grids. Counts the triangles after each step, before anything large is allocated.
   Vector<QuadGrid> make() {
     const std::size_t n_patches = set_.patches.size();
     lines_.resize(n_patches);
@@ -56,7 +57,7 @@ class GridMaker {
       });
       for (std::size_t i = first; i < end; ++i) check_count(n_at_least += n_triangles(i, 1), max_error_);
     }
-    // Patches of arcs meet along arcs, so all have the same number of rows.
+    // Patches of arcs meet along arcs, so all must have the same number of rows.
     double offset = 0;
     for (const ArcLines &lines : lines_) offset = std::max(offset, lines.largest_offset());
     const double n_rows = rows_for(offset, max_error_);
@@ -71,7 +72,8 @@ class GridMaker {
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   // A curve may have a million points, and a valve a million patches. So the polylines of at most this many patches are made
-  // before they are counted. The number is fixed so that the count at a failure does not depend on the number of threads.
+  // before their points are counted. The number is fixed, so that the count in an error message does not depend on the number of
+  // threads.
   static constexpr std::size_t patches_at_once = 16;
 
   QuadGrid grid(std::size_t i, std::size_t n_rows) const {
@@ -117,7 +119,8 @@ class GridMaker {
   }
 
   PatchSides sides_of(const Patch &patch) const {
-    // The arcs at the sides of a patch of arcs have no polylines: all its arcs are cut into rows alike.
+    // In a patch of arcs, the arcs at its sides have no polylines, because all arcs of the patch are cut into rows in the same
+    // way.
     const bool is_coons = patch.bulge == 0;
     return {polyline(patch.v0), polyline(patch.v1), is_coons ? polyline(patch.u0) : nullptr,
             is_coons ? polyline(patch.u1) : nullptr};
@@ -125,7 +128,7 @@ class GridMaker {
 
   ArcLines arc_lines(const Patch &patch, const PatchSides &sides) const {
     const Vec3 at_u0 = arc_offset(set_, patch.u0), at_u1 = arc_offset(set_, patch.u1);
-    // More lines than this make too many triangles.
+    // More lines than this would make too many triangles.
     const double n_rows = rows_for(std::max(length(at_u0), length(at_u1)), max_error_);
     const auto max_lines = static_cast<std::size_t>(static_cast<double>(max_triangles) / n_rows) + 2;
     ArcLines lines = make_arc_lines(sides, Bulge(along(set_, patch.v0), along(set_, patch.v1), patch.bulge), at_u0,
@@ -134,7 +137,7 @@ class GridMaker {
     return lines;
   }
 
-  // Returns the number of triangles of all images of a patch if no quad is split.
+  // Returns the number of triangles of all images of a patch, if no quad is subdivided.
   double n_triangles(std::size_t i, double n_rows) const {
     const auto n_between = [](const Polyline &a, const Polyline &b) {
       return static_cast<double>(std::max<std::size_t>({a.t.size(), b.t.size(), 2}) - 1);
@@ -149,9 +152,9 @@ class GridMaker {
   const PatchSet &set_;
   bool keeps_lines_;
   double max_error_;
-  double max_bend_;  // of the velocity between two vertices of a curve; 0 if the valve does not open
+  double max_bend_;  // allowed error of the velocity between two vertices of a curve; 0 if the valve does not open
   int n_threads_;
-  Vector<double> errors_;  // allowed error of each curve; infinity: needs no polyline
+  Vector<double> errors_;  // allowed error of each curve; infinity if it needs no polyline
   Vector<Polyline> polylines_, reversed_;
   Vector<PatchSides> sides_;
   Vector<ArcLines> lines_;
@@ -179,7 +182,8 @@ void check_precision(const PatchSet &set, double max_error) {
          ", which round by more than a thousandth of tolerance * half_thickness before scaling, ", max_error);
   if (longest * 1e-12 > 1e-2 * max_error)
     fail(RIIS_LIMIT_EXCEEDED, "a curve is ", longest,
-         " long, which is not known to a hundredth of tolerance * half_thickness before scaling, ", max_error);
+         " long, and its length rounds by more than a hundredth of tolerance * half_thickness before scaling, ",
+         max_error);
 }
 
 double error_left(const PatchSet &set, double max_error) {

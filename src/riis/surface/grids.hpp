@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turns patches into grids of quads (paper, 3.2 and 3.3).
-// In: curves and patches of a valve, the allowed error. Out: a grid for each patch, which leaves enough of that error
-// for the split of quads into triangles.
+// In: curves and patches of a valve, the allowed error. Out: a grid for each patch. Its error leaves room for the error of
+// splitting quads into triangles.
 #pragma once
 
 #include "base/recycled.hpp"
@@ -10,34 +10,34 @@
 
 namespace riis {
 
-// The allowed error is shared out as in docs/theory.md, "Tolerance". A point of a Coons patch inherits the errors of a
-// u curve, a v curve and merged grid lines, each bounded as below. At least 1 - 2 * (curve_share + merge_share) is left
-// for the split of a quad into triangles.
+// The allowed error is divided as in docs/theory.md, "Tolerance". A point of a Coons patch has the errors of a u curve, of a v
+// curve and of merged grid lines. Each is bounded by its share below. At least 1 - 2 * (curve_share + merge_share) remains for
+// splitting a quad into triangles.
 inline constexpr double curve_share = 0.45, merge_share = 0.01;
-// A plan's lines use their share nearly everywhere. A larger share would leave too little for quads, and many would be split
-// further.
+// The lines of a plan use up their share nearly everywhere. With a larger share, too little would remain for quads, and many
+// quads would be subdivided.
 inline constexpr double planned_curve_share = 0.39;
 // The error of a point of a patch of arcs has three parts: the mean of two curves' errors, at most half of the error of O, and
-// the error of the arcs' chords. At least 1 - (arc_curve_share + merge_share + offset_share / 2 + row_share) is left.
+// the error of the arcs' chords. At least 1 - (arc_curve_share + merge_share + offset_share / 2 + row_share) remains.
 inline constexpr double arc_curve_share = 0.4, offset_share = 0.2, row_share = 0.45;
 
-// The velocity between two vertices of a curve is estimated to be off linear by at most this share of the largest speed.
+// Between two vertices of a curve, the velocity's estimated distance from linear is at most this share of the largest speed.
 inline constexpr double bend_share = 0.008;
 
-// Returns the rows that keep the chords of arcs with offsets up to `offset` within their share of max_error.
+// Returns the number of rows that keeps chords within their share of max_error, for arcs with offsets up to `offset`.
 double rows_for(double offset, double max_error);
 
-// Makes one grid for each patch, in their order, before any image of the patch is placed. Keeps each curve within its
-// share of max_error times its tightness; an empty `tightness` means 1 for all. Grids keep their lines if `keeps_lines` is
-// true. Fails with RIIS_LIMIT_EXCEEDED if the surface would take more than max_triangles triangles.
+// Makes one grid for each patch, in the order of the patches, before any image is placed. Keeps each curve within its share of
+// max_error times its tightness. An empty `tightness` means 1 for all curves. Grids keep their lines if `keeps_lines` is true.
+// Fails with RIIS_LIMIT_EXCEEDED if the surface would take more than max_triangles triangles.
 Vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const Vector<double> &tightness = {},
                             int n_threads = 1, bool keeps_lines = false);
 
-// Fails with RIIS_LIMIT_EXCEEDED if lengths or coordinates of curves round by too much for max_error.
+// Fails with RIIS_LIMIT_EXCEEDED if rounding of the curves' lengths or coordinates is too large for max_error.
 void check_precision(const PatchSet &set, double max_error);
 
-// Returns max_error minus the deviation of the curves from the shape that they stand for. Fails with RIIS_LIMIT_EXCEEDED if the
-// deviation takes more than half of it.
+// Returns max_error minus the deviation of the curves from the shape that they represent. Fails with RIIS_LIMIT_EXCEEDED if the
+// deviation is more than half of max_error.
 double error_left(const PatchSet &set, double max_error);
 
 // Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles.

@@ -46,8 +46,8 @@ Keyframes::Keyframes(const riis_surface_arrays &arrays, const riis_keyframe_arra
     for (std::int64_t i = 0; i < n; ++i)
       if (xyz[i] != xyz[(frames.n_keys - 1) * n + i])
         fail(RIIS_INVALID_SURFACE, "vertex ", i / 3, " in the last frame, a period after the first, has the ",
-             view(axes)[i % 3], " ", xyz[(frames.n_keys - 1) * n + i], "; it must be that of the first, ", xyz[i]);
-  // The faces are checked once, as a surface from the first frame.
+             view(axes)[i % 3], " ", xyz[(frames.n_keys - 1) * n + i], "; it must equal that of the first, ", xyz[i]);
+  // Checks the faces once, with the vertices of the first frame.
   faces_ = faces_from_arrays(arrays);
   riis_surface_arrays first = arrays;
   first.x = xyz, first.y = xyz + 1, first.z = xyz + 2;
@@ -62,10 +62,10 @@ Keyframes::Keyframes(const riis_surface_arrays &arrays, const riis_keyframe_arra
 
 void Keyframes::at(double time, double dt, std::vector<double> &xyz, std::vector<double> &velocity) const {
   if (!(dt == 0 || (std::abs(dt) >= 1e-30 && std::abs(dt) <= 1e30)))
-    fail(RIIS_INVALID_ARGUMENT, "dt is ", dt, "; it must be 0, or from 1e-30 to 1e+30, or that much below 0");
+    fail(RIIS_INVALID_ARGUMENT, "dt is ", dt, "; it must be 0, or from 1e-30 to 1e+30 in magnitude");
   const KeyTimes::KeysAround now = keys_.around(time);
   if (dt != 0 && time - dt == time)
-    fail(RIIS_INVALID_ARGUMENT, "dt is ", dt, ", which is lost in rounding beside time, ", time);
+    fail(RIIS_INVALID_ARGUMENT, "dt is ", dt, ", which is too small to change time, ", time);
   const KeyTimes::KeysAround before = keys_.around(time - dt, "time - dt");
   const std::int64_t n = 3 * faces_.n_vertices;
   const auto value = [&](const KeyTimes::KeysAround &around, std::int64_t i) {

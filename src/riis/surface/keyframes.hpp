@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The motion of a surface from frames at given times: the same faces, other places of the vertices.
-// In: frames, a time. Out: places and velocities of the vertices at that time.
+// The motion of a surface from frames at given times. The faces stay the same, and only the vertices move.
+// In: frames, a time. Out: positions and velocities of the vertices at that time.
 #pragma once
 
 #include <riis/riis.h>
@@ -15,20 +15,20 @@ namespace riis {
 
 class Keyframes {
  public:
-  // Copies all arrays. Fails as triangles_from_arrays does for the faces in the first frame, except that faces without area are
-  // left to the surfaces. A bad coordinate is named with its frame.
+  // Copies all arrays. Fails as triangles_from_arrays does for the faces with the first frame's vertices. Faces without area are
+  // not refused here but when a surface is made. Messages about bad coordinates name the frame.
   Keyframes(const riis_surface_arrays &arrays, const riis_keyframe_arrays &frames);
-  Keyframes(Keyframes &&) = default;  // the times stay in place
+  Keyframes(Keyframes &&) = default;  // moving a vector leaves its elements, such as the times, at their address
 
-  // Writes places and velocities (3, n_vertices). With dt == 0 the velocity is the interpolant's derivative,
-  // right-hand at a linear key; else it is the mean from time - dt to time.
+  // Writes positions and velocities (3, n_vertices). With dt == 0 the velocity is the derivative of the interpolation. At a
+  // linear key it is the derivative after the key. Otherwise the velocity is the mean from time - dt to time.
   void at(double time, double dt, std::vector<double> &xyz, std::vector<double> &velocity) const;
 
   const UserFaces &faces() const { return faces_; }
 
  private:
   std::vector<double> time_, xyz_;
-  KeyTimes keys_;  // checked once; it borrows the times, which stay in place when the vector moves
+  KeyTimes keys_;  // borrows time_, whose elements stay at their address when the vector is moved
   UserFaces faces_;
 };
 

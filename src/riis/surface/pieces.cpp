@@ -14,7 +14,7 @@
 namespace riis {
 namespace {
 
-// Returns the seam of an image, or null.
+// Returns the seam of an image, or null if it has none.
 const Seam *seam_of(const PatchSet &set, std::size_t patch, std::size_t image) {
   for (const Seam &seam : set.seams)
     if (seam.patch == patch && seam.image == image) return &seam;
@@ -44,8 +44,8 @@ PatchVertices vertices_of(const PatchSet &set, std::size_t patch, const Levelled
   for_each_quad(grid, [&](std::size_t i, std::size_t j) {
     const int level = *level_of_next++;
     if (level == 0) return;
-    // All parts of a bilinear quad at one level have the same flatness. So recursive halving would end in equal parts, and they
-    // are made in one go.
+    // At one level, all parts of a bilinear quad have the same flatness. So recursive halving would end in equal parts, and
+    // these are made directly.
     const int n_parts = 1 << level;
     const double step = 1.0 / n_parts;  // a power of two
     const Quad quad = quad_of(grid, i, j);
@@ -70,7 +70,7 @@ PlacedBy placed_by(const PatchImage &image, const Placement &placement) {
     put({from.row_x.z, from.row_y.z, from.row_z.z}, to[2]);
   };
   put_columns(image.rotation, by.of_image);
-  // The product with a mirrored coordinate equals that with a mirrored column, to the last bit.
+  // Negates a column of the matrix. The product is the same, to the last bit, as with the negated coordinate.
   if (image.mirror != Mirror::none)
     for (double &x : by.of_image[image.mirror == Mirror::in_x ? 0 : 1]) x = -x;
   put(image.translation, by.offset_of_image);
@@ -80,13 +80,13 @@ PlacedBy placed_by(const PatchImage &image, const Placement &placement) {
   return by;
 }
 
-// Makes the triangles of a piece whose vertices have been placed.
+// Makes the triangles of a piece whose vertices are placed.
 class PieceTriangles {
  public:
   PieceTriangles(Piece &piece, const LevelledGrid &levelled, bool flip_normals, TriangleSet &set)
       : piece_(piece), levelled_(levelled), flip_normals_(flip_normals), set_(set) {}
 
-  // Returns the position of each quad's first triangle, and the end of the last.
+  // Returns the position of each quad's first triangle. The last entry is the end of the last quad's triangles.
   Vector<std::int32_t> add() {
     const QuadGrid &grid = levelled_.grid;
     auto level_of_next = levelled_.levels.begin();
@@ -114,7 +114,7 @@ class PieceTriangles {
  private:
   std::int64_t next_triangle() const { return piece_.first_triangle + piece_.n_triangles; }
 
-  // Adds the quads of a quad that is subdivided to a level, whose vertices begin with `first`.
+  // Adds the quads into which a quad is subdivided at a level. Their vertices begin with `first`.
   void add_quads(std::int64_t first, int level) {
     const int n = 1 << level;
     const auto vertex = [&](int column, int row) { return first + row * (n + 1) + column; };
@@ -156,7 +156,7 @@ class PieceTriangles {
   std::int64_t next_id_ = piece_.first_triangle;
 };
 
-// Returns the patches of which triangles are missed.
+// Returns the patches that miss triangles (is_missed).
 Vector<std::size_t> vanished_patches(const Vector<Piece> &pieces) {
   Vector<std::size_t> vanished;
   for (const Piece &piece : pieces)
@@ -164,7 +164,7 @@ Vector<std::size_t> vanished_patches(const Vector<Piece> &pieces) {
   return vanished;
 }
 
-// The old contents may stay, because the pieces write everything.
+// Old contents may stay in the arrays, because the pieces overwrite everything.
 void resize_triangles(std::int64_t n, TriangleSet &triangles) {
   resize(triangles.vertex_id, 3 * n);
   resize(triangles.leaflet_id, n);
@@ -172,7 +172,7 @@ void resize_triangles(std::int64_t n, TriangleSet &triangles) {
   resize(triangles.triangle_id, n);
 }
 
-// Moves the triangles of all pieces together. Pieces may have fewer triangles than there was room for.
+// Moves the triangles of all pieces together, because pieces may have fewer triangles than the room reserved for them.
 void close_gaps(const Vector<Piece> &pieces, TriangleSet &triangles) {
   std::int64_t n = 0;
   for (const Piece &piece : pieces) {
@@ -194,8 +194,8 @@ void close_gaps(const Vector<Piece> &pieces, TriangleSet &triangles) {
 }  // namespace
 
 bool is_missed(const TriangleSet &set, const LeftOut &triangle) {
-  // A triangle without area is its longest edge. The edge is still there if it is the diagonal of a quad whose other half was
-  // kept. Nothing is lost if the triangle is a point.
+  // A triangle without area is in fact a segment, its longest edge. The edge is not lost if it is the diagonal of a quad whose
+  // other half was kept. If the triangle is a point, nothing is lost.
   const Vec3 corner = set.vertex(triangle.corner), a = set.vertex(triangle.a), b = set.vertex(triangle.b);
   const double diagonal = distance(a, b), other = std::max(distance(corner, a), distance(corner, b));
   const bool is_on_diagonal = triangle.other_was_kept && other <= (1 + 1e-9) * diagonal;
@@ -290,7 +290,7 @@ void finish(const PatchSet &set, const Triangulation &how, Vector<LevelledGrid> 
 
 void fail_for_vanished(const PatchSet &set, std::size_t patch, const char *where) {
   fail(RIIS_INVALID_PARAMETER, "patch ", set.patches[patch].images.front().patch_id, " has no area", where,
-       ", at least in part: a surface is no curve");
+       ", at least in part: a surface must not shrink to a curve");
 }
 
 }  // namespace riis

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The triangles of grids, image by image: the common part of the adapted and the fixed triangulation.
-// In: grids with their quads' levels, patches and their images. Out: placed vertices, and the triangles between them.
+// Makes the triangles of grids, image by image. The adapted and the fixed triangulation share this code.
+// In: grids with the levels of their quads, patches and their images. Out: placed vertices, and the triangles between them.
 #pragma once
 
 #include <cstddef>
@@ -13,23 +13,24 @@
 
 namespace riis {
 
-// An image of a patch, with its own vertices and triangles in a set. The thread that builds the image writes no others.
+// An image of a patch, which has its own range of vertices and triangles in a set. The thread that builds the image writes to no
+// other range.
 struct Piece {
   std::size_t patch;
   const PatchImage *image;
-  const PatchImage *twin;  // null without a seam
+  const PatchImage *twin;  // the image at the other side of the seam; null without a seam
   const Seam *seam;
   std::int64_t first_vertex, first_triangle;
-  std::int64_t n_triangles = 0;  // without triangles that turned out to have no area; there may be room for more
-  Vector<LeftOut> left_out{};    // these triangles
-  bool is_whole = true;          // false if the triangles kept do not stand for all triangles left out
+  std::int64_t n_triangles = 0;  // triangles that have an area; the range may have room for more
+  Vector<LeftOut> left_out{};    // the triangles without area
+  bool is_whole = true;          // false if one of the triangles left out is missed (is_missed)
 };
 
-// The vertices of a patch before any image is placed: those of the grid, then those of subdivided quads.
+// The vertices of a patch before its images are placed: first those of the grid, then those of subdivided quads.
 struct PatchVertices {
   Vector<Vec3> points;
   Vector<double> uv;
-  Vector<Vec3> displacements;  // since an earlier state; empty without one
+  Vector<Vec3> displacements;  // displacements since an earlier state; empty without one
 };
 
 class Pieces {
@@ -38,10 +39,10 @@ class Pieces {
   Pieces(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids, TriangleSet &triangles);
 
   const Vector<Piece> &all() const { return pieces_; }
-  // Bounds the distance between the triangles and the smooth surface, placed.
+  // Bounds the distance between the triangles and the smooth surface, in placed units.
   double error_bound() const;
 
-  // Places the vertices of every piece, and then calls work(i) for piece i. Several threads call it at once.
+  // Places the vertices of every piece, and then calls work(i) for piece i. Several threads call work at once.
   template <class Work>
   void place_vertices(const Work &work) {
     make_patch_vertices();
@@ -51,9 +52,9 @@ class Pieces {
     });
   }
 
-  // Makes vertices and triangles, and calls work(i, first_of_quad) for piece i in the same way. The list has the position of each
-  // quad's first triangle, and the end of the last. The ids also count triangles without area. Returns the patches of which
-  // triangles are missed; the triangles are complete if there are none.
+  // Makes vertices and triangles, and then calls work(i, first_of_quad) for piece i, as place_vertices does. first_of_quad has
+  // the position of each quad's first triangle, and then the end of the last quad's triangles. The ids also count triangles
+  // without area. Returns the patches that miss triangles. If there are none, the triangles are complete.
   template <class Work>
   Vector<std::size_t> make_triangles(const Work &work) {
     make_room_for_triangles();
@@ -74,23 +75,23 @@ class Pieces {
   TriangleSet &triangles_;
   Vector<Piece> pieces_;
   Vector<PatchVertices> of_patches_;
-  std::int64_t n_triangles_ = 0, n_vertices_ = 0;  // at most
+  std::int64_t n_triangles_ = 0, n_vertices_ = 0;  // upper bounds
 };
 
-// Returns whether nothing in the set stands for a triangle that was left out.
+// Returns whether a triangle was left out and nothing in the set stands for it.
 bool is_missed(const TriangleSet &set, const LeftOut &triangle);
 
-// Returns the triangulation with the error that the patches' own deviation leaves. Fails if that is too little, or if the state
-// before has another build.
+// Returns the triangulation's request with a smaller allowed error: the patches' own deviation is subtracted. Fails if the rest
+// is too small, or if the state before has another build.
 Triangulation checked(const PatchSet &set, const Triangulation &asked);
 
-// Adds the rims of the patches, and keeps the grids of a motion, for the bound of the velocities' errors.
+// Adds the rims of the patches. If the valve moves, also keeps the grids, which the bound of the velocities' errors needs.
 void finish(const PatchSet &set, const Triangulation &how, Vector<LevelledGrid> grids, TriangleSet &triangles);
 
 [[noreturn]] void fail_for_vanished(const PatchSet &set, std::size_t patch, const char *where);
 
-// Calls attempt(tightness) until it returns no patch of which triangles are missed. Patches thinner than the tolerance lose their
-// area if their sides become the same chords, so their curves become finer from attempt to attempt.
+// Calls attempt(tightness) until it returns no patch that misses triangles. A patch thinner than the tolerance loses its area if
+// both its sides become the same chords. So the curves of the returned patches become finer from attempt to attempt.
 template <class Attempt>
 void with_finer_curves(const PatchSet &set, const char *where, const Attempt &attempt) {
   constexpr int max_attempts = 12;

@@ -16,7 +16,7 @@ namespace {
 std::uint64_t hash(Vec3 p) {
   std::uint64_t h = 0;
   for (const double coordinate : {p.x, p.y, p.z}) {
-    const double positive_zero = coordinate + 0.0;  // -0 and 0 are the same place
+    const double positive_zero = coordinate + 0.0;  // -0 and 0 are the same position
     std::uint64_t bits;
     std::memcpy(&bits, &positive_zero, sizeof bits);
     h = (h ^ bits) * 0x9e3779b97f4a7c15;
@@ -25,9 +25,9 @@ std::uint64_t hash(Vec3 p) {
   return h;
 }
 
-// Numbers all vertices; vertices with equal coordinates get the same number.
+// Numbers the positions of all vertices. Vertices with equal coordinates get the same number.
 UnfilledShortVector<std::int32_t> distinct_positions(const TriangleSet &set, std::int64_t &n_positions) {
-  // A table of vertices that is at most half full. Each vertex takes the first free place from its hash on.
+  // A hash table of vertices that is at most half full. Each vertex is stored at the first free place from its hash on.
   constexpr std::int32_t none = -1;
   UnfilledShortVector<std::int32_t> position;
   resize(position, set.n_vertices());
@@ -50,15 +50,15 @@ UnfilledShortVector<std::int32_t> distinct_positions(const TriangleSet &set, std
   return position;
 }
 
-// The third angle follows from the other two, because an arc tangent is expensive.
+// Computes the third angle from the other two, because an arc tangent is expensive.
 std::array<double, 3> angles_of(const TriangleMeasures &measures, int lane) {
   const double at_a = std::atan2(measures.twice_area[lane], measures.product_at_a[lane]),
                at_b = std::atan2(measures.twice_area[lane], measures.product_at_b[lane]);
   return {at_a, at_b, std::max(0.0, pi - at_a - at_b)};
 }
 
-// Sorts edges by their upper ends. The edges are mostly few and come in the order of their slots. Edges with equal ends keep that
-// order. A stable sort of the standard library would allocate.
+// Sorts edges by their upper ends. Most lists are short and already in the order of their slots. Edges with equal ends keep that
+// order. A stable sort of the standard library would allocate memory.
 template <class Edge>
 void sort_few(Edge *begin, Edge *end) {
   constexpr std::ptrdiff_t few = 32;
@@ -80,7 +80,7 @@ void sort_few(Edge *begin, Edge *end) {
 
 Vec3 triangle_normal(const std::array<Vec3, 3> &corners) {
   const auto &[a, b, c] = corners;
-  // Edges are scaled first, so that neither small nor large triangles leave the range of doubles.
+  // Scales the edges first, so that neither small nor large triangles leave the range of doubles.
   const Vec3 ab = b - a, bc = c - b, ca = a - c;
   const double longest = std::sqrt(std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)}));
   const Vec3 n = cross((1.0 / longest) * (b - a), (1.0 / longest) * (c - a));
@@ -97,7 +97,7 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
   resize(edge_is_rim_, 3 * n);
   resize(corner_, n_positions);
   resize(corner_is_rim_, n_positions);
-  // Edges are listed by their lower end. Each list is short, and equal edges follow each other once it is sorted.
+  // Edges are listed by their lower end. Each list is short. After it is sorted, equal edges are next to each other.
   Vector<std::int32_t> end_of_list;
   resize(end_of_list, n_positions + 1);
   const auto ends_at = view(end_of_list);
@@ -122,12 +122,12 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
   }
   std::partial_sum(end_of_list.begin(), end_of_list.end(), end_of_list.begin());
   struct Edge {
-    std::int32_t upper, slot;  // position of its upper end, place in edge_
+    std::int32_t upper, slot;  // position of its upper end, index in edge_
   };
   UnfilledShortVector<Edge> edges;
   resize(edges, 3 * n);
-  // Lists are filled from their ends, so that equal edges are in the order of their slots. Then sums have the same bits however
-  // the ends are numbered.
+  // Lists are filled from their ends, so that equal edges are in the order of their slots. So sums have the same bits for any
+  // numbering of the positions.
   for (std::int64_t slot = 3 * n; slot-- > 0;) {
     const auto [lower, upper] = ends_of(slot);
     view(edges)[--ends_at[lower]] = {upper, static_cast<std::int32_t>(slot)};
@@ -147,7 +147,7 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
   if (!set.rim_sides.empty()) note_rim_sides(set);
 }
 
-// Notes that an edge and its ends are on the rim.
+// Records that an edge and its ends are on the rim.
 void Pseudonormals::note_rim(std::int64_t slot) {
   const auto [lower, upper] = ends_of(slot);
   view(edge_is_rim_)[slot] = view(corner_is_rim_)[lower] = view(corner_is_rim_)[upper] = 1;
@@ -175,7 +175,7 @@ Pseudonormals::Ends Pseudonormals::ends_of(std::int64_t slot) const {
 }
 
 Pseudonormals::Simplex Pseudonormals::simplex_of(Vec3 barycentric) {
-  // The index is a sum over the weights that are 0: the first counts 1, the second 2, the third 4.
+  // The index is a sum over the weights that are 0: 1 for the first weight, 2 for the second, 4 for the third.
   static constexpr Simplex simplices[8] = {{Kind::face, 0}, {Kind::edge, 1},   {Kind::edge, 2},   {Kind::vertex, 2},
                                            {Kind::edge, 0}, {Kind::vertex, 1}, {Kind::vertex, 0}, {Kind::vertex, 0}};
   return simplices[(barycentric.x == 0 ? 1 : 0) + (barycentric.y == 0 ? 2 : 0) + (barycentric.z == 0 ? 4 : 0)];
@@ -188,7 +188,7 @@ Pseudonormals::Feature Pseudonormals::at_border(std::int64_t triangle, Vec3 bary
   const bool is_vertex = kind == Kind::vertex;
   const Vec3 normal = is_vertex ? view(corner_)[position] : view(edge_)[slot];
   const bool is_on_rim = (is_vertex ? view(corner_is_rim_)[position] : view(edge_is_rim_)[slot]) != 0;
-  // Faces folded onto each other cancel up to rounding; the triangle's own normal then takes their place.
+  // The normals of faces folded onto each other cancel up to rounding. Then the triangle's own normal is used.
   return {dot(normal, normal) > 1e-18 ? normal : of_face(triangle), is_on_rim};
 }
 

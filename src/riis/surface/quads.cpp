@@ -14,9 +14,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Bounds the distance between a quad and its triangles at a level of subdivision. Refines no further than `enough` needs.
+// Bounds the distance between a quad and its triangles at a level of subdivision. The bound is refined no further than `enough`
+// requires.
 double split_error_at(const Quad &quad, int level, double enough) {
-  // Each halving divides the twist of all parts by exactly 4. All parts are checked while there are few.
+  // Each halving divides the twist of all parts by exactly 4. At low levels there are few parts, so all are checked.
   constexpr int few = 5;
   const double at_equal_uv = std::ldexp(quad_flatness(quad), -2 * level);
   if (level >= few || (at_equal_uv <= enough && enough < infinity)) return at_equal_uv;
@@ -32,7 +33,8 @@ double split_error_at(const Quad &quad, int level, double enough) {
   return std::min(largest, at_equal_uv);
 }
 
-// How often a quad's sides are halved, and how far its triangles may then be from the smooth patch.
+// A level of subdivision (how often a quad's sides are halved), and a bound on the distance from the triangles to the smooth
+// patch.
 struct Level {
   int level;
   double error;
@@ -48,7 +50,8 @@ Level subdivision_level(const QuadGrid &grid, std::size_t i, std::size_t j, doub
   }
 }
 
-// Returns the quad with the ends of its shortest edge in their middle. No point moves by more than half that edge.
+// Returns the quad with both ends of its shortest edge moved to the middle of this edge. So no point moves by more than half the
+// edge.
 Quad without_shortest_edge(const Quad &quad, double &shortest) {
   std::array<Vec3, 4> corner{quad.p00, quad.p10, quad.p11, quad.p01};
   std::size_t at = 0;
@@ -59,7 +62,8 @@ Quad without_shortest_edge(const Quad &quad, double &shortest) {
   return {corner[0], corner[1], corner[2], corner[3]};
 }
 
-// At a collapsed side, rounding may fold a quad at one opening and not at the next. A bound without that edge ignores the fold.
+// Returns a planned level with its error. At a collapsed side, rounding may fold a quad at one opening and not at the next. A
+// bound without the collapsed edge ignores the fold.
 Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error, int level) {
   const Quad quad = quad_of(grid, i, j);
   const double left = max_error - grid.error(i, j);
@@ -67,7 +71,7 @@ Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double m
   if (!(error <= left)) {
     double shortest = 0;
     const Quad merged = without_shortest_edge(quad, shortest);
-    // Quad and triangles are each within half the edge of the merged ones.
+    // The quad and its triangles are each within half the edge of the merged quad and its triangles.
     error = std::min(split_error_at(quad, level, infinity), split_error_at(merged, level, infinity) + shortest);
   }
   return {level, grid.error(i, j) + error};
@@ -79,7 +83,7 @@ LevelledGrid without_levels(QuadGrid grid) {
   return made;
 }
 
-// Adds the triangles, further vertices and error of a quad.
+// Adds a quad's triangles, additional vertices and error to the sums.
 void count(const Level &level, LevelledGrid &made) {
   made.error_bound = std::max(made.error_bound, level.error);
   const std::int64_t n = std::int64_t{1} << level.level;
@@ -121,7 +125,7 @@ LevelledGrid with_planned_levels(QuadGrid grid, double max_error, const Vector<i
   const Vec3 *below = in.points.data(), *above = below + in.u.size();
   for (std::size_t j = 0; j + 1 < in.v.size(); ++j, ++below, ++above)
     for (std::size_t i = 0; i + 1 < in.u.size(); ++i, ++level, ++error, ++below, ++above) {
-      // Most quads are not subdivided, and their twist alone is small enough.
+      // Most quads are not subdivided, and the bound from their twist alone is small enough.
       const double at_equal_uv = *level == 0 ? quad_flatness({below[0], below[1], above[1], above[0]}) : infinity;
       count(at_equal_uv <= max_error - *error ? Level{0, *error + at_equal_uv}
                                               : planned_level(in, i, j, max_error, *level),

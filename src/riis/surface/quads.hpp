@@ -11,20 +11,20 @@
 
 namespace riis {
 
-// A bilinear quad, given by its corners at (u,v) = (0,0), (1,0), (1,1) and (0,1). It is split into triangles along p00 p11.
+// A bilinear quad, given by its corners at (u,v) = (0,0), (1,0), (1,1) and (0,1). It is split into two triangles along p00 p11.
 struct Quad {
   Vec3 p00, p10, p11, p01;
 
-  // Along an edge this mixes only the two ends of the edge, so neighbouring quads agree to the last bit.
+  // On an edge, the result depends only on the two ends of the edge. So neighbouring quads agree to the last bit.
   Vec3 at(double s, double t) const { return mix(mix(p00, p10, s), mix(p01, p11, s), t); }
 };
 
-// Returns kappa_quad, the distance between the middle of the bilinear quad and the middle of its diagonal p00 p11. No
-// point of the quad is farther from the two triangles' point at the same (u,v).
+// Returns kappa_quad, the distance between the middle of the bilinear quad and the middle of its diagonal p00 p11. It bounds the
+// distance between the quad and its two triangles at the same (u,v).
 inline double quad_flatness(const Quad &quad) { return 0.25 * length((quad.p00 - quad.p10) + (quad.p11 - quad.p01)); }
 
-// Bounds the distance between the bilinear quad and its two triangles as surfaces. The bound is kappa_quad. If both are
-// graphs over a plane along both diagonals, it is at most half the component of the twist across that plane
+// Bounds the distance between the bilinear quad and its two triangles as surfaces. The bound is kappa_quad in general. If both
+// are graphs over a plane parallel to both diagonals, the bound is at most half the component of the twist across that plane
 // (docs/theory.md, section 2).
 double split_error(const Quad &quad);
 
@@ -38,24 +38,24 @@ void for_each_quad(const QuadGrid &grid, const Visit &visit) {
     for (std::size_t i = 0; i + 1 < grid.u.size(); ++i) visit(i, j);
 }
 
-// No quad that the library accepts needs this many halvings.
+// No quad that the library accepts needs so many halvings.
 inline constexpr int most_halvings = 13;
 
-// The quads of a patch, with the level of subdivision of each in the order of for_each_quad.
+// The quads of a patch. Each has a level of subdivision, in the order of for_each_quad.
 struct LevelledGrid {
   QuadGrid grid;
   Vector<int> levels;
-  std::int64_t n_triangles = 0;  // of one image, including triangles that turn out to have no area
+  std::int64_t n_triangles = 0;  // for one image, including triangles that turn out to have no area
   std::int64_t n_vertices = 0;
-  double error_bound = 0;  // of the distance between the triangles and the smooth patch
+  double error_bound = 0;  // bounds the distance between the triangles and the smooth patch
 };
 
 // Gives each quad the lowest level that keeps max_error.
 LevelledGrid with_levels(QuadGrid grid, double max_error);
-// Gives the quads the levels of a plan. Bounds errors no closer than max_error needs.
+// Gives the quads the levels of a plan. The bounds of errors are refined no further than max_error requires.
 LevelledGrid with_planned_levels(QuadGrid grid, double max_error, const Vector<int> &planned);
 
-// Lifts levels to the levels that the quads of a grid need for max_error. An empty list stands for levels of 0.
+// Raises levels to those that the quads of a grid need for max_error. An empty list stands for levels of 0.
 void raise_levels(const QuadGrid &grid, double max_error, Vector<int> &levels);
 
 }  // namespace riis

@@ -15,7 +15,8 @@ struct Use {
   PatchRim side;
 };
 
-// Returns whether both images put the curve in the same place: control points are equal there, to the last bit.
+// Returns whether both images put the curve at the same position. They do if the placed control points are equal to the last
+// bit.
 bool coincide(const Curve &curve, const PatchImage &a, const PatchImage &b) {
   for (const Bezier &piece : curve.pieces())
     for (int i = 0; i <= piece.degree; ++i) {

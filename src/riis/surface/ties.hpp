@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ties: triangles of other leaflets, or of other patches of one leaflet, that are as near to a point as its closest triangle
-// (docs/theory.md, section 10). Only velocities need them. In: triangles, as searches compare them. Out: the ties of each point,
-// whatever the order was.
+// Ties: triangles that are as near to a point as its closest triangle, and that belong to another leaflet, or to another patch
+// of the same leaflet (docs/theory.md, section 10). Only velocities need ties.
+// In: triangles in the order in which a search compares them. Out: the ties of each point, which do not depend on this order.
 #pragma once
 
 #include <cmath>
@@ -13,8 +13,8 @@
 namespace riis {
 
 struct TieRule {
-  const std::int32_t *leaflet_id = nullptr, *patch_id = nullptr;  // of each triangle; null if ties are not wanted
-  // Distances to two leaflets, and to two patches of one leaflet, count as equal up to these differences.
+  const std::int32_t *leaflet_id = nullptr, *patch_id = nullptr;  // for each triangle; null if ties are not wanted
+  // Distances count as equal up to these differences: the first for two leaflets, the second for two patches of one leaflet.
   double of_leaflets = 0, of_patches = 0;
 
   bool is_tie(const ClosestTriangle &closest, const ClosestTriangle &other) const {
@@ -29,22 +29,24 @@ struct TieRule {
 };
 
 struct Tie {
-  std::int64_t point;  // a number of the search's own, then a node
+  std::int64_t point;  // a number that the search chooses, later a node
   ClosestTriangle triangle;
 };
 
-// The ties that one thread of a search finds. The closest triangle of each patch that ties is among them. Farther ones may be.
+// The ties that one thread of a search finds. For each patch that ties, they contain its closest triangle, and perhaps also
+// farther ones.
 struct Ties {
   TieRule rule;
-  std::vector<Tie> candidates;  // of points that still may get nearer triangles
-  std::vector<Tie> found;       // of nodes
+  std::vector<Tie> candidates;  // ties of points that may still get nearer triangles
+  std::vector<Tie> found;       // ties of nodes
 
-  // Keeps the farther one of two triangles of a point, if it may be a tie. `closest` is the nearest that was met. Another
-  // triangle of its patch is no tie, now or later: either this patch stays the nearest, or `closest` itself is kept.
+  // Compares two triangles of a point, of which `closest` is the nearest so far. Keeps `other` as a candidate if it may be a
+  // tie. A triangle on the patch of `closest` is never needed: either this patch stays the nearest, or `closest` itself becomes
+  // a candidate.
   void compare(std::int64_t point, const ClosestTriangle &closest, const ClosestTriangle &other) {
     if (other.triangle < 0 || !rule.is_tie(closest, other)) return;
     if (!candidates.empty()) {
-      // The triangles around a vertex are often met one after the other. One of them is enough.
+      // The triangles around a vertex are often compared one after another, and one of them is enough.
       Tie &last = candidates.back();
       if (last.point == point && rule.are_of_one_patch(last.triangle, other)) {
         if (is_closer(other.distance_sq, other.triangle, last.triangle)) last.triangle = other;
@@ -54,8 +56,8 @@ struct Ties {
     candidates.push_back({point, other});
   }
 
-  // Takes the ties among the candidates, once all points are decided. closest_to(point) returns the closest triangle, or -1 for
-  // none. node_of(point) returns the node.
+  // Keeps those candidates that are ties, once all points are decided. closest_to(point) returns the closest triangle, or one
+  // with the position -1 if there is none. node_of(point) returns the node.
   template <class ClosestTo, class NodeOf>
   void settle(const ClosestTo &closest_to, const NodeOf &node_of) {
     for (const Tie &tie : candidates) {

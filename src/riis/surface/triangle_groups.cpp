@@ -16,8 +16,8 @@ struct Centroid {
   std::int32_t triangle;
 };
 
-// Halves the triangles along the longest side of their centroids' box, until each part is a group. It cuts at
-// multiples of the group size.
+// Splits the triangles in two along the longest side of the box of their centroids, until each part is a group. Every part but
+// the last has a multiple of the group size.
 template <class Visit>
 void for_each_group(Centroid *centroids, std::int64_t n, const Visit &visit) {
   if (n <= triangles_per_group) {
@@ -69,7 +69,7 @@ void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end
       const Vec3 q = p - origin;
       largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
     }
-  // The scale keeps coordinates between -3 and 3 in any unit.
+  // The scale keeps coordinates between -3 and 3 for any unit of length.
   const double scale = largest > 0 ? 1 / largest : 0;
   for (std::int32_t i = begin; i < end; ++i) {
     Vec3 sum{0, 0, 0};
@@ -104,7 +104,8 @@ void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, in
   constexpr double much = 2;
   frame = surface_frame;
   const bool is_by_place = set.grouping.end.empty();
-  // Groups by place are kept until they fall apart: if the number of triangles is the same, most triangles have only moved.
+  // Groups by position are kept until they become much larger. If the number of triangles is the same, most triangles have only
+  // moved.
   const bool are_known = is_by_place ? is_by_place_ && view(grouping_.order).size() == set.n_triangles()
                                      : !is_by_place_ && grouping_ == set.grouping;
   const auto group_anew = [&] {
@@ -114,7 +115,7 @@ void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, in
   };
   if (!are_known) group_anew();
   enclose(n_threads);
-  // The longest edge of all does not depend on the groups.
+  // The longest edge of all triangles does not depend on the groups.
   longest_edge = 0;
   for (const GroupBounds &group : bounds) longest_edge = std::max(longest_edge, group.longest_edge);
   are_as_before = are_known && size() <= much * size_at_first_;
@@ -126,7 +127,7 @@ void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, in
   size_at_first_ = size();
 }
 
-// Returns the sum of the extents of all boxes, in the units of the frame. It grows as the groups fall apart.
+// Returns the sum of the extents of all boxes, in the frame's units. It grows as the triangles of a group move apart.
 double TriangleGroups::size() const {
   double sum = 0;
   for (const GroupBounds &group : bounds)
@@ -151,7 +152,7 @@ void TriangleGroups::enclose(int n_threads) {
         GroupBounds &of_group = view(bounds)[g];
         of_group.n = view(end)[g] - begin;
         std::copy_n(order.begin() + begin, of_group.n, of_group.triangle);
-        // The corners of the next group's triangles lie apart, so they are requested ahead.
+        // The corners of the next group's triangles lie scattered in memory, so they are requested ahead.
         const std::int32_t next = g + 1 < range.end ? view(end)[g + 1] : view(end)[g];
         for (std::int32_t i = view(end)[g]; i < next; ++i) {
           const double *ahead = corners.data() + 9 * std::int64_t{view(order)[i]};

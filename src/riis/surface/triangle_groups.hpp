@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts neighbouring triangles into groups of up to 16, as the filters take them (kernels/kernels.hpp).
-// In: a triangle set. Out: groups in the surface's frame, their bounds, and all corners as they are.
+// Puts neighbouring triangles into groups of up to 16, which is the form that the filters take (kernels/kernels.hpp).
+// In: a triangle set. Out: groups in the surface's frame, their bounds, and the unchanged corners of all triangles.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace riis {
 
-// Coordinates relative to the surface are (x - centre) * scale. The scale is a power of two that makes the surface's
-// half extent from 1/2 to 1. Both operations are right to rounding of their result.
+// Takes a coordinate x to (x - centre) * scale. The scale is a power of two that makes the surface's half extent from 1/2 to 1.
+// The errors of both operations are only the rounding of their results.
 struct Frame {
   Vec3 centre{0, 0, 0};
   double scale = 1;
@@ -23,37 +23,38 @@ struct Frame {
   Vec3 operator()(Vec3 p) const { return scale * (p - centre); }
 };
 
-// Round to single precision, towards minus and plus infinity.
+// These two round to single precision, towards minus and plus infinity.
 float round_down(double x);
 float round_up(double x);
 
-// Bounds the error of the filters' distances in the surface's frame (docs/theory.md, section 8). It holds for points that were
-// in a frame `ratio` times as large and moved by `shift`, up to `reach` from triangles with edges up to `longest_edge`.
+// Bounds the error of the filters' distances in the surface's frame (docs/theory.md, section 8). The points come from a frame
+// `ratio` times as large and moved by `shift`. They are within `reach` of the triangles, whose edges have lengths up to
+// `longest_edge`.
 inline float filter_error(double ratio, double shift, double reach, double longest_edge) {
   return static_cast<float>(0x1p-21 * (ratio + shift + 4 * reach + 7 * longest_edge + 6));
 }
 
-// Bounds the difference between the squares of two filtered distances that are really equal. Both are up to `reach`,
-// which includes the error.
+// Bounds the difference between the computed squares of two distances that are in fact equal. Both distances are at most
+// `reach`, which includes the error.
 inline float filter_tolerance(double error, double reach) { return static_cast<float>(5 * error * (reach + error)); }
 
-// Groups the triangles from begin to end - 1 of a set by their place, and adds the groups to `grouping`.
+// Groups the triangles from begin to end - 1 of a set by their position, and adds the groups to `grouping`.
 void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end, Grouping &grouping);
 
 struct TriangleGroups {
   Frame frame;
-  std::vector<double> corners;  // (3, 3, n_triangles), as they are
+  std::vector<double> corners;  // (3, 3, n_triangles), in the set's own coordinates
   std::vector<TriangleGroup> groups;
-  Bounds of_all;  // of all corners, as they are
+  Bounds of_all;  // of all corners, in the set's own coordinates
   std::vector<GroupBounds> bounds;
   float longest_edge = 0;
-  // True if the groups have the same positions in the set as before and are not much larger. Structures built over them
-  // then still fit.
+  // True if each group has the same triangles as before and the groups are not much larger. Then structures built over the
+  // groups still fit.
   bool are_as_before = false;
 
-  // Copies the corners of a set's triangles, and bounds them.
+  // Copies the corners of a set's triangles, and computes their bounds.
   void take_corners(const TriangleSet &set, int n_threads);
-  // Replaces the groups, for the corners that were taken last, and keeps their memory.
+  // Replaces the groups by groups of the triangles whose corners were taken last. Reuses the groups' memory.
   void make(const TriangleSet &set, const Frame &surface_frame, int n_threads);
 
  private:
@@ -62,7 +63,7 @@ struct TriangleGroups {
 
   Grouping grouping_;
   bool is_by_place_ = false;
-  double size_at_first_ = 0;  // when are_as_before was last false
+  double size_at_first_ = 0;  // the size when are_as_before was last false
 };
 
 }  // namespace riis

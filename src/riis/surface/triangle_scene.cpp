@@ -34,8 +34,8 @@ struct Release {
 using Scene = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release>;
 using Geometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Release>;
 
-// Returns the one device of all surfaces of the process, which lives as long as one of them: a device costs more than a
-// small scene. The default configuration leaves threads to the caller's TBB settings.
+// Returns the one device that all surfaces of the process share. It exists as long as one of them, because a device costs more
+// than a small scene. Its default configuration leaves the number of threads to the caller's TBB settings.
 std::shared_ptr<std::remove_pointer_t<RTCDevice>> shared_device() {
   static std::mutex mutex;
   static std::weak_ptr<std::remove_pointer_t<RTCDevice>> current;
@@ -50,14 +50,16 @@ std::shared_ptr<std::remove_pointer_t<RTCDevice>> shared_device() {
   return device;
 }
 
-// Beyond this many half extents from the centre, single precision separates nothing. Then all triangles are queried.
+// For points more than this many half extents from the centre, single precision cannot separate triangles. Then all triangles
+// are queried.
 constexpr double far_away = 1e6;
 
 // Returns the radius, in the frame's units, that makes Embree visit every triangle whose computed distance from q is at most
-// `distance`. Embree compares float sums of squares of the float point to outward-rounded boxes with the radius'
-// square. With unit roundoff e = 2^-24 the point is off by at most sqrt(3) e max|q|; the subtractions, squares and sums are
-// right to a factor 1 + 6 e, the radius' square to 1 + e. The factor 1 + 2^-20 = 1 + 16 e and 4 e max|q| cover these, with
-// the rounding of this function itself; `rounding` covers the kernel's; 2^-60 keeps the radius' square a normal float.
+// `distance`. In single precision, Embree compares sums of squares, from the rounded point to boxes rounded outwards, with the
+// square of the radius. The unit roundoff is e = 2^-24. The point is off by at most sqrt(3) e max|q|. The subtractions, squares
+// and sums are right to a factor 1 + 6 e, and the radius' square is right to 1 + e. The factor 1 + 2^-20 = 1 + 16 e and the term
+// 4 e max|q| cover these errors and the rounding of this function itself. `rounding` covers the rounding of the kernel. 2^-60
+// keeps the radius' square a normal float.
 float inflated_radius(double distance, Vec3 q, double rounding) {
   const double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)});
   return round_up(distance * (1.0 + 0x1p-20) + largest * 0x1p-22 + rounding + 0x1p-60);
@@ -67,7 +69,7 @@ float inflated_radius(double distance, Vec3 q, double rounding) {
 
 struct TriangleScene::Implementation {
   TriangleGroups groups;
-  double rounding = 0;  // the scene's rounding_ in the frame's units
+  double rounding = 0;  // TriangleScene::rounding_ in the frame's units
   std::shared_ptr<std::remove_pointer_t<RTCDevice>> device = shared_device();
   Scene scene;
   Geometry geometry;
@@ -80,13 +82,14 @@ struct Query {
   const Kernels *kernels;
   Vec3 p;          // the point itself
   Vec3 q;          // the point in the frame
-  double largest;  // a bound of q's coordinates and of distances that matter
+  double largest;  // a bound of q's coordinates and of the distances that matter
   ClosestTriangle best;
   Ties *ties;  // or null
   bool is_out_of_memory;
 };
 
-// Queries one triangle. Returns true if it is the closest so far. Not inlined: the loops over groups would lack registers.
+// Queries one triangle. Returns true if it is the closest so far. Not inlined, because the loops over groups would lack
+// registers.
 template <bool keeps_ties>
 __attribute__((noinline)) bool query_triangle(Query &query, std::int64_t triangle) {
   const double *c = query.in->groups.corners.data() + 9 * triangle;
@@ -102,7 +105,7 @@ __attribute__((noinline)) bool query_triangle(Query &query, std::int64_t triangl
   return true;
 }
 
-// Queries a triangle inside Embree, which no exception may pass through. Only lists of ties need memory.
+// Queries a triangle in a callback from Embree. No exception may pass through Embree. Only the lists of ties need memory.
 template <bool keeps_ties>
 bool query_in_embree(Query &query, std::int64_t triangle) {
   if constexpr (keeps_ties) {
@@ -128,8 +131,8 @@ void bounds_of_group(const RTCBoundsFunctionArguments *arguments) {
   bounds->upper_z = group.upper[2];
 }
 
-// Queries the triangles of a group. The filter leaves out triangles farther than the radius, with an allowance for the error of
-// its distances.
+// Queries the triangles of a group. The filter dismisses triangles whose distance exceeds the radius by more than the filter's
+// error.
 template <bool keeps_ties>
 bool visit_group(RTCPointQueryFunctionArguments *arguments) {
   auto &query = *static_cast<Query *>(arguments->userPtr);
@@ -159,7 +162,7 @@ struct Collected {
   bool is_out_of_memory;
 };
 
-// Collects a group that Embree found. No exception may pass through Embree, so a lack of memory is noted.
+// Collects a group that Embree found. No exception may pass through Embree, so a lack of memory is recorded instead.
 bool add_group(RTCPointQueryFunctionArguments *arguments) {
   auto &collected = *static_cast<Collected *>(arguments->userPtr);
   try {
@@ -170,8 +173,9 @@ bool add_group(RTCPointQueryFunctionArguments *arguments) {
   return false;
 }
 
-// Bounds the rounding of a distance. The kernel computes a point of the triangle, each coordinate right to a few units of
-// rounding of the largest coordinate. The distance from it is right to its own rounding. 16 units cover the former with room.
+// Bounds the rounding of a distance. The kernel computes a point of the triangle. Each of its coordinates is right to a few
+// units of rounding of the largest coordinate, and 16 units cover this amply. The distance from that point is right to its own
+// rounding.
 double rounding_of_distances(const Bounds &bounds) {
   const Vec3 a = bounds.lower, b = bounds.upper;
   return 0x1p-49 * std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z), std::abs(b.x), std::abs(b.y), std::abs(b.z)});
@@ -195,7 +199,7 @@ void TriangleScene::make(const TriangleSet &set, int n_threads) {
     const RTCError error = rtcGetDeviceError(device);
     if (error != RTC_ERROR_NONE) fail_embree(error, what);
   };
-  rtcGetDeviceError(device);  // forgets an earlier failure of this thread
+  rtcGetDeviceError(device);  // clears an earlier error of this thread
   if (!in.scene) {
     in.scene.reset(rtcNewScene(device));
     check("create a scene");
@@ -205,7 +209,8 @@ void TriangleScene::make(const TriangleSet &set, int n_threads) {
     rtcSetGeometryBoundsFunction(in.geometry.get(), bounds_of_group, nullptr);
     rtcAttachGeometry(in.scene.get(), in.geometry.get());
   } else {
-    // A scene that moves is built more often, and queried less each time. The same groups keep their tree, with other boxes.
+    // A scene that moves is built more often and is queried less often after each build. If the groups are the same, their tree
+    // is kept with new boxes.
     rtcSetSceneFlags(in.scene.get(), RTC_SCENE_FLAG_DYNAMIC);
     rtcSetSceneBuildQuality(in.scene.get(), RTC_BUILD_QUALITY_LOW);
     rtcSetGeometryBuildQuality(in.geometry.get(),
@@ -214,8 +219,8 @@ void TriangleScene::make(const TriangleSet &set, int n_threads) {
   rtcSetGeometryUserPrimitiveCount(in.geometry.get(), static_cast<unsigned>(in.groups.groups.size()));
   rtcCommitGeometry(in.geometry.get());
   check("take the triangles");
-  // Embree builds with TBB, which would otherwise call as many threads as there are processors.
-  constexpr std::size_t few = 1024;  // Embree builds fewer on one thread, and others would only be woken
+  // Embree builds with TBB. Outside of an arena, TBB would call as many threads as there are processors.
+  constexpr std::size_t few = 1024;  // with fewer groups, Embree itself builds on one thread
   Arena(in.groups.groups.size() < few ? 1 : n_threads).run([&] { rtcCommitScene(in.scene.get()); });
   check("build the scene");
 }
@@ -243,14 +248,15 @@ ClosestTriangle TriangleScene::find_closest(Vec3 p, double limit, InstructionSet
   Query query{&in, &kernels(instructions), p, q, largest, {infinity, -1}, ties, false};
   if constexpr (keeps_ties) ties->candidates.clear();
   if (!(largest <= far_away)) {
-    // The frame's units may overflow here. The surface is farther away than its own size, so most limits end the query here.
+    // The frame's units may overflow here. The point is farther from the surface than the surface's size, so the query ends here
+    // for most limits.
     if (!may_be_within(p, limit)) return {infinity, -1};
     const std::int64_t n = view(in.groups.corners).size() / 9;
     for (std::int64_t i = 0; i < n; ++i) query_triangle<keeps_ties>(query, i);
   } else {
     double reach = limit;
     if (!(reach * frame.scale < 4 * far_away)) {
-      // This limit culls nothing, so the distance of some triangle takes its place.
+      // This limit would exclude nothing, so the distance of some triangle is used instead.
       query_triangle<keeps_ties>(query, 0);
       reach = std::sqrt(query.best.distance_sq);
     }
@@ -279,7 +285,7 @@ void TriangleScene::collect_groups(const float *point, float radius, std::vector
   sphere.y = point[1];
   sphere.z = point[2];
   sphere.time = 0;
-  // The radius covers Embree's own rounding, as in inflated_radius.
+  // The increase covers Embree's own rounding, as in inflated_radius.
   sphere.radius =
       radius * (1 + 0x1p-20f) + 0x1p-22f * std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
   RTCPointQueryContext context;
@@ -304,7 +310,7 @@ void TriangleScene::collect_along(Vec3 a, Vec3 b, std::vector<std::int32_t> &fou
     const float point[3] = {static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)};
     collect_groups(point, round_up(radius + 0x1p-22 * largest), found);
   }
-  // The frame's coordinates round, but in the same order as the true ones: boxes that have a point in common keep it.
+  // Rounding to the frame keeps the order of coordinates. So boxes that have a point in common still have one after rounding.
   Bounds framed;
   framed.add(from);
   framed.add(to);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles in space, as every later stage uses them.
+// Triangles in space, in the form that all later stages use.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,8 @@
 
 namespace riis {
 
-// Groups of neighbouring triangles, for searches: positions in the set, group after group, and the end of each group.
+// Groups of neighbouring triangles for searches. `order` has the triangles' positions in the set, group by group. `end` has the
+// end of each group.
 struct Grouping {
   Vector<std::int32_t> order, end;
 
@@ -24,19 +25,19 @@ struct Grouping {
 struct TriangleSet {
   std::vector<double> xyz;                // (3, n_vertices), placed
   std::vector<double> uv;                 // (2, n_vertices), empty for surfaces from arrays
-  std::vector<double> velocity;           // (3, n_vertices), placed, empty if the maker of the triangles knows none
+  std::vector<double> velocity;           // (3, n_vertices), placed, or empty if the triangles have no velocities
   std::vector<std::int64_t> vertex_id;    // (3, n_triangles)
   std::vector<std::int64_t> triangle_id;  // (n_triangles), ascending
   std::vector<std::int32_t> leaflet_id;   // (n_triangles)
   std::vector<std::int32_t> patch_id;     // (n_triangles)
-  std::int64_t n_zero_area = 0;           // triangles that were left out
-  double error_bound = 0;                 // of the distance to the smooth valve, placed; 0 for surfaces from arrays
-  Vector<std::uint8_t> rim_sides;         // one entry a patch_id, bits of PatchRim; empty for surfaces from arrays
-  std::uint64_t connectivity = 0;    // number of the plan that these come from; 0: none (surface/triangulate_fixed.cpp)
-  Grouping grouping;                 // empty if the maker of the triangles knows no groups
-  Vector<LevelledGrid> moved_grids;  // of triangles with velocities from patches
+  std::int64_t n_zero_area = 0;           // number of triangles that were left out
+  double error_bound = 0;                 // bounds the distance to the smooth valve, placed; 0 for surfaces from arrays
+  Vector<std::uint8_t> rim_sides;    // an entry for each patch_id, bits of PatchRim; empty for surfaces from arrays
+  std::uint64_t connectivity = 0;    // number of the triangles' plan, or 0 (surface/triangulate_fixed.cpp)
+  Grouping grouping;                 // empty if the triangles were made without groups
+  Vector<LevelledGrid> moved_grids;  // grids of triangles with velocities from patches
 
-  // Empties the set and keeps its memory.
+  // Empties the set and keeps its memory for the next triangles.
   void clear() {
     for (auto *numbers : {&xyz, &uv, &velocity}) numbers->clear();
     for (auto *ids : {&vertex_id, &triangle_id}) ids->clear();
@@ -60,7 +61,7 @@ struct TriangleSet {
   }
 };
 
-// The most triangles that the library accepts. Four-byte ids could count more; each triangle takes a few hundred bytes.
+// The most triangles that the library accepts. Ids of four bytes could count more, but each triangle takes a few hundred bytes.
 inline constexpr std::int64_t max_triangles = 16'777'216;
 
 // Returns true if the height over the longest edge is at most 1e-12 of that edge, or if all edges are shorter than min_edge.
@@ -68,7 +69,7 @@ inline bool has_zero_area(Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 ab = b - a, ac = c - a, bc = c - b;
   const double longest_sq = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
   if (!(longest_sq >= min_edge * min_edge)) return true;
-  // Edges from 1e-60 to 1e60 neither underflow nor overflow here.
+  // Edges from 1e-60 to 1e60 cause neither underflow nor overflow here.
   const Vec3 twice_area = cross(ab, ac);
   return !(dot(twice_area, twice_area) > 1e-24 * longest_sq * longest_sq);
 }

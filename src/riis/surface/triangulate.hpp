@@ -16,42 +16,43 @@
 
 namespace riis {
 
-// A half of a quad without area, by its vertices: a and b are the ends of the quad's diagonal.
+// A triangle without area, which is one half of a quad. `a` and `b` are the ends of the quad's diagonal, and `corner` is the
+// third vertex.
 struct LeftOut {
   std::int64_t corner, a, b;
   bool other_was_kept;
 };
 
-// The triangles of a plan at one of the openings, for a set of its vertices. Two openings share them if the same triangles
-// have area.
+// The triangles of a plan at one of the openings, in terms of its vertices. Two openings share them if the same triangles have
+// area.
 struct Connectivity {
   std::vector<std::int64_t> vertex_id, triangle_id;
   std::vector<std::int32_t> leaflet_id, patch_id;
   Grouping grouping;
   Vector<LeftOut> left_out;
-  // For each image of each patch: the end of its triangles, and whether they are those of the image before.
+  // For each image of each patch: the end of its triangles, and whether the triangles are the same as those of the image before.
   struct OfImage {
     std::int64_t end;
     bool is_as_before;
   };
   Vector<OfImage> images;
-  std::uint64_t number = 0;  // of the plan
+  std::uint64_t number = 0;  // the plan's number
 };
 
-// A triangulation that stays the same while a valve opens: its grids, its quads' levels of subdivision, its triangles.
+// A triangulation that stays the same while a valve opens: grids, levels of the quads' subdivision, and triangles.
 struct TriangulationPlan {
   GridPlan grids;
-  CurveNumbering curves;       // of the grids
-  double max_error;            // that the lines and levels were chosen for
-  Vector<Vector<int>> levels;  // of each patch's quads
+  CurveNumbering curves;       // that the grids use
+  double max_error;            // the error that the lines and levels were chosen for
+  Vector<Vector<int>> levels;  // of the quads of each patch
   Connectivity connectivity;
 };
 
-// Makes the plan for a valve's patches at many openings. asked_error is the max_error of a Triangulation; the plan keeps a small
-// part of it for openings between these. Fails as triangulate_fixed does.
+// Makes the plan from a valve's patches at many openings. asked_error is the max_error of a Triangulation. The plan holds back a
+// small part of it for other openings. Fails as triangulate_fixed does.
 TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked_error, int n_threads);
 
-// Returns whether the plan's triangles are within asked_error of a state.
+// Returns whether the plan's triangles are within asked_error of the smooth surface in a state.
 bool is_within(const PatchSet &state, const TriangulationPlan &plan, double asked_error);
 
 struct Triangulation {
@@ -60,14 +61,14 @@ struct Triangulation {
   const Placement &placement;
   bool flip_normals;
   int n_threads;
-  const Motion *motion = nullptr;  // gives the vertices velocities; the triangles are the same, bit for bit
+  const Motion *motion = nullptr;  // null: no velocities; it never changes the triangles' bits
 };
 
-// Makes triangles on grids as coarse as the state allows, in the memory of triangles that are no longer wanted. Fails with
+// Makes triangles on grids as coarse as the state allows. `memory` is a set whose memory is reused. Fails with
 // RIIS_LIMIT_EXCEEDED for more than max_triangles, and with RIIS_INVALID_PARAMETER for a patch without area.
 TriangleSet triangulate_adapted(const PatchSet &set, const Triangulation &asked, TriangleSet memory = {});
-// Does the same by a plan: triangles keep their ids if others lose their area. Also fails with RIIS_LIMIT_EXCEEDED if the plan is
-// not within max_error of this state.
+// Makes the triangles of a plan. A triangle keeps its id if other triangles lose their area. Fails as triangulate_adapted does,
+// and with RIIS_LIMIT_EXCEEDED if the plan is not within max_error of this state.
 TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, const TriangulationPlan &plan,
                               TriangleSet memory = {});
 

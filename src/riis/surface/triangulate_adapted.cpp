@@ -12,7 +12,7 @@
 namespace riis {
 namespace {
 
-// Groups the triangles of a piece by its quads.
+// Groups the triangles of a piece by the piece's quads.
 class QuadGroups {
  public:
   QuadGroups(const QuadGrid &grid, const Vector<std::int32_t> &first_of_quad, const TriangleSet &set)
@@ -24,16 +24,16 @@ class QuadGroups {
   }
 
  private:
-  // The quads of the grid from i0 to i1 - 1 and from j0 to j1 - 1.
+  // The quads of the grid in the columns from i0 to i1 - 1 and the rows from j0 to j1 - 1.
   struct Quads {
     std::size_t i0, i1, j0, j1;
   };
 
-  // Halves quads along their longer side until their triangles fit in a group.
+  // Splits a block of quads along its longer side until its triangles fit in a group.
   void group(const Quads &quads) {
     const std::size_t i0 = quads.i0, i1 = quads.i1, j0 = quads.j0, j1 = quads.j1;
     const std::size_t n_u = grid_.u.size() - 1;
-    // Quads of a row follow each other, and so do their triangles.
+    // The quads of a row are consecutive, and so are their triangles.
     const auto triangles_of_row = [&](std::size_t j) {
       return std::pair(first_of_quad_[j * n_u + i0], first_of_quad_[j * n_u + i1]);
     };
@@ -68,7 +68,7 @@ class QuadGroups {
   Grouping made_;
 };
 
-// Joins the groups of all pieces, whose triangles have moved together.
+// Joins the groups of all pieces, after the pieces' triangles were moved together.
 void join(const Vector<Piece> &pieces, const Vector<Grouping> &groups, Grouping &joined) {
   std::int64_t n = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -89,7 +89,7 @@ Vector<LevelledGrid> make_levelled_grids(const PatchSet &set, const Triangulatio
   return levelled;
 }
 
-// Makes the triangles of these grids. Returns the patches of which triangles are missed.
+// Makes the triangles of these grids. Returns the patches that miss triangles.
 Vector<std::size_t> make_triangles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                                    TriangleSet &triangles) {
   Pieces pieces(set, how, grids, triangles);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fixed triangulation: a plan of grids and triangles that is good at many openings, and its triangles at one of them.
+// The fixed triangulation: a plan of grids and triangles for many openings, and the plan's triangles at one opening.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -30,7 +30,7 @@ bool have_area(const double *vertices, const std::vector<std::int64_t> &vertex_i
   return true;
 }
 
-// Returns whether no triangle has zero area.
+// Returns whether all triangles of a set have an area.
 bool have_area(const TriangleSet &set) {
   constexpr std::int64_t n_at_once = 128;
   for (std::int64_t i = 0, n = set.n_triangles(); i < n; i += n_at_once) {
@@ -44,12 +44,12 @@ bool have_area(const TriangleSet &set) {
   return true;
 }
 
-// Bounds the distance of a corner of an image from its place in an image that is exactly congruent to the others.
+// Bounds the distance between a corner of an image and the same corner if the image were exactly congruent to the others.
 double rounding_of_corners(const QuadGrid &grid, const Patch &patch, const Placement &placement) {
   double largest = 0, farthest = 0;
   for (const Vec3 &p : grid.points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   for (const PatchImage &image : patch.images) farthest = std::max(farthest, length(image.translation));
-  // Each coordinate is a sum, right to 16 units of rounding of its terms.
+  // Each coordinate is a sum that is right to 16 units of rounding of its terms.
   return 0x1p-48 * (placement.scale * (2 * largest + farthest) + length(placement.translation));
 }
 
@@ -66,10 +66,10 @@ Vector<std::size_t> make_triangles(Pieces &pieces) {
   return pieces.make_triangles([](std::int64_t, const Vector<std::int32_t> &) {});
 }
 
-// Gives a set the triangles of a plan, unless it still has them.
+// Gives a set the triangles of a plan, unless it already has them.
 void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet &set) {
   const std::uint64_t number = 2 * from.number + (flip_normals ? 1 : 0);
-  // Triangles that were moved away have left an empty set.
+  // The second condition fails for a set whose triangles were moved away.
   if (set.connectivity == number && set.triangle_id.size() == from.triangle_id.size()) return;
   set.connectivity = 0;
   set.vertex_id = from.vertex_id;
@@ -83,13 +83,13 @@ void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet 
   set.connectivity = number;
 }
 
-// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if other triangles have an area here
-// than in the plan, or if some are missed.
+// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if a triangle has an area here but
+// not in the plan, or the other way round, or if some triangles are missed.
 bool take_planned_triangles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                             const Connectivity &planned, TriangleSet &triangles) {
   Pieces pieces(set, how, grids, triangles);
-  // Images of a patch are congruent. So the areas of one image are enough, with a margin for rounding, if the others have the
-  // same triangles. An image with a seam has points of another.
+  // The images of a patch are congruent. So it is enough to check the areas of one image, with a margin for rounding, if the
+  // others have the same triangles. An image with a seam is checked itself, because it takes points of another image.
   std::atomic<bool> all_have_area{true};
   pieces.place_vertices([&](std::int64_t i) {
     const Piece &piece = view(pieces.all())[i];
@@ -115,7 +115,7 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
                               TriangleSet memory) {
   const Triangulation how = checked(set, asked);
   check_precision(set, how.max_error);
-  // Only the states that share curves are renumbered.
+  // If this state shares curves that other states do not, its curves are renumbered.
   std::optional<PatchSet> renumbered;
   if (!plan.curves.is_of(set)) renumbered = plan.curves.renumbered(set);
   const PatchSet &patches = renumbered ? *renumbered : set;
@@ -126,13 +126,13 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
            " of the fixed triangulation may be off by ", grids[i].error_bound, " at this opening; it must be at most ",
            how.max_error, ", which is tolerance * half_thickness before scaling");
   if (!take_planned_triangles(patches, how, grids, plan.connectivity, memory)) {
-    // Other triangles have an area here than in the plan, and the plan's groups do not fit them.
+    // The triangles that have an area here are not those of the plan, so the plan's groups do not fit.
     Pieces pieces(patches, how, grids, memory);
     const Vector<std::size_t> vanished = make_triangles(pieces);
     if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
     group_by_place(memory, 0, static_cast<std::int32_t>(memory.n_triangles()), memory.grouping);
   }
-  finish(set, how, std::move(grids), memory);  // with the set's own curves, as shared curves are no rims
+  finish(set, how, std::move(grids), memory);  // with the set's own curves, because shared curves are no rims
   return memory;
 }
 
@@ -147,14 +147,14 @@ bool is_within(const PatchSet &state, const TriangulationPlan &plan, double aske
 
 namespace {
 
-// Lifts the levels to the levels that a state needs.
+// Raises the plan's levels to those that a state needs.
 void raise_levels(const PatchSet &set, double max_error, TriangulationPlan &plan) {
   const Vector<QuadGrid> grids = make_grids(set, plan.grids, max_error, 1, false);
   plan.levels.resize(grids.size());
   for (std::size_t i = 0; i < grids.size(); ++i) raise_levels(grids[i], max_error, plan.levels[i]);
 }
 
-// Returns the patches of which triangles are missed at one of the openings.
+// Returns the patches that miss triangles at one of the openings.
 Vector<std::size_t> vanished_anywhere(const Vector<PatchSet> &states, const Triangulation &how,
                                       const TriangulationPlan &plan, TriangleSet &triangles) {
   for (const PatchSet &state : states) {
@@ -166,13 +166,13 @@ Vector<std::size_t> vanished_anywhere(const Vector<PatchSet> &states, const Tria
   return {};
 }
 
-// No two plans have the same number, and none has 0.
+// Returns a number for a plan, never 0. No two plans get the same number.
 std::uint64_t next_number() {
   static std::atomic<std::uint64_t> last{0};
   return last.fetch_add(1, std::memory_order_relaxed) + 1;
 }
 
-// Returns whether two pieces are images of one patch that leave out the same triangles.
+// Returns whether two pieces are images of one patch and leave out the same triangles.
 bool have_same_triangles(const Piece &a, const Piece &b) {
   const std::int64_t between = b.first_vertex - a.first_vertex;
   return a.patch == b.patch && std::equal(a.left_out.begin(), a.left_out.end(), b.left_out.begin(), b.left_out.end(),
@@ -181,7 +181,7 @@ bool have_same_triangles(const Piece &a, const Piece &b) {
                                           });
 }
 
-// Makes the triangles of a plan at one of its openings, where none are missed.
+// Makes the triangles of a plan at one of its openings at which none are missed.
 Connectivity make_connectivity(const PatchSet &state, const Triangulation &how, const TriangulationPlan &plan,
                                TriangleSet triangles) {
   const Vector<LevelledGrid> grids = make_levelled_grids(state, how, plan);
@@ -208,10 +208,10 @@ Connectivity make_connectivity(const PatchSet &state, const Triangulation &how, 
 TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked_error, int n_threads) {
   double max_error = asked_error;
   for (const PatchSet &state : given) max_error = std::min(max_error, error_left(state, asked_error));
-  // The rest is for openings between these.
+  // The remaining error is for openings between the given ones.
   constexpr double share = 0.95;
   const double planned_error = share * max_error;
-  // Curves that are shared at one opening only have two numbers.
+  // A curve that is shared at only one opening has two numbers at the others. So the state with most curves gives the numbering.
   const PatchSet &widest = *std::max_element(given.begin(), given.end(), [](const PatchSet &a, const PatchSet &b) {
     return a.curves.size() < b.curves.size();
   });

@@ -119,8 +119,8 @@ UserFaces faces_from_arrays(const riis_surface_arrays &arrays, UserFaces memory)
 TriangleSet triangles_from_arrays(const UserFaces &faces, const riis_surface_arrays &arrays, const Placement &placement,
                                   bool skip_zero_area, bool flip_normals, TriangleSet memory) {
   if (arrays.n_vertices != faces.n_vertices)
-    fail(RIIS_INVALID_ARGUMENT, "arrays.n_vertices is ", arrays.n_vertices, "; the surface's faces are of ",
-         faces.n_vertices);
+    fail(RIIS_INVALID_ARGUMENT, "arrays.n_vertices is ", arrays.n_vertices, "; the surface's faces are for ",
+         faces.n_vertices, " vertices");
   check_vertices(arrays);
   TriangleSet set = std::move(memory);
   set.clear();

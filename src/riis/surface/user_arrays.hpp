@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns the caller's vertex and face arrays into triangles.
-// In: arrays as in riis_surface_arrays, checked here in full. Out: triangles under the caller's ids.
+// Turns the caller's arrays of vertices and faces into triangles.
+// In: arrays as in riis_surface_arrays, which this file checks completely. Out: triangles with the caller's ids.
 #pragma once
 
 #include <riis/riis.h>
@@ -13,20 +13,20 @@
 
 namespace riis {
 
-// The caller's faces, checked and counted from 0.
+// The caller's faces, checked and renumbered from 0.
 struct UserFaces {
   std::int64_t n_vertices = 0, corners_per_face = 3;
-  std::int64_t index_base = 0;           // for messages
+  std::int64_t index_base = 0;           // the caller's base, for messages
   std::vector<std::int64_t> vertex_id;   // (corners_per_face, n_faces)
   std::vector<std::int32_t> leaflet_id;  // (n_faces)
 };
 
-// Copies the faces into the memory of faces that are no longer wanted. Both functions fail with RIIS_INVALID_ARGUMENT,
-// RIIS_INVALID_SURFACE or RIIS_LIMIT_EXCEEDED; the message names the field, the face or vertex, and the value.
+// Copies the faces. `memory` is an object whose memory is reused. Both functions fail with RIIS_INVALID_ARGUMENT,
+// RIIS_INVALID_SURFACE or RIIS_LIMIT_EXCEEDED. The message names the field, the face or vertex, and the value.
 UserFaces faces_from_arrays(const riis_surface_arrays &arrays, UserFaces memory = {});
 
-// Makes triangles of faces and of the arrays' vertices and velocities, in the memory of triangles that are no longer wanted. The
-// arrays' own faces do not count.
+// Makes triangles from `faces` and from the vertices and velocities in `arrays`, whose own faces are ignored. `memory` is a set
+// whose memory is reused.
 TriangleSet triangles_from_arrays(const UserFaces &faces, const riis_surface_arrays &arrays, const Placement &placement,
                                   bool skip_zero_area, bool flip_normals, TriangleSet memory = {});
 

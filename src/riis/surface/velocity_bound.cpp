@@ -17,25 +17,25 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Bounds of a quantity on a range of u: of its length in either state, and of its change between the states at the same u.
-// The rule for products holds for products of numbers, dot products and cross products.
+// Bounds of a quantity on a range of u. `size` bounds its length in both states. `change` bounds its change between the states
+// at the same u. The rule for products holds for products of numbers, dot products and cross products.
 struct Both {
   double size, change;
 };
 Both operator+(Both a, Both b) { return {a.size + b.size, a.change + b.change}; }
 Both operator*(Both a, Both b) { return {a.size * b.size, a.change * b.size + a.size * b.change}; }
 Both operator*(double a, Both b) { return {a * b.size, a * b.change}; }
-// Bounds are tight if the least length on a range is at least this share of the largest.
+// Bounds are tight if the least length on a range is at least this share of the largest length.
 constexpr double tight_share = 0.9;
 
-// The inverse of a length that is at least `least`.
+// Bounds the inverse of a length that is at least `least`.
 Both inverse(double least, double change) { return {1 / least, change / (least * least)}; }
 
-// Returns NaN if either is NaN, such as 0 times infinity: then no bound is known.
+// Returns NaN if a or b is NaN, for example from 0 times infinity. NaN means that no bound is known.
 double larger(double a, double b) { return a >= b || a != a ? a : b; }
 double larger_of(Vec3 a, Vec3 b) { return larger(length(a), length(b)); }
 
-// The least distance of the segment between two points from the origin.
+// Returns the least distance of the segment between two points from the origin.
 double least_on_segment(Vec3 a, Vec3 b) {
   const Vec3 along = b - a;
   const double size_sq = dot(along, along);
@@ -43,26 +43,27 @@ double least_on_segment(Vec3 a, Vec3 b) {
   return length(mix(a, b, share));
 }
 
-// Bounds how far a function is from the line between its ends if its second derivative is at most `second`.
+// Bounds the distance of a function from the line between its ends, if its second derivative is at most `second`.
 double off_line(double width, double second) { return 0.125 * width * width * second; }
 
-// A range of u on which each state's curve is a part of one Bézier piece.
+// A range of u. On it, the curve is a part of one Bézier piece in each state.
 struct CurveRange {
   const Bezier *now, *before;
   double t_now[2], t_before[2];
   double length_now, length_before;  // of the whole curves
-  double width;                      // of the range of u
+  double width;                      // of the range, in u
 };
 
-// The unit tangent of a curve on such a range, its first and second derivative by u, and the length of the whole curve.
+// Bounds for a curve on such a range: its unit tangent with the first and second derivative by u, and the length of the whole
+// curve.
 struct AlongCurve {
   Both length, value, first, second;
-  double size_now, size_before;  // bounds of the curve's second derivative by u in each state
-  bool is_tight;                 // false: a narrower range would have much better bounds
+  double size_now, size_before;  // bounds of the curve's second derivative by u in each of the states
+  bool is_tight;                 // false if a narrower range would have much better bounds
   Both second_of_point() const { return length * first; }
 };
 
-// One state's curve on a range of its parameter: bounds of its derivatives' lengths.
+// Bounds on the lengths of a curve's derivatives on a range of its parameter, in one state.
 struct Derivatives {
   double first, least_first, second, third;
 };
@@ -74,7 +75,7 @@ Derivatives sizes_on(const Bezier &piece, double from, double to) {
           length(start[2])};
 }
 
-// How far the derivatives of two pieces differ at the same parameter.
+// Bounds the differences between the derivatives of two pieces at the same parameter.
 Derivatives changes_on(const Bezier &now, const Bezier &before, double from, double to) {
   const auto start = derivatives(now, from), end = derivatives(now, to);
   const auto start_before = derivatives(before, from), end_before = derivatives(before, to);
@@ -83,7 +84,7 @@ Derivatives changes_on(const Bezier &now, const Bezier &before, double from, dou
           larger(distance(start[1], start_before[1]), distance(end[1], end_before[1])), third};
 }
 
-// Sizes are infinite where a state's curve may stand still.
+// Bounds a curve on a range. Sizes are infinite if the curve may stand still in one of the states.
 AlongCurve along(const CurveRange &on) {
   const double from = std::min(on.t_now[0], on.t_before[0]), to = std::max(on.t_now[1], on.t_before[1]);
   const Derivatives now = sizes_on(*on.now, from, to), before = sizes_on(*on.before, from, to);
@@ -95,8 +96,8 @@ AlongCurve along(const CurveRange &on) {
     const Both unknown{infinity, infinity};
     return {length, unknown, unknown, unknown, infinity, infinity, false};
   }
-  // At the same u, the states' parameters differ by at most `shift`. It counts the difference at the ends, and the growth in
-  // between that the rates dt/du = length / |B'| allow.
+  // At the same u, the parameters of the two states differ by at most `shift`. It is the difference at the ends, plus the growth
+  // in between that the rates dt/du = length / |B'| allow.
   const Derivatives change = changes_on(*on.now, *on.before, from, to);
   const double at_ends = larger(std::abs(on.t_now[0] - on.t_before[0]), std::abs(on.t_now[1] - on.t_before[1]));
   const double half = 0.5 * on.width, rate_change = length.change / least + whole * change.first / (least * least);
@@ -122,7 +123,7 @@ AlongCurve along(const CurveRange &on) {
           least >= tight_share * first && by_itself <= 1 - tight_share};
 }
 
-// Returns the bounds that follow from each state alone, for states that are in different pieces.
+// Returns the bounds that follow from each state by itself. They are for a range in different pieces of the two states.
 AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
   const auto of = [](Both a, Both b) { return Both{larger(a.size, b.size), a.size + b.size}; };
   return {of(now.length, before.length),
@@ -134,13 +135,14 @@ AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
           now.is_tight && before.is_tight};
 }
 
-// Returns 1 if `curve` has one piece more than `other`, and has it at the start. The shorter end piece is taken for that piece.
+// Returns 1 if `curve` has one piece more than `other`, and the additional piece is at the start. The shorter one of its two end
+// pieces counts as the additional piece.
 std::size_t more_at_start(const Curve &curve, const Curve &other) {
   const std::size_t n = curve.pieces().size();
   return n == other.pieces().size() + 1 && curve.length(0) < curve.length(n - 1) ? 1 : 0;
 }
 
-// A side of a patch in both states, at ascending shares, its joints among them.
+// A side of a patch in both states, at ascending shares. The shares include its joints.
 class SideInBoth {
  public:
   SideInBoth(const Curve &now, const Curve &before, const Vector<double> &shares)
@@ -161,10 +163,10 @@ class SideInBoth {
   double longer() const { return larger(now_.length(), before_.length()); }
   double width(std::size_t i) const { return shares_[i + 1] - shares_[i]; }
 
-  // Returns whether both states are in the same piece between two shares. Otherwise a joint has passed.
+  // Returns whether the range after share i is in the same piece in both states. If not, a joint has passed through it.
   bool is_same_piece(std::size_t i) const { return at_now_.piece(i) + more_before_ == at_before_.piece(i) + more_now_; }
 
-  // Returns whether a piece of either state begins at a share.
+  // Returns whether a piece of one of the states begins at share i.
   bool is_joint(std::size_t i) const {
     return at_now_.piece(i) != at_now_.piece(i - 1) || at_before_.piece(i) != at_before_.piece(i - 1);
   }
@@ -193,7 +195,7 @@ class SideInBoth {
   const Curve &now_, &before_;
   const Vector<double> &shares_;
   CurvePoints at_now_, at_before_;
-  // 1 for the state that has one more piece at the start, because a joint passed that end of the curve; otherwise 0.
+  // 1 for the state that has one piece more at the start, because a joint passed that end of the curve. Otherwise 0.
   std::size_t more_now_, more_before_;
 };
 
@@ -201,11 +203,11 @@ void add_joints(const Curve &curve, Vector<double> &shares) {
   for (const double joint : curve.joints()) shares.push_back(joint);
 }
 
-// Limits for halving ranges: of the rounds, and of the number of ranges.
+// Limits for halving ranges: the number of rounds, and the number of ranges.
 constexpr int most_rounds = 12;
 constexpr std::size_t most_ranges = 1024;
 
-// The lines of a grid, with the joints of curves between them, and with halves of ranges that are too wide for tight bounds.
+// The lines of a grid and, between them, the joints of curves. Ranges too wide for tight bounds are halved.
 class Shares {
  public:
   Shares(const Vector<double> &lines, std::initializer_list<const Curve *> curves) : lines_(lines), all_(lines) {
@@ -217,14 +219,14 @@ class Shares {
   }
 
   const Vector<double> &all() const { return all_; }
-  // Returns the position of line k.
+  // Returns the position of line k in all().
   std::size_t line(std::size_t k) const {
     const auto found = std::lower_bound(all_.begin(), all_.end(), lines_[k] - 4 * negligible_share);
     return static_cast<std::size_t>(found - all_.begin());
   }
 
-  // Halves the ranges for which is_tight(i) is false. Returns whether there were any. Returns false once there are too many
-  // ranges, as for a curve that never gets tight.
+  // Halves the ranges for which is_tight(i) is false. Returns whether there were any. Once there are too many ranges, returns
+  // false. This happens for a curve whose bounds never get tight.
   template <class IsTight>
   bool halve(const IsTight &is_tight) {
     if (all_.size() > 2 * most_ranges) return false;
@@ -253,13 +255,13 @@ struct TwoCurves {
   Curve now, before;
 };
 
-// The curves of a side, in the direction of the side.
+// Returns the curves of a side in both states, in the direction of the side.
 TwoCurves curves_of(const TwoStates &states, std::size_t patch, Side Patch::*side) {
   return {along(states.now, states.now.patches[patch].*side), along(states.before, states.before.patches[patch].*side)};
 }
 
-// Bounds how far a side's displacement is from linear between each two lines. The bound includes the difference between a line's
-// own share on the side and the line's middle.
+// For every two neighbouring lines, bounds the distance of a side's displacement from linear. The bound includes the difference
+// between a line's share on the side and the line's `middle`.
 Vector<double> off_linear(const TwoCurves &curves, const Vector<GridLine> &lines, double GridLine::*t) {
   const Vector<double> at_lines = shares_of(lines, t);
   Shares shares(at_lines, {&curves.now, &curves.before});
@@ -283,7 +285,7 @@ Vector<double> off_linear(const TwoCurves &curves, const Vector<GridLine> &lines
       largest = larger(largest, second);
     }
     error = std::min(error, off_line(width, largest));
-    // No point of a curve is farther from its chord than the curve is long.
+    // No point of a curve is farther from the curve's chord than the curve is long.
     if (!(error <= both_lengths * width)) error = both_lengths * width;
     const auto shift = [&](const GridLine &line) { return both_lengths * std::abs(line.*t - line.middle); };
     made.push_back(error + larger(shift(lines[k]), shift(lines[k + 1])));
@@ -291,10 +293,10 @@ Vector<double> off_linear(const TwoCurves &curves, const Vector<GridLine> &lines
   return made;
 }
 
-// Bounds of O of a patch of arcs, and of its derivatives by u, on a range. They leave out the factor, the bulge.
+// Bounds of O of a patch of arcs and of its derivatives by u, on a range. The factor, the patch's bulge, is left out.
 struct ArcRangeInBoth {
   Both first, second;
-  double largest;  // of |O| in either state
+  double largest;  // bounds |O| in both states
   bool is_tight;
 };
 
@@ -338,7 +340,7 @@ ArcRangeInBoth offset_on(const SideInBoth &base, const SideInBoth &edge, std::si
     const Both unknown{infinity, infinity};
     return {unknown, unknown, w_largest, false};
   }
-  // |W| and its derivatives, then the unit vector of M and its derivatives.
+  // Computes |W| and its derivatives, then the unit vector of M and its derivatives.
   const Both to_w{1, w0.change / w_least}, across_w{1, to_w.change};
   const Both size0{w0.size, w0.change}, size1 = to_w * w1;
   const Both size2 = to_w * w2 + across_w * w1 * across_w * w1 * inverse(w_least, w0.change);
@@ -351,7 +353,7 @@ ArcRangeInBoth offset_on(const SideInBoth &base, const SideInBoth &edge, std::si
           b.is_tight && e.is_tight && w_least >= tight_share * w0.size && m_least >= tight_share * m_size};
 }
 
-// Bounds how far the displacement of O is from linear between each two lines.
+// For every two neighbouring lines, bounds the distance of O's displacement from linear.
 Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, const TwoCurves &base,
                                  const TwoCurves &edge, const Vector<GridLine> &lines) {
   const double factor = states.now.patches[patch].bulge, factor_before = states.before.patches[patch].bulge;
@@ -381,16 +383,16 @@ Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, con
         passed += on_base.width(i) * 2 * of_factor.size * on.first.size;
       }
     }
-    // O' jumps at a joint, so the first derivative counts there.
+    // O' jumps at a joint, so the bound there uses the first derivative.
     double error = has_joint || passed > 0 ? 0.5 * width * first + passed : off_line(width, second);
-    const double at_most = 4 * of_factor.size * largest;  // |O| and its linear interpolation, in two states
+    const double at_most = 4 * of_factor.size * largest;  // bounds |O| and its linear interpolation, in both states
     if (!(error <= at_most)) error = at_most;
     made.push_back(error);
   }
   return made;
 }
 
-// Bounds of the errors of a patch's displacements and of its points, at equal (u, v), before any image is placed.
+// Bounds of the errors of a patch's displacements and points, at equal (u, v), before any image is placed.
 struct PatchErrors {
   double displacement = 0, point = 0;
 };
@@ -417,7 +419,7 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
   for_each_quad(grid, [&](std::size_t i, std::size_t j) {
     const int level = *next_level++, n = 1 << level;
     const double row = grid.v[j + 1] - grid.v[j];
-    // Between two vertices the arcs' part is as far from linear as 2 v (1-v) is.
+    // Between two vertices, the arcs' part is as far from linear as 2 v (1-v), times the offset.
     double error = larger_mix(at_v0[i], at_v1[i], grid.v[j], grid.v[j + 1]) +
                    larger_mix(at_u0[j], at_u1[j], grid.u[i], grid.u[i + 1]) +
                    largest_arc_weight(grid.v[j], grid.v[j + 1]) * offset[i] + 0.5 * row * row * rows[i];
@@ -427,7 +429,7 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
       const auto at = [&](int du, int dv) { return motion.in_quad(i, j, level, column + du, at_row + dv); };
       twist = larger(twist, quad_flatness({at(0, 0), at(1, 0), at(1, 1), at(0, 1)}));
     }
-    // Vertices on a side may be linear between those of a neighbour that is split less.
+    // If a neighbour is subdivided less, vertices on the common side are interpolated linearly between the neighbour's vertices.
     const auto is_less = [&](bool is_inside, std::size_t beside) {
       return is_inside && levelled.levels[beside] < level;
     };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bounds how far the velocities of a surface's triangles are from those of the smooth valve (docs/theory.md, "Velocity").
+// Bounds the difference between the velocities of a surface's triangles and those of the smooth valve (docs/theory.md,
+// "Velocity").
 // In: the patches of two states, the time between them, the grids of the triangles. Out: a bound at equal (patch, u, v).
 #pragma once
 
@@ -10,14 +11,14 @@
 
 namespace riis {
 
-// The two states that velocities come from.
+// The two states that the velocities were computed from.
 struct TwoStates {
   PatchSet now, before;
   Placement placement, placement_before;
   double seconds;
 };
 
-// The grids are those of `now`, and must have kept their lines.
+// `grids` are the grids of `now`, made with their lines kept.
 double velocity_error_bound(const TwoStates &states, const Vector<LevelledGrid> &grids);
 
 }  // namespace riis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The aortic valve has three cusps of four patches each (paper, 2.1 and table "Aortic valve parameters"; docs/theory.md).
+// The aortic valve. It has three cusps of four patches each (paper, 2.1 and table "Aortic valve parameters"; docs/theory.md).
 #include <string>
 #include <utility>
 
@@ -9,8 +9,8 @@
 namespace riis {
 namespace {
 
-// Positions in the list of specs below: parameters of the whole valve first, then parameters of each cusp, then those of the
-// open state.
+// Positions in the list of specs below. First come the parameters of the whole valve, then those of each cusp, and last those of
+// the open state.
 // clang-format off
 enum General {
   root_height, root_radius, leaflet_height, bending_height, t3_leaflet, t3_bending, t0_leaflet, t0_bending, xq, zq, opening,
@@ -25,10 +25,10 @@ enum OfCusp {
 // clang-format on
 constexpr std::size_t n_cusps = 3;
 const char *const cusp_names[n_cusps] = {"right", "left", "non_coronary"};
-// These names begin messages. Messages are needed only when a check fails, so checks pass the names on without making a string.
+// These names begin messages. They are constants, because a string is needed only if a check fails.
 const char *const cusps[n_cusps] = {"the right cusp", "the left cusp", "the non_coronary cusp"};
 constexpr std::size_t open_radius_ratio = n_general + n_cusps * n_of_cusp, commissure_expansion = open_radius_ratio + 1;
-// The orifice is then 3.9 cm2, and no free edge changes by more than 5 % (docs/theory.md, section 3).
+// With these values the orifice is 3.9 cm2, and no free edge changes its length by more than 5 % (docs/theory.md, section 3).
 constexpr CuspOpening default_opening{0.75, 0.05};
 
 void check_values(const ParameterValues &values);
@@ -36,11 +36,11 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 
 // clang-format off
 ValveKind make_kind() {
-  // The limits suit a valve in any unit from kilometres to micrometres; check_together checks ratios of lengths.
+  // These limits suit a valve in any unit from kilometres to micrometres. check_together checks ratios of lengths.
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree", *number = "1";
   ValveKind kind{"aortic", {
-    {"root_height", length, "height of the root; does not enter the cusps: the translation does", 1, {1}, 0, longest},
+    {"root_height", length, "height of the root; unused, because the translations place the cusps", 1, {1}, 0, longest},
     {"root_radius", length, "radius of the root, where the cusps are attached", 1, {1.29}, shortest, longest},
     {"leaflet_height", length, "height of the free edge above the root", 1, {1.02}, shortest, longest},
     {"bending_height", length, "height of the bending curve above the root", 1, {0.71}, shortest, longest},
@@ -50,7 +50,7 @@ ValveKind make_kind() {
     {"t0_bending", length, "start tangent of the bending curve: right, left, non-coronary", 3, {0.1, 0.1, 0.1}, 0, longest},
     {"xq", number, "radial place of the symmetry curve's first inner control point", 1, {-0.2}, -10, 10},
     {"zq", number, "vertical place of the symmetry curve's first inner control point", 1, {-0.2}, -10, 10},
-    opening_spec("0: this state, to 1: the open state, that of riis_valve_set_open_state or that of the last two parameters", 0),
+    opening_spec("0: this state, to 1: the open state, which riis_valve_set_open_state or the last two parameters define", 0),
   }, opening, true, check_values, make_patches, nullptr};
   const double table[n_cusps][n_of_cusp] = {
     {0.24, 1.365, 61.0, 1.58,   0.40, 1.390, 47.30, 1.82,      0.0, -1},
@@ -121,7 +121,7 @@ void check_together(const ParameterValues &values) {
   }
 }
 
-// Checks every curve of one state. Curves between two checked states lie between theirs.
+// Checks every curve of one state. Curves between two checked states lie between the curves of these states.
 void check_values(const ParameterValues &values) {
   check_together(values);
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
@@ -130,7 +130,7 @@ void check_values(const ParameterValues &values) {
   }
 }
 
-// Returns half a cusp of the open state that the valve's own parameters make.
+// Returns half a cusp of the open state that the valve's own parameters define.
 HalfCusp open_half_of(const ParameterValues &values, std::size_t cusp) {
   return half_cusp(open_shape(shape_of(values, cusp), opening_of(values)));
 }
@@ -147,11 +147,11 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   PatchSet set;
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
     const HalfCusp closed_half = half_cusp(shape_of(closed.values, cusp));
-    // A closed valve does not need its own open state, which may be refused.
+    // A closed valve does not need the open state of its own parameters, which might be refused.
     const HalfCusp open_half = !has_own_open_state ? half_cusp(shape_of(open.values, cusp))
                                : opening != 0      ? own_open_half(closed.values, cusp)
                                                    : open_half_of(closed.values, cusp);
-    // The frame has no control points: its angles and its shift are blended as numbers.
+    // A cusp's position is not given by control points. So its angles and its shift are blended as numbers.
     const auto vector_of = [&](OfCusp parameter) {
       const auto &from = closed.values[position_of(cusp, parameter)], &to = open.values[position_of(cusp, parameter)];
       return riis::blend(Vec3{from[0], from[1], from[2]}, Vec3{to[0], to[1], to[2]}, opening);
@@ -165,8 +165,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 }  // namespace
 
 const ValveKind &aortic_valve_kind() {
-  // The kind is made at the first use and never destroyed, so it is usable from the first to the last instruction of
-  // the process.
+  // The kind is made when it is first used, and it is never destroyed. So it can be used during the whole life of the process.
   static const ValveKind &kind = *new ValveKind(make_kind());
   return kind;
 }

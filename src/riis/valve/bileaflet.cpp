@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bileaflet mechanical valve has two rigid flat leaflets, each of which turns about its hinge in a round housing
+// The bileaflet mechanical valve. It has two rigid flat leaflets in a round housing, and each turns about its hinge
 // (docs/theory.md, "The bileaflet valve").
-// In: the parameters of two states, the opening. Out: patches of two leaflets and, on request, of the housing's wall.
+// In: the parameters of two states, the opening. Out: patches of two leaflets and, if ring_height is not 0, of the housing's
+// wall.
 #include <riis/riis.h>
 
 #include <algorithm>
@@ -26,7 +27,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double a
 
 // clang-format off
 ValveKind make_kind() {
-  // The limits suit a valve in any unit from kilometres to micrometres; check_values checks ratios of lengths.
+  // These limits suit a valve in any unit from kilometres to micrometres. check_values checks ratios of lengths.
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree";
   ValveKind kind{"bileaflet", {
@@ -66,15 +67,15 @@ void check_states(const ValveState &valve, const ValveState &other, const char *
          ": both must have a ring, or neither");
 }
 
-// A valve at one opening. Lengths are those between two states.
+// A valve at one opening. Its lengths are blended between the two states.
 struct Shape {
   double radius, hinge_offset, hinge_height, gap, ring_height;
-  double closed_angle;  // the angle that the leaflets' outline is made for
-  double angle;         // the leaflets' angle from the orifice plane now
+  double closed_angle;  // the angle at which the leaflets' outline fits the housing
+  double angle;         // the leaflets' present angle from the orifice plane
 };
 
 Shape blended(const ValveState &closed, const ValveState &open, double at) {
-  // A value that both states share is not blended, so that a housing rests to the last bit.
+  // A value that is equal in both states is not blended. So a housing that does not move is the same to the last bit.
   const auto both = [&](Parameter parameter) {
     const double from = closed.values[parameter][0], to = open.values[parameter][0];
     return from == to ? from : blend(from, to, at);
@@ -88,8 +89,8 @@ Shape blended(const ValveState &closed, const ValveState &open, double at) {
           blend(closed.values[closed_angle][0], open.values[open_angle][0], at)};
 }
 
-// Turns points of the orifice plane into points of the leaflet of x > 0. A point (x, y) is the place that a leaflet's point
-// has when closed, seen along the axis.
+// Turns points of the orifice plane into points of the leaflet on the side x > 0. The point (x, y) stands for the leaflet's
+// point that is at (x, y) in the closed state, seen along the axis.
 class Turn {
  public:
   explicit Turn(const Shape &shape)
@@ -98,13 +99,14 @@ class Turn {
         closed_(sine_cosine_degrees(shape.closed_angle)),
         now_(sine_cosine_degrees(shape.angle)) {}
 
-  // This is offset + (x - offset) cos(angle) / cos(closed_angle), written so that a closed leaflet has x to the last bit.
+  // The first coordinate is offset + (x - offset) cos(angle) / cos(closed_angle), written so that it is exactly x for a closed
+  // leaflet.
   Vec3 operator()(double x, double y) const {
     const double along = (x - offset_) / closed_.cosine;
     return {x + along * (now_.cosine - closed_.cosine), y, height_ + along * now_.sine};
   }
 
-  // Bounds the factor by which a leaflet's lines are longer than on the orifice plane.
+  // Bounds the factor by which lines on the leaflet are longer than in the orifice plane.
   double stretch() const { return 1 / closed_.cosine; }
 
  private:
@@ -115,7 +117,7 @@ class Turn {
 // Every arc has this many pieces. A quarter of a circle is then right to 1e-9 of its radius.
 constexpr int n_pieces = 8;
 
-// Bounds the distance of such an arc from its circle, in radii: 2/27 sin^6(a/4) / cos^2(a/4) for a piece of the angle a.
+// Bounds the distance of such an arc from its circle, in radii. For a piece of the angle a, it is 2/27 sin^6(a/4) / cos^2(a/4).
 double arc_deviation(double whole_angle) {
   const double quarter = 0.25 * whole_angle / n_pieces;
   const double sine = std::sin(quarter), cosine = std::cos(quarter);
@@ -123,8 +125,8 @@ double arc_deviation(double whole_angle) {
   return (1 + rounding) * (2.0 / 27.0) * std::pow(sine, 6) / (cosine * cosine);
 }
 
-// Returns the arc of a circle about the axis from (radius, 0) to `last`, a point of the circle with y > 0. `placed` puts points
-// of the plane, such as control points, to their places in space.
+// Returns the arc of a circle about the axis, from (radius, 0) to the point (last_x, last_y) of the circle, last_y > 0. `placed`
+// takes points of the plane, such as control points, to space.
 template <class ToSpace>
 Curve make_arc(double circle_radius, double whole_angle, double last_x, double last_y, const ToSpace &placed) {
   const double step = whole_angle / n_pieces, reach = 4.0 / 3.0 * std::tan(0.25 * step);
@@ -139,7 +141,7 @@ Curve make_arc(double circle_radius, double whole_angle, double last_x, double l
   Vector<Bezier> pieces;
   for (int i = 0; i < n_pieces; ++i) {
     const Point from = on_circle(i), to = on_circle(i + 1);
-    // A radius turned by 90 degrees is the direction of the circle.
+    // The direction of the circle is the radius turned by 90 degrees.
     pieces.push_back(Bezier::cubic(placed(from.x, from.y), placed(from.x - reach * from.y, from.y + reach * from.x),
                                    placed(to.x + reach * to.y, to.y - reach * to.x), placed(to.x, to.y)));
   }
@@ -151,7 +153,7 @@ const Rotation &half_turn() {
   return turn;
 }
 
-// The image of a quarter of the valve, x > 0 and y > 0.
+// Returns an image of the quarter of the valve with x > 0 and y > 0.
 PatchImage image_of(bool is_mirrored, bool is_turned, std::int32_t leaflet_id, std::int32_t patch_id) {
   return {is_mirrored ? Mirror::in_y : Mirror::none,
           is_turned ? half_turn() : no_rotation,
@@ -194,7 +196,7 @@ void add_ring(const Shape &shape, PatchSet &set) {
   const Side bottom = arc_at(lower), top = arc_at(upper);
   const Side first = add(Bezier::line({R, 0, lower}, {R, 0, upper}));
   const Side last = add(Bezier::line({0, R, lower}, {0, R, upper}));
-  // u runs round the axis and v downstream. So S_u x S_v points outwards.
+  // u runs round the axis, and v runs downstream. So S_u x S_v points outwards.
   Patch patch{bottom, top, first, last, {}};
   std::int32_t patch_id = 4;
   for (const bool is_turned : {false, true})

@@ -26,8 +26,8 @@ Bezier profile_curve(const CuspProfile &profile, double height) {
                        last);
 }
 
-// Splits the curve at t and sets the common point to `point`, which is known to be on the curve. Other curves end
-// there, to the last bit.
+// Splits the curve at t. Replaces the common point by `point`, which must be on the curve except for rounding. So the common
+// point equals the end of other curves to the last bit.
 std::pair<Bezier, Bezier> split_through(const Bezier &curve, double t, Vec3 point) {
   auto [below, above] = split(curve, t);
   view(below.control)[below.degree] = point;
@@ -35,7 +35,7 @@ std::pair<Bezier, Bezier> split_through(const Bezier &curve, double t, Vec3 poin
   return {below, above};
 }
 
-// With a power of 2 and tangents of a third of the way, the cubic is the profile itself.
+// With the power 2, and with tangents whose length is a third of the end's y, the cubic is exactly the profile.
 CuspProfile parabola(double radius_in, double radius_out, double angle) {
   const double third = radius_out * sine_cosine_degrees(angle).sine / 3;
   return {radius_in, radius_out, angle, 2, third, third};
@@ -82,12 +82,14 @@ HalfCusp half_cusp(const CuspShape &shape) {
   half.leaflet = profile_curve(shape.leaflet, h_l);
   half.bending = profile_curve(shape.bending, h_b);
 
-  // The sinus curve is the quadratic from the root point to the leaflet's end, through the bending curve's end at s.
+  // The sinus curve is a quadratic. It runs from the root point to the leaflet's end, and passes through the bending curve's end
+  // at s.
   const Vec3 root{R, 0, 0}, L = half.leaflet.last(), B = half.bending.last();
   const Vec3 through = (1.0 / (2 * s * (1 - s))) * (B - (1 - s) * (1 - s) * root - s * s * L);
   std::tie(half.sinus_below, half.sinus_above) = split_through(Bezier::quadratic(root, through, L), s, B);
 
-  // The symmetry curve is the cubic from the root point to the leaflet's middle, through the bending curve's middle at s.
+  // The symmetry curve is a cubic. It runs from the root point to the leaflet's middle, and passes through the bending curve's
+  // middle at s.
   const Vec3 b = half.bending.first(), D3 = half.leaflet.first();
   const Vec3 D1{0.5 * (R + b.x) + shape.xq * (R - b.x), 0, 0.5 * h_b + shape.zq * h_b};
   const double a = 1 - s;
@@ -144,7 +146,7 @@ void add_cusps(PatchSet &set, const HalfCusp &half, const HalfCusp &rate, const 
     }
     return made;
   };
-  // u runs from the symmetry plane to the sinus, and v runs upwards. So S_u x S_v points to the sinus face: downstream.
+  // u runs from the symmetry plane to the sinus, and v runs upwards. So S_u x S_v points to the sinus face, downstream.
   set.patches.push_back({root, bending, symmetry_below, sinus_below, images(0)});
   set.patches.push_back({bending, leaflet, symmetry_above, sinus_above, images(1)});
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Half a semilunar cusp: its curves, the shape that it opens to, and its two patches (docs/theory.md, section 3).
-// In: lengths, angles and exponents of one cusp. Out: Bezier curves in the cusp's frame, and patches in a set.
+// Half a semilunar cusp: its curves, the shape to which it opens, and its two patches (docs/theory.md, section 3).
+// In: lengths, angles and exponents of one cusp. Out: Bézier curves in the cusp's frame, and patches in a set.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace riis {
 
-// A horizontal curve of half a cusp: the profile x(y) = radius_in + (end.x - radius_in) (y / end.y)^power from the symmetry
-// plane to the end at radius_out and angle. t0 and t3 are the tangents' lengths along y.
+// A horizontal curve of half a cusp. Its profile is x(y) = radius_in + (end.x - radius_in) (y / end.y)^power, from the symmetry
+// plane to the end at radius_out and angle. t0 and t3 are the lengths of the end tangents along y.
 struct CuspProfile {
   double radius_in, radius_out, angle, power, t0, t3;
 };
@@ -23,41 +23,41 @@ struct CuspShape {
   CuspProfile leaflet, bending;
 };
 
-// These parameters say how a cusp opens. Kinds of valves with cusps have them at the end of their lists.
+// The parameters that determine how a cusp opens. Kinds of valves with cusps have them at the end of their lists.
 struct CuspOpening {
-  double radius_ratio;  // of the open free edge at the symmetry plane and the root
-  double expansion;     // of the commissures, a share of their radius
+  double radius_ratio;  // radius of the open free edge at the symmetry plane, divided by the root's
+  double expansion;     // of the commissures, as a share of their radius
 };
 // Returns the specs of open_radius_ratio and commissure_expansion.
 std::array<ParameterSpec, 2> cusp_opening_specs(const CuspOpening &defaults);
 
-// Returns the shape that the cusp opens to. Its free edge and bending curve are parabolas, its sides nearly straight. The
-// attachment moves outwards in proportion to its height.
+// Returns the shape to which the cusp opens. Its free edge and bending curve are parabolas, and its sides are nearly straight.
+// The attachment moves outwards in proportion to its height.
 CuspShape open_shape(const CuspShape &closed, const CuspOpening &opening);
 
-// The curves of half a cusp, y >= 0, in the cusp's frame. Its symmetry plane is y = 0, the root is at z = 0, and z points to
-// the aorta.
+// The curves of half a cusp, y >= 0, in the cusp's frame. The symmetry plane is y = 0, the root is at z = 0, and z points to the
+// aorta.
 struct HalfCusp {
   Bezier leaflet, bending, sinus_below, sinus_above, symmetry_below, symmetry_above;
 };
 HalfCusp half_cusp(const CuspShape &shape);
 HalfCusp blend(const HalfCusp &closed, const HalfCusp &open, double opening);
-// Returns the derivatives of the control points by the opening.
+// Returns the derivatives of the control points with respect to the opening.
 HalfCusp rate(const HalfCusp &closed, const HalfCusp &open);
 
-// Refuses curves that reach far away. Values that are each sound can make such curves together: a high power with a long tangent,
-// or a bending curve near the root. `state` and `cusp` begin the message, as in "" and "the right cusp"; `also` ends its list of
-// parameters.
+// Refuses curves that reach far away. Values that are each acceptable can make such curves together: for example a high power
+// with a long tangent, or a bending curve near the root. `state` and `cusp` begin the message, for example "" and "the right
+// cusp". `also` ends the message's list of parameters.
 void check_reach(const HalfCusp &half, const CuspShape &shape, const char *state, const char *cusp, const char *also);
 
-// A cusp is turned, then shifted. The id of its leaflet also numbers its patches.
+// The position of a cusp: it is turned and then shifted. The id of its leaflet also numbers its patches.
 struct CuspPlace {
   Rotation turn;
   Vec3 shift;
   std::int32_t leaflet_id;
 };
-// Adds the lower and the upper patch of half a cusp, with images for both halves of the cusp at each place: y >= 0 first. The
-// upper patch is the set's last. Its side v1 is the free edge, which ends at the commissure, u = 1.
+// Adds the lower and the upper patch of half a cusp. At each place, both patches get images for both halves of the cusp, first
+// for y >= 0. The upper patch becomes the last of the set. Its side v1 is the free edge, which ends at the commissure, u = 1.
 void add_cusps(PatchSet &set, const HalfCusp &half, const HalfCusp &rate, const Vector<CuspPlace> &places);
 
 }  // namespace riis

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mitral valve has an annulus, an anterior leaflet and a posterior leaflet of three scallops. It is closed, open or
-// in between (paper, appendix "Parametric modeling of the mitral valve"; docs/theory.md, section 4).
+// The mitral valve. It has an annulus, an anterior leaflet and a posterior leaflet of three scallops, and it can be closed, open
+// or in between (paper, appendix "Parametric modeling of the mitral valve"; docs/theory.md, section 4).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace riis {
 namespace {
 
-// Positions in the list of specs below: the paper's table, then opening (its t) and translation.
+// Positions in the list of specs below: first the paper's table, then `opening` (t in the paper) and `translation`.
 // clang-format off
 enum Parameter {
   anterior_ratio, AP_diameter, ALPM_diameter, ALPM_position_ratio, IT_distance, indent_depth, anterior_horn_height,
@@ -55,23 +55,23 @@ ValveKind make_kind() {
 }
 // clang-format on
 
-// The half of the valve on the posteromedial side, x >= 0; the other half is its mirror image. The annulus runs from
-// the posterior point, u = 0, to the anterior point, u = 1/2, counter-clockwise seen from +z.
+// The half of the valve on the posteromedial side, x >= 0. The other half is its mirror image. The annulus runs from the
+// posterior point, u = 0, to the anterior point, u = 1/2, counter-clockwise seen from +z.
 struct HalfValve {
   std::array<Bezier, 3> annulus;
   Bezier anterior;        // free edge, from the posteromedial to the anterolateral commissure
   Bezier side_scallop;    // free edge, from the posteromedial commissure to the cleft
   Bezier middle_scallop;  // free edge, from this cleft to the cleft of the other half
-  double u_commissure;    // u_pm
-  double triangle_width;  // r_tr, in u
+  double u_commissure;    // u_pm in the paper
+  double triangle_width;  // r_tr in the paper, in units of u
   double bulge;           // tan(surface_angle) / 2
-  double cleft;           // parameter of the closed anterior edge where it meets the cleft
+  double cleft;           // parameter of the point where the closed anterior edge meets the cleft
 };
 
 Vec3 mirrored(Vec3 p) { return {-p.x, p.y, p.z}; }
 
-// The annulus has six points and tangents; the half uses points 0 to 3. The paper prints IT_distance for the widest
-// point's x on one side, but its symmetry needs ALPM_diameter / 2.
+// The annulus has six points and tangents, and the half has points 0 to 3. The paper prints IT_distance for the widest point's x
+// on one side, but the annulus is symmetric only with ALPM_diameter / 2.
 std::array<Bezier, 3> half_annulus(const ParameterValues &values, bool flat) {
   const auto value = [&](Parameter parameter) { return values[parameter][0]; };
   const double ap = value(AP_diameter), alpm = value(ALPM_diameter), position = value(ALPM_position_ratio),
@@ -86,15 +86,16 @@ std::array<Bezier, 3> half_annulus(const ParameterValues &values, bool flat) {
           Bezier::cubic(P2, P2 + T2, P3 - T3, P3)};
 }
 
-// The annulus, from which the leaflets hang: A(u), and N(u), the tangent turned inwards by 90 degrees in the plane.
+// The annulus, from which the leaflets hang. A(u) is its point, and N(u) is its tangent turned inwards by 90 degrees in the
+// plane.
 class Annulus {
  public:
   explicit Annulus(const std::array<Bezier, 3> &half) : half_({half.begin(), half.end()}) {}
 
   const Curve &half() const { return half_; }
   Curve::Frame frame(double u) const { return half_.frame(2 * u); }
-  // Returns U(u, x), the point at distance x from the annulus, inwards by an angle below the plane. (The paper prints U
-  // by a product with N, whose z is 0, so that the angle has no effect.)
+  // Returns U(u, x): the point at the distance x from the annulus, inwards and by an angle below the plane. (The paper prints U
+  // with a product with N. Since the z of N is 0, the angle would have no effect.)
   Vec3 below(double u, double x, SineCosine angle) const {
     const auto [A, T] = frame(u);
     const double in_plane = std::hypot(T.x, T.y);
@@ -106,8 +107,8 @@ class Annulus {
   Curve half_;
 };
 
-// Returns the cubic from one end to the other through the tip at 1/2. It is the affine image of the cubic that approximates a
-// circular arc of that angle. (The paper's matrix has rank 3; this is the curve that it is meant to give.)
+// Returns the cubic from `first` to `last` that passes through the tip at 1/2. It is the affine image of the cubic that
+// approximates a circular arc of that angle. (The paper's matrix has rank 3. This curve is the one that it is meant to give.)
 Bezier free_edge(Vec3 first, Vec3 tip, Vec3 last, double arc_angle) {
   const auto [quarter_sine, quarter_cosine] = sine_cosine_degrees(0.25 * arc_angle);
   const auto [half_sine, half_cosine] = sine_cosine_degrees(0.5 * arc_angle);
@@ -117,17 +118,19 @@ Bezier free_edge(Vec3 first, Vec3 tip, Vec3 last, double arc_angle) {
   return Bezier::cubic(first, middle - along * half_chord + rise, middle + along * half_chord + rise, last);
 }
 
-// Returns the length of a free edge. Refuses an edge that is all in one point, because it makes no leaflet.
+// Returns the length of a free edge. Refuses an edge that is nearly one point, because it makes no leaflet.
 double checked_length(const Bezier &edge, const char *which, const Bezier &annulus) {
   const double length = arc_length(edge);
   if (!(length >= 1e-6 * arc_length(annulus)))
     fail(RIIS_INVALID_PARAMETER, "the ", which, " free edge is ", length,
-         " long, nothing beside the annulus: look at anterior_ratio, ALPM_diameter, the leaflets' lengths and "
+         " long, which is negligible beside the annulus: look at anterior_ratio, ALPM_diameter, the leaflets' lengths "
+         "and "
          "leaflet_inward_angle");
   return length;
 }
 
-// Returns the parameter of the cleft: the point of the closed anterior edge a third of its length from the commissure.
+// Returns the parameter of the cleft. The cleft is on the closed anterior edge, a third of the edge's length from the
+// commissure.
 double cleft_parameter(const Bezier &closed_anterior, const Bezier &annulus) {
   const double whole = checked_length(closed_anterior, "closed", annulus);
   return parameter_at_length(closed_anterior, whole, whole / 3);
@@ -145,7 +148,7 @@ HalfValve half_valve(const ParameterValues &values, bool is_open) {
 
   const Annulus annulus(half.annulus);
   const double u_pm = half.u_commissure;
-  // Closed leaflets end in the plane z = 0, whatever the height of the annulus there.
+  // Closed leaflets end in the plane z = 0, for any height of the annulus there.
   const auto edge_point = [&](double u, double x) {
     Vec3 p = annulus.below(u, x, is_open ? sine_cosine_degrees(value(leaflet_inward_angle)) : SineCosine{0, 1});
     if (!is_open) p.z = 0;
@@ -155,13 +158,13 @@ HalfValve half_valve(const ParameterValues &values, bool is_open) {
   half.anterior = free_edge(commissure, edge_point(0.5, value(anterior_length)), mirrored(commissure), arc_angle);
   half.cleft = 0;
   if (is_open) {
-    // The clefts are a third of the way along the annulus. The paper swaps tips and ends of the side scallops.
+    // The clefts are at a third of the way along the annulus. The paper exchanges tips and ends of the side scallops.
     const Vec3 cleft = edge_point(u_pm / 3, commissure_length);
     half.side_scallop =
         free_edge(commissure, edge_point(2 * u_pm / 3, value(posterior_scallop_length1)), cleft, arc_angle);
     half.middle_scallop = free_edge(cleft, edge_point(0, value(posterior_scallop_length2)), mirrored(cleft), arc_angle);
   } else {
-    // The leaflets meet in one edge, and the scallops are thirds of its length.
+    // The leaflets meet in one edge. The scallops are thirds of its length.
     half.cleft = cleft_parameter(half.anterior, half.annulus[0]);
     const auto [side, rest] = split(half.anterior, half.cleft);
     half.side_scallop = side;
@@ -207,7 +210,7 @@ void check_values(const ParameterValues &values) {
          "; twice that must leave at least 0.02 of anterior_ratio, which is ", ratio);
 }
 
-// Cuts an edge at the plane of symmetry and returns the first half.
+// Cuts an edge at the plane of symmetry, and returns the first half.
 Bezier up_to_symmetry_plane(const Bezier &edge, double middle) {
   Bezier half = split(edge, middle).first;
   half.control[3].x = 0;
@@ -220,13 +223,14 @@ class Patches {
     const auto [side_edge, rest] = split(half.anterior, half.cleft);
     const Bezier middle_edge = up_to_symmetry_plane(rest, (0.5 - half.cleft) / (1 - half.cleft));
     const std::size_t anterior_side = add(side_edge), anterior_middle = add(middle_edge);
-    // Closed leaflets share their edge: one curve, one polyline.
+    // Closed leaflets share their edge, so there is only one curve and one polyline.
     const std::size_t posterior_side = is_closed ? anterior_side : add(half.side_scallop);
     const std::size_t posterior_middle =
         is_closed ? anterior_middle : add(up_to_symmetry_plane(half.middle_scallop, 0.5));
     const std::size_t commissure = add(Bezier::point(side_edge.first()));
 
-    // u runs along the annulus. The anterior edge covers the part that the triangle leaves, in proportion to its length.
+    // u runs along the annulus. The part of the annulus beside the triangle is divided between the pieces of the anterior edge
+    // in proportion to their lengths.
     const double u_pm = half.u_commissure, u_triangle = u_pm + half.triangle_width;
     const double side_length = arc_length(side_edge), middle_length = arc_length(middle_edge);
     const double u_anterior_cleft = u_triangle + side_length / (side_length + middle_length) * (0.5 - u_triangle);
@@ -252,18 +256,18 @@ class Patches {
     return set_.curves.size() - 1;
   }
 
-  // Returns the arc from the annulus at u to a point of the edge, as a side that both its patches share.
+  // Returns the arc from the annulus at u to a point of the edge, as a side that is shared by the patches on both sides of it.
   Arc arc(double u, Vec3 on_edge) {
     const auto [on_annulus, along] = annulus_.frame(u);
     Vec3 offset = arc_offset(on_edge - on_annulus, along, half_.bulge);
-    if (u == 0 || u == 0.5) offset.x = 0;  // in the plane of symmetry, to the last bit
+    if (u == 0 || u == 0.5) offset.x = 0;  // the plane of symmetry is x = 0 exactly
     return {u, on_annulus, {add(Bezier::quadratic(on_annulus, 0.5 * (on_annulus + on_edge) + offset, on_edge))}};
   }
 
   void begin_at(double u, Vec3 on_edge) { last_arc_ = arc(u, on_edge); }
 
-  // Patches run clockwise, down from the anterior point, so that S_u x S_v points into the ventricle: downstream. O
-  // goes along (edge - annulus) x (the annulus' counter-clockwise direction), hence the minus.
+  // Patches run clockwise, down from the anterior point. So S_u x S_v points into the ventricle, downstream. O points along
+  // (edge - annulus) x (the annulus' counter-clockwise direction), hence the minus.
   void add_patch(Side edge, double to_u, Vec3 on_edge, std::int32_t leaflet_id, std::int32_t patch_id,
                  std::int32_t mirrored_patch_id) {
     const Arc from = last_arc_, to = arc(to_u, on_edge);
@@ -302,8 +306,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 }  // namespace
 
 const ValveKind &mitral_valve_kind() {
-  // The kind is made at the first use and never destroyed, so it is usable from the first to the last instruction of
-  // the process.
+  // The kind is made when it is first used, and it is never destroyed. So it can be used during the whole life of the process.
   static const ValveKind &kind = *new ValveKind(make_kind());
   return kind;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A valve hands curves on to the surface, and patches that share the curves by position.
+// The patches of a valve, in the form in which the valve passes them to the surface. Patches refer to curves by position, so
+// they can share curves.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +15,7 @@ namespace riis {
 
 enum class Mirror { none, in_x, in_y };
 
-// The place of a patch: it is mirrored or not, then turned, then moved. All images of a patch come from the same
+// The placement of a patch: it may be mirrored, then it is turned, then moved. All images of a patch come from the same
 // operations on the same points. So a patch and its mirror image meet in the mirror's plane to the last bit.
 struct PatchImage {
   Mirror mirror;
@@ -30,25 +31,26 @@ inline Vec3 place(const PatchImage &image, Vec3 p) {
          image.translation;
 }
 
-// A curve, given by its position in PatchSet::curves, that runs from its first point or from its last.
+// A curve as the side of a patch. It is given by its position in PatchSet::curves, and runs from its first point or from its
+// last.
 struct Side {
   std::size_t curve;
   bool reversed = false;
 };
 
-// A patch, given by its four sides, which are named by the parameter that is constant on them. A curve that two patches
-// share appears once, so that it becomes one polyline and the patches meet without cracks. S_u x S_v points downstream;
-// mirror images are turned over to keep it so.
+// A patch, given by its four sides. Each side is named after the parameter that is constant on it. A curve that two patches
+// share is listed once. So it becomes one polyline, and the patches meet without cracks. S_u x S_v points downstream. Mirror
+// images are turned over, so that this holds for them too.
 struct Patch {
   Side v0, v1, u0, u1;
   Vector<PatchImage> images;
-  // 0 means the Coons patch of the sides. Any other factor means the patch of the arcs that it makes from v0 to v1
-  // (geometry/bulge.hpp); u0 and u1 are then such arcs themselves.
+  // If 0, the patch is the Coons patch of its sides. Otherwise it is the patch of arcs from v0 to v1 with this factor
+  // (geometry/bulge.hpp), and u0 and u1 must be such arcs.
   double bulge = 0;
 };
 
-// Two images of one patch that have points of the side v1 in common: the whole side, or only its end at u1. Turning rounds, so
-// the image takes these points from its twin. Both then have the same bits.
+// Two images of one patch that have points of the side v1 in common: the whole side, or only its end at u1. The image `image`
+// takes these points from the image `twin`, because turning both separately would round differently.
 struct Seam {
   std::size_t patch, image, twin;
   bool is_whole_side;
@@ -60,22 +62,21 @@ struct PatchSet {
   Vector<Curve> curves;
   Vector<Patch> patches;
   Vector<Seam> seams = {};  // at most one for each image
-  // Bounds the distance of the patches from the valve's shape, in the Hausdorff sense. It is not 0 for curves that stand
-  // for arcs of circles.
+  // Bounds the Hausdorff distance of the patches from the valve's shape. It is not 0 if curves approximate arcs of circles.
   double deviation = 0;
-  // Empty unless the valve blends control points. Then every curve has one piece, and this holds the derivatives of its control
-  // points with respect to the opening.
+  // Empty unless the valve blends control points. Otherwise every curve has one piece, and this list has the derivatives of the
+  // pieces' control points with respect to the opening.
   Vector<Bezier> rates = {};
 
   const Curve &curve_of(const Side &side) const { return curves[side.curve]; }
 };
 
-// Returns the curve of a side in the direction of the side.
+// Returns the curve of a side, in the direction of the side.
 inline Curve along(const PatchSet &set, const Side &side) {
   return side.reversed ? set.curve_of(side).reversed() : set.curve_of(side);
 }
 
-// Returns O of a side that is an arc: both patches at the side get the same bits.
+// Returns O on a side that is itself an arc. So the two patches at the side get the same bits.
 inline Vec3 arc_offset(const PatchSet &set, const Side &side) {
   return arc_offset(set.curve_of(side).pieces().front());
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A valve of three equal cusps that closes: free edges meet along straight lines from the commissures to the axis
-// (docs/theory.md, section 3).
+// The trileaflet valve. Its three equal cusps close completely: their free edges meet along straight lines from the commissures
+// to the axis (docs/theory.md, section 3).
 #include <utility>
 
 #include "common/array_view.hpp"
@@ -19,17 +19,18 @@ enum Parameter {
 };
 // clang-format on
 
-// Half the angle of a cusp, in degrees: the angle from the symmetry plane to the free edge's end.
+// Half the angle of a cusp in degrees, from its symmetry plane to the end of its free edge.
 constexpr double half_angle = 60;
-// The right, the left and the non-coronary cusp, in degrees about the axis. They follow each other round it.
+// The angles of the right, the left and the non-coronary cusp about the axis, in degrees. This is their order round the axis.
 constexpr double turns[3] = {0, 120, -120};
 
 void check_values(const ParameterValues &values);
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
 
-// Lengths in centimetres. Sources of the values, more in docs/theory.md: the root by Roman et al. 1989, the cylinder between
-// Thubrikar et al. 1981 and Jelenc et al. 2024, heights by Bierbach et al. 2010 and Schaefers et al. 2013, the orifice by Bonow
-// et al. 2006, the expansion of the commissures by Pang et al. 2000. The bending curve is chosen to fit them.
+// Lengths are in centimetres. Sources of the values (docs/theory.md has more): the root from Roman et al. 1989, the cylinder
+// between Thubrikar et al. 1981 and Jelenc et al. 2024, the heights from Bierbach et al. 2010 and Schaefers et al. 2013, the
+// orifice from Bonow et al. 2006, and the expansion of the commissures from Pang et al. 2000. The bending curve is chosen to fit
+// these.
 // clang-format off
 ValveKind make_kind() {
   constexpr double shortest = 1e-9, longest = 1e9;
@@ -73,7 +74,7 @@ CuspShape open_shape(const ParameterValues &values) {
   return riis::open_shape(closed_shape(values), {values[open_radius_ratio][0], values[commissure_expansion][0]});
 }
 
-// Checks both states: one set of values makes them.
+// Checks both states, because one set of values defines both.
 void check_values(const ParameterValues &values) {
   const Measure radius{"root_radius", values[root_radius][0]}, height{"leaflet_height", values[leaflet_height][0]};
   const auto check = [&](Parameter parameter, const Measure &measure, double least, double most) {
@@ -89,8 +90,8 @@ void check_values(const ParameterValues &values) {
   check_reach(half_cusp(open), open, "in the open state, ", "a cusp", ", open_radius_ratio, commissure_expansion");
 }
 
-// Sews the cusps together. The half y < 0 of a cusp meets the half y >= 0 of the cusp before it: at opening 0 along the free
-// edge, otherwise at the commissure.
+// Sews the cusps together. The half y < 0 of a cusp meets the half y >= 0 of the cusp before it. At opening 0 they meet along
+// the free edge, otherwise only at the commissure.
 void sew(PatchSet &set, bool is_closed) {
   const std::size_t top = set.patches.size() - 1;
   constexpr std::size_t right = 0, left = 1, non_coronary = 2;
@@ -105,7 +106,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   const Vec3 shift = riis::blend(Vec3{from[0], from[1], from[2]}, Vec3{to[0], to[1], to[2]}, opening);
   Vector<CuspPlace> places;
   for (std::int32_t cusp = 0; cusp < 3; ++cusp)
-    // Adding 0 makes -0 a 0, so that the cusps meet in the same bits on the axis.
+    // Adding 0 turns -0 into 0, so that the cusps have the same bits where they meet on the axis.
     places.push_back({rotation_xyz({0, 0, view(turns)[cusp]}), shift + Vec3{0, 0, 0}, cusp});
   PatchSet set;
   add_cusps(set, blend(closed_half, open_half, opening), rate(closed_half, open_half), places);
@@ -116,8 +117,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 }  // namespace
 
 const ValveKind &trileaflet_valve_kind() {
-  // The kind is made at the first use and never destroyed, so it is usable from the first to the last instruction of
-  // the process.
+  // The kind is made when it is first used, and it is never destroyed. So it can be used during the whole life of the process.
   static const ValveKind &kind = *new ValveKind(make_kind());
   return kind;
 }

@@ -43,7 +43,7 @@ Vector<Bezier> curves_of(const riis_patches &arrays) {
   return curves;
 }
 
-// Returns the diagonal of the box of all control points.
+// Returns the diagonal of the box around all control points.
 double size_of(const Vector<Bezier> &curves) {
   Vec3 lower = curves.front().first(), upper = lower;
   for (const Bezier &curve : curves)
@@ -128,7 +128,7 @@ void check_states(const ValveState &valve, const ValveState &other, const char *
     fail(RIIS_INVALID_PARAMETER, name, " has ", to.curves.size(), " curves and ", to.patches.size(),
          " patches, the valve ", from.curves.size(), " and ", from.patches.size(), ": they must be built alike");
   for (std::size_t i = 0; i < from.curves.size(); ++i) {
-    // Lines are quadratics here, and a line may become a quadratic.
+    // Straight lines are stored as quadratics. So a line may become a quadratic in the other state.
     const int degree = from.curves[i].pieces().front().degree, other_degree = to.curves[i].pieces().front().degree;
     if (degree != other_degree)
       fail(RIIS_INVALID_PARAMETER, "curve ", i, " is cubic in ", other_degree == 3 ? name : "the valve",
@@ -168,8 +168,7 @@ PatchSet patches_from_arrays(const riis_patches &arrays) {
 const ValveKind &patches_valve_kind() {
   static const ValveKind &kind = *new ValveKind{
       "patches",
-      {opening_spec("0: this state, to 1: the state to open to (riis_valve_set_open_state), without which it stays 0",
-                    0)},
+      {opening_spec("0: this state, to 1: the open state; it stays 0 without riis_valve_set_open_state", 0)},
       0,
       false,
       nullptr,

@@ -13,10 +13,11 @@
 namespace riis {
 namespace {
 
-// Cuts a name for a message, because it may have any length.
+// Shortens a name for a message, because it may have any length.
 std::string_view shown(std::string_view name) { return name.substr(0, 80); }
 
-// Returns the parameter that may have been meant, or "" if none is near. It has its leaflet's name if the given name has one.
+// Returns the parameter that the user may have meant, or "" if none is near. The result has a leaflet's name if the given name
+// has one.
 std::string_view nearest_parameter(const ValveKind &kind, std::string_view name) {
   const bool names_leaflet = name.find('.') != std::string_view::npos;
   NearestName nearest(name);
@@ -35,7 +36,7 @@ std::string_view nearest_parameter(const ValveKind &kind, std::string_view name)
        "riis_valve_get_parameter and riis params list them");
 }
 
-// Returns whether the spec's name is a leaflet's name, a dot, and the given name.
+// Returns whether the spec's name consists of a leaflet's name, a dot, and the given name.
 bool is_of_a_leaflet(const ParameterSpec &spec, std::string_view name) {
   const std::string_view full = spec.name;
   return full.size() > name.size() + 1 && full.substr(full.size() - name.size()) == name &&
@@ -91,23 +92,23 @@ void Valve::get(std::string_view name, std::int64_t n_values, double *out) const
   for (const ParameterSpec &spec : specs)
     if (is_of_a_leaflet(spec, name))
       fail(RIIS_INVALID_PARAMETER, "parameter '", spec.name.c_str() + (spec.name.size() - name.size()),
-           "' belongs to one leaflet each: name one, as in '", spec.name, "'");
+           "' exists for each leaflet separately: name one, as in '", spec.name, "'");
   fail_unknown(*kind_, name);
 }
 
 void Valve::set_open_state(const Valve &open) {
   if (open.kind_ != kind_)
     fail(RIIS_INVALID_PARAMETER, "the open state is of the kind ", open.kind_->name, ", the valve of the kind ",
-         kind_->name, ": a valve opens to one of its own");
+         kind_->name, ": both must be of one kind");
   if (kind_->check_states) kind_->check_states(state_, open.state_, "the open state");
-  open_ = ValveState(open.state_);  // copied aside first: an assignment member by member could stop half way
+  open_ = ValveState(open.state_);  // copied first, because member-by-member assignment could fail half way
 }
 
 namespace {
 
 constexpr const char *fixed_for = ", but the surface's triangulation is fixed for ";
 
-// `where` says which state it is.
+// `where` names the state in messages.
 void check_same_state(const ValveKind &kind, const ValveState &fixed, const ValveState &now, const char *where) {
   for (std::size_t i = 0; i < kind.parameters.size(); ++i) {
     const ParameterSpec &spec = kind.parameters[i];
@@ -121,7 +122,7 @@ void check_same_state(const ValveKind &kind, const ValveState &fixed, const Valv
   for (std::size_t i = 0; i < fixed.patches.curves.size(); ++i)
     if (!are_equal(fixed.patches.curves[i], now.patches.curves[i]))
       fail(RIIS_INVALID_PARAMETER, "curve ", i, where,
-           " is another than that which the surface's triangulation is fixed for",
+           " differs from the curve that the surface's triangulation is fixed for",
            ": only opening and placement may move");
 }
 

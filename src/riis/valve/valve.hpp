@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Valves have a kind, named parameters, and a second state to open to.
-// In: names and values as users write them. Out: checked values, and the patches that they make at an opening.
+// Valves: a kind, named parameters, and optionally a second state to which the valve opens.
+// In: names and values as users write them. Out: checked values, and the patches at an opening.
 #pragma once
 
 #include <array>
@@ -26,72 +26,74 @@ struct ParameterSpec {
 
 using ParameterValues = Vector<std::array<double, 3>>;  // one entry for each spec
 
-// A valve's shape: parameters, or patches for valves that are given by patches.
+// A state of a valve: its parameters or, for valves given by patches, its patches.
 struct ValveState {
   ParameterValues values;
   PatchSet patches;
 };
 
-// A kind of valve: its parameters and the way from them to patches.
+// A kind of valve: its parameters, and the functions that make patches from them.
 struct ValveKind {
   const char *name;
   Vector<ParameterSpec> parameters;
-  std::size_t opening;   // position of the parameter of that name
-  bool opens_by_itself;  // one set of parameters makes the valve both closed and open
-  // Refuses values that do not go together. NULL: all values go together.
+  std::size_t opening;   // the position of the parameter "opening"
+  bool opens_by_itself;  // one set of parameters defines both the closed and the open state
+  // Refuses values that do not fit together. NULL if all values fit together.
   void (*check_values)(const ParameterValues &values);
-  // Makes the patches at an opening from 0, the closed state, to 1, the open state, by blending control points. Both
-  // states have been checked. They are one object if the valve was given no other state to open to.
+  // Makes the patches at an opening from 0, the closed state, to 1, the open state. Both states have been checked. They are the
+  // same object if the valve was given no open state.
   PatchSet (*make_patches)(const ValveState &closed, const ValveState &open, double opening);
-  // Refuses another state that is not built like the valve's, and calls it by its name, such as "the open state". NULL: all
-  // states of the kind are built alike.
+  // Refuses another state whose curves or patches are not built like the valve's. The message calls that state by `name`, such
+  // as "the open state". NULL if all states of the kind are built alike.
   void (*check_states)(const ValveState &valve, const ValveState &other, const char *name);
-  // True if leaflets meet only where their triangles have common vertices, such as at commissures. Otherwise they may touch
-  // anywhere, and their triangles may then go through each other by the triangles' error.
+  // True if leaflets meet only at common vertices of their triangles, such as at commissures. Otherwise leaflets may touch
+  // anywhere, and their triangles may then go through each other by as much as the triangles' error.
   bool has_exact_contacts = false;
-  // The leaflet_id of a wall into which hinges reach, or -1.
+  // The leaflet_id of a wall that hinges reach into, or -1.
   std::int32_t housing = -1;
 };
 
-// The kinds that parameters make, each in a file of its name.
+// The kinds of valves that are defined by parameters. Each is in a file of its name.
 const ValveKind &aortic_valve_kind();
 const ValveKind &bileaflet_valve_kind();
 const ValveKind &mitral_valve_kind();
 const ValveKind &trileaflet_valve_kind();
 
-// Returns the kind of that name. Fails with RIIS_INVALID_PARAMETER and names the existing kinds.
+// Returns the kind with that name. If there is none, fails with RIIS_INVALID_PARAMETER and names the existing kinds.
 const ValveKind &find_valve_kind(std::string_view name);
 
-// A valve: a kind and its values. All functions fail with RIIS_INVALID_PARAMETER, name the parameter and the value, and
-// then leave the valve as it was.
+// A valve: a kind and its values. All functions fail with RIIS_INVALID_PARAMETER and name the parameter and the value. A failure
+// leaves the valve unchanged.
 class Valve {
  public:
   explicit Valve(const ValveKind &kind, PatchSet patches = {});
   const ValveKind &kind() const { return *kind_; }
   const ParameterValues &values() const { return state_.values; }
 
-  // A name without a leaflet sets the parameter of that name in every leaflet that has one.
+  // A name without a leaflet sets the parameter of that name for every leaflet that has one.
   void set(std::string_view name, std::int64_t n_values, const double *new_values);
   void get(std::string_view name, std::int64_t n_values, double *out) const;
 
-  // Takes the other valve's own state as the state to open to. The other valve must be of the same kind.
+  // Uses the other valve's own state as the open state. The other valve must be of the same kind.
   void set_open_state(const Valve &open);
 
   // Returns whether the opening may differ from 0.
   bool can_open() const { return open_ || kind_->opens_by_itself; }
   double opening() const { return state_.values[kind_->opening][0]; }
 
-  // Fails unless the other valve equals this one in all but the opening. Names the first parameter that differs.
+  // Fails unless the other valve equals this valve in everything but the opening. The message names the first parameter that
+  // differs.
   void check_same_but_for_opening(const Valve &other) const;
 
-  // Returns whether the shape is that of the kind's defaults: the user chose at most the opening.
+  // Returns whether all parameters but the opening have the kind's defaults.
   bool has_default_shape() const;
-  // Returns a digest of the shape without the opening, never 0. Two shapes practically never have the same digest.
+  // Returns a digest of the shape without the opening. It is never 0. Two different shapes practically never have the same
+  // digest.
   std::uint64_t shape_digest() const;
 
   // Makes the patches at the current opening.
   PatchSet make_patches() const;
-  // Makes the patches of `before`, an earlier state of this valve. It is a valve of the same kind and build.
+  // Makes the patches of `before`, an earlier state of this valve. `before` must be of the same kind and build.
   PatchSet make_patches_before(const Valve &before) const;
 
  private:
@@ -102,7 +104,7 @@ class Valve {
   std::optional<ValveState> open_;
 };
 
-// Blends one number; exact at both ends.
+// Blends one number. The result is exact for openings of 0 and 1.
 inline double blend(double closed, double open, double opening) {
   return opening == 0 ? closed : opening == 1 ? open : (1 - opening) * closed + opening * open;
 }
@@ -111,14 +113,14 @@ inline Vec3 blend(Vec3 closed, Vec3 open, double opening) {
 }
 // Blends two curves of the same degree.
 Bezier blend(const Bezier &closed, const Bezier &open, double opening);
-// Returns the derivatives of the blend's control points by the opening.
+// Returns the derivatives of the blend's control points with respect to the opening.
 Bezier rate(const Bezier &closed, const Bezier &open);
 
-// Returns the spec of the opening, a parameter that every kind has.
+// Returns the spec of the opening. Every kind has this parameter.
 ParameterSpec opening_spec(const char *description, double default_value);
 
-// A value that others are checked against, as in "leaflet_height is 30; it must be from 0.05 to 10 times root_radius,
-// which is 1.29".
+// A value that other values are checked against. The message is, for example, "leaflet_height is 30; it must be from 0.05 to 10
+// times root_radius, which is 1.29".
 struct Measure {
   const char *name;
   double size;
