@@ -202,18 +202,19 @@ module riis_c
   type, bind(c) :: riis_surface_info
     integer(c_int64_t) :: n_vertices       !< as riis_triangles.n_vertices
     integer(c_int64_t) :: n_triangles      !< triangles that answer queries
-    integer(c_int64_t) :: n_zero_area      !< triangles skipped for want of area
+    integer(c_int64_t) :: n_zero_area      !< triangles skipped because they have no area
     real(c_double) :: half_thickness       !< placed units
     real(c_double) :: area                 !< of all triangles, placed units squared
     real(c_double) :: lower(3), upper(3)   !< bounds of the triangles, placed units
     real(c_double) :: seconds_triangles    !< wall time of the last create or update: checks and triangles
-    real(c_double) :: seconds_scene        !< Embree scene, and the samples or patches of another distance
-    real(c_double) :: error_bound          !< at most tolerance * half_thickness: no point's distances to the triangles
-                                           !! and to the smooth valve differ by more. 0 for a surface from arrays
-    real(c_double) :: velocity_error_bound !< no velocity on a triangle differs by more from that of the smooth valve at
-                                           !! the same patch, u and v. The first call after a moving update computes it,
-                                           !! which takes about as long as the update. 0 without a motion, and for
+    real(c_double) :: seconds_scene        !< wall time of the Embree scene, and of samples or patches by RIIS_MEASURE_*
+    real(c_double) :: error_bound          !< the most by which a point's distances to the triangles and to the smooth
+                                           !! valve can differ; at most tolerance * half_thickness. 0 for a surface from
                                            !! arrays
+    real(c_double) :: velocity_error_bound !< the most by which a velocity on a triangle can differ from the smooth
+                                           !! valve's at the same patch, u and v. The first call after a moving update
+                                           !! computes it, which takes about as long as the update. 0 without a motion,
+                                           !! and for arrays
   end type riis_surface_info
 
   type, bind(c) :: riis_triangles
@@ -250,14 +251,14 @@ module riis_c
     real(c_double) :: seconds
   end type riis_crossing_list
 
-  !> The closest point of the surface to one point. RIIS_MEASURE_* says what other distances fill in.
+  !> The closest point of the surface to one point. For other measures than triangles see RIIS_MEASURE_*.
   type, bind(c) :: riis_closest
     real(c_double) :: distance        !< >= 0, mesh units
     real(c_double) :: point(3)        !< on the triangle, mesh units
-    real(c_double) :: barycentric(3)  !< its weights of the triangle's three vertices, >= 0, sum 1
+    real(c_double) :: barycentric(3)  !< the point's weights for the triangle's vertices, >= 0, sum 1
     real(c_double) :: normal(3)       !< unit normal of the triangle, by the right-hand rule
     integer(c_int64_t) :: triangle_id !< the lowest id of the closest triangles
-    integer(c_int32_t) :: leaflet_id  !< the triangle's
+    integer(c_int32_t) :: leaflet_id  !< of the triangle
     integer(c_int32_t) :: side        !< +1 where normals point to (downstream), -1 on the other side, 0 on the surface
                                       !! or level with its rim. At a shared edge or vertex (equal placed coordinates)
                                       !! the angle-weighted normal of its triangles decides (Baerentzen, Aanaes 2005)
@@ -383,11 +384,12 @@ module riis_c
     integer(c_int64_t) :: n_queries      !< closest-point queries, of nodes and of parts of the mesh
     real(c_double) :: seconds            !< wall time of riis_mark_nodes
     integer(c_int32_t) :: search         !< the search that ran, never RIIS_SEARCH_AUTO
-    integer(c_int32_t) :: n_threads      !< the most that ran in any part. A caller's TBB limit binds walks, not loops
-    integer(c_int32_t) :: complete       !< 1: every node within the limit was found, by the coordinates last given; 0:
+    integer(c_int32_t) :: n_threads      !< the most that ran in any part. A caller's TBB limit affects walks, not loops
+    integer(c_int32_t) :: complete       !< 1: every node within the limit was found, for the coordinates last given; 0:
                                          !! not certain
     integer(c_int32_t) :: instructions   !< the instructions that were used, never RIIS_INSTRUCTIONS_AUTO
-    integer(c_int64_t) :: n_unreached    !< nodes within the limit that the neighbour search found by proof, not walk
+    integer(c_int64_t) :: n_unreached    !< nodes within the limit that no walk of the neighbour search reached, but its
+                                         !! proof found
   end type riis_mark_stats
 
   type, bind(c) :: riis_resistance_arrays
@@ -437,13 +439,14 @@ module riis_c
     real(c_double) :: seconds
   end type riis_leak_list
 
-  !> The widest passage from one set of nodes to another: the path farthest from the surface where it is nearest.
+  !> The widest passage from one set of nodes to another: the path whose least distance from the surface is largest.
   type, bind(c) :: riis_passage
-    integer(c_int64_t) :: node_id  !< the node of that distance: the place. -1 without a path. Of nodes at equal
-                                   !! distances the one with the higher id counts as the nearer
-    real(c_double) :: distance     !< its distance: the smallest half thickness that closes the passage, by these
-                                   !! triangles; a surface with a smaller one leaves it open. 0 without a path
-    real(c_double) :: point(3)     !< its coordinates; 0 without a path
+    integer(c_int64_t) :: node_id  !< the path's node that is nearest to the surface; -1 without a path. Of nodes at
+                                   !! equal distances, the one with the higher id counts as nearest
+    real(c_double) :: distance     !< the distance of that node. A half thickness closes the passage, for these
+                                   !! triangles, if it is at least this distance; a smaller one leaves it open. 0
+                                   !! without a path
+    real(c_double) :: point(3)     !< the coordinates of that node; 0 without a path
     real(c_double) :: seconds      !< wall time of riis_find_passage
     integer(c_int32_t) :: state    !< RIIS_PASSAGE_*
     integer(c_int32_t) :: reserved !< 0

@@ -5,7 +5,7 @@
  *   riis_valve  --riis_surface_create-->  riis_surface  --riis_mark_nodes-->  riis_marks
  *   (named parameters)                    (triangles, Embree scene)           (nodes in the band)
  *
- * The shortest true program:
+ * The shortest complete program:
  *
  *   riis_valve *valve = NULL; riis_surface *surface = NULL; riis_mesh *mesh = NULL; riis_marks *marks = NULL;
  *   riis_mark_list marked;
@@ -20,38 +20,38 @@
  *
  * - Units: lengths have one unit of the caller's choice, angles are in degrees. The valve tables are in
  *   centimetres; a placement's scale turns them into the mesh's unit (0.01 for metres).
- * - Ids: anything called *_id counts from 0, also in messages. Ids that the caller gives count from a field
- *   index_base, 0 (default) or 1. A field id_bits tells their width: 32 (default) or 64.
+ * - Ids: values called *_id count from 0, also in messages. If a struct has a field index_base, the ids in it
+ *   count from that base, 0 (default) or 1. A field id_bits gives the ids' width: 32 (default) or 64.
  * - Points: point i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e60. stride is
  *   at least 1, in numbers: 1 for separate arrays, 3 for xyz(3,n) with y = x + 1, z = x + 2. A field real_bits
- *   tells the numbers' width: 64 (default) or 32. Without it they are doubles. Vectors are given alike.
- * - Order: the object that the function is named after comes first, then what the call reads, then options,
- *   then what it writes. `get` stands before everything that a function gives from an object.
- * - Status: a function that can fail returns a riis_status; 0 is success. A positive status refuses the call:
- *   no object, array or pointer that an object gave has changed. A negative status leaves an object passed for
- *   writing fit for destruction only. riis_last_error() has the message. No function aborts, prints or throws.
- * - Errors: RIIS_INVALID_ARGUMENT for a NULL that is not allowed and for an argument or field out of range,
- *   RIIS_INVALID_STRUCT_SIZE for a struct of a wrong size, RIIS_OUT_OF_MEMORY.
- * - Handles: a new object is the last argument, written only on success. Destroying takes a handle's address,
- *   sets it to NULL, and accepts NULL. A handle of another kind is refused; destroying leaves it alone.
- * - Memory: a call reads its arguments and their arrays only while it runs, unless they are borrowed. Arrays
- *   that it gives belong to the handle, until the handle's next update or its destruction. Empty arrays are
- *   NULL, and any pointer to receive them may be NULL.
- * - Structs: a struct that a call fills in stands before its size, as in (&list, sizeof list), and the call
+ *   gives the numbers' width: 64 (default) or 32. Without this field they are doubles. The same holds for vectors.
+ * - Order: the first argument is the object that the function is named after. Then come arguments that the call
+ *   reads, then options, then arguments that it writes. Functions with `get` in their names return content.
+ * - Status: a function that can fail returns a riis_status; 0 is success. With a positive status the call has
+ *   changed nothing, and pointers from earlier calls stay valid. After a negative status, an object that the call
+ *   was to write can only be destroyed. riis_last_error() has the message. No function aborts, prints or throws.
+ * - Errors of any function: RIIS_INVALID_ARGUMENT for a NULL that is not allowed and for an argument or field out
+ *   of range, RIIS_INVALID_STRUCT_SIZE for a struct of a wrong size, RIIS_OUT_OF_MEMORY.
+ * - Handles: a new object is the last argument, written only on success. A destroy function takes a handle's
+ *   address, accepts NULL, and sets the handle to NULL. It ignores handles of another kind; other calls refuse them.
+ * - Memory: a call reads its arguments and their arrays only while it runs, except arrays that it borrows. Arrays
+ *   that a call returns belong to the handle, and are valid until the handle's next update or destruction. An array
+ *   without entries is NULL if a call returns it, and may be NULL if the caller passes it.
+ * - Structs: a struct that a call fills in is followed by its size, as in (&list, sizeof list), and the call
  *   writes no more. A struct that a call reads begins with struct_size. Its init function sets that field, the
- *   defaults, and all else to 0 or NULL. A NULL options pointer means all defaults. Fields are only ever
- *   appended; `reserved`, which is 0, is the place of the next.
+ *   defaults, and all else to 0 or NULL. A NULL options pointer means all defaults. New fields are appended, or
+ *   replace `reserved`, which must be 0.
  * - Threads: any number of threads may read a handle (const) at once. One thread may write it while no other
  *   reads it. Different handles never interfere. Results are bitwise the same for any number of threads.
- * - n_threads: 1 to 1024, or 0, the default: as many threads as the work feeds, at most the processors in the
- *   calling thread's affinity mask. Work feeds one thread, and one more for each 4096 triangles (of a surface's
- *   last content), 16,384 nodes, cells or faces, or 2048 points. By default a part of a call with little work
- *   near the surface takes one thread. OMP_NUM_THREADS and omp_set_num_threads do not matter. 1 starts no thread.
- *   If the system refuses a thread or its memory, OpenMP and TBB end the process (docs/building.md).
- * - fork(): if the library has used several threads, a child may use 1 only, and 0 stands for 1 there. More are
+ * - n_threads: 1 to 1024, or 0, the default. The default is one thread, and one more for each 4096 triangles (of a
+ *   surface's last content), 16,384 nodes, cells or faces, or 2048 points, but at most the processors in the
+ *   calling thread's affinity mask. A part of a call with little work near the surface then takes one thread.
+ *   OMP_NUM_THREADS and omp_set_num_threads have no effect. With n_threads 1, no thread is started. If the
+ *   system refuses a thread or its memory, OpenMP and TBB end the process (docs/building.md).
+ * - fork(): if the library has used several threads, a child process may use only 1, and 0 means 1 there. More are
  *   refused as RIIS_UNAVAILABLE. A child makes no surfaces if another thread was inside the library at the fork.
- * - Environment: each call, including a log function, runs with the default floating-point environment and
- *   restores the caller's. The caller's OpenMP and TBB settings stay.
+ * - Environment: calls, and log functions within them, run with the default floating-point environment. Each call
+ *   restores the caller's at its end. The caller's OpenMP and TBB settings are not changed.
  *
  * "Paper" is B. van der Vuurst, J. Kosinka, C. Bertoglio, "Fast generation of 3D flow obstacles from
  * parametric surface models: application to cardiac valves" (2025); docs/theory.md lists every departure.
@@ -62,12 +62,12 @@
 
 #include <stdint.h>
 
-#define RIIS_VERSION_MAJOR 1 /* of this header; grows when compiled callers would break */
-#define RIIS_VERSION_MINOR 0 /* grows when something is added */
-#define RIIS_VERSION_PATCH 0 /* grows when something is mended */
+#define RIIS_VERSION_MAJOR 1 /* of this header; grows with a change that breaks compiled callers */
+#define RIIS_VERSION_MINOR 0 /* grows with an addition */
+#define RIIS_VERSION_PATCH 0 /* grows with a correction */
 
 #if defined(__GNUC__) && !defined(RIIS_STATIC)
-#define RIIS_API __attribute__((visibility("default"))) /* stands before every export */
+#define RIIS_API __attribute__((visibility("default"))) /* marks every exported function */
 #else
 #define RIIS_API /* a static library has no exports */
 #endif
@@ -84,13 +84,13 @@ typedef int32_t riis_status;
 enum {
   RIIS_OK = 0,                  /* success */
   RIIS_INVALID_ARGUMENT = 1,    /* a NULL pointer, a number out of range, a non-finite option */
-  RIIS_INVALID_STRUCT_SIZE = 2, /* fits no release: struct not initialised, or riis.h newer than library */
+  RIIS_INVALID_STRUCT_SIZE = 2, /* the size of no release: not initialised, or riis.h newer than the library */
   RIIS_INVALID_PARAMETER = 3,   /* a valve: unknown kind or name, value out of range, values that clash */
   RIIS_INVALID_SURFACE = 4,     /* the caller's surface: empty, non-finite, index out of range, zero area */
   RIIS_INVALID_MESH = 5,        /* the caller's mesh: empty, non-finite coordinate */
-  RIIS_LIMIT_EXCEEDED = 6,      /* the request is sound but larger than the library takes on */
+  RIIS_LIMIT_EXCEEDED = 6,      /* the request is valid but too large for the library */
   RIIS_OUT_OF_MEMORY = 7,       /* memory ran out; nothing changed */
-  RIIS_FILE_ERROR = 8,          /* a file is unreadable, unwritable or of other content (riis_vtk.h) */
+  RIIS_FILE_ERROR = 8,          /* a file cannot be read or written, or has other content (riis_vtk.h) */
   RIIS_UNAVAILABLE = 9,         /* something outside the library is missing: threads after a fork(), a display */
   RIIS_INTERNAL_ERROR = -1      /* an error in riis or in a library below it */
 };
@@ -98,8 +98,8 @@ enum {
 /* Returns the status's own name, such as "RIIS_INVALID_ARGUMENT", or "unknown status". Static text. */
 RIIS_API const char *riis_status_name(riis_status status);
 
-/* Returns the message of the calling thread's last failed call, which names the argument and its value. "" if
- * none has failed, never NULL. Owned by the library, valid until the next failed call of the same thread. */
+/* Returns the message of the calling thread's last failed call, which names the argument and its value. It is ""
+ * if no call has failed, never NULL. The library owns it; it is valid until the thread's next failed call. */
 RIIS_API const char *riis_last_error(void);
 
 /* Gives the version of the linked library, not of this header. Any pointer may be NULL. */
@@ -107,8 +107,8 @@ RIIS_API void riis_get_version(int32_t *major, int32_t *minor, int32_t *patch);
 /* Returns the version of the linked library as static text, such as "1.0.0". */
 RIIS_API const char *riis_version_string(void);
 
-/* Receives messages on any thread that calls the library. It must not call the library, throw or jump out.
- *   user_data  what riis_set_log was given
+/* Receives messages, in the thread whose call sends them. It must not call the library, throw or jump out.
+ *   user_data  the pointer that was passed to riis_set_log
  *   level      RIIS_LOG_INFO or RIIS_LOG_WARNING
  *   message    one line without a newline; valid during the call only */
 typedef void (*riis_log_function)(void *user_data, int32_t level, const char *message);
@@ -117,22 +117,22 @@ enum {
   RIIS_LOG_INFO = 0,   /* what was built and how large */
   RIIS_LOG_WARNING = 1 /* skipped triangles, sizes in different units, leaflets that cross */
 };
-/* Sets the log function of the process; NULL, the default, is silence. Any thread may call it. A message
- * under way in another thread may still reach the former function. With a log function, a surface searches each
- * shape that the caller chose for crossings (riis_find_crossings): at its first opening in each of the ranges 0,
- * to 0.05, to 1/3, to 2/3 and to 1, until it has warned. A shape is chosen by parameters, patches or an open
- * state. The search takes longer than an update.
- *   user_data  handed to the function; must stay valid as long as the function is set */
+/* Sets the log function of the process; NULL, the default, means no log. Any thread may call riis_set_log. A message
+ * that another thread is sending may still reach the former function. With a log function, surfaces are searched
+ * for crossings (riis_find_crossings) if the caller chose the valve's parameters, patches or open state. Each such
+ * shape is searched at its first opening in each of the ranges 0, up to 0.05, up to 1/3, up to 2/3 and up to 1,
+ * until a warning is logged for the shape. The search takes longer than an update.
+ *   user_data  passed to the function; must stay valid as long as the function is set */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 
-/* Takes the value from another quantity, which the field's comment names. */
+/* Stands for the value of another quantity, which the field's comment names. */
 #define RIIS_AUTO (-1.0)
 
 /* Points in the caller's arrays, for the calls that copy them or read them once. */
 typedef struct riis_points {
   int64_t struct_size;     /* set by the init function */
   int64_t n_points;        /* 0 to 2^40 */
-  const void *x, *y, *z;   /* (n_points) by stride; NULL only without points */
+  const void *x, *y, *z;   /* (n_points) by stride; NULL only for 0 points */
   int64_t stride;          /* of x, y and z. Default 1 */
   int32_t real_bits;       /* of x, y and z */
   int32_t reserved;        /* 0 */
@@ -149,19 +149,19 @@ typedef struct riis_valve riis_valve;
  *         close without a hole, or "bileaflet", a mechanical prosthesis (docs/theory.md); any other is
  *         RIIS_INVALID_PARAMETER */
 RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
-/* Makes a second valve with the same parameters, patches and states. Each is destroyed on its own. */
+/* Makes a second valve with the same parameters, patches and states. Destroy both. */
 RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy);
 /* Destroys the valve. Surfaces made from it, and valves that open to it, stay as they are. */
 RIIS_API void riis_valve_destroy(riis_valve **valve);
 
-/* Sets a parameter by its name, the paper's. To move a valve, set "opening" and call riis_surface_update.
+/* Sets a parameter by its name in the paper. To move a valve, set "opening" and call riis_surface_update.
  *   name      such as "root_radius" of a valve, "right.leaflet_angle" of one cusp ("right", "left",
  *             "non_coronary"), "leaflet_angle" of all three
- *   n_values  3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp), else 1
- *   values    (n_values), within the parameter's range; riis_surface_create checks whether values go together
- * "opening", 0 to 1, is the coefficient of motion from a closed to an open state. One set of parameters
- * makes both states. The mitral valve is open, 1, by default, the others are at 0. The aortic valve's state
- * at 0 is the paper's, which does not close. A valve from patches stays at 0 until riis_valve_set_open_state.
+ *   n_values  3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp); 1 for others
+ *   values    (n_values), within the parameter's range; riis_surface_create checks whether the values fit together
+ * "opening", 0 to 1, is the coefficient of motion from a closed to an open state. One set of parameters makes
+ * both states. The default is 1 (open) for the mitral valve, 0 for others. The aortic valve at 0 has the paper's
+ * state, which leaves a hole. A valve from patches has opening 0 only, until riis_valve_set_open_state.
  * Errors: RIIS_INVALID_PARAMETER naming the parameter and the value. */
 RIIS_API riis_status riis_valve_set(riis_valve *valve, const char *name, int64_t n_values,
                                     const double *values);
@@ -172,22 +172,22 @@ RIIS_API riis_status riis_valve_set_scalar(riis_valve *valve, const char *name, 
 RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_values,
                                     double *values);
 
-/* Gives the valve a second state to open to: its own state is at opening 0, the other valve's at opening 1.
- * Control points blend linearly (docs/theory.md, section 5); the lengths and angles of a bileaflet valve do.
- * A second call replaces the state. No call removes it. A mitral or trileaflet valve takes the closed curves
- * from its own parameters, the open curves from those of the other valve.
- *   open  copied; of the same kind; from patches, with the same curves, degrees (1 and 2 mix) and sides;
- *         bileaflet, with a ring if the valve has one. Its opening, leaflet ids and second state do not matter
+/* Gives the valve a second state: opening 0 is then the valve's own state, opening 1 that of the valve `open`.
+ * Between them, control points are blended linearly (docs/theory.md, section 5); of a bileaflet valve, lengths and
+ * angles are. A second call replaces the state. No call removes it. A mitral or trileaflet valve takes its closed
+ * curves from its own parameters and its open curves from the parameters of `open`.
+ *   open  a valve of the same kind, which is copied; if from patches, with the same curves, sides and degrees (1 may
+ *         stand for 2); if bileaflet, both have a ring or neither. Opening, leaflet ids and open state are ignored
  * Errors: RIIS_INVALID_PARAMETER for another kind, or other curves, degrees or sides. */
 RIIS_API riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open);
 
-/* The caller's own valve, such as a prosthesis: Coons patches by their four boundary curves (paper, 3.3). The
- * sides v = 0 and v = 1 run from the side u = 0 to the side u = 1. The sides u = 0 and u = 1 run from the
- * side v = 0 to the side v = 1. Corners meet to 1e-9 of the valve's size, normals are along S_u x S_v, and a
- * side may be a single point. Patches that name the same curve meet without cracks. */
+/* The caller's own valve, such as a prosthesis: Coons patches, each given by four boundary curves (paper, 3.3).
+ * The sides v = 0 and v = 1 run from the side u = 0 to the side u = 1. The sides u = 0 and u = 1 run from the
+ * side v = 0 to the side v = 1. Sides must meet at corners to 1e-9 of the valve's size. A side may be a single
+ * point. Normals point along S_u x S_v. Patches that name the same curve meet without cracks. */
 typedef struct riis_patches {
   int64_t struct_size;       /* set by the init function */
-  int64_t n_curves;          /* 1 to 4,000,000; each the side of some patch */
+  int64_t n_curves;          /* 1 to 4,000,000; each is a side of a patch */
   const int32_t *degree;     /* (n_curves): 1, 2 or 3, Bezier curves with degree + 1 control points */
   const double *control;     /* (3, sum of all degree + 1), curve after curve; finite, at most 1e30 */
   int64_t n_patches;         /* 1 to 1,000,000 */
@@ -230,8 +230,8 @@ typedef struct riis_surface riis_surface;
 enum {
   RIIS_LEAFLET_RIGHT = 0,       /* aortic: the right coronary cusp, "right" in names of parameters;
                                    trileaflet: the cusp on the x axis */
-  RIIS_LEAFLET_LEFT = 1,        /* aortic: the left coronary cusp, "left"; trileaflet: at 120 degrees */
-  RIIS_LEAFLET_NON_CORONARY = 2,/* aortic: "non_coronary"; trileaflet: at -120 degrees */
+  RIIS_LEAFLET_LEFT = 1,        /* aortic: the left coronary cusp, "left"; trileaflet: the cusp at 120 degrees */
+  RIIS_LEAFLET_NON_CORONARY = 2,/* aortic: "non_coronary"; trileaflet: the cusp at -120 degrees */
   RIIS_LEAFLET_ANTERIOR = 0,    /* mitral: the anterior leaflet */
   RIIS_LEAFLET_POSTERIOR = 1,   /* mitral: the posterior leaflet, all three scallops */
   RIIS_LEAFLET_POSITIVE = 0,    /* bileaflet: the leaflet at x > 0 */
@@ -241,32 +241,32 @@ enum {
 
 /* How triangles of zero area in the caller's arrays are treated. */
 enum {
-  RIIS_ZERO_AREA_REFUSE = 0, /* RIIS_INVALID_SURFACE naming the first */
-  RIIS_ZERO_AREA_SKIP = 1    /* skip them, count them, log a warning; the ids of the others do not change */
+  RIIS_ZERO_AREA_REFUSE = 0, /* refuse them: RIIS_INVALID_SURFACE naming the first */
+  RIIS_ZERO_AREA_SKIP = 1    /* skip them, count them, log a warning; other triangles keep their ids */
 };
 
-/* How the distance of a point to the surface is measured (paper, 4.1). The last two are the paper's, for
- * comparison, and only for surfaces of valves. They measure to points S(u,v) of patches, up to the error
- * measure_tolerance * half_thickness (docs/theory.md, section 9). Such a closest point has the leaflet_id of
- * its patch, the normal of S (0 0 0 where S has none), triangle_id -1, barycentric 0 and side 0.
- * RIIS_INVALID_ARGUMENT refuses arrays for barycentric and side, and RIIS_SEARCH_CLUSTERS. */
+/* How the distance of a point to the surface is measured (paper, 4.1). Sampling and minimisation are for comparison
+ * with the paper, and only for surfaces of valves. They measure to points S(u,v) of patches, with the error
+ * e = measure_tolerance * half_thickness (docs/theory.md, section 9). Their closest point has the leaflet_id of
+ * its patch, the normal of S (0 0 0 where S has none), triangle_id -1, barycentric 0 and side 0. They refuse arrays
+ * for barycentric and side, and RIIS_SEARCH_CLUSTERS, as RIIS_INVALID_ARGUMENT. */
 enum {
   RIIS_MEASURE_TRIANGLES = 0,   /* the closest point of all triangles, exactly */
-  RIIS_MEASURE_SAMPLING = 1,    /* the nearest of points evenly spaced on every patch, at most 16,777,216:
-                                    within the error, and below by at most a tenth of it */
-  RIIS_MEASURE_MINIMIZATION = 2 /* Powell's method (1964) on every patch: below by at most a tenth of the
-                                    error, but above by any amount, unnoticed, in a local minimum */
+  RIIS_MEASURE_SAMPLING = 1,    /* the nearest of points spaced evenly on the patches, at most 16,777,216 of them.
+                                    The distance is too large by at most e, too small by at most e / 10 */
+  RIIS_MEASURE_MINIMIZATION = 2 /* Powell's method (1964) on every patch. The distance is too small by at most
+                                    e / 10, but in a local minimum too large by any amount, unnoticed */
 };
 
 /* How the smooth valve is cut into triangles. */
 enum {
-  RIIS_TRIANGULATION_ADAPTED = 0, /* as few as each state needs; they change as the valve opens */
-  RIIS_TRIANGULATION_FIXED = 1    /* the same ids, vertices and neighbours at every opening, chosen when the
-                                     surface first has this option. Then only opening and placement may move:
-                                     RIIS_INVALID_PARAMETER names another parameter that did, and
+  RIIS_TRIANGULATION_ADAPTED = 0, /* as few triangles as each state needs; they change as the valve opens */
+  RIIS_TRIANGULATION_FIXED = 1    /* the same ids, vertices and neighbours at every opening, chosen by the first
+                                     call with this option. After it only opening and placement may change:
+                                     RIIS_INVALID_PARAMETER names any other parameter that did, and
                                      RIIS_LIMIT_EXCEEDED refuses an opening where the tolerance does not hold.
-                                     A triangle without area is left out and keeps its id. A surface with the
-                                     other option forgets the choice */
+                                     A triangle without area is left out, and its id is not reused. An update
+                                     with RIIS_TRIANGULATION_ADAPTED forgets the choice */
 };
 
 /* How a surface is made and then placed: x -> scale * rotation * x + translation, for valves and arrays. */
@@ -277,12 +277,12 @@ typedef struct riis_surface_options {
                               surface differ by at most tolerance * half_thickness (docs/theory.md) */
   double scale;            /* 1e-12 to 1e12, default 1 */
   double rotation_axis[3]; /* components up to 1e50, length at least 1e-50; default (0, 0, 1) */
-  double rotation_angle;   /* degrees, counter-clockwise seen against the axis; -1e6 to 1e6, default 0 */
-  double translation[3];   /* mesh units; -1e50 to 1e50, default 0. Refused for a valve where coordinates
-                              would round by more than a thousandth of tolerance * half_thickness */
-  double measure_tolerance; /* for the others of RIIS_MEASURE_*, half thicknesses, 1e-6 to 1. Default: tolerance */
-  int32_t measure;         /* RIIS_MEASURE_*, of closest points and marking only; default
-                              RIIS_MEASURE_TRIANGLES, the only one for arrays */
+  double rotation_angle;   /* degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6, default 0 */
+  double translation[3];   /* mesh units; -1e50 to 1e50, default 0. Refused for a valve if coordinates would be
+                              rounded by more than a thousandth of tolerance * half_thickness */
+  double measure_tolerance; /* of sampling and minimisation, half thicknesses, 1e-6 to 1. Default: tolerance */
+  int32_t measure;         /* RIIS_MEASURE_*, for closest points and marking only; default
+                              RIIS_MEASURE_TRIANGLES, the only one for surfaces from arrays */
   int32_t triangulation;   /* RIIS_TRIANGULATION_*; default RIIS_TRIANGULATION_ADAPTED */
   int32_t zero_area;       /* surfaces from arrays: RIIS_ZERO_AREA_*; default RIIS_ZERO_AREA_REFUSE */
   int32_t flip_normals;    /* 1 turns every triangle over: normal and side change sign; default 0 */
@@ -292,14 +292,14 @@ typedef struct riis_surface_options {
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, int64_t struct_size);
 
-/* Makes the surface of a valve: curves, polylines, Coons patches, quads, triangles, Embree scene (paper, 3
+/* Makes the surface of a valve by curves, polylines, Coons patches, quads, triangles and an Embree scene (paper, 3
  * and 4.1 "Triangulation"; docs/theory.md). Normals point downstream: from the ventricular to the sinus face
- * of the cusps, from the atrial to the ventricular face of the mitral valve, to +z from closed
- * bileaflet leaflets. Those of the bileaflet ring point outwards. Triangles of zero area, at the root of each
- * cusp, at the mitral commissures and at the ends of bileaflet middle edges, are skipped.
- * Errors: RIIS_INVALID_PARAMETER for parameters that do not go together or put a curve too far away;
- * RIIS_LIMIT_EXCEEDED if a tolerance needs more than 16,777,216 triangles, quads or samples, or is less than
- * the coordinates round by. */
+ * of the cusps, from the atrial to the ventricular face of the mitral valve, and to +z on closed bileaflet
+ * leaflets. On the bileaflet ring they point outwards. Triangles of zero area, at the root of each cusp, at the
+ * mitral commissures and at the ends of bileaflet middle edges, are skipped.
+ * Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve too far away;
+ * RIIS_LIMIT_EXCEEDED if a tolerance needs more than 16,777,216 triangles, quads or samples, or is smaller than
+ * the rounding of coordinates. */
 RIIS_API riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options,
                                          riis_surface **surface);
 
@@ -309,11 +309,11 @@ typedef struct riis_surface_arrays {
   int64_t n_vertices;        /* 1 to 2^31 - 1 */
   const void *x, *y, *z;     /* (n_vertices) by stride: the vertices, before placement */
   int64_t stride;            /* of x, y and z. Default 1 */
-  const void *vx, *vy, *vz;  /* (n_vertices) by velocity_stride: velocities of the vertices, in lengths over
-                                the caller's time. The placement turns and scales them. All NULL: none */
+  const void *vx, *vy, *vz;  /* (n_vertices) by velocity_stride: velocities of the vertices, in lengths per
+                                unit of time. The placement turns and scales them. All NULL: none */
   int64_t velocity_stride;   /* of vx, vy and vz. Default 1 */
   int64_t n_faces;           /* 1 to 16,777,216 triangles, half as many quads */
-  const void *vertex_ids;    /* (corners_per_face, n_faces); the right-hand rule makes the normal */
+  const void *vertex_ids;    /* (corners_per_face, n_faces); the normal follows the right-hand rule */
   const int32_t *leaflet_id; /* (n_faces), >= 0; NULL: all 0 */
   int32_t corners_per_face;  /* 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3. Default 3 */
   int32_t id_bits;           /* of vertex_ids */
@@ -324,8 +324,8 @@ typedef struct riis_surface_arrays {
 RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size);
 
 /* Makes a surface from arrays, with the caller's winding. A triangle's id is its face's number; the halves of
- * quad q have 2 q and 2 q + 1. Skipped triangles keep their ids. A triangle has zero area when its height
- * over its longest edge is at most 1e-12 of that edge, or that edge is shorter than 1e-60.
+ * quad q have 2 q and 2 q + 1. The id of a skipped triangle is not reused. A triangle has zero area if
+ * its height over its longest edge is at most 1e-12 of that edge, or that edge is shorter than 1e-60.
  * Errors: RIIS_LIMIT_EXCEEDED for too many; RIIS_INVALID_SURFACE naming the face or vertex and its value. */
 RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options,
@@ -336,51 +336,51 @@ RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *
  * Errors: as riis_surface_create. */
 RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve,
                                          const riis_surface_options *options);
-/* Replaces the surface's content as riis_surface_update does, with the same triangles to the last bit, and
- * gives every vertex a velocity: from the point with the same patch, u and v of an earlier state to the
- * vertex, over the time between (docs/theory.md, section 10). A valve at rest is its own state before.
- *   valve_before    the state before: of the same kind; from patches, with the same curves and sides
- *   dt              the time from valve_before to valve, 1e-30 to 1e30, or negative as time goes back
- *   options_before  scale, rotation and translation before; other fields do not count. NULL: the present ones
- * The velocity, in mesh units over the unit of dt, is the mean of the step: that of the step's middle to
- * second order, that of either end to first.
- * Errors: as riis_surface_update; RIIS_INVALID_PARAMETER for a valve_before of another kind or build, or
- * whose parameters do not go together. */
+/* Replaces the surface's content by the triangles that riis_surface_update makes, to the last bit, and gives every
+ * vertex a velocity: its displacement from the point with the same patch, u and v in an earlier state, divided by
+ * the time between the states (docs/theory.md, section 10). For a valve at rest, pass it as valve_before too.
+ *   valve_before    the earlier state, of the same kind; if from patches, with the same curves and sides
+ *   dt              the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs back
+ *   options_before  scale, rotation and translation of the earlier state; other fields are ignored. NULL: as now
+ * The velocity, in mesh units per unit of dt, is the mean over the step. As the velocity in the middle of the step
+ * it is accurate to second order, as that at either end to first order.
+ * Errors: as riis_surface_update; RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or
+ * with parameters that do not fit together. */
 RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve,
                                                 const riis_valve *valve_before, double dt,
                                                 const riis_surface_options *options,
                                                 const riis_surface_options *options_before);
 /* Replaces the surface's content from arrays; options as in riis_surface_update. With n_faces 0, and
- * vertex_ids and leaflet_id NULL, the vertices alone move: the surface keeps the faces of its last arrays.
- * Errors: as riis_surface_create_from_arrays. With n_faces 0 RIIS_INVALID_ARGUMENT also refuses another
- * n_vertices than that of the last arrays, and a surface that was not made from arrays. */
+ * vertex_ids and leaflet_id NULL, only the vertices move: the surface keeps the faces of its last arrays.
+ * Errors: as riis_surface_create_from_arrays. With n_faces 0, also RIIS_INVALID_ARGUMENT for an n_vertices that
+ * differs from that of the last arrays, and for a surface that was not made from arrays. */
 RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options);
 /* Interpolation between keys in time. A time counts as a key if it differs from the key plus whole periods by at
  * most 8 * 2^-52 of the largest of time, key and period. */
 enum {
-  RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at the keys; at a key it is the rate after it */
+  RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at keys; a key itself has the rate after the jump */
   RIIS_INTERPOLATION_CUBIC = 1   /* monotone between keys, with a continuous rate (Fritsch, Butland 1984) */
 };
-/* A surface that moves by frames, such as a patient's valve: the same faces, other places of the vertices. */
+/* A surface that moves by frames, such as a patient's valve: the vertices move, the faces stay the same. */
 typedef struct riis_keyframes riis_keyframes;
 /* The frames of a surface that moves, in the caller's arrays. */
 typedef struct riis_keyframe_arrays {
   int64_t struct_size;   /* set by the init function */
   int64_t n_keys;        /* 1 to 1,000,000 */
-  int64_t n_vertices;    /* of each frame, that of the faces */
+  int64_t n_vertices;    /* of each frame, as in riis_surface_arrays */
   const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
   const void *xyz;       /* (3, n_vertices, n_keys): the vertices, frame after frame; magnitude at most 1e60 */
-  double period;         /* > 0: the motion repeats; its keys lie within a period of the first, and a last key
-                            that is a period after the first has its frame. 0, the default: the first frame
-                            counts before its time, the last one after it */
+  double period;         /* > 0: the motion repeats. All keys lie within a period of the first key; a key exactly a
+                            period after the first must have the first frame. 0, the default: the first frame
+                            holds before its time, the last one after its time */
   int32_t interpolation; /* RIIS_INTERPOLATION_*, of each coordinate. Default RIIS_INTERPOLATION_LINEAR */
   int32_t real_bits;     /* of xyz */
 } riis_keyframe_arrays;
 /* Fills *frames with the defaults. */
 RIIS_API riis_status riis_keyframe_arrays_init(riis_keyframe_arrays *frames, int64_t struct_size);
 /* Makes keyframes from copies of arrays and frames.
- *   arrays  as for riis_surface_create_from_arrays; its vertices and velocities do not count, and may be NULL
+ *   arrays  as for riis_surface_create_from_arrays; its vertices and velocities are ignored, and may be NULL
  * Errors: RIIS_INVALID_SURFACE naming the frame, vertex or face; RIIS_LIMIT_EXCEEDED for too many. */
 RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *arrays,
                                            const riis_keyframe_arrays *frames, riis_keyframes **keyframes);
@@ -388,7 +388,7 @@ RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *arrays,
 RIIS_API void riis_keyframes_destroy(riis_keyframes **keyframes);
 /* Makes a surface from the frames around a time, with velocities.
  *   time  finite, magnitude at most 1e30
- *   dt    the velocity is the mean from time - dt to time; 0 for the derivative of the interpolation
+ *   dt    the velocity is the mean from time - dt to time; if 0, the derivative of the interpolation
  * Errors: as riis_surface_create_from_arrays. */
 RIIS_API riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time, double dt,
                                                         const riis_surface_options *options,
@@ -405,17 +405,17 @@ RIIS_API void riis_surface_destroy(riis_surface **surface);
 typedef struct riis_surface_info {
   int64_t n_vertices;        /* as riis_triangles.n_vertices */
   int64_t n_triangles;       /* triangles that answer queries */
-  int64_t n_zero_area;       /* triangles skipped for want of area */
+  int64_t n_zero_area;       /* triangles skipped because they have no area */
   double half_thickness;     /* placed units */
   double area;               /* of all triangles, placed units squared */
   double lower[3], upper[3]; /* bounds of the triangles, placed units */
   double seconds_triangles;  /* wall time of the last create or update: checks and triangles */
-  double seconds_scene;      /* Embree scene, and the samples or patches of another distance */
-  double error_bound;        /* at most tolerance * half_thickness: no point's distances to the triangles and
-                                to the smooth valve differ by more. 0 for a surface from arrays */
-  double velocity_error_bound; /* no velocity on a triangle differs by more from that of the smooth valve at the
-                                same patch, u and v. The first call after a moving update computes it, which
-                                takes about as long as the update. 0 without a motion, and for arrays */
+  double seconds_scene;      /* wall time of the Embree scene, and of samples or patches by RIIS_MEASURE_* */
+  double error_bound;        /* the most by which a point's distances to the triangles and to the smooth valve
+                                can differ; at most tolerance * half_thickness. 0 for a surface from arrays */
+  double velocity_error_bound; /* the most by which a velocity on a triangle can differ from the smooth valve's
+                                at the same patch, u and v. The first call after a moving update computes it,
+                                which takes about as long as the update. 0 without a motion, and for arrays */
 } riis_surface_info;
 /* Gives the size of the surface, and the seconds that it took. */
 RIIS_API riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info,
@@ -425,7 +425,7 @@ RIIS_API riis_status riis_surface_get_info(const riis_surface *surface, riis_sur
 typedef struct riis_triangles {
   int64_t n_vertices;         /* of the surface */
   const double *xyz;          /* (3, n_vertices): the vertices */
-  const double *uv;           /* (2, n_vertices): each vertex's place on its patch, in [0,1]; NULL from arrays */
+  const double *uv;           /* (2, n_vertices): each vertex's u and v on its patch, in [0,1]; NULL from arrays */
   const double *velocity;     /* (3, n_vertices): each vertex's velocity; NULL if the last update gave none.
                                  Where closed cusps meet, a vertex has the velocity of its own cusp */
   int64_t n_triangles;        /* triangles that answer queries */
@@ -448,14 +448,14 @@ RIIS_API riis_status riis_surface_get_triangles(const riis_surface *surface, rii
 /* Options of riis_find_crossings. */
 typedef struct riis_crossing_options {
   int64_t struct_size; /* set by the init function */
-  double depth;        /* half thicknesses, 0 to 1, default 1e-6: a pair at most so deep touches */
+  double depth;        /* half thicknesses, 0 to 1, default 1e-6: pairs up to this depth only touch */
   int32_t n_threads;   /* default 0 */
   int32_t reserved;    /* 0 */
 } riis_crossing_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_crossing_options_init(riis_crossing_options *options, int64_t struct_size);
 
-/* The pairs of triangles that riis_find_crossings found. Make one and reuse it. */
+/* The pairs of triangles that riis_find_crossings found. Make one object and reuse it. */
 typedef struct riis_crossings riis_crossings;
 RIIS_API riis_status riis_crossings_create(riis_crossings **crossings); /* makes crossings without a pair */
 RIIS_API void riis_crossings_destroy(riis_crossings **crossings); /* destroys the crossings and their list */
@@ -463,50 +463,50 @@ RIIS_API void riis_crossings_destroy(riis_crossings **crossings); /* destroys th
 /* Finds every pair of the surface's triangles that go through each other. A pair's depth is its penetration
  * depth: the length of the shortest translation of one triangle after which both only touch
  * (docs/theory.md, section 16). Triangles that touch or lie in one plane have depth 0.
- *   options    a pair crosses if it is deeper than depth. Depths that rounding may make also count as touching:
- *              2^-24 of the pair's longest edge and 2^-46 of the surface's largest coordinate
+ *   options    a pair crosses if it is deeper than depth. Depths within the rounding error also count as touching:
+ *              2^-24 of the pair's longest edge plus 2^-46 of the surface's largest coordinate
  *   crossings  its content is replaced
- * Triangles of one leaflet that share a vertex (equal placed coordinates) are neighbours, and no pair. The
- * call looks at triangles, also for the other RIIS_MEASURE_*. So smooth leaflets that touch may cross by
- * twice riis_surface_info.error_bound. The log (riis_set_log) warns of deeper crossings by itself.
+ * Triangles of one leaflet that share a vertex (equal placed coordinates) are neighbours, not a pair. The call
+ * uses the triangles with every RIIS_MEASURE_*. So where smooth leaflets touch, triangles may cross by twice
+ * riis_surface_info.error_bound. A log function (riis_set_log) is warned of deeper crossings without this call.
  * Errors: RIIS_INVALID_ARGUMENT naming the field. */
 RIIS_API riis_status riis_find_crossings(const riis_surface *surface, const riis_crossing_options *options,
                                          riis_crossings *crossings);
 
 /* Pairs of triangles that cross, ascending by first triangle, then by second. Lengths are in mesh units. */
 typedef struct riis_crossing_list {
-  int64_t n_pairs;            /* pairs that cross. Without one, ids are -1, other fields but seconds 0 */
-  const int64_t *triangle_id; /* (2, n_pairs): their triangles, the lower one first */
+  int64_t n_pairs;            /* pairs that cross. If 0, ids are -1 and all other fields but seconds are 0 */
+  const int64_t *triangle_id; /* (2, n_pairs): the two triangles, the lower id first */
   const double *point;        /* (3, n_pairs): the middle of their intersection, which is a segment */
   const double *depth;        /* (n_pairs) */
   const double *length;       /* (n_pairs): of the segment */
   double total_length;        /* the sum of length */
-  double deepest_depth;       /* of the deepest pair, of equal ones the first */
+  double deepest_depth;       /* of the deepest pair; of equally deep ones, the first in the list */
   double deepest_point[3];    /* its point */
   int64_t deepest_triangle_id[2]; /* its triangles */
   int32_t deepest_leaflet_id[2];  /* their leaflets */
   double seconds;             /* wall time of riis_find_crossings */
 } riis_crossing_list;
-/* Gives the pairs of the last riis_find_crossings with these crossings, until the next or the destruction. */
+/* Gives the pairs of the last riis_find_crossings; they are valid until its next call with these crossings. */
 RIIS_API riis_status riis_crossings_get_list(const riis_crossings *crossings, riis_crossing_list *list,
                                              int64_t struct_size);
 
 /* ---- Closest points (paper, 4.1) ----------------------------------------------------------------------- */
 
-/* The closest point of the surface to one point. RIIS_MEASURE_* says what other distances fill in. */
+/* The closest point of the surface to one point. For other measures than triangles see RIIS_MEASURE_*. */
 typedef struct riis_closest {
   double distance;        /* >= 0, mesh units */
   double point[3];        /* on the triangle, mesh units */
-  double barycentric[3];  /* its weights of the triangle's three vertices, >= 0, sum 1 */
+  double barycentric[3];  /* the point's weights for the triangle's vertices, >= 0, sum 1 */
   double normal[3];       /* unit normal of the triangle, by the right-hand rule */
   int64_t triangle_id;    /* the lowest id of the closest triangles */
-  int32_t leaflet_id;     /* the triangle's */
+  int32_t leaflet_id;     /* of the triangle */
   int32_t side;           /* +1 where normals point to (downstream), -1 on the other side, 0 on the surface or
                              level with its rim. At a shared edge or vertex (equal placed coordinates) the
                              angle-weighted normal of its triangles decides (Baerentzen, Aanaes 2005) */
 } riis_closest;
-/* Finds the closest point of the surface, however far, exactly as a loop over all triangles in double
- * precision would. Distances below 1e-154 underflow to 0.
+/* Finds the closest point of the surface at any distance, with the result of a loop over all triangles in double
+ * precision. Distances below 1e-154 underflow to 0.
  *   point  3 finite coordinates, magnitude at most 1e60
  * Errors: RIIS_INVALID_ARGUMENT naming the coordinate. */
 RIIS_API riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
@@ -515,12 +515,12 @@ RIIS_API riis_status riis_closest_point(const riis_surface *surface, const doubl
 /* Options of queries for many points. */
 typedef struct riis_closest_options {
   int64_t struct_size;       /* set by the init function */
-  double distance_limit;     /* >= 0, default infinity. Farther points get far_distance, ids -1, side 0, zeros */
+  double distance_limit;     /* >= 0, default infinity. Farther points get far_distance, ids -1 and 0 elsewhere */
   double far_distance;       /* default RIIS_FAR_DISTANCE; must not lie in [0, distance_limit] */
-  const uint8_t *point_mask; /* (n_points): points with 0 are finite, but not written. NULL: all */
+  const uint8_t *point_mask; /* (n_points): points with 0 must be finite, but get no result. NULL: no mask */
   int64_t n_point_ids;       /* length of point_ids; 0 without it */
-  const int64_t *point_ids;  /* strictly ascending, 0 to n_points - 1: only these points are read, and their
-                                entries written, at their ids. NULL: all. Not with point_mask */
+  const int64_t *point_ids;  /* strictly ascending, 0 to n_points - 1: only these points are read, and only their
+                                entries are written. NULL: all points. Not together with point_mask */
   int32_t n_threads;         /* default 0 */
   int32_t reserved;          /* 0 */
 } riis_closest_options;
@@ -542,7 +542,7 @@ typedef struct riis_closest_arrays {
 RIIS_API riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64_t struct_size);
 
 /* Finds the closest points of many points, in parallel.
- *   arrays  its arrays are written; none may overlap another or the coordinates
+ *   arrays  the arrays to write; none may overlap another or the coordinates
  * Errors: RIIS_INVALID_ARGUMENT naming the first bad point; nothing is then written. */
 RIIS_API riis_status riis_closest_points(const riis_surface *surface, const riis_points *points,
                                          const riis_closest_options *options,
@@ -553,30 +553,30 @@ RIIS_API riis_status riis_closest_points(const riis_surface *surface, const riis
 
 /* ---- Mesh: the nodes that are marked ------------------------------------------------------------------- */
 
-/* The caller's nodes. The coordinates are borrowed or copied, as the last call that gave them says. */
+/* The caller's nodes. The coordinates are borrowed or copied, depending on the last call that gave them. */
 typedef struct riis_mesh riis_mesh;
 
-/* Borrows node coordinates and checks them once: they stay in place until an update or the destruction. A
- * process without nodes calls everything as the others do.
+/* Borrows node coordinates, which must stay in place until an update or the destruction, and checks them once.
+ * A process without nodes makes the same calls as the other processes.
  *   n_nodes  0 to 2^40; with 0 the pointers may be NULL
  * Errors: RIIS_INVALID_MESH naming the node and the value; RIIS_LIMIT_EXCEEDED for too many nodes. */
 RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z,
                                       int64_t stride, riis_mesh **mesh);
 /* Tells the handle that the coordinates moved, in place or to other arrays, and checks them again. Call it
- * after every change of coordinates. The adjacency stays if n_nodes does; make a new handle for other nodes.
+ * after every change of coordinates. The adjacency stays if n_nodes is the same; make a new handle for other nodes.
  * Arguments and errors as riis_mesh_create. */
 RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y,
                                       const double *z, int64_t stride);
 /* Copies node coordinates, such as a Fortran temporary or single precision, and checks them. Single precision
- * becomes double once, exactly. The handle keeps 24 bytes a node.
+ * is converted to double once, exactly. The handle keeps 24 bytes per node.
  * Errors: as riis_mesh_create. */
 RIIS_API riis_status riis_mesh_create_copy(const riis_points *nodes, riis_mesh **mesh);
-/* Does for copies what riis_mesh_update does. A mesh may change between borrowed and copied coordinates. */
+/* As riis_mesh_update, but copies the coordinates. A mesh may change between borrowed and copied coordinates. */
 RIIS_API riis_status riis_mesh_update_copy(riis_mesh *mesh, const riis_points *nodes);
 /* Destroys the handle. The caller's coordinates stay, and so do marks. */
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
-/* Makes the clusters of RIIS_SEARCH_CLUSTERS now, rather than in the first marking that uses them. They copy
- * the coordinates: 41 bytes a node while the handle lives, 32 more while they are made.
+/* Makes the clusters of RIIS_SEARCH_CLUSTERS now, rather than in the first marking that uses them. Clusters copy
+ * the coordinates: they take 41 bytes per node while the handle lives, and 32 more while they are made.
  * Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes and more; RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 
@@ -585,8 +585,8 @@ RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 typedef struct riis_csr {
   int64_t struct_size;   /* set by the init function */
   int64_t n_rows;        /* the mesh's n_nodes */
-  int64_t n_all;         /* at least n_rows: columns are below this; from n_rows on they are other ranks'
-                            nodes, ghosts, which are ignored. Default 0 stands for n_rows */
+  int64_t n_all;         /* at least n_rows; columns are below n_all. Columns from n_rows on are ghosts, nodes of
+                            other ranks, and are ignored. Default 0 stands for n_rows */
   const void *offsets;   /* (n_rows + 1), ascending from the base; a row may be empty. NULL only for 0 rows */
   const void *columns;   /* (offsets[n_rows] - base), in any order; repetitions and the node itself are ignored */
   int32_t offset_bits;   /* of offsets */
@@ -597,8 +597,8 @@ typedef struct riis_csr {
 RIIS_API riis_status riis_csr_init(riis_csr *csr, int64_t struct_size); /* the defaults */
 
 /* Gives the mesh the adjacency that the neighbour search walks along, and checks it once.
- *   csr  its arrays are borrowed: they stay in place, unchanged, until the handle is destroyed or given
- *        another. NULL takes the adjacency away; riis_mesh_update with another n_nodes also does
+ *   csr  its arrays are borrowed: they must stay in place, unchanged, until the handle is destroyed or gets another
+ *        adjacency. NULL removes the adjacency, and so does riis_mesh_update with another n_nodes
  * Errors: RIIS_INVALID_MESH naming the row and its value. */
 RIIS_API riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr);
 
@@ -607,15 +607,15 @@ RIIS_API riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *cs
 /* Compressed sparse rows that the library owns: ascending columns without repetition, symmetric, base 0. */
 typedef struct riis_adjacency riis_adjacency;
 
-/* Cells by their nodes, in the order of VTK, Abaqus, CGNS and Gmsh: base first, then apex or the nodes above.
+/* Cells by their nodes, in the order of VTK, Abaqus, CGNS and Gmsh: the base, then the apex or the nodes above.
  * The number of nodes tells the shape: 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron. */
 typedef struct riis_mesh_cells {
   int64_t struct_size;     /* set by the init function */
   int64_t n_nodes;         /* of the mesh, >= 0 */
   int64_t n_cells;         /* >= 0 */
   const void *node_ids;    /* the nodes of cell after cell; NULL only without cells */
-  const void *offsets;     /* (n_cells + 1), ascending from 0 or from the base: where each cell begins in
-                              node_ids, and the last ends. NULL: nodes_per_cell for all cells */
+  const void *offsets;     /* (n_cells + 1), ascending from 0 or from index_base: where each cell begins in
+                              node_ids, and where the last ends. NULL: nodes_per_cell for all cells */
   int32_t nodes_per_cell;  /* 4, 5, 6 or 8; not used with offsets. Default 4 */
   int32_t id_bits;         /* of node_ids and offsets */
   int32_t index_base;      /* of node_ids */
@@ -632,7 +632,7 @@ typedef struct riis_mesh_faces {
   int64_t n_cells;         /* >= 0: the nodes of the mesh are cell centres */
   int64_t n_faces;         /* >= 0 */
   const void *owner;       /* face i joins the cells owner[i * stride] and neighbor[i * stride] */
-  const void *neighbor;    /* base - 1 (-1 or 0) for a face at the boundary, which joins nothing */
+  const void *neighbor;    /* index_base - 1 (-1 or 0) for a face at the boundary, which joins nothing */
   int64_t stride;          /* in entries, 1 to 1024: 1, the default, or 2 for face_cells(2, n_faces) */
   int32_t id_bits;         /* of owner and neighbor */
   int32_t index_base;      /* of owner and neighbor */
@@ -641,7 +641,7 @@ typedef struct riis_mesh_faces {
 } riis_mesh_faces;
 RIIS_API riis_status riis_mesh_faces_init(riis_mesh_faces *faces, int64_t struct_size); /* the defaults */
 /* Makes the adjacency of cells with a common face.
- * Errors: RIIS_INVALID_MESH naming the face and its owner or neighbor that is no cell. */
+ * Errors: RIIS_INVALID_MESH naming the face and the owner or neighbor that is no cell. */
 RIIS_API riis_status riis_adjacency_create_from_faces(const riis_mesh_faces *faces, riis_adjacency **adjacency);
 
 /* Makes the adjacency of a structured grid. Neighbours differ by 1 in one of i, j, k.
@@ -649,8 +649,8 @@ RIIS_API riis_status riis_adjacency_create_from_faces(const riis_mesh_faces *fac
  * Errors: RIIS_LIMIT_EXCEEDED for more nodes than memory can hold. */
 RIIS_API riis_status riis_adjacency_create_from_grid(int64_t ni, int64_t nj, int64_t nk, int32_t n_threads,
                                                      riis_adjacency **adjacency);
-/* Gives the rows as riis_mesh_set_adjacency takes them. The arrays are the adjacency's: int64_t offsets, and
- * int32_t columns for fewer than 2^31 nodes, as column_bits says. */
+/* Gives the rows as riis_mesh_set_adjacency takes them. The arrays belong to the adjacency: int64_t offsets, and
+ * columns of column_bits, which is 32 for fewer than 2^31 nodes, else 64. */
 RIIS_API riis_status riis_adjacency_get_csr(const riis_adjacency *adjacency, riis_csr *csr,
                                             int64_t struct_size);
 /* Destroys the adjacency and its arrays. Destroy the mesh that borrows them first. */
@@ -658,7 +658,7 @@ RIIS_API void riis_adjacency_destroy(riis_adjacency **adjacency);
 
 /* ---- Marking (paper, 4.2) ------------------------------------------------------------------------------ */
 
-/* The nodes that a marking found. Make one and reuse it every step: its memory is kept. */
+/* The nodes that a marking found. Make one object and reuse it every step, because it keeps its memory. */
 typedef struct riis_marks riis_marks;
 /* Makes empty marks. They belong to no mesh and no surface. */
 RIIS_API riis_status riis_marks_create(riis_marks **marks);
@@ -666,50 +666,50 @@ RIIS_API void riis_marks_destroy(riis_marks **marks); /* destroys the marks and 
 
 /* How nodes are searched. All but RIIS_SEARCH_PAPER find the same nodes (docs/theory.md, section 7). */
 enum {
-  RIIS_SEARCH_AUTO = 0,       /* clusters, or the exhaustive search: for the first marking of a mesh without
-                                 riis_mesh_prepare, for limits above half the surface's extent, and for
-                                 distances by sampling or minimisation */
+  RIIS_SEARCH_AUTO = 0,       /* clusters, except that the exhaustive search is used for the first marking of a
+                                 mesh without riis_mesh_prepare, for distance limits above half the surface's
+                                 extent, and for distances by sampling or minimisation */
   RIIS_SEARCH_EXHAUSTIVE = 1, /* queries every node (paper, algorithm "Exhaustive node iteration") */
   RIIS_SEARCH_NEIGHBOR = 2,   /* walks from marked nodes to their neighbours (paper, algorithm "Recursive
-                                 neighbor search") and proves the others far, or queries them. The mesh must
-                                 have an adjacency, which need not be connected */
-  RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm to the letter, for comparison: it misses nodes not
-                                 connected to its one start. The mesh must have an adjacency */
-  RIIS_SEARCH_CLUSTERS = 4    /* filters clusters of nodes in single precision, decides in double. The
-                                 exhaustive search runs instead (stats.search) for 2^32 nodes and more, and if
-                                 the mesh, its distance or the limit is a million times the surface's size */
+                                 neighbor search") and proves that all other nodes are far, or queries them. The
+                                 mesh must have an adjacency, which need not be connected */
+  RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm to the letter, for comparison: it misses nodes that are not
+                                 connected to its one starting node. The mesh must have an adjacency */
+  RIIS_SEARCH_CLUSTERS = 4    /* filters clusters of nodes in single precision, decides in double. The exhaustive
+                                 search runs instead (stats.search) for 2^32 nodes and more, and if the mesh, its
+                                 distance or the distance limit is a million times the size of the surface */
 };
 
-/* The processor's instructions that a marking uses. All give the same bits. */
+/* The processor's instructions that a marking uses. The results are bitwise the same with all of them. */
 enum {
   RIIS_INSTRUCTIONS_AUTO = 0,     /* the best available */
   RIIS_INSTRUCTIONS_BASELINE = 1, /* of every processor that the library was built for: SSE2 on x86-64 */
-  RIIS_INSTRUCTIONS_AVX2 = 2,     /* and FMA */
-  RIIS_INSTRUCTIONS_AVX512 = 3    /* F, DQ, BW, VL */
+  RIIS_INSTRUCTIONS_AVX2 = 2,     /* AVX2 and FMA */
+  RIIS_INSTRUCTIONS_AVX512 = 3    /* AVX-512 F, DQ, BW and VL */
 };
 
-/* Fields of the closest point that a marking keeps on request. The values are added. Distances by sampling or
- * minimisation have RIIS_FIELD_POINT, RIIS_FIELD_NORMAL and RIIS_FIELD_PATCH only. */
+/* Fields of the closest point that a marking keeps on request. Add the values to request several. Distances by
+ * sampling or minimisation have RIIS_FIELD_POINT, RIIS_FIELD_NORMAL and RIIS_FIELD_PATCH only. */
 enum {
   RIIS_FIELD_POINT = 1,      /* riis_mark_list.point */
   RIIS_FIELD_NORMAL = 2,     /* riis_mark_list.normal */
   RIIS_FIELD_BARYCENTRIC = 4, /* riis_mark_list.barycentric */
   RIIS_FIELD_SIDE = 8,       /* riis_mark_list.side */
   RIIS_FIELD_RIM = 16,       /* riis_mark_list.rim */
-  RIIS_FIELD_UV = 32,        /* refused for surfaces from arrays */
-  RIIS_FIELD_VELOCITY = 64,  /* refused unless the last update gave velocities */
+  RIIS_FIELD_UV = 32,        /* riis_mark_list.uv; refused for surfaces from arrays */
+  RIIS_FIELD_VELOCITY = 64,  /* riis_mark_list.velocity; refused unless the last update gave velocities */
   RIIS_FIELD_PATCH = 128     /* riis_mark_list.patch_id */
 };
 
 /* How the band around the surface ends at its rim. */
 enum {
   RIIS_RIM_ROUND = 0, /* half a tube around the rim: every node within the half thickness resists */
-  RIIS_RIM_CUT = 1    /* except nodes whose closest point is on the rim */
+  RIIS_RIM_CUT = 1    /* no half tube: nodes whose closest point is on the rim do not resist */
 };
 
-/* The term K (u - u_surface) of the momentum equation, of the fluid velocity u and the surface velocity u_surface
- * (paper, 2.1; docs/theory.md, "Resistance"). At the distance d < eps, K = (R / eps) delta(d) with
- * delta(d) = (1 + cos(pi d / eps)) / (2 eps). Beyond, K is 0. */
+/* The term K (u - u_surface) of the momentum equation, with the fluid velocity u and the surface velocity u_surface
+ * (paper, 2.1; docs/theory.md, "Resistance"). At a distance d < eps, K = (R / eps) delta(d) with
+ * delta(d) = (1 + cos(pi d / eps)) / (2 eps). At larger distances K is 0. */
 typedef struct riis_resistance {
   int64_t struct_size;   /* set by the init function */
   double R;              /* 0 to 1e60, mass / (length time): kg/(m s). A flat closed valve in a flow of
@@ -723,25 +723,25 @@ RIIS_API riis_status riis_resistance_init(riis_resistance *resistance, int64_t s
 /* Options of a marking. */
 typedef struct riis_mark_options {
   int64_t struct_size;       /* set by the init function */
-  double distance_limit;     /* nodes get their distance up to here, mesh units: the half thickness to 1e60.
-                                Default RIIS_AUTO: the half thickness. Marks do not depend on it */
-  const uint8_t *node_mask;  /* (n_nodes): nodes with 0 are left out, but still finite. NULL: all nodes */
-  const riis_resistance *resistance; /* makes riis_mark_list.K and, if the last update of the surface gave
+  double distance_limit;     /* up to here nodes get their distance, mesh units; half thickness to 1e60. Default
+                                RIIS_AUTO: the half thickness. Which nodes are marked does not depend on it */
+  const uint8_t *node_mask;  /* (n_nodes): nodes with 0 are left out, but must be finite. NULL: all nodes */
+  const riis_resistance *resistance; /* requests riis_mark_list.K and, if the last update of the surface gave
                                         velocities, riis_mark_list.K_u_surface. Default NULL: neither */
   int32_t fields;            /* a sum of RIIS_FIELD_*, for the nodes of riis_mark_list. Default 0 */
   int32_t search;            /* RIIS_SEARCH_*, default RIIS_SEARCH_AUTO */
   int32_t n_threads;         /* default 0 */
   int32_t instructions;      /* RIIS_INSTRUCTIONS_*, for tests and measurements; default
-                                RIIS_INSTRUCTIONS_AUTO. RIIS_UNAVAILABLE where the processor lacks them.
-                                Distances by sampling or minimisation use the baseline's */
+                                RIIS_INSTRUCTIONS_AUTO. RIIS_UNAVAILABLE if the processor lacks them.
+                                Distances by sampling or minimisation use RIIS_INSTRUCTIONS_BASELINE */
 } riis_mark_options;
 RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size); /* the defaults */
 
 /* Finds every node whose distance to the surface is at most the half thickness (marked) or the distance
- * limit. The reported distance decides, in double precision, inclusive.
+ * limit. The reported distance, in double precision, decides.
  *   marks  its content is replaced
- * The log warns if the largest side of the mesh's or the surface's box is more than 50 times the other's, or less
- * than the half thickness: once for the two, at most eight times for a mesh, never below 1000 nodes.
+ * The log warns if the largest sides of the boxes of mesh and surface differ by more than a factor of 50, or one is
+ * less than the half thickness: once per surface and mesh, at most eight times per mesh, never below 1000 nodes.
  * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,
                                      const riis_mark_options *options, riis_marks *marks);
@@ -751,31 +751,31 @@ enum {
   RIIS_LIST_MARKED = 0,      /* the nodes within the half thickness */
   RIIS_LIST_WITHIN_LIMIT = 1 /* the nodes within the distance limit, marked or not */
 };
-/* A list of nodes, ascending by node_id. Lengths are in mesh units. From point on, the arrays are the fields that
- * options.fields requested, and NULL for others. All equal those of riis_closest_point, to the last bit. */
+/* A list of nodes, ascending by node_id. Lengths are in mesh units. The arrays from `point` on are NULL unless
+ * options.fields requested them. Values equal those of riis_closest_point to the last bit. */
 typedef struct riis_mark_list {
   int64_t n_nodes;            /* in the list */
   const int64_t *node_id;     /* (n_nodes) */
   const double *distance;     /* (n_nodes) */
   const int64_t *triangle_id; /* (n_nodes): of the closest triangle, as in riis_closest */
-  const int32_t *leaflet_id;  /* (n_nodes): the triangle's */
-  const double *K;            /* (n_nodes): K by options.resistance; NULL without one */
+  const int32_t *leaflet_id;  /* (n_nodes): of that triangle */
+  const double *K;            /* (n_nodes): K by options.resistance; NULL without a resistance */
   const double *K_u_surface;  /* (3, n_nodes): K u_surface; NULL without a resistance or velocities */
   const double *point;        /* (3, n_nodes): the closest point of the surface */
   const double *normal;       /* (3, n_nodes): the unit normal of its triangle */
-  const double *barycentric;  /* (3, n_nodes): its weights of the triangle's vertices */
-  const double *uv;           /* (2, n_nodes): its place on its patch, in [0,1]. S_u x S_v is along the normal,
-                                 but against it on mirrored patches (cusps: patch_id % 4 >= 2; mitral: 3, 4,
-                                 5, 8, 9), and the other way round for flipped normals */
-  const double *velocity;     /* (3, n_nodes): the velocity of the surface there, as its last update gave it.
+  const double *barycentric;  /* (3, n_nodes): the point's weights for the triangle's vertices */
+  const double *uv;           /* (2, n_nodes): the point's u and v on its patch, in [0,1]. S_u x S_v points along
+                                 the normal, but against it on mirrored patches (cusps: patch_id % 4 >= 2;
+                                 mitral: 3, 4, 5, 8, 9). With flipped normals it is the reverse */
+  const double *velocity;     /* (3, n_nodes): the velocity of the surface at the point, from its last update.
                                  Where leaflets are equally near, within 1e-6 half thicknesses, or patches of
-                                 one, within 1e-9, it is the mean of theirs, each at its own closest point
-                                 (docs/theory.md, section 10). All other fields are those of one triangle */
+                                 one leaflet, within 1e-9, it is the mean of their velocities at their closest
+                                 points (docs/theory.md, section 10). Other fields are those of one triangle */
   const int32_t *side;        /* (n_nodes): as riis_closest.side */
   const int32_t *rim;         /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a
-                                 valve consists of the sides that only one patch has, such as free edges and
-                                 the annulus, but not closed free edges that coincide; the rim of arrays of the
-                                 edges of one triangle, where vertices with equal coordinates are one */
+                                 valve is the sides of only one patch, such as free edges and the annulus, but
+                                 not free edges that coincide when closed. The rim of a surface from arrays is
+                                 the edges of only one triangle; vertices with equal coordinates count as one */
   const int32_t *patch_id;    /* (n_nodes): as in riis_triangles */
 } riis_mark_list;
 /* Gives a list of the last marking, until the next riis_mark_nodes with these marks or their destruction.
@@ -787,7 +787,7 @@ RIIS_API riis_status riis_marks_get_list(const riis_marks *marks, int32_t which,
 typedef struct riis_dense_arrays {
   int64_t struct_size;  /* set by the init function */
   int64_t n_nodes;      /* the number of nodes of the marking, 0 for empty marks */
-  double far_distance;  /* distance of nodes beyond the limit or masked out: any value (NaN also) outside
+  double far_distance;  /* written for nodes beyond the limit or masked out: NaN, or any value outside
                            [0, distance limit]. Default RIIS_FAR_DISTANCE */
   uint8_t *mark;        /* 1 for marked nodes, 0 for others */
   double *distance;     /* of every node within the distance limit, else far_distance */
@@ -795,7 +795,7 @@ typedef struct riis_dense_arrays {
   int32_t *leaflet_id;  /* of every node within the distance limit, else -1 */
 } riis_dense_arrays;
 RIIS_API riis_status riis_dense_arrays_init(riis_dense_arrays *arrays, int64_t struct_size); /* the defaults */
-/* Writes the marks to the caller's arrays, every entry.
+/* Writes the marks to every entry of the caller's arrays.
  * Errors: RIIS_INVALID_ARGUMENT naming the field. */
 RIIS_API riis_status riis_marks_get_dense(const riis_marks *marks, const riis_dense_arrays *arrays);
 
@@ -807,10 +807,10 @@ typedef struct riis_mark_stats {
   int64_t n_queries;    /* closest-point queries, of nodes and of parts of the mesh */
   double seconds;       /* wall time of riis_mark_nodes */
   int32_t search;       /* the search that ran, never RIIS_SEARCH_AUTO */
-  int32_t n_threads;    /* the most that ran in any part. A caller's TBB limit binds walks, not loops */
-  int32_t complete;     /* 1: every node within the limit was found, by the coordinates last given; 0: not certain */
+  int32_t n_threads;    /* the most that ran in any part. A caller's TBB limit affects walks, not loops */
+  int32_t complete;     /* 1: every node within the limit was found, for the coordinates last given; 0: not certain */
   int32_t instructions; /* the instructions that were used, never RIIS_INSTRUCTIONS_AUTO */
-  int64_t n_unreached;  /* nodes within the limit that the neighbour search found by proof, not walk */
+  int64_t n_unreached;  /* nodes within the limit that no walk of the neighbour search reached, but its proof found */
 } riis_mark_stats;
 /* Tells how the last marking with the marks went; all 0 for empty marks. */
 RIIS_API riis_status riis_marks_get_stats(const riis_marks *marks, riis_mark_stats *stats, int64_t struct_size);
@@ -828,10 +828,10 @@ typedef struct riis_resistance_arrays {
 } riis_resistance_arrays;
 /* Fills *arrays with the defaults. */
 RIIS_API riis_status riis_resistance_arrays_init(riis_resistance_arrays *arrays, int64_t struct_size);
-/* Adds K and K u_surface to the caller's arrays, so that several valves add up: a scheme takes (sum of K) u -
- * (sum of K u_surface). The nodes may be nodes, cell centres or quadrature points. riis_mark_list has both, too.
+/* Adds K and K u_surface to the caller's arrays, which then hold sums over several valves. The solver's term is
+ * (sum of K) u - (sum of K u_surface). Nodes may be cell centres or quadrature points. riis_mark_list has both, too.
  *   resistance  RIIS_RIM_CUT needs RIIS_FIELD_RIM, and K_u_surface needs RIIS_FIELD_VELOCITY
- * Errors: RIIS_INVALID_ARGUMENT also for marks never marked with, and for a field that the marks lack. */
+ * Errors: RIIS_INVALID_ARGUMENT also for marks that no marking has filled, and for a field that they lack. */
 RIIS_API riis_status riis_marks_add_resistance(const riis_marks *marks, const riis_resistance *resistance,
                                                const riis_resistance_arrays *arrays);
 
@@ -839,20 +839,20 @@ RIIS_API riis_status riis_marks_add_resistance(const riis_marks *marks, const ri
 typedef struct riis_flow_arrays {
   int64_t struct_size;       /* set by the init function */
   int64_t n_nodes;           /* the number of nodes of the marking */
-  const double *velocity[3]; /* (n_nodes) by velocity_stride, for x, y and z; NULL, like weight, only for 0 nodes */
+  const double *velocity[3]; /* (n_nodes) by velocity_stride, for x, y and z; NULL only for 0 nodes, as weight */
   int64_t velocity_stride;   /* default 1; 3 for u(3,n) with {u, u + 1, u + 2} */
   const double *weight;      /* (n_nodes), the volume that a node stands for, 0 for nodes of other ranks */
 } riis_flow_arrays;
 RIIS_API riis_status riis_flow_arrays_init(riis_flow_arrays *flow, int64_t struct_size); /* the defaults */
-/* Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force. Ranks sum
- * their forces by a reduction. u_surface is 0 if the marking lacked RIIS_FIELD_VELOCITY.
+/* Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force. With MPI, sum
+ * the ranks' forces. u_surface is 0 if the marking lacked RIIS_FIELD_VELOCITY.
  *   force  (3), added to; its unit is that of weight K velocity, N in SI units
  * Errors: as riis_marks_add_resistance. */
 RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,
                                              const riis_flow_arrays *flow, double *force);
 
-/* Sums over the nodes on either side of the surface: entry 0 is upstream, side -1, entry 1 downstream. The
- * mean is sum / weight, after ranks have added theirs. */
+/* Sums over the nodes on either side of the surface: entry 0 is upstream (side -1), entry 1 is downstream. The
+ * mean is sum / weight; with MPI, add up the sums and weights of all ranks first. */
 typedef struct riis_band_sums {
   double sum[2];      /* of weight * value */
   double weight[2];   /* of weight */
@@ -862,8 +862,8 @@ typedef struct riis_band_sums {
 typedef struct riis_band {
   int64_t struct_size;  /* set by the init function */
   double inner, outer;  /* distances, 0 <= inner <= outer <= distance limit of the marking. Default 0 */
-  int64_t n_nodes;      /* the number of nodes of the marking, which had RIIS_FIELD_SIDE and RIIS_FIELD_RIM */
-  const double *value;  /* (n_nodes), such as the pressure; NULL, like weight, only for 0 nodes */
+  int64_t n_nodes;      /* the number of nodes of the marking, which must have RIIS_FIELD_SIDE and RIIS_FIELD_RIM */
+  const double *value;  /* (n_nodes), such as the pressure; NULL only for 0 nodes, as weight */
   const double *weight; /* (n_nodes), the volume that a node stands for, 0 for the nodes of other ranks */
 } riis_band;
 RIIS_API riis_status riis_band_init(riis_band *band, int64_t struct_size); /* the defaults */
@@ -875,73 +875,73 @@ RIIS_API riis_status riis_marks_get_band_sums(const riis_marks *marks, const rii
 
 /* ---- Leaks: where the mesh is too coarse for the marks to close the surface (docs/meshes.md) ----------- */
 
-/* The edges that riis_find_leaks found. Make one and reuse it. */
+/* The edges that riis_find_leaks found. Make one object and reuse it. */
 typedef struct riis_leaks riis_leaks;
 RIIS_API riis_status riis_leaks_create(riis_leaks **leaks); /* makes leaks without an edge */
 RIIS_API void riis_leaks_destroy(riis_leaks **leaks); /* destroys the leaks and their list */
 
-/* Finds every edge of the mesh's adjacency that crosses the surface's triangles between two unmarked nodes.
- * Touching counts. The decision is exact for coordinates in double precision; those below 1e-90 count as 0.
- * An edge may stand in one row or in both, and counts once. Edges to ghosts do not count. Edges that are at most
- * two half thicknesses long do not leak (docs/meshes.md).
+/* Finds every edge of the mesh's adjacency that joins two unmarked nodes and crosses or touches a triangle of the
+ * surface. The decision is exact for coordinates in double precision; coordinates below 1e-90 count as 0. An edge
+ * may be given in one row or in both, and is listed once. Edges to ghosts are ignored. Edges that are at most two
+ * half thicknesses long do not leak (docs/meshes.md).
  *   surface, mesh  those of the marking. The mesh must have an adjacency
  *   marks          of riis_mark_nodes
- *   options        those of the marking. An edge to a node that node_mask leaves out is no path
+ *   options        those of the marking. An edge to a node that node_mask leaves out does not leak
  *   leaks          its content is replaced
- * A marking of the same triangles with riis_leak_list.half_thickness closes all of these edges, except by
- * RIIS_SEARCH_PAPER. A new half thickness moves a valve's triangles, by up to tolerance * half_thickness:
- * look again after riis_surface_update.
- * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks never marked with, or with
- * another number of nodes or half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
+ * A marking of the same triangles with the half thickness of riis_leak_list closes all of these edges, except by
+ * RIIS_SEARCH_PAPER. But riis_surface_update with that half thickness moves a valve's triangles by up to
+ * tolerance * half_thickness, so search again after it.
+ * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks that no marking has filled, or that
+ * have another number of nodes or half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_find_leaks(const riis_surface *surface, const riis_mesh *mesh,
                                      const riis_marks *marks, const riis_mark_options *options,
                                      riis_leaks *leaks);
 
 /* Mesh edges that leak, ascending by their first node, then by their second. Lengths are in mesh units. */
 typedef struct riis_leak_list {
-  int64_t n_edges;            /* edges that leak. Without one, node ids are -1, other fields but seconds 0 */
-  const int64_t *node_id;     /* (2, n_edges): their nodes, the lower one first */
+  int64_t n_edges;            /* edges that leak. If 0, node ids are -1 and all other fields but seconds are 0 */
+  const int64_t *node_id;     /* (2, n_edges): the two nodes, the lower id first */
   const double *length;       /* (n_edges) */
-  const double *distance;     /* (n_edges): that of its nearer node, the half thickness that closes the edge */
-  double half_thickness;      /* the smallest that gives each edge a marked node, by these triangles */
+  const double *distance;     /* (n_edges): of the edge's nearer node: the half thickness that closes the edge */
+  double half_thickness;      /* the smallest with which each edge has a marked node, for these triangles */
   int64_t longest_node_id[2]; /* the longest edge's nodes, ascending; of equal edges the first listed */
   double longest_length;      /* its length */
-  double longest_middle[3];   /* the middle of it */
+  double longest_middle[3];   /* its middle */
   double seconds;             /* wall time of riis_find_leaks */
 } riis_leak_list;
-/* Gives the edges of the last riis_find_leaks with these leaks, until the next or the destruction. */
+/* Gives the edges of the last riis_find_leaks; they are valid until its next call with these leaks. */
 RIIS_API riis_status riis_leaks_get_list(const riis_leaks *leaks, riis_leak_list *list, int64_t struct_size);
 
-/* ---- Open regions and passages: whether the unmarked nodes still join two places (docs/meshes.md) ------ */
+/* ---- Open regions and passages: whether the unmarked nodes connect two regions (docs/meshes.md) -------- */
 
 /* Labels the open regions: the connected components of the nodes that a marking left unmarked, along the
- * edges of the mesh's adjacency. An edge may stand in one row or in both. Edges to ghosts are not looked at:
- * ranks of MPI exchange their labels (examples/mpi_leaks.c).
+ * edges of the mesh's adjacency. An edge may be given in one row or in both. Edges to ghosts are ignored:
+ * with MPI, ranks must exchange their labels (examples/mpi_leaks.c).
  *   mesh       that of the marking, with an adjacency
  *   marks      of riis_mark_nodes
  *   options    those of the marking; nodes that node_mask leaves out are in no region
  *   n_nodes    the number of nodes of the marking
  *   label      (n_nodes), the lowest node id of the node's region, -1 for nodes in no region
- *   n_regions  how many there are; may be NULL
- * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks never marked with, or with
- * another number of nodes. */
+ *   n_regions  the number of regions; may be NULL
+ * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks that no marking has filled, or that
+ * have another number of nodes. */
 RIIS_API riis_status riis_label_open_regions(const riis_mesh *mesh, const riis_marks *marks,
                                              const riis_mark_options *options, int64_t n_nodes, int64_t *label,
                                              int64_t *n_regions);
 
-/* These values say whether marked nodes part two sets of nodes. */
+/* Whether there is a passage between two sets of nodes. */
 enum {
-  RIIS_PASSAGE_CLOSED = 0, /* they do: each path has a node within the half thickness */
-  RIIS_PASSAGE_OPEN = 1,   /* they do not: some path has none */
-  RIIS_PASSAGE_NONE = 2    /* the mesh itself has no path, with marked nodes or without */
+  RIIS_PASSAGE_CLOSED = 0, /* no: each path between the sets has a node within the half thickness */
+  RIIS_PASSAGE_OPEN = 1,   /* yes: some path has no node within the half thickness */
+  RIIS_PASSAGE_NONE = 2    /* no: the mesh itself has no path between the sets */
 };
-/* The widest passage from one set of nodes to another: the path farthest from the surface where it is nearest. */
+/* The widest passage from one set of nodes to another: the path whose least distance from the surface is largest. */
 typedef struct riis_passage {
-  int64_t node_id;  /* the node of that distance: the place. -1 without a path. Of nodes at equal distances
-                       the one with the higher id counts as the nearer */
-  double distance;  /* its distance: the smallest half thickness that closes the passage, by these triangles;
-                       a surface with a smaller one leaves it open. 0 without a path */
-  double point[3];  /* its coordinates; 0 without a path */
+  int64_t node_id;  /* the path's node that is nearest to the surface; -1 without a path. Of nodes at equal
+                       distances, the one with the higher id counts as nearest */
+  double distance;  /* the distance of that node. A half thickness closes the passage, for these triangles, if it
+                       is at least this distance; a smaller one leaves it open. 0 without a path */
+  double point[3];  /* the coordinates of that node; 0 without a path */
   double seconds;   /* wall time of riis_find_passage */
   int32_t state;    /* RIIS_PASSAGE_* */
   int32_t reserved; /* 0 */
@@ -952,14 +952,14 @@ typedef struct riis_passage_ends {
   int64_t n_from;      /* at least 1 */
   const int64_t *from; /* (n_from), node ids in any order: where paths begin */
   int64_t n_to;        /* at least 1 */
-  const int64_t *to;   /* (n_to), node ids in any order: where they end. A node in both sets is a path */
+  const int64_t *to;   /* (n_to), node ids in any order: where paths end. A node in both sets is a path */
 } riis_passage_ends;
 RIIS_API riis_status riis_passage_ends_init(riis_passage_ends *ends, int64_t struct_size); /* the defaults */
 /* Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed.
  *   mesh     with an adjacency; it need not have been marked
- *   options  node_mask, n_threads and instructions count. A node that node_mask leaves out is on no path
- * Ends count as well, so take them farther from the surface than the passage is wide. A new half thickness
- * moves a valve's triangles, by up to tolerance * half_thickness: look again after riis_surface_update.
+ *   options  only node_mask, n_threads and instructions are used. A node that node_mask leaves out is on no path
+ * The ends belong to paths, so choose them farther from the surface than the passage is wide. A new half thickness
+ * moves a valve's triangles by up to tolerance * half_thickness: search again after riis_surface_update.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for a node of from or to that the mesh lacks,
  * that node_mask leaves out, or that is within the half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_find_passage(const riis_surface *surface, const riis_mesh *mesh,
@@ -968,44 +968,44 @@ RIIS_API riis_status riis_find_passage(const riis_surface *surface, const riis_m
 
 /* ---- Laws of opening: a valve's opening from the time, the pressure difference and the flow ------------ */
 
-/* Pure functions: the same arguments give the same bits, and nothing is kept. Times, pressures and flows have
- * the solver's units. The pressure difference is that upstream less that downstream, and flow is positive
- * downstream, so both open a valve. `rate` is the derivative of the opening by time. A state is flat: a
- * restart file holds it as it is, and goes on with the same bits. `now` may be `before`, and has its
- * struct_size; a step that is taken again starts from `before`. */
+/* These are pure functions: the same arguments give the same bits, and the library keeps nothing. Times, pressures
+ * and flows have the solver's units. The pressure difference is the upstream pressure minus the downstream
+ * pressure, and flow is positive downstream, so positive values open a valve. `rate` is the time derivative of the
+ * opening. A state has no pointers: a solver that restores it from a restart file continues with the same bits.
+ * `now` may be the same struct as `before`, and gets its struct_size. To repeat a step, start from `before` again. */
 
-/* An opening by keys. */
+/* An opening by its values at keys in time. */
 typedef struct riis_opening_table {
   int64_t struct_size;   /* set by the init function */
   int64_t n_keys;        /* 1 to 1,000,000 */
   const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
   const double *opening; /* (n_keys), 0 to 1 */
-  double period;         /* > 0: the table repeats; its keys lie within a period of the first, and a last key
-                            that is a period after the first has its opening. 0, the default: the first key's
-                            opening counts before it, the last one's after it */
+  double period;         /* > 0: the table repeats. All keys lie within a period of the first key; a key exactly a
+                            period after the first must have the first opening. 0, the default: the first opening
+                            holds before its time, the last one after its time */
   int32_t interpolation; /* RIIS_INTERPOLATION_*, default RIIS_INTERPOLATION_LINEAR */
   int32_t reserved;      /* 0 */
 } riis_opening_table;
 RIIS_API riis_status riis_opening_table_init(riis_opening_table *table, int64_t struct_size); /* the defaults */
-/* Tells the opening at a time by a table. opening and rate may be NULL.
+/* Gives the opening of a table at a time. opening and rate may be NULL.
  *   time  magnitude at most 1e30
  * Errors: RIIS_INVALID_ARGUMENT naming the field, the key and its value. */
 RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening,
                                              double *rate);
 
-/* An opening by times: a mitral valve opens at 0.45 s in 0.05 s, and closes at 0.95 s in 0.05 s, every 1 s.
- * The ramps are of fifth degree: neither the rate nor its derivative jumps. */
+/* An opening by the times of two ramps: a mitral valve may open at 0.45 s in 0.05 s, and close at 0.95 s in 0.05 s,
+ * every 1 s. The ramps are of fifth degree, so neither the rate nor its derivative jumps. */
 typedef struct riis_opening_times {
   int64_t struct_size;    /* set by the init function */
-  double opening_start;   /* when the valve begins to open. Default NaN, refused, as for the next three */
-  double opening_duration; /* how long that takes, > 0 */
+  double opening_start;   /* when the valve begins to open. Default NaN, which is refused, as for the next three */
+  double opening_duration; /* how long opening takes, > 0 */
   double closing_start;   /* when it begins to close, at least opening_start + opening_duration */
-  double closing_duration; /* how long that takes, > 0 */
+  double closing_duration; /* how long closing takes, > 0 */
   double closed, open;    /* the opening when closed and when open, 0 to 1. Default 0 and 1 */
-  double period;          /* > 0: repeats, not before it has closed. Default 0: opens once */
+  double period;          /* > 0: it opens and closes once in each period. Default 0: only once */
 } riis_opening_times;
 RIIS_API riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size); /* the defaults */
-/* Tells the opening at a time by the times of opening and closing. opening and rate may be NULL.
+/* Gives the opening at a time by the times of the ramps. opening and rate may be NULL.
  *   time  magnitude at most 1e30
  * Errors: RIIS_INVALID_ARGUMENT naming the field and its value. */
 RIIS_API riis_status riis_opening_from_times(const riis_opening_times *times, double time, double *opening,
@@ -1013,8 +1013,8 @@ RIIS_API riis_status riis_opening_from_times(const riis_opening_times *times, do
 
 /* The phases of a switch. */
 enum {
-  RIIS_PHASE_CLOSING = 0, /* or closed */
-  RIIS_PHASE_OPENING = 1  /* or open */
+  RIIS_PHASE_CLOSING = 0, /* closing or closed */
+  RIIS_PHASE_OPENING = 1  /* opening or open */
 };
 
 /* A valve that opens when the pressure difference exceeds a value, and closes when the flow falls below one.
@@ -1022,33 +1022,33 @@ enum {
  * flow reverses), filter_time 0.002, dwell_time 0.02. */
 typedef struct riis_opening_switch {
   int64_t struct_size;    /* set by the init function */
-  double opening_duration; /* from closed to open, > 0. No default, as for the next: NaN, which is refused */
+  double opening_duration; /* from closed to open, > 0. Default NaN, which is refused, as for the next */
   double closing_duration; /* from open to closed, > 0 */
   double open_above;      /* pressure difference. Default 0 */
   double close_below;     /* flow. Default 0 */
-  double filter_time;  /* time constant of a filter of first order on both, >= 0. Default 0: no filter */
-  double dwell_time;   /* the least time from one turn to the next, >= 0. Default 0 */
+  double filter_time;  /* of a first-order filter of pressure difference and flow, >= 0. Default 0: no filter */
+  double dwell_time;   /* the least time from one change of phase to the next, >= 0. Default 0 */
 } riis_opening_switch;
 RIIS_API riis_status riis_opening_switch_init(riis_opening_switch *law, int64_t struct_size); /* the defaults */
 /* The state of a switch. */
 typedef struct riis_opening_switch_state {
   int64_t struct_size;        /* set by the init function */
   double time;                /* of this state */
-  double opening, rate;       /* what the law says at that time */
+  double opening, rate;       /* at that time */
   double progress;            /* share of the way to open, 0 to 1; the opening is a smooth ramp over it */
   double pressure_difference; /* filtered; NaN: none yet */
   double flow;                /* filtered; NaN: none yet */
-  double turn_time;           /* of the last turn; NaN: none yet */
+  double turn_time;           /* of the last change of phase; NaN: none yet */
   int32_t phase;              /* RIIS_PHASE_* */
   int32_t reserved;           /* 0 */
 } riis_opening_switch_state;
 /* Fills *state with a closed valve at time 0. */
 RIIS_API riis_status riis_opening_switch_state_init(riis_opening_switch_state *state, int64_t struct_size);
-/* Advances a switch to a time. It turns at the end of the step in which its condition was met, so its opening
- * has first order in the length of steps.
+/* Advances a switch to a time. Its phase changes at the end of the step in which the condition is met, so the
+ * opening is accurate to first order in the length of steps.
  *   time                       at least before->time, magnitude at most 1e30
  *   pressure_difference, flow  at that time, magnitude at most 1e30
- * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; *now is then as it was. */
+ * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; *now stays unchanged. */
 RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
                                                  const riis_opening_switch_state *before, double time,
                                                  double pressure_difference, double flow,
@@ -1058,12 +1058,12 @@ RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
  * system including heart valve dynamics and atrioventricular interaction", Med. Eng. Phys. 28 (2006):
  *   angle'' = -friction angle' + (pressure_gain dp + flow_gain Q) cos(angle)
  *             - vortex_gain max(Q, 0) sin(2 angle)
- * with angles in radians, between stops that take all speed. The opening is the angle's share of its range.
+ * with angles in radians, between stops where the speed becomes 0. The opening is the angle's share of its range.
  * The paper's values, for mmHg, ml and s: pressure_gain 5500, flow_gain 2, friction 50, vortex_gain 7 for the
  * aortic and 3.5 for the mitral valve. */
 typedef struct riis_opening_angle {
   int64_t struct_size;  /* set by the init function */
-  double pressure_gain; /* K_p, >= 0. No default, as for the next three: NaN, which is refused */
+  double pressure_gain; /* K_p, >= 0. Default NaN, which is refused, as for the next three */
   double flow_gain;     /* K_q, >= 0 */
   double friction;      /* K_f, >= 0 */
   double vortex_gain;   /* K_v, >= 0 */
@@ -1075,20 +1075,20 @@ RIIS_API riis_status riis_opening_angle_init(riis_opening_angle *law, int64_t st
 typedef struct riis_opening_angle_state {
   int64_t struct_size;        /* set by the init function */
   double time;                /* of this state */
-  double opening, rate;       /* what the law says at that time */
+  double opening, rate;       /* at that time */
   double angle, angle_rate;   /* degrees, degrees per time */
   double pressure_difference; /* at that time; NaN: none yet */
   double flow;                /* at that time; NaN: none yet */
 } riis_opening_angle_state;
 /* Fills *state with a closed valve at rest, at time 0. Until the first step its angle 0 stands for angle_min. */
 RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *state, int64_t struct_size);
-/* Advances the angle law to a time. Pressure difference and flow are taken as linear over the step, which
- * makes the angle second order in the length of steps. Without values before, the present ones count for the
- * whole step.
+/* Advances the angle law to a time. Pressure difference and flow are taken as linear over the step, so the angle is
+ * accurate to second order in the length of steps. If `before` has no pressure difference and flow, the present
+ * ones are used for the whole step.
  *   time                       at least before->time, magnitude at most 1e30
  *   pressure_difference, flow  at that time, magnitude at most 1e30
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; RIIS_LIMIT_EXCEEDED for a step so
- * long that the motion would take more than a million steps within it. *now is then as it was. */
+ * long that the integration would need more than a million smaller steps. *now stays unchanged. */
 RIIS_API riis_status riis_opening_angle_advance(const riis_opening_angle *law,
                                                 const riis_opening_angle_state *before, double time,
                                                 double pressure_difference, double flow,

@@ -235,7 +235,8 @@ static void test_refused_cases(void **state) {
                       "");
   expect_case_refused("translate: \"x\" is not a number", "{\"valve\": \"mitral\", \"translate\": [0, 0, \"x\"]}", "");
   expect_case_refused("unit: \"inch\" is none of m, cm, mm", mitral, "\"unit\": \"inch\",");
-  expect_case_refused("scale: it cannot be combined with \"unit\"", "{\"valve\": \"mitral\", \"scale\": 2}", "\"unit\": \"m\",");
+  expect_case_refused("scale: it cannot be combined with \"unit\"", "{\"valve\": \"mitral\", \"scale\": 2}",
+                      "\"unit\": \"m\",");
   expect_case_refused("times: the step 0 is not above 0", mitral, "\"times\": \"0:1:0\",");
   expect_case_refused("times: the time 1 is not above the time before it, 2", mitral, "\"times\": [2, 1],");
   expect_case_refused("parameters: 'anulus' is not a parameter",
