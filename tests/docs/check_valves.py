@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks examples/valves: the script writes the file of the bicuspid valve, and the table of the README there is what
-the program measures.
+"""Checks examples/valves: its script must reproduce the file of the bicuspid valve, and the table in its README must equal the
+program's results.
 
     check_valves.py EXAMPLES_VALVES PROGRAM
 """
