@@ -180,7 +180,8 @@ static void test_searches_and_distances(void **state) {
   assert_int_equal(program_exit_code, 3); /* the search's only start node is not marked, so the search finds nothing */
   assert_non_null(strstr(program_err, "may be incomplete"));
   assert_non_null(strstr(program_leaks, " between two unmarked nodes"));
-  assert_null(strstr(program_leaks, "--half-thickness")); /* a larger half thickness does not help if the search misses nodes */
+  /* a larger half thickness does not help if the search misses nodes. */
+  assert_null(strstr(program_leaks, "--half-thickness"));
 }
 
 static void test_one_edge(void **state) {

@@ -341,7 +341,8 @@ static rule_marks marks_of_closed(const char *kind) {
         found.delta += delta(closest.distance, eps);
         found.delta_lost += delta(closest.distance, eps) - delta(d, eps);
         if (closest.distance <= eps) found.largest_excess = fmax(found.largest_excess, d - closest.distance);
-        assert_true(d >= closest.distance - 1e-12); /* the triangles' middles lie on the surface, so none can be nearer */
+        /* The triangles' middles lie on the surface, so none can be nearer. */
+        assert_true(d >= closest.distance - 1e-12);
         if (closest.distance < 0.3 * eps || closest.distance > eps || closest.side == 0) continue;
         ++found.n_sides;
         found.n_right_side += uris_sign(&exported, &state, nearest, 1, p) == (closest.side > 0 ? 1 : -1);

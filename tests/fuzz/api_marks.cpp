@@ -139,7 +139,8 @@ void check_marking(Input &in, const riis_surface *surface, const MeshSlot &mesh,
   for (std::size_t i = 0; i < marked.size(); ++i) EXPECT(marked[i].distance <= info.half_thickness, "%zu", i);
   if (mesh.was_told) check_fields(surface, *mesh.nodes, options.fields, slot.handle);
 
-  for (std::int64_t i = 0; i < mesh.nodes->n; ++i)  // the node moved without an update, so there is nothing to compare with
+  // The node moved without an update, so there is nothing to compare with.
+  for (std::int64_t i = 0; i < mesh.nodes->n; ++i)
     for (const double x : (*mesh.nodes)[i])
       if (!(std::abs(x) <= 1e60)) return;
   const std::vector<Found> expected = expected_of(surface, *mesh.nodes, slot.distance_limit, options.node_mask);

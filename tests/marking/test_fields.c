@@ -393,7 +393,8 @@ static void valves_have_a_rim_all_around_and_none_inside(void **state) {
                    f.uv[2 * k + 1], f.patch_id[k]);
         n_rim += expected;
         const int64_t e = k / 3;
-        if (t == e / 3 && expected && r.edge[e]) ++n_free; /* the closest edge is the edge that the node was put beyond */
+        /* The closest edge is the edge that the node was put beyond. */
+        if (t == e / 3 && expected && r.edge[e]) ++n_free;
         if (!r.edge[e]) ++n_inside;
         if (f.uv[2 * k + 1] > 1 - 1e-9 && is_mitral && i == 0) {
           ++n_free_closed;

@@ -477,7 +477,8 @@ static void no_pair_that_matters_is_lost(void **state) {
           fail_msg("%s, trial %d: writes beyond its room, or names other nodes than it has pairs of", kernels_name(set),
                    trial);
         n_resumed += n_calls > 1;
-        if (k == 0) assert_true(n_calls <= 1 + 32 * c.n_groups / 200); /* the filter also stops when its own buffer is full */
+        /* The filter also stops when its own buffer is full. */
+        if (k == 0) assert_true(n_calls <= 1 + 32 * c.n_groups / 200);
         memset(has, 0, sizeof has);
         for (int64_t i = 0; i < n; ++i) {
           if (!(c.filter.wanted >> pairs[i].node & 1)) fail_msg("a pair of a node that is not wanted");

@@ -78,7 +78,8 @@ static void random_rows(whole_case *c) {
   int64_t n = 0;
   for (int64_t i = 0; i < c->n_nodes; ++i) {
     c->offsets[i] = n;
-    for (int64_t k = random_integer(0, 11); k > 0; --k) /* the row may contain the node itself, repeats and ghost nodes */
+    /* The row may contain the node itself, repeats and ghost nodes. */
+    for (int64_t k = random_integer(0, 11); k > 0; --k)
       c->columns[n++] = one_in(12) ? c->n_nodes + 3 : random_integer(0, c->n_nodes - 1);
   }
   c->offsets[c->n_nodes] = n;

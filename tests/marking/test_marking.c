@@ -151,7 +151,8 @@ static void mask_leaves_nodes_out(void **state) {
   riis_mesh *mesh = mesh_of(n, xyz);
   riis_marks *all = new_result(), *some = new_result();
   riis_mark_options options = mark_options();
-  for (int i = 0; i < n; ++i) mask[i] = (uint8_t)(random_bits(&rng) % 3); /* 0, 1 or 2: every value but 0 selects the node */
+  /* 0, 1 or 2: every value but 0 selects the node. */
+  for (int i = 0; i < n; ++i) mask[i] = (uint8_t)(random_bits(&rng) % 3);
   options.node_mask = mask;
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, all));
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, some));

@@ -100,7 +100,8 @@ static void valve_that_sticks_out_of_the_mesh(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   const riis_surface_info info = info_of(surface);
   static const int64_t counts[3] = {24, 22, 26};
-  for (int trial = 0; trial < 20; ++trial) { /* random boxes that contain a part of the valve, lie inside it, or miss it */
+  /* Random boxes that contain a part of the valve, lie inside it, or miss it. */
+  for (int trial = 0; trial < 20; ++trial) {
     const int owned_before = n_owned();
     double lower[3], upper[3];
     for (int c = 0; c < 3; ++c) {
@@ -338,7 +339,8 @@ static void masked_nodes_are_left_out(void **state) {
     riis_marks *fresh = new_result();
     check_same_as_exhaustive(surface, mesh, options, fresh);
     const riis_mark_stats stats =
-        check_same_as_exhaustive(surface, mesh, options, reused); /* the search starts from the marks with another mask */
+        /* The search starts from the marks with another mask. */
+        check_same_as_exhaustive(surface, mesh, options, reused);
     const found_nodes found = within_in(reused);
     for (int64_t i = 0; i < found.n; ++i) assert_true(mask[found.node_id[i]]);
     if (trial == 8) {

@@ -199,7 +199,8 @@ static void sums_are_those_of_plain_loops(void **state) {
     const int64_t n = f.nodes.n;
     double *k = own(malloc((size_t)n * 4 * sizeof *k)), *momentum = k + n;
     double *expected = own(malloc((size_t)n * 4 * sizeof *k));
-    for (int64_t i = 0; i < 4 * n; ++i) k[i] = expected[i] = between(-1, 1); /* initial values, which the calls add to */
+    /* Initial values, which the calls add to. */
+    for (int64_t i = 0; i < 4 * n; ++i) k[i] = expected[i] = between(-1, 1);
     double force[3], expected_force[3], scale = 0;
     for (int c = 0; c < 3; ++c) force[c] = expected_force[c] = between(-1, 1);
     const found_nodes within = within_in(f.result);

@@ -159,7 +159,8 @@ static void what_the_papers_search_misses_leaks(void **state) {
   options.search = RIIS_SEARCH_PAPER;
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
   const leak_list list = leaks_of(surface, mesh, &options, result);
-  assert_true(list.sum.n_edges == 1 || list.sum.n_edges == 2); /* if a node is on the plate, two edges touch the plate there */
+  /* If a node is on the plate, two edges touch the plate there. */
+  assert_true(list.sum.n_edges == 1 || list.sum.n_edges == 2);
   CHECK_NEAR(list.sum.longest_middle[2], 10, 0.06);
 }
 

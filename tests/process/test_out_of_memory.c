@@ -77,7 +77,8 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
       after.embree_bytes == before.embree_bytes && attempt < 5)
     return try_one(s, expected, whose, n, and_all_after, attempt + 1);
   const int grew = memcmp(&before, &after, sizeof before) != 0;
-  if (grew && (!(s->flags & IS_FIRST) || n_grown++ > 0)) /* memory that is allocated once and kept is accepted, but only once */
+  /* Memory that is allocated once and kept is accepted, but only once. */
+  if (grew && (!(s->flags & IS_FIRST) || n_grown++ > 0))
     fail_msg("%s, allocation %lld: leaks %lld of the library's, %lld of Embree's, %lld bytes of Embree's", s->name,
              (long long)n, (long long)(after.library - before.library), (long long)(after.embree - before.embree),
              (long long)(after.embree_bytes - before.embree_bytes));

@@ -13,8 +13,8 @@ extern "C" {
 enum tbb_region { TBB_OWN_ARENA, TBB_ARENA_OF_FOUR, TBB_ARENA_OF_ONE, TBB_LIMIT_OF_ONE };
 
 typedef struct tbb_seen {
-  int n_changed; /* how many settings changed: the limit on threads, compared around the whole call and in the region; and the
-                    arena, compared around the whole call, in the region and around each task */
+  int n_changed;    /* how many settings changed: the limit on threads, compared around the whole call and in the
+                    region; and the arena, compared around the whole call, in the region and around each task */
   int most_at_once; /* the largest number of tasks that ran at the same time */
 } tbb_seen;
 

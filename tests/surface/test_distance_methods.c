@@ -210,7 +210,8 @@ static void samples_are_as_many_as_the_rule_says(void **state) {
   (void)state;
   riis_valve *valve = rectangle();
   riis_set_log(keep_message, NULL);
-  riis_surface *surface = measured(valve, RIIS_MEASURE_SAMPLING, 0.5); /* the tolerance is 0.05, so the steps are sqrt(2) 0.05 */
+  /* The tolerance is 0.05, so the steps are sqrt(2) 0.05. */
+  riis_surface *surface = measured(valve, RIIS_MEASURE_SAMPLING, 0.5);
   riis_set_log(NULL, NULL);
   assert_string_equal(last_message, "distances by sampling: 480 samples of 1 patches"); /* (29 + 1) (15 + 1) */
   const double step[2] = {2.0 / 29, 1.0 / 15};

@@ -122,9 +122,11 @@ static double largest_speed(const riis_surface *surface) {
 typedef struct compared {
   double vertices, points; /* the largest difference from the mean velocity of the oracle */
   double sides;            /* the same at vertices with v = 0 or 1, on the annulus and on the free edges */
-  double exact;           /* the fraction of vertices that differ only by rounding: all except some on sides of split quads */
-  double from_derivative; /* the largest difference from the derivative at the present time, at vertices; -1: not compared */
-  double sum, speed;      /* sum: mean difference at random points; speed: largest speed */
+  /* The fraction of vertices that differ only by rounding: all except some on sides of split quads. */
+  double exact;
+  /* The largest difference from the derivative at the present time, at vertices; -1: not compared. */
+  double from_derivative;
+  double sum, speed; /* sum: mean difference at random points; speed: largest speed */
 } compared;
 
 static const int32_t *patches_of_vertices(const riis_triangles *c) {

@@ -564,7 +564,8 @@ static void refusals_leave_the_surface_as_it_was(void **state) {
   own(bad);
   MOVING_REFUSED(RIIS_INVALID_PARAMETER, "valve_before has 4 curves and 1 patches|10 and 3", patches, bad, 1, NULL,
                  NULL);
-  CHECK_OK(riis_surface_update_moving(surface, patches, patches, 1, NULL, NULL)); /* the surface still works after the refusals */
+  /* The surface still works after the refusals. */
+  CHECK_OK(riis_surface_update_moving(surface, patches, patches, 1, NULL, NULL));
 }
 
 int main(void) {

@@ -321,14 +321,16 @@ static void a_switch_opens_by_pressure_and_closes_by_flow(void **state) {
   CHECK_OK(riis_opening_switch_advance(&law, &now, 0.04, 1, 3, &now));
   CHECK_NEAR(now.opening, 0.5, 1e-12);
   CHECK_NEAR(now.rate, 1.875 / 0.04, 1e-9);
-  CHECK_OK(riis_opening_switch_advance(&law, &now, 0.30, -1, 3, &now)); /* the pressure alone does not close the valve */
+  /* The pressure alone does not close the valve. */
+  CHECK_OK(riis_opening_switch_advance(&law, &now, 0.30, -1, 3, &now));
   assert_int_equal(now.phase, RIIS_PHASE_OPENING);
   CHECK_NEAR(now.opening, 1, 0);
   CHECK_OK(riis_opening_switch_advance(&law, &now, 0.31, -1, -0.1, &now));
   assert_int_equal(now.phase, RIIS_PHASE_CLOSING);
   CHECK_OK(riis_opening_switch_advance(&law, &now, 0.35, -1, -0.1, &now));
   CHECK_NEAR(now.opening, 0.5, 1e-12);
-  CHECK_OK(riis_opening_switch_advance(&law, &now, 0.36, 2, 0, &now)); /* the valve turns round half way, without a jump */
+  /* The valve turns round half way, without a jump. */
+  CHECK_OK(riis_opening_switch_advance(&law, &now, 0.36, 2, 0, &now));
   const double where = now.opening;
   CHECK_OK(riis_opening_switch_advance(&law, &now, 0.36 + 1e-9, 2, 0, &now));
   CHECK_NEAR(now.opening, where, 1e-6);

@@ -77,7 +77,8 @@ static content random_content(riis_valve *const *valves) {
     if (any_of(4) == 0) c.options.tolerance = 1;
     if (any_of(8) == 0) c.options.tolerance = 0.01;
     if (any_of(6) == 0) c.options.measure = RIIS_MEASURE_SAMPLING, c.options.measure_tolerance = 0.2;
-    if (any_of(6) == 0) c.options.tolerance = c.options.half_thickness = 1e-5; /* a tolerance so fine that it is refused */
+    /* a tolerance so fine that it is refused. */
+    if (any_of(6) == 0) c.options.tolerance = c.options.half_thickness = 1e-5;
   } else {
     change_soup();
     static int32_t ids[3 * max_triangles];
@@ -120,15 +121,16 @@ static void check_marks(const riis_surface *updated, const riis_surface *fresh, 
   CHECK_OK(riis_mark_nodes(updated, mesh, &options, result));
   assert_true(same_results(result, expected));
   options.search = RIIS_SEARCH_CLUSTERS;
-  if (riis_mark_nodes(updated, mesh, &options, result) == RIIS_OK) /* the neighbour search is refused for distances by sampling */
-    assert_true(same_results(result, expected));
+  /* The neighbour search is refused for distances by sampling. */
+  if (riis_mark_nodes(updated, mesh, &options, result) == RIIS_OK) assert_true(same_results(result, expected));
   free_owned_after(owned_before);
 }
 
 static void an_updated_surface_is_a_fresh_one(void **state) {
   (void)state;
   riis_valve *valves[2] = {new_valve("aortic"), new_valve("mitral")}, *open = new_valve("aortic");
-  riis_surface *updated = NULL, *last = NULL; /* `last` is a new surface with the same content that `updated` should have */
+  /* `last` is a new surface with the same content that `updated` should have. */
+  riis_surface *updated = NULL, *last = NULL;
   riis_marks *result = new_result();
   CHECK_OK(riis_valve_set_scalar(open, "leaflet_angle", 40));
   CHECK_OK(riis_valve_set_open_state(valves[0], open));
