@@ -180,7 +180,7 @@ static void test_searches_and_distances(void **state) {
   assert_int_equal(program_exit_code, 3); /* the search's only start node is not marked, so the search finds nothing */
   assert_non_null(strstr(program_err, "may be incomplete"));
   assert_non_null(strstr(program_leaks, " between two unmarked nodes"));
-  /* a larger half thickness does not help if the search misses nodes. */
+  /* A larger half thickness does not help if the search misses nodes. */
   assert_null(strstr(program_leaks, "--half-thickness"));
 }
 

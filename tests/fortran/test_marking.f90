@@ -411,7 +411,7 @@ contains
     call check(all(is_right), 'threads do not disturb each other')
   end subroutine test_threads
 
-  ! recursive, so that its variables are local to a thread under any -fcheck or -fno-automatic.
+  ! Recursive, so that its variables are local to a thread under any -fcheck or -fno-automatic.
   recursive subroutine work(part, is_right)
     integer, intent(in) :: part
     logical, intent(out) :: is_right

@@ -390,7 +390,7 @@ static void band_sums_are_those_of_a_plain_loop(void **state) {
     const riis_mark_list fields = fields_of(&f);
     for (int i = 0; i < 5; ++i) {
       double inner = i ? between(0, 0.25) : 0, outer = i > 1 ? between(inner, 0.25) : 0.25;
-      /* a band whose ends coincide contains that distance. */
+      /* A band whose ends coincide contains that distance. */
       if (i == 4) inner = outer = within.distance[random_bits(&rng) % (uint64_t)within.n];
       riis_band_sums expected = {{0, 0}, {0, 0}, {0, 0}}, sums;
       double scale = 0;

@@ -74,7 +74,7 @@ static void cusps_are_mirror_images_and_turned(void **state) {
         patch_image_place(&set, other, control(cusp, leaflet), same);
         for (int c = 0; c < 3; ++c) CHECK_NEAR(same[c], middle[c], 0);
       }
-    /* ... and the edge's end is at half the leaflet's angle from the middle. */
+    /* ... and the edge's ends are at the leaflet's angle on either side of the middle. */
     static const double leaflet_angle[3] = {61, 58.5, 60.5}, leaflet_radius_out[3] = {1.365, 1.495, 1.38};
     patch_image_place(&set, image, last(cusp, leaflet), end);
     const double to = (angle[cusp] + (set.mirrored[image] ? -1 : 1) * leaflet_angle[cusp]) * degree_in_radians;

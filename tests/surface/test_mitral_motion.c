@@ -329,7 +329,7 @@ static void a_bulge_goes_through_zero(void **state) {
     CHECK_AT_MOST(c.vertices, 0.01);
     CHECK_AT_MOST(c.points, 0.05);
   }
-  for (int i = 0; i < 2; ++i) { /* one state without any bulge, before and now */
+  for (int i = 0; i < 2; ++i) { /* no bulge in both states; then from no bulge to one */
     states now = paper_at(0.7), before = paper_at(0.65);
     if (i == 0) now.closed.surface_angle = now.open.surface_angle = 0;
     before.closed.surface_angle = before.open.surface_angle = 0;

@@ -506,7 +506,7 @@ static void a_first_state_is_closed_whatever_the_law(void **state) {
     CHECK_OK(riis_opening_angle_advance(&law, &closed, 0.01, 0.1 * sign, 10 * sign, &from_closed));
     assert_memory_equal(&from_first, &from_closed, sizeof from_first);
     assert_true(sign < 0 ? from_first.angle == 5 : from_first.angle > 5);
-    CHECK_OK(riis_opening_angle_advance(&law, &first, 0, 0, 0, &from_first)); /* a step of no time */
+    CHECK_OK(riis_opening_angle_advance(&law, &first, 0, 0, 0, &from_first)); /* a step of length 0 */
     CHECK_NEAR(from_first.angle, 5, 0);
     CHECK_NEAR(from_first.opening, 0, 0);
   }
@@ -562,7 +562,7 @@ static void bad_laws_and_states_are_refused(void **state) {
   angle.angle_min = 5;
   at.angle = 4;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "before.angle is 4", riis_opening_angle_advance(&angle, &at, 1, 0, 0, &then));
-  at.angle = at.pressure_difference = at.flow = 0; /* a state without a first step */
+  at.angle = at.pressure_difference = at.flow = 0; /* a state that was never initialized */
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "before.angle is 0", riis_opening_angle_advance(&angle, &at, 1, 0, 0, &then));
   at = angle_at_rest();
   angle = aortic_angle();
