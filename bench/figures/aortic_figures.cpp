@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole aortic valve, and one of its cusps.
+// Draws the whole aortic valve, and one of its cusps.
 #include <algorithm>
 #include <limits>
 #include <string>

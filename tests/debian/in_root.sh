@@ -219,6 +219,6 @@ say "in $root: ./run $*"
 # shellcheck disable=SC2016
 in_namespace bash -c "$inside" bash "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 \
   "TERM=${TERM:-dumb}" "${variables[@]}" bash -c '
-    dpkg --configure -a >/dev/null # finishes an interrupted call's work
+    dpkg --configure -a >/dev/null # finishes the work of an interrupted call
     ! command -v update-ca-certificates >/dev/null || update-ca-certificates >/dev/null
     cd /riis && exec ./run "$@"' bash "$@"
