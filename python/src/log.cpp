@@ -6,7 +6,8 @@ namespace {
 
 thread_local bool in_log_function = false;
 
-// The function in use. Leaked references stay valid for messages under way. It is replaced under the interpreter's lock.
+// The present log function. References to earlier functions are leaked, so that messages being sent stay valid. It is replaced
+// under the interpreter's lock.
 PyObject *log_function = nullptr;
 
 void forward(void *, std::int32_t level, const char *message) {
@@ -19,7 +20,7 @@ void forward(void *, std::int32_t level, const char *message) {
     function(level, in_python(message));
   } catch (nb::python_error &error) {
     error.discard_as_unraisable(function);
-  } catch (...) {  // no exception may leave through the library
+  } catch (...) {  // no exception may pass through the library
   }
   in_log_function = false;
 }
@@ -46,7 +47,7 @@ void add_log(nb::module_ &module) {
 
 function(level, message) is called on any thread that calls riis; level is LOG_INFO or LOG_WARNING. It must not
 call riis. Its exceptions go to sys.unraisablehook.)");
-  // No message may reach Python after the interpreter has ended.
+  // After the interpreter has ended, no message may reach Python.
   nb::module_::import_("atexit").attr("register")(nb::cpp_function([] { set_log(nb::none()); }));
 }
 

@@ -5,7 +5,7 @@
 namespace riis_python {
 namespace {
 
-// The fields by their names: the attribute, the bit, and where the library points to them.
+// The fields by name: the attribute, the bit, and the pointer in the library's list.
 struct Field {
   const char *name;
   std::int32_t bit;
@@ -51,7 +51,7 @@ std::int32_t field_of(const std::string &name) {
   refuse_value("fields", "'", name, "' is none; they are ", all);
 }
 
-// Returns the sum of the fields of a text, separated by commas or blanks, or of a sequence of names.
+// Returns the sum of the named fields. The argument is a text, with names separated by commas or blanks, or a sequence of names.
 std::int32_t fields_of(nb::handle wanted) {
   if (wanted.is_none()) return 0;
   std::int32_t sum = 0;
@@ -101,7 +101,7 @@ nb::object mark(nb::handle surface_, nb::handle mesh_, nb::handle into, nb::hand
   const auto mark_into = [&](Marks &to) {
     call_to_write(to.usage, [&] { return riis_mark_nodes(surface.handle, mesh.handle, &options, to.handle); });
   };
-  if (result.is_shared()) {  // arrays show the last marking
+  if (result.is_shared()) {  // arrays still show the last marking
     Marks fresh;
     call_shortly(riis_marks_create(&fresh.handle));
     mark_into(fresh);
@@ -116,13 +116,13 @@ nb::object mark(nb::handle surface_, nb::handle mesh_, nb::handle into, nb::hand
   return result_object;
 }
 
-// The nodes of a result within the distance limit.
+// The nodes of a marking within the distance limit.
 struct WithinLimit {
   static constexpr const char *python_name = "WithinLimit";
   nb::object result;
 };
 
-// Reads the list of Marks or of a WithinLimit.
+// Reads a list of Marks or of WithinLimit.
 struct ListReader {
   explicit ListReader(nb::handle self) {
     is_limit = nb::isinstance<WithinLimit>(self);

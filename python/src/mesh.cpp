@@ -23,7 +23,7 @@ void drop_adjacency(Mesh &mesh) {
   mesh.adjacency = nb::object();
 }
 
-// Without arguments the coordinates moved in place.
+// Without arguments, the coordinates changed in place.
 void update(Mesh &self, nb::handle xyz, nb::handle y, nb::handle z) {
   const Writing writing(self.usage, "mesh");
   const bool in_place = xyz.is_none() && y.is_none() && z.is_none();
@@ -97,7 +97,7 @@ void set_adjacency(Mesh &self, nb::handle adjacency, nb::handle offsets_, nb::ha
   self.adjacency = std::move(kept);
 }
 
-// The keys that say which arrays an adjacency is made of.
+// The keyword combinations that determine how an adjacency is made.
 template <class Make>
 Adjacency *new_adjacency(const Make &make) {
   auto made = std::make_unique<Adjacency>();
@@ -191,7 +191,7 @@ nb::object columns(nb::handle self) {
   return view_of(static_cast<const std::int64_t *>(csr.columns), {n}, adjacency.share());
 }
 
-// Returns the caller's array, or a new one of the caller's three.
+// Returns the caller's array, or a new array made from the caller's three.
 nb::object coordinates(Mesh &mesh) {
   const Reading reading(mesh.usage, "mesh");
   const std::vector<Array> &arrays = mesh.points.arrays;
@@ -255,7 +255,7 @@ owner, neighbor  (n_faces,) int32 or int64, both of one type: the cells that a f
 }  // namespace
 
 std::int64_t Mesh::new_places() {
-  static std::int64_t n = 0;  // under the interpreter's lock
+  static std::int64_t n = 0;  // accessed only under the interpreter's lock
   return ++n;
 }
 

@@ -14,7 +14,7 @@ riis_resistance resistance_of(nb::handle R, nb::handle half_thickness, nb::handl
 
 namespace {
 
-// Refuses empty marks.
+// Returns the number of nodes. Refuses empty marks.
 std::int64_t n_nodes_of(const Marks &result) {
   if (result.n_nodes < 0) refuse_value("marks", "is empty; riis.mark fills it");
   return result.n_nodes;

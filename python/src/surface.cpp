@@ -4,7 +4,7 @@
 namespace riis_python {
 namespace {
 
-// The options in the annotations of signatures.
+// The types of options in the annotations of signatures.
 #define RIIS_VECTOR "collections.abc.Sequence[float] | numpy.typing.NDArray[numpy.float64] | None = None"
 #define RIIS_SURFACE_OPTIONS                                                                                      \
   "half_thickness: float | typing.Literal['auto'] | None = None, tolerance: float | None = None, scale: float "   \
@@ -22,13 +22,13 @@ riis_surface_options default_options() {
   return options;
 }
 
-// Returns the options for a call. A child of fork() has one thread, also if the options are those of its parent.
+// Returns the options for a call in this process. A child of fork() has one thread, even if the options come from its parent.
 riis_surface_options for_this_process(riis_surface_options options) {
   if (is_forked()) options.n_threads = 1;
   return options;
 }
 
-// Makes the content of a surface. make(handle or null, options) calls the library.
+// Makes the content of a surface. make(handle, options) calls the library; the handle is null for a new surface.
 template <class Make>
 void make_content(Surface &surface, riis_surface_options options, const Make &make) {
   check_surfaces_allowed("surface");
@@ -150,7 +150,7 @@ riis_triangles triangles_of(const Surface &surface) {
   return found;
 }
 
-// Returns an array of the vertices, None if there is none.
+// Returns an array of the vertices, or None if the surface has no such array.
 nb::object vertex_array(Surface &surface, const double *riis_triangles::*member, std::size_t n_components,
                         nb::object Surface::*copy) {
   const Reading reading(surface.usage, "surface");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keywords that say how a surface is made and placed.
+// The keywords for how a surface is made and placed.
 #include <cstring>
 
 #include "module.hpp"
@@ -15,7 +15,7 @@ struct Keyword {
   bool is_placement;
 };
 
-// The value "auto" requests the default that depends on other values.
+// Returns the number. "auto" requests a default that depends on other values.
 double number_or_auto(nb::handle value, const char *name) {
   return PyUnicode_Check(value.ptr()) ? choice(value, name, {{"auto", -1}}) * -RIIS_AUTO : number(value, name);
 }

@@ -17,7 +17,7 @@ riis_parameter parameter(const Valve &valve, std::int64_t id) {
   return found;
 }
 
-// Returns the number of values of a parameter, or 0 if no parameter has the name.
+// Returns the number of values of a parameter, or 0 if there is no parameter with this name.
 std::int64_t n_values(const Valve &valve, const std::string &name) {
   for (std::int64_t id = 0, n = n_parameters(valve); id < n; ++id) {
     const riis_parameter found = parameter(valve, id);
@@ -26,7 +26,7 @@ std::int64_t n_values(const Valve &valve, const std::string &name) {
   return 0;
 }
 
-// Throws the KeyError that a mapping has, with the library's message.
+// Throws the KeyError of a mapping, with the library's message.
 [[noreturn]] void refuse_unknown(const Valve &valve, const std::string &name) {
   double value = 0;
   riis_valve_get(valve.handle, name.c_str(), 1, &value);
@@ -62,7 +62,7 @@ void set_all(Valve &valve, const nb::dict &parameters) {
   for (const auto [name, value] : parameters) set(valve, name, value);
 }
 
-// Takes what dict.update takes.
+// Takes the same arguments as dict.update.
 void update(Valve &valve, nb::handle other, const nb::kwargs &parameters) {
   nb::dict all;
   if (!other.is_none()) {
@@ -183,7 +183,7 @@ nb::object get_or(Valve &valve, nb::handle name, nb::handle otherwise) {
   return contains(valve, name) ? get(valve, name) : nb::borrow(otherwise);
 }
 
-// Returns a view of a mapping that collections.abc has.
+// Returns a view of a mapping from collections.abc.
 nb::object mapping_view(const char *view, nb::handle self) {
   object<Valve>(self, "valve").usage.check("valve");
   return nb::module_::import_("collections.abc").attr(view)(self);
@@ -195,7 +195,7 @@ nb::dict values_of(Valve &valve) {
   return all;
 }
 
-// Returns what pickle makes the valve from.
+// Returns the values from which pickle makes the valve.
 nb::tuple state_of(Valve &valve) { return nb::make_tuple(valve.kind, values_of(valve), valve.open, valve.patches); }
 
 void make_from_state(Valve *self, const nb::tuple &state) {
@@ -208,7 +208,8 @@ void make_from_state(Valve *self, const nb::tuple &state) {
                                       nb::arg("leaflet_id") = patches[4], nb::arg("index_base") = patches[5]);
   Valve &valve = object<Valve>(made, "valve");
   if (!open.is_none()) {
-    // With the open state's values, the valve accepts that state. The valve's own values follow: only surfaces refuse a clash.
+    // The valve accepts the open state only with that state's values. The valve's own values are set afterwards, because only
+    // surfaces check whether values fit together.
     set_all(valve, values_of(object<Valve>(open, "open")));
     set_open_state(valve, open);
   }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Bad input is refused with an exception of a class per kind, whose text names the argument."""
+"""Bad input is refused with an exception whose class tells the kind of fault, and whose text names the argument."""
 
 import math
 import re
@@ -13,7 +13,7 @@ Argument = riis.InvalidArgumentError
 
 
 class Objects:
-    """Good arguments."""
+    """Valid arguments."""
 
     def __init__(self):
         self.valve = riis.Valve("mitral", opening=0.3)
@@ -52,9 +52,9 @@ def with_nan(array):
     return array
 
 
-# Each line: what is refused, the class, the text, the call.
+# For each case: a name, the class, the text, and the call.
 REFUSED = {
-    # Arrays of points
+    # Refused arrays of points
     "list": (TypeError, "xyz: must be a numpy array of float64, not list", lambda o: riis.Mesh([[0.0, 0.0, 0.0]])),
     "None": (TypeError, "xyz: must be a numpy array of float64, not NoneType", lambda o: riis.Mesh(None)),
     "float32": (TypeError, "xyz: its dtype is float32; it must be float64", lambda o: riis.Mesh(o.xyz.astype("f4"))),
@@ -346,7 +346,7 @@ def with_sides(o):
     return riis.mark(o.surface, o.mesh, fields="side, rim")
 
 
-# Each array argument that a call reads: its name, a good value, the call.
+# Each array argument that a call reads: its name, a valid value, the call.
 READ = [
     ("xyz", lambda o: o.xyz, lambda o, a: riis.Mesh(a)),
     ("xyz", lambda o: o.xyz, lambda o, a: riis.Mesh(o.xyz).update(a)),
@@ -434,7 +434,7 @@ def test_a_masked_array_is_refused(o, name, good, call):
 
 
 class Frame:
-    """Has a function mask and gives an array, as pandas' frames."""
+    """Has a method `mask` and can be converted to an array, like data frames of pandas."""
 
     def __init__(self, array):
         self.array = array
@@ -477,7 +477,7 @@ def test_an_array_without_dimensions_is_a_number(o):
         riis.Valve("mitral", AP_diameter=numpy.array([3.0]))
 
 
-# What names something of C that Python lacks.
+# Matches names of C that Python lacks.
 OF_C = re.compile(r"riis_|RIIS_|\bNULL\b|\b(arrays|cells|csr|faces|frames|law|options|patches|resistance|table|times)\.[a-z]")
 
 
@@ -526,7 +526,7 @@ def test_classes_of_errors_are_those_of_statuses():
             assert error.status_name == riis.status_name(error.status)
             assert error.__doc__ and error.__module__ == "riis"
             statuses[error.status] = error
-    # A wrong size of a struct cannot come from here. riis_vtk.h alone has errors of files.
+    # The package itself always passes the right struct sizes, and only riis_vtk.h has errors of files.
     assert set(statuses) == {1, 3, 4, 5, 6, 7, 9, -1}
     for status, base in {1: ValueError, 3: ValueError, 4: ValueError, 5: ValueError, 7: MemoryError, 9: RuntimeError}.items():
         assert issubclass(statuses[status], base)
