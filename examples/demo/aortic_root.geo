@@ -27,8 +27,7 @@ aorta_length = 0.8;
 
 DefineConstant[ n_points = 72 ]; // number of points of a section
 DefineConstant[ spacing = 0.1 ]; // distance between sections, from the root to the end of the sinuses
-// Degrees; the width of the zone at a commissure in which the wall changes from one cusp's radius to the next cusp's.
-joint = 3;
+joint = 3;      // degrees on each side of a commissure, in which the wall changes from one cusp's radius to the next cusp's
 
 Macro Section // makes a section at height z above the root
   // The attachment of half a cusp is a parabola through the root, the bending curve's end and the commissure (docs/theory.md,

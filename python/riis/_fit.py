@@ -39,9 +39,9 @@ _UNDETERMINED = 0.1
 _MOVES = ("rotation", "translation", "scale")
 # The rough search uses this number of points.
 _N_ROUGH = 400
-# So many results of the rough search are refined, with a width from the scatter of the points.
+# This many results of the rough search are refined, with a width from the scatter of the points.
 _N_ENDS = 3
-# Each further start chooses among so many rotations.
+# Each further start chooses among this many rotations.
 _N_ROTATIONS = 150
 
 
@@ -224,7 +224,7 @@ def _placed(start: Any) -> dict[str, Any]:
     place = {"scale": 1.0, "rotation_axis": (0.0, 0.0, 1.0), "rotation_angle": 0.0, "translation": (0.0, 0.0, 0.0)}
     for name, value in start.items():
         if name not in place:
-            raise InvalidArgumentError(f"start: '{name}' is none of {', '.join(place)}")
+            raise InvalidArgumentError(f"start: '{name}' is not one of {', '.join(place)}")
         place[name] = value
     return place
 
@@ -275,7 +275,7 @@ def fit(
     names, moves = _names_of(free, "free"), _names_of(placement, "placement")
     for move in moves:
         if move not in _MOVES:
-            raise InvalidArgumentError(f"placement: '{move}' is none of {', '.join(_MOVES)}")
+            raise InvalidArgumentError(f"placement: '{move}' is not one of {', '.join(_MOVES)}")
     if not names and not moves:
         raise InvalidArgumentError("free: and placement are empty, so there is nothing to fit")
     if weights is not None:

@@ -92,7 +92,7 @@ def plot(
     """
     pyvista = _pyvista()
     if (mesh is None) != (marks is None):
-        raise InvalidArgumentError("marks: goes together with mesh; one of them is None")
+        raise InvalidArgumentError("marks: must be given together with mesh; one of them is None")
     _check_of_mesh(marks, mesh)
     given = plotter is not None
     if not given:

@@ -57,7 +57,7 @@ std::int64_t stride_of_points(const Array &array) {
   const std::int64_t n_bytes = array.stride(0);
   if (!is_whole(n_bytes) || n_bytes < 8)
     refuse_value(array.name(), "its points are ", n_bytes,
-                 " bytes apart; they must go forwards by whole numbers of 8 bytes, so copy the array");
+                 " bytes apart, which is not a positive multiple of 8; copy the array");
   return n_bytes / 8;
 }
 
@@ -165,7 +165,7 @@ Points points_of(nb::handle xyz, const char *name) {
   points.stride = stride_of_points(array);
   const std::int64_t step = array.stride(1);
   if (!is_whole(step))
-    refuse_value(name, "its coordinates are ", step, " bytes apart, which are no whole doubles; copy the array");
+    refuse_value(name, "its coordinates are ", step, " bytes apart, which is not a multiple of 8; copy the array");
   points.x = array.data<double>();
   points.y = moved(points.x, step);
   points.z = moved(points.x, 2 * step);

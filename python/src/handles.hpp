@@ -188,7 +188,8 @@ template <class Type>
 void add_closing(nb::class_<Type> &type) {
   type.def(
           "close", [](Type &self) { self.close(Type::python_name); },
-          "Frees the memory now, or with the last array that shows it. Any later use of the object raises an error.")
+          "Frees the memory now, or together with the last array that shows it. Any later use of the object raises an "
+          "error.")
       .def_prop_ro(
           "closed", [](const Type &self) { return self.usage.is_closed; }, "True after close().")
       .def(

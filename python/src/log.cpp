@@ -43,7 +43,7 @@ void add_log(nb::module_ &module) {
   module.attr("LOG_WARNING") = static_cast<int>(RIIS_LOG_WARNING);
   module.def("set_log", &set_log, nb::arg("function").none(),
              nb::sig("def set_log(function: collections.abc.Callable[[int, str], object] | None) -> None"),
-             R"(Sets the function that receives the library's messages, for the whole process. None is silence.
+             R"(Sets the function that receives the library's messages, for the whole process. None stops the messages.
 
 function(level, message) is called on any thread that calls riis; level is LOG_INFO or LOG_WARNING. It must not
 call riis. Its exceptions go to sys.unraisablehook.)");

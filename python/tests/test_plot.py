@@ -33,7 +33,7 @@ def test_a_picture_shows_the_leaflets_and_the_marks(surface, mesh, marks, tmp_pa
     background = pictures[0][0]
     drawn = [numpy.count_nonzero((picture != background).any(axis=1)) for picture in pictures]
     assert drawn[0] > 10_000 and drawn[1] > 1.1 * drawn[0]  # the band is wider than the leaflets
-    with pytest.raises(riis.InvalidArgumentError, match="marks: goes together with mesh"):
+    with pytest.raises(riis.InvalidArgumentError, match="marks: must be given together with mesh"):
         riis.plot(surface, mesh)
 
 

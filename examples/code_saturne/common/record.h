@@ -13,7 +13,7 @@
  *   seconds      wall time of the calls of riis in this time step */
 void record_valve(int64_t n_marked, const int64_t *cell_id, const double *coefficient, double opening, double seconds);
 
-/* Appends a line to history.csv, and writes the lists and slices that the settings demand. Called at the end of a time step. */
+/* Appends a line to history.csv, and writes the lists and slices that the settings request. Called at the end of a time step. */
 void record_step(void);
 
 /* Returns a wall clock in seconds. */
