@@ -186,12 +186,12 @@ Figure accuracy_figure() {
                                                              : power == brightest_power ? " or more"
                                                                                         : "")});
   figure.caption =
-      "What points of the smooth surface are said to be away from it by the three methods, in per cent of the half "
-      "thickness, on one cusp of the aortic valve (top), a part of it below its middle, and the anterior leaflet of "
-      "the mitral valve, open (bottom). "
-      "The truth is 0 everywhere. Between samples distances grow to about the tolerance; triangles touch the surface "
-      "along their edges' ends and leave it in between, by no more than the tolerance; minimisation is limited by "
-      "when it stops and by the patches it works on, and now and then by a local minimum.";
+      "Distances that the three methods give for points on the smooth surface, in per cent of the half thickness. "
+      "Top: one cusp of the aortic valve; below: a part of the cusp's middle; bottom: the anterior leaflet of the "
+      "open mitral valve. "
+      "The true distance is 0 everywhere. Between samples, distances grow to about the tolerance. Triangles touch the "
+      "surface at their corners, and in between leave it by at most the tolerance. Minimisation has errors because it "
+      "stops early, because of the patches that it uses, and sometimes because of a local minimum.";
   figure.paper =
       "section 4.1, “Performance evaluation”, figure “Errors in distance calculation plotted on aortic cusp surfaces "
       "for all three distance functions”.";
@@ -232,11 +232,11 @@ Figure accuracy_distribution_figure() {
     figure.key.push_back({colour_of_method(method), name_of(method)});
   figure.key.push_back({vermilion, "tolerance"});
   figure.caption =
-      "How far distances are off, in per cent of the half thickness; note the logarithmic scale. Widths are shares of "
-      "the points, lines the median and 95 %, dots the largest error. Distances by samples and by triangles stay below "
-      "the tolerance; that of minimisation only says when to stop. The points' true distances are known: the smooth "
-      "surface is evaluated from its curves, without polylines, and points off it lie on its normals, but for those "
-      "with another part of the leaflet nearer, or with an offset of more than half the curvature radius.";
+      "Errors of distances, in per cent of the half thickness, on a logarithmic scale. Widths show fractions of the "
+      "points, lines the median and 95 %, dots the largest error. The errors of samples and of triangles stay below "
+      "the tolerance; for minimisation the tolerance only says when to stop. The points' true distances are known: the "
+      "smooth surface is evaluated from its curves, without polylines, and other points lie on its normals. Points are "
+      "left out if another part of the leaflet is nearer, or if the offset exceeds half the radius of curvature.";
   figure.table = html_table(rows);
   figure.paper =
       "section 4.1, “Performance evaluation”, figure “Results for accuracy and performance testing for each distance "

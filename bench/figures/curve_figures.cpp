@@ -285,7 +285,7 @@ Figure coons_figure() {
       "outside and above. The tolerance is " +
       percent(coarse) + " (" + number(coarse * half_thickness) +
       " cm), four times coarser than the default, so that single lines can be seen. The other half "
-      "is the same patch put in place once more, mirrored.";
+      "is a mirrored copy of the same patch.";
   figure.paper =
       "section 3.3, figure “Aortic valve cusp surface representations”; section 4.1, algorithm “Recursive quad "
       "subdivision for triangulation”.";

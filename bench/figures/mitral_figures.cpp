@@ -198,8 +198,8 @@ Figure mitral_quads_figure() {
                 {pale[0], "anterior leaflet"},
                 {pale[1], "posterior leaflet"}};
   figure.caption = "The valve at a tolerance of " + percent(tolerance) +
-                   ", with the paper's parameters. Half a valve is made of five patches and put in place twice, as it "
-                   "is and mirrored in x. "
+                   ", with the paper's parameters. Half a valve consists of five patches, which are placed twice, "
+                   "unchanged and mirrored in x. "
                    "Beside each commissure a patch has a part of the annulus on one side and a single point, the end "
                    "of the free edge, on "
                    "the other: the paper's triangle regions.";

@@ -35,7 +35,7 @@ def read(path):
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise Unusable(f"{path}: {type(error).__name__}: {error}") from error
     if not any(name.startswith(CALIBRATION) for name in times):
-        raise Unusable(f"{path}: no benchmark {CALIBRATION}*, so that nothing can be compared")
+        raise Unusable(f"{path}: no benchmark {CALIBRATION}*, so nothing can be compared")
     for name, ms in times.items():
         if not ms > 0:
             raise Unusable(f"{path}: {name} took {ms} ms")

@@ -202,7 +202,8 @@ def _bounds_of(valve: Valve, free: list[str], given: Any, size: float) -> Reals:
     bounds = []
     for name in free:
         if name not in table:
-            raise InvalidArgumentError(f"free: '{name}' is no parameter of a {valve.kind} valve; they are {', '.join(table)}")
+            raise InvalidArgumentError(
+                f"free: '{name}' is not a parameter of a {valve.kind} valve; the parameters are {', '.join(table)}")
         if table[name].n_values != 1:
             raise InvalidArgumentError(f"free: '{name}' has three values; only parameters with one can be free")
         low, high = _pair(given[name], name) if name in given else _default_bounds(table[name], valve[name], size)

@@ -245,7 +245,7 @@ POINTS = numpy.zeros((50, 3))
         (riis.InvalidParameterError, "'tricuspid' is not a kind", POINTS, {"valve": "tricuspid"}),
         (TypeError, "free: must be a list of names, not 'opening'", POINTS, {"free": "opening"}),
         (TypeError, r"free: must be a list of names, not \[3\]", POINTS, {"free": [3]}),
-        (riis.InvalidArgumentError, "free: 'height' is no parameter", POINTS, {"free": ["height"]}),
+        (riis.InvalidArgumentError, "free: 'height' is not a parameter", POINTS, {"free": ["height"]}),
         (riis.InvalidArgumentError, "free: 'translation' has three", POINTS, {"free": ["translation"]}),
         (riis.InvalidArgumentError, "free: and placement are empty", POINTS, {"free": [], "placement": []}),
         (TypeError, "bounds: must be a dict", POINTS, {"bounds": [(0.0, 1.0)]}),

@@ -3,7 +3,7 @@
 # lint.sh SOURCE_FOLDER PART...
 # Checks the style of all files that git tracks, or of all files if the folder is not a git work tree. The parts:
 #   format   C and C++ is laid out as clang-format 14 does; the public headers are laid out by hand
-#   shell    shellcheck has nothing to say; a script without #! is read by another one
+#   shell    shellcheck reports nothing; a script without #! is checked as part of the script that reads it
 #   columns  no line is too long (check_columns.py)
 #   python   pyflakes reports nothing
 #   tidy     clang-tidy 14 (.clang-tidy) reports nothing in the files of build-lint/compile_commands.json

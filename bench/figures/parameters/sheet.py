@@ -63,7 +63,7 @@ class Sheet:
             return values[0] if len(values) == 1 else values[("right", "left", "non_coronary").index(self.cusp)]
         own = f"{self.cusp}.{name}"
         if own not in self.parameters:
-            raise Refused(f"{name} is no parameter")
+            raise Refused(f"{name} is not a parameter")
         return self.parameters[own]["values"][0]
 
     def mark_named(self, name):
@@ -72,7 +72,7 @@ class Sheet:
             return
         found = self.of_cusps(name)
         if not found:
-            raise Refused(f"{name} is drawn, but is no parameter")
+            raise Refused(f"{name} is drawn, but is not a parameter")
         self.named.update(each["name"] for each in found)
 
     def unit(self, name):
@@ -91,7 +91,7 @@ class Sheet:
         """Refuses a drawing whose length, angle or ratio differs from the value."""
         value = self.value(name) if value is None else value
         if not abs(measured - value) <= 1e-7 * max(1, abs(value)):
-            raise Refused(f"{name} is {value}, but what the drawing shows as it is {measured}")
+            raise Refused(f"{name} is {value}, but the drawing shows {measured}")
 
     # ------------------------------------------------------------------------------------------------------------ texts
 
