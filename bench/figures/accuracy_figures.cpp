@@ -187,8 +187,8 @@ Figure accuracy_figure() {
                                                                                         : "")});
   figure.caption =
       "Distances that the three methods give for points on the smooth surface, in per cent of the half thickness. "
-      "Top: one cusp of the aortic valve; below: a part of the cusp's middle; bottom: the anterior leaflet of the "
-      "open mitral valve. "
+      "From the top: one cusp of the aortic valve, a part of this cusp below its middle, and the anterior leaflet of "
+      "the open mitral valve. "
       "The true distance is 0 everywhere. Between samples, distances grow to about the tolerance. Triangles touch the "
       "surface at their corners, and in between leave it by at most the tolerance. Minimisation has errors because it "
       "stops early, because of the patches that it uses, and sometimes because of a local minimum.";
