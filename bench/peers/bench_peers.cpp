@@ -54,7 +54,7 @@ enum class Measures { triangles, approximately };
 
 // Compares one peer's distances with the truth. Counts nodes that are marked differently, by reason.
 json compared(const Truth &truth, const std::vector<double> &distance, Measures measures = Measures::triangles) {
-  // Cm, errors of coordinates of some centimetres in double and single precision.
+  // The errors, in cm, of coordinates of some centimetres in double and single precision.
   constexpr double rounding = 1e-12, single = 2e-6;
   std::map<std::string, std::int64_t> reasons;
   std::int64_t n_marked = 0, n_different = 0;

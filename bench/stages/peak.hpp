@@ -23,7 +23,7 @@ struct PeakKernels {
 
 extern const PeakKernels peak_kernels_baseline, peak_kernels_avx2, peak_kernels_avx512;
 
-// The highest rates per nanosecond. Bytes are those that a copy reads and writes, of arrays too large for any cache.
+// The highest rates per nanosecond. For `bytes`, a copy reads and writes arrays that are too large for any cache.
 struct Peak {
   double floats, doubles, bytes;
 };

@@ -37,7 +37,7 @@ demo_parts() {
 demo_valves=(aortic mitral)
 declare -A demo_kind=([aortic]=trileaflet [mitral]=mitral) demo_mesh_of=([aortic]=aortic_root [mitral]=mitral_tube)
 demo_openings=(0 0.25 0.5 0.75 1)
-# Points upstream and downstream of each valve, or the other way round.
+# Two points for each valve, one on each side. demo_states looks for a path between them through the closed valve.
 declare -A demo_from=([aortic]="0,0,-1.6" [mitral]="0,0.2,-1.3") demo_to=([aortic]="0,0,1.1" [mitral]="0,0.2,2.1")
 
 # of_each_valve COMMAND: runs the command for both valves at the same time.

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The program's measurement of the orifice, for tests in C. */
+ * C wrappers of the program's measurement of the orifice. */
 #ifndef RIIS_TESTS_ORIFICE_SHIM_H
 #define RIIS_TESTS_ORIFICE_SHIM_H
 

@@ -142,7 +142,7 @@ static void expect_tall(const char *begins) {
   assert_non_null(strstr(program_crossings, advice));
 }
 
-/* The numbers equal those of the C interface. They do not depend on the opening at which the valve is marked. */
+/* The numbers equal those of the C interface. They do not depend on the valve's present opening. */
 static void a_chosen_shape_is_looked_at(void **state) {
   (void)state;
   riis_valve *valve = NULL;

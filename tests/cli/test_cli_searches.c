@@ -123,7 +123,8 @@ static void test_paper(void **state) {
   assert_string_equal(program_out, "");
 }
 
-/* Two triangles are far apart. The paper's search finds the nodes near the first, the neighbour search those near both. */
+/* Two triangles are far apart. The paper's search finds only the nodes near the first triangle, and the neighbour search finds
+ * the nodes near both. */
 static void test_two_pieces(void **state) {
   (void)state;
   scratch_write_text(

@@ -418,7 +418,7 @@ static void look_around(frame *at, const double middle[3]) {
     }
 }
 
-/* Returns the share of the marks outside the box of the leaflets alone. */
+/* Returns the fraction of the marks that are outside the box of the leaflets alone. */
 static double check_box_of_frame(int is_closing, int k) {
   const double eps = exported.thickness;
   frame at = {is_closing,

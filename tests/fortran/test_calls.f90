@@ -817,7 +817,7 @@ contains
     call check(.not. c_associated(adjacency), 'no adjacency is made by calls that are refused')
   end subroutine test_mixed_cells
 
-  ! Makes the same grid's adjacency in three ways, with 32-bit ids from 1. C gives 64-bit ids from 0.
+  ! Makes the same grid's adjacency by three functions, with 32-bit ids from 1. C gives 64-bit ids from 0.
   subroutine test_adjacency()
     type(c_ptr) :: of_cells = c_null_ptr, of_faces = c_null_ptr, of_grid = c_null_ptr, of_nothing = c_null_ptr
     type(riis_mark_options) :: options

@@ -571,7 +571,7 @@ contains
     call valve%destroy()
   end subroutine test_empty
 
-  ! Empty handles may be assigned, also inside other types. error_stop.f90 assigns others.
+  ! Empty handles may be assigned, also inside other types. error_stop.f90 tests assignments of other handles.
   subroutine test_assignment()
     type :: holder
       type(riis_valve) :: valve

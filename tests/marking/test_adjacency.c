@@ -11,7 +11,7 @@
 
 static random_source rng;
 
-/* --- A list of pairs, made without the library --------------------------------------------------------------------- */
+/* --- A list of pairs, made without the library ----------------------------------------------------------------------- */
 
 typedef struct pair_list {
   int64_t n, room;

@@ -331,7 +331,7 @@ static void valves_far_from_the_origin(void **state) {
   }
 }
 
-/* --- If single precision does not suffice ------------------------------------------------------------------------------- */
+/* --- If single precision does not suffice ---------------------------------------------------------------------------- */
 
 static void where_it_cannot_be_used_the_exhaustive_search_runs(void **state) {
   (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The search over clusters from step to step, chosen by RIIS_SEARCH_AUTO, and called by several threads at once. */
+ * The search over clusters from step to step, chosen by RIIS_SEARCH_AUTO, and called by several threads at the same time. */
 #include <omp.h>
 #include <riis/riis.h>
 

@@ -79,7 +79,7 @@ static void check_part(const riis_marks *result) {
   }
 }
 
-/* --- The rim, counted independently --------------------------------------------------------------------------------------- */
+/* --- The rim, counted independently ---------------------------------------------------------------------------------- */
 
 /* The edges and corners on the rim, three flags of each kind for each triangle. Edge k runs from corner k to the next. A
  * corner is on the rim if it is an end of a rim edge. */

@@ -590,7 +590,7 @@ static void triangles_without_area_are_noticed(void **state) {
   }
 }
 
-/* Triangles that pass the check with an allowed shift still have an area if their corners move by an eighth of that shift. */
+/* If triangles pass the check for a shift, they still have an area after their corners have moved by an eighth of that shift. */
 static void triangles_keep_their_area_when_corners_move(void **state) {
   (void)state;
   for (int set = 0; set < n_kernel_sets; ++set) {

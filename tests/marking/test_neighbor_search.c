@@ -25,7 +25,7 @@ static int64_t missed_by_the_paper(const riis_surface *surface, const riis_mesh 
   return missed;
 }
 
-/* --- Bands and meshes in pieces ------------------------------------------------------------------------------------ */
+/* --- Bands and meshes in pieces -------------------------------------------------------------------------------------- */
 
 static void three_separate_cusps(void **state) {
   (void)state;

@@ -45,7 +45,7 @@ static void callers_at_once_have_one_each(void **state) {
   (void)state;
   assert_true(walk_at_once(2, 1));
   assert_int_equal(arenas_made(), 2);
-  /* Arenas of two threads exist for all five callers at once. At most five arenas of three threads exist. */
+  /* Arenas of two threads exist for all five callers at the same time. At most five arenas of three threads exist. */
   assert_true(walk_at_once(5, 200));
   assert_in_range(arenas_made(), 6, 10);
 }

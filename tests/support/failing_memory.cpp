@@ -103,7 +103,7 @@ std::atomic<bool> fails_on{false};
 std::atomic<const void *> calling_thread{nullptr};
 std::atomic<std::int64_t> live_of_library{0}, live_of_embree{0}, live_bytes_of_embree{0};
 
-// Its address identifies this thread.
+// Returns an address that identifies this thread.
 const void *this_thread() {
   thread_local char mark;
   return &mark;

@@ -8,8 +8,8 @@
 extern "C" {
 #endif
 
-/* The caller's parallel_for runs in its thread's own arena, in a task_arena(4), in a task_arena(1), or under a limit of 1 thread.
- * The task_arena(4) has a limit of 4 threads, so that tasks run at once on any machine. */
+/* The caller's parallel_for runs in its thread's own arena, in a task_arena(4), in a task_arena(1), or under a limit of 1
+ * thread. The task_arena(4) has a limit of 4 threads, so that tasks run at the same time on any machine. */
 enum tbb_region { TBB_OWN_ARENA, TBB_ARENA_OF_FOUR, TBB_ARENA_OF_ONE, TBB_LIMIT_OF_ONE };
 
 typedef struct tbb_seen {

@@ -12,7 +12,7 @@
 
 static random_source rng;
 
-/* The law by a table. */
+/* Makes a law from a table of keys. */
 
 static riis_opening_table table_of(int64_t n, const double *time, const double *opening) {
   riis_opening_table table;
@@ -228,7 +228,7 @@ static void bad_tables_are_refused(void **state) {
   CHECK_NEAR(got, 7, 0);
 }
 
-/* The law by times. */
+/* Makes a law from times. */
 
 static riis_opening_times some_times(void) {
   riis_opening_times times;
@@ -292,7 +292,7 @@ static void bad_times_are_refused(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "times.open is 1.5", riis_opening_from_times(&times, 0, &got, NULL));
 }
 
-/* The law by a switch. */
+/* Makes a law with a switch. */
 
 static riis_opening_switch some_switch(void) {
   riis_opening_switch law;
@@ -397,7 +397,7 @@ static void a_restart_of_the_switch_has_the_same_bits(void **state) {
   check_restart(step_of_the_switch, &one, &kept, sizeof one);
 }
 
-/* The law by an angle. */
+/* Makes the angle law of an aortic valve. */
 
 static riis_opening_angle aortic_angle(void) {
   riis_opening_angle law;

@@ -121,7 +121,7 @@ static void check_marks(const riis_surface *updated, const riis_surface *fresh, 
   CHECK_OK(riis_mark_nodes(updated, mesh, &options, result));
   assert_true(same_results(result, expected));
   options.search = RIIS_SEARCH_CLUSTERS;
-  /* The neighbour search is refused for distances by sampling. */
+  /* The search over clusters is refused for distances by sampling. */
   if (riis_mark_nodes(updated, mesh, &options, result) == RIIS_OK) assert_true(same_results(result, expected));
   free_owned_after(owned_before);
 }

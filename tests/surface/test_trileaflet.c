@@ -20,7 +20,7 @@ static riis_valve *copy_of(const riis_valve *valve) {
 
 static double distance(const double *p, const double *q) { return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]); }
 
-/* --- The closed state ------------------------------------------------------------------------------------------------- */
+/* --- The closed state -------------------------------------------------------------------------------------------------- */
 
 /* Free edges lie on the lines from the axis to the commissures. */
 static void closed_free_edges_are_straight(void **state) {

@@ -69,8 +69,8 @@ int node_at(const std::vector<Place> &places, const Place &wanted) {
   return -1;
 }
 
-// Joins corner and middle along each side. Around each corner of a face it joins the middles of the two sides that meet there. If
-// the face has a node in its middle, each side's middle is joined to that node instead.
+// Joins the corner and the middle along each side. Around each corner of a face, also joins the middles of the two sides that
+// meet there. If the face has a node in its middle, each side's middle is joined to that node instead.
 Edges edges_by_middles(int n_corners, const std::vector<Place> &places) {
   const auto place = [&](int i) { return places[static_cast<std::size_t>(i)]; };
   const auto middle = [&](int a, int b) {

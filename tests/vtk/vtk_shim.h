@@ -28,7 +28,7 @@ int shim_write_box(const char *path, int encoding, int n, const double lower[3],
  * Returns 1 on success. */
 int shim_write_blocks(const char *path, int encoding, int compressor, int header_bits);
 
-/* Writes a legacy file of version 42 or 51 with 40 points and one tetrahedron. It has the data that VTK's writer puts behind
+/* Writes a legacy file of version 42 or 51 with 40 points and one tetrahedron. It has the data that VTK's writer puts after
  * arrays: ranges, and the name of one component of "flow". Its last array is the bit array "bits". Returns 1 on success. */
 int shim_write_legacy(const char *path, int binary, int version);
 
@@ -39,9 +39,8 @@ int shim_read_points(const char *path, int64_t *n_points, int64_t *n_cells, char
 /* Reads the corners of all cells, one after the other. Returns their number, or -1. ids may be NULL. */
 int64_t shim_read_corners(const char *path, int64_t *ids);
 
-/* Writes a .vtu of cells of many types among n_shim_zoo nodes, several of each type, with nodes drawn at random. The types are
- * the linear volumes, vertices, lines, triangles, quads, pentagonal prisms, quadratic tetrahedra and polyhedra. Returns 1 on
- * success. */
+/* Writes a .vtu of random cells among n_shim_zoo nodes, several cells of each type. The types are the linear volumes,
+ * vertices, lines, triangles, quads, pentagonal prisms, quadratic tetrahedra and polyhedra. Returns 1 on success. */
 enum { n_shim_zoo = 60 };
 int shim_write_zoo(const char *path);
 
@@ -49,7 +48,7 @@ int shim_write_zoo(const char *path);
  * NULL. */
 int64_t shim_read_edges(const char *path, int cell_type, int64_t *edges);
 
-/* Writes a .vtu of cells of all types of higher order among n_nodes nodes, 64 or more, drawn at random. Returns 1 on success. */
+/* Writes a .vtu of random cells of all types of higher order, among n_nodes nodes, 64 or more. Returns 1 on success. */
 int shim_write_curved(const char *path, int n_nodes, uint32_t seed);
 /* Reads the edges of such cells from a .vtu, as pairs of nodes. The edges are found from the nodes' positions in unit cells.
  * Returns their number. edges may be NULL. */

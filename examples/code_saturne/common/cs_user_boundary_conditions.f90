@@ -59,8 +59,8 @@ subroutine cs_f_user_boundary_conditions(nvar, nscal, icodcl, itrifb, itypfb, iz
 
 contains
 
-  ! A face with a given pressure, through which the flow may go either way. code_saturne takes the momentum of inflow as 0, so the
-  ! given pressure is that of fluid at rest.
+  ! A face with a given pressure, through which the flow may go in either direction. code_saturne takes the momentum of inflow as
+  ! 0, so the given pressure is that of fluid at rest.
   subroutine open_face(face, pressure)
     integer, intent(in) :: face
     double precision, intent(in) :: pressure
