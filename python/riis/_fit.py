@@ -60,8 +60,7 @@ class FitResult:
     rms: float  #: root mean square of the distances, with the weights below
     percentile95: float  #: 95 % of all points have at most this distance
     distances: Reals = field(repr=False)  #: (n_points,), of all points
-    weights: Reals = field(repr=False)  #: (n_points,), the caller's weights times a factor from 0 to 1, which is small for
-                                        #: outliers
+    weights: Reals = field(repr=False)  #: (n_points,), the caller's weights times a factor from 0 to 1, small for outliers
 
     def report(self) -> str:
         """Returns a table of the parameters with their standard errors, followed by the measures of the fit."""

@@ -19,7 +19,7 @@ VALVES = {
 
 
 def measured(program, folder, arguments):
-    """Returns the least free edge over its closed length, and the last orifice."""
+    """Returns the least ratio of a free edge to its closed length, and the last orifice."""
     run = subprocess.run([program, "states", "-", *arguments], cwd=folder, capture_output=True, text=True, check=True)
     rows = list(csv.DictReader(io.StringIO(run.stdout)))
     assert len(rows) == 101, len(rows)

@@ -100,7 +100,7 @@ static void adjacencies_may_be_empty(void **state) {
   riis_mesh_cells cells;
   riis_adjacency *adjacency = NULL;
   CHECK_OK(riis_mesh_cells_init(&cells, sizeof cells));
-  for (int64_t n_nodes = 0; n_nodes <= 5; n_nodes += 5) /* no cells, or no nodes either */
+  for (int64_t n_nodes = 0; n_nodes <= 5; n_nodes += 5) /* once without cells and nodes, once only without cells */
     for (int32_t base = 0; base < 2; ++base)
       for (int with_offsets = 0; with_offsets < 2; ++with_offsets) {
         const int32_t first = base;
