@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-# The installed files and the ways to find them: headers, libraries, program, Fortran module, CMake package, pkg-config files.
-# They can be moved afterwards, since no installed file holds its own path. The exception is an absolute CMAKE_INSTALL_LIBDIR or
-# CMAKE_INSTALL_INCLUDEDIR, which is meant to stay.
+# Installs headers, libraries, program, Fortran module, CMake package and pkg-config files. They can be moved afterwards, since no
+# installed file contains its own path. Files in an absolute CMAKE_INSTALL_LIBDIR or CMAKE_INSTALL_INCLUDEDIR are the exception.
 include(CMakePackageConfigHelpers)
 
 # ---------------------------------------------------------------------------------------------------------------------
 # Files
 # ---------------------------------------------------------------------------------------------------------------------
 
-# There is one export per component, so that a package may ship without some of them.
+# Each component has its own export, so that a package may ship without some components.
 set(riis_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/riis)
 function(riis_install_library target)
   install(TARGETS ${target} EXPORT ${target}-targets
@@ -17,8 +16,8 @@ function(riis_install_library target)
   install(EXPORT ${target}-targets NAMESPACE riis:: DESTINATION ${riis_cmake_dir})
 endfunction()
 
-# An installed file finds its neighbours relative to its own place. It finds Embree and VTK where they were when it was built, if
-# the system does not look there.
+# An installed file finds neighbouring files relative to its own folder. It finds Embree and VTK where they were at build time, if
+# the system does not search there.
 function(riis_set_rpath target from)
   if(NOT DEFINED CMAKE_INSTALL_RPATH)
     file(RELATIVE_PATH to_libraries ${from} ${CMAKE_INSTALL_FULL_LIBDIR})
@@ -41,11 +40,11 @@ endif()
 
 if(RIIS_WITH_FORTRAN)
   riis_install_library(riis_fortran)
-  # The sources go beside the modules. Users of another Fortran compiler have to compile only these.
+  # The sources are installed with the module files. Users of another Fortran compiler have to compile only these sources.
   get_target_property(riis_fortran_sources riis_fortran SOURCES)
   list(TRANSFORM riis_fortran_sources PREPEND ${PROJECT_SOURCE_DIR}/fortran/ OUTPUT_VARIABLE riis_fortran_files)
   list(TRANSFORM riis_fortran_sources REPLACE "^generated/" "")
-  list(FILTER riis_fortran_sources EXCLUDE REGEX "^riis_f77") # external subroutines
+  list(FILTER riis_fortran_sources EXCLUDE REGEX "^riis_f77") # leaves out the external subroutines
   list(TRANSFORM riis_fortran_sources REPLACE "(.*)\\.f90"
     "$<TARGET_PROPERTY:riis_fortran,Fortran_MODULE_DIRECTORY>/\\1.mod" OUTPUT_VARIABLE riis_fortran_modules)
   install(FILES ${riis_fortran_files} ${riis_fortran_modules} ${PROJECT_SOURCE_DIR}/fortran/generated/riisf.h
@@ -80,7 +79,7 @@ if(RIIS_WITH_VTK)
   riis_linked_components(riis_vtk X11:: riis_x11_components)
 endif()
 
-# Gets -L and -l of a library from its full path. There is no -L for folders where the linker looks by itself.
+# Gets a library's -L and -l flags from its full path. There is no -L for folders that the linker searches anyway.
 function(riis_link_flags path result)
   cmake_path(GET path PARENT_PATH directory)
   cmake_path(GET path STEM name)
@@ -97,7 +96,7 @@ endfunction()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/riis-config.cmake.in ${PROJECT_BINARY_DIR}/riis-config.cmake
   INSTALL_DESTINATION ${riis_cmake_dir} NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
-# This is like the SONAME: within a major version, fields and functions are only appended.
+# This follows the SONAME: within a major version, fields and functions are only appended.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/riis-config-version.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/riis-config.cmake ${PROJECT_BINARY_DIR}/riis-config-version.cmake
   DESTINATION ${riis_cmake_dir})
@@ -106,7 +105,7 @@ install(FILES ${PROJECT_BINARY_DIR}/riis-config.cmake ${PROJECT_BINARY_DIR}/riis
 # pkg-config
 # ---------------------------------------------------------------------------------------------------------------------
 
-# The prefix is relative to the .pc file's own place, unless the library folder was given as an absolute path.
+# The prefix is relative to the .pc file's own folder, unless the library folder was given as an absolute path.
 if(IS_ABSOLUTE ${CMAKE_INSTALL_LIBDIR})
   set(riis_pc_prefix ${CMAKE_INSTALL_PREFIX})
 else()
@@ -114,14 +113,14 @@ else()
   string(REGEX REPLACE "/$" "" riis_pc_up ${riis_pc_up})
   set(riis_pc_prefix "\${pcfiledir}/${riis_pc_up}")
 endif()
-# Appending an absolute path replaces the prefix.
+# The helper appends to the prefix; an absolute path replaces it.
 set(riis_pc_libdir "\${prefix}")
 set(riis_pc_includedir "\${prefix}")
 cmake_path(APPEND riis_pc_libdir ${CMAKE_INSTALL_LIBDIR})
 cmake_path(APPEND riis_pc_includedir ${CMAKE_INSTALL_INCLUDEDIR})
 
-# A shared library brings its requirements. If there is only the static one, its requirements are in Libs and not in Libs.private,
-# so that a link without --static also works.
+# A shared library loads its requirements itself. If there is only the static library, its requirements are in Libs, not in
+# Libs.private, so that linking also works without --static.
 set(riis_pc_static_libs "")
 set(riis_pc_requires "")
 if(NOT BUILD_SHARED_LIBS)
@@ -130,7 +129,7 @@ if(NOT BUILD_SHARED_LIBS)
   foreach(name IN LISTS OpenMP_CXX_LIB_NAMES)
     string(APPEND riis_pc_static_libs " -l${name}")
   endforeach()
-  # This is the C++ runtime. The compiler driver of any language adds the C runtime itself.
+  # This is the C++ runtime. The compiler driver of any language adds the C runtime.
   set(riis_runtime ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
   list(FILTER riis_runtime INCLUDE REGEX "^(stdc\\+\\+|c\\+\\+|c\\+\\+abi|m)$")
   list(REMOVE_DUPLICATES riis_runtime)
@@ -146,7 +145,7 @@ set(riis_pc_names riis)
 if(RIIS_WITH_FORTRAN)
   list(APPEND riis_pc_names riis-fortran)
 endif()
-# VTK has no pkg-config files that a static riis_vtk could refer to, so that one is for CMake only.
+# VTK has no pkg-config files to which a static riis_vtk could refer. So a static riis_vtk can be found only by CMake.
 if(RIIS_WITH_VTK AND BUILD_SHARED_LIBS)
   list(APPEND riis_pc_names riis-vtk)
 endif()

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Resistances for a finite volume code: K of every cell, at its centre. The centres are the mesh's nodes, and need no adjacency.
- * The integral of K over the cells is the area of the valve times R/eps, which this program checks. Lengths are in metres. */
+ * Resistances for a finite volume code: K of every cell, at the cell's centre. The cell centres are the nodes of riis's mesh,
+ * which needs no adjacency. The program checks that the integral of K over the cells is the area of the valve times R/eps.
+ * Lengths are in metres. */
 #include <math.h>
 #include <riis/riis.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 enum { n = 64, n_cells = n * n * n };
-static double centre[3 * n_cells]; /* [m] of the cells in a cube of 4.8 cm around the valve, each 0.75 mm wide */
+/* [m] centres of the cells, each 0.75 mm wide, in a cube of 4.8 cm around the valve. */
+static double centre[3 * n_cells];
 static double
-    coefficient[n_cells]; /* [kg/(m^3 s)] K of each cell: a scheme adds K V u to the cell's momentum balance */
-static const double width = 0.00075; /* [m] */
-static const double R = 1e4;         /* [kg/(m s)] of the model */
+    coefficient[n_cells]; /* [kg/(m^3 s)] K of each cell; a scheme adds K V u to the cell's momentum balance */
+static const double width = 0.00075; /* [m] of a cell */
+static const double R = 1e4;         /* [kg/(m s)] the resistance of the model */
 static const double eps = 1e-3;      /* [m] the half thickness */
 
 static void check(riis_status status) {
@@ -35,13 +37,14 @@ int main(void) {
   check(riis_valve_create("mitral", &valve));
   check(riis_valve_set_scalar(valve, "opening", 0)); /* closed */
   check(riis_surface_options_init(&options, sizeof options));
-  options.scale = 0.01; /* the valve's tables are in centimetres */
+  options.scale = 0.01; /* the valve is given in centimetres */
   options.half_thickness = eps;
   check(riis_surface_create(valve, &options, &surface));
   check(riis_mesh_create(n_cells, centre, centre + 1, centre + 2, 3, &mesh));
   check(riis_marks_create(&marks));
 
-  /* A round rim would add half a tube around the free edges and the annulus. With a cut rim, the band ends there. */
+  /* With a round rim, the band would have half a tube around the free edges and the annulus. With a cut rim, the band ends
+   * there. */
   riis_mark_options mark_options;
   riis_resistance resistance;
   check(riis_mark_options_init(&mark_options, sizeof mark_options));
@@ -57,7 +60,7 @@ int main(void) {
   check(riis_marks_add_resistance(marks, &resistance, &arrays));
 
   int n_resisting = 0;
-  double integral = 0; /* of K over the cells */
+  double integral = 0; /* integral of K over the cells */
   for (int i = 0; i < n_cells; ++i) {
     n_resisting += coefficient[i] > 0;
     integral += coefficient[i] * width * width * width;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The neighbour search for a finite element code: makes an adjacency from tetrahedra, which are numbered from 1 in 32 bits,
- * then marks nodes. The exhaustive search, which needs no adjacency, finds the same nodes. Lengths are in cm. */
+ * The neighbour search for a finite element code: makes an adjacency from tetrahedra, whose 32-bit node numbers count from 1,
+ * and marks nodes. The exhaustive search, which needs no adjacency, finds the same nodes. Lengths are in cm. */
 #include <riis/riis.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,7 +15,8 @@ static void check(riis_status status) {
   exit(EXIT_FAILURE);
 }
 
-/* Cuts each cube of the grid into six: along three edges from its first node to its last, in every order of the axes. */
+/* Cuts each cube of the grid into six tetrahedra. Each follows three edges from the cube's first node to its last, with the
+ * axes in another order. */
 static void make_tetrahedra(void) {
   static const int axes[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   static const int step[3] = {1, n, n * n};
@@ -58,7 +59,7 @@ int main(void) {
 
   static const int32_t searches[2] = {RIIS_SEARCH_NEIGHBOR, RIIS_SEARCH_EXHAUSTIVE};
   static const char *const names[2] = {"neighbor", "exhaustive"};
-  /* Kept from step to step: the neighbour search starts from the last nodes. */
+  /* The marks are kept from step to step, because the neighbour search starts from the last marked nodes. */
   riis_marks *marks[2] = {NULL, NULL};
   riis_mark_list marked[2];
   printf("%d nodes, %d tetrahedra\n", n_nodes, n_cells);

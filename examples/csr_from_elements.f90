@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! The neighbour search for a finite element code: makes an adjacency from tetrahedra, which are numbered from 1 in 32
-! bits, then marks nodes. The exhaustive search, which needs no adjacency, finds the same nodes. Lengths are in cm.
+! The neighbour search for a finite element code: makes an adjacency from tetrahedra, whose 32-bit node numbers count from 1, and
+! marks nodes. The exhaustive search, which needs no adjacency, finds the same nodes. Lengths are in cm.
 program csr_from_elements
   use riis
   implicit none
@@ -11,7 +11,8 @@ program csr_from_elements
   type(riis_surface) :: surface
   type(riis_mesh) :: mesh
   type(riis_adjacency) :: adjacency
-  type(riis_marks) :: by_neighbors, by_all ! kept from step to step: the neighbour search starts from the last nodes
+  ! Kept from step to step, because the neighbour search starts from the last marked nodes.
+  type(riis_marks) :: by_neighbors, by_all
   integer, allocatable :: node_num(:), node_num_of_all(:)
   double precision, allocatable :: distance(:), distance_of_all(:)
   integer :: i
@@ -60,7 +61,8 @@ contains
       trim(merge('complete            ', 'perhaps not complete', stats%complete /= 0))
   end subroutine mark
 
-  ! Cuts each cube of the grid into six: along three edges from its first node to its last, in every order of the axes.
+  ! Cuts each cube of the grid into six tetrahedra. Each follows three edges from the cube's first node to its last, with the axes
+  ! in another order.
   subroutine make_tetrahedra()
     integer, parameter :: step(3) = [1, n, n**2]
     integer, parameter :: axes(3, 6) = reshape([1, 2, 3, 1, 3, 2, 2, 1, 3, 2, 3, 1, 3, 1, 2, 3, 2, 1], [3, 6])

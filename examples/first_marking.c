@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Marks the nodes of a box that lie near the default aortic valve. Lengths are in cm, as in the valve's tables. */
+ * Marks the nodes of a box that are near the default aortic valve. Lengths are in cm, like the valve's default parameters. */
 #include <riis/riis.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,10 +30,10 @@ int main(void) {
   riis_marks *marks = NULL;
 
   check(riis_valve_create("aortic", &valve));
-  check(riis_surface_create(valve, NULL, &surface)); /* half thickness 0.1 cm, tolerance 5 % of it */
+  check(riis_surface_create(valve, NULL, &surface)); /* half thickness 0.1 cm, tolerance 5 % of the half thickness */
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
   check(riis_marks_create(&marks));
-  check(riis_mark_nodes(surface, mesh, NULL, marks)); /* once a time step */
+  check(riis_mark_nodes(surface, mesh, NULL, marks)); /* repeated in every time step */
   riis_mark_list marked;
   check(riis_marks_get_list(marks, RIIS_LIST_MARKED, &marked, sizeof marked));
 

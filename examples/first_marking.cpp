@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// first_marking.c in C++17: handles destroy themselves, and errors are exceptions. It prints the same.
+// The same program as first_marking.c, in C++17. Handles destroy themselves, and errors are exceptions. The output is the same.
 #include <cstdint>
 #include <cstdio>
 #include <exception>
@@ -25,10 +25,11 @@ int main() try {
   riis::Mesh mesh;
   riis::Marks marks;
   riis::check(riis_valve_create("aortic", valve.out()));
-  riis::check(riis_surface_create(valve, nullptr, surface.out()));  // half thickness 0.1 cm, tolerance 5 % of it
+  // Half thickness 0.1 cm, tolerance 5 % of the half thickness.
+  riis::check(riis_surface_create(valve, nullptr, surface.out()));
   riis::check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, mesh.out()));
   riis::check(riis_marks_create(marks.out()));
-  riis::check(riis_mark_nodes(surface, mesh, nullptr, marks));  // once a time step
+  riis::check(riis_mark_nodes(surface, mesh, nullptr, marks));  // repeated in every time step
   const auto marked = riis::get<riis_mark_list>(riis_marks_get_list, marks, RIIS_LIST_MARKED);
 
   std::printf("%d nodes, marked: %lld, the first of them:\n", n_nodes, static_cast<long long>(marked.n_nodes));

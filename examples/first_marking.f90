@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Marks the nodes of a box that lie near the default aortic valve. Lengths are in cm, as in the valve's tables.
+! Marks the nodes of a box that are near the default aortic valve. Lengths are in cm, like the valve's default parameters.
 program first_marking
   use riis
   implicit none
@@ -20,9 +20,9 @@ program first_marking
 
   ! Without a status argument an error stops the program with a message.
   call valve%create('aortic')
-  call surface%create(valve) ! half thickness 0.1 cm, tolerance 5 % of it
+  call surface%create(valve) ! half thickness 0.1 cm, tolerance 5 % of the half thickness
   call mesh%create(xyz)
-  call riis_mark_nodes(surface, mesh, result) ! once a time step
+  call riis_mark_nodes(surface, mesh, result) ! repeated in every time step
   call result%marked_nodes(node_num, distance) ! node_num counts from 1: xyz(:, node_num(i)) is marked
 
   print '(i0, a, i0, a)', n_nodes, ' nodes, marked: ', size(node_num), ', the first of them:'

@@ -9,19 +9,20 @@
 #include <stdlib.h>
 
 enum { n = 27, plane = n * n, n_nodes = n * plane };
-static double xyz[3 * n_nodes]; /* a cube of 3.25 cm around the valve, a node every 1.25 mm; here every rank has all */
+/* A cube of 3.25 cm around the valve, a node every 1.25 mm; in this example every rank stores all nodes. */
+static double xyz[3 * n_nodes];
 static uint8_t in_tube[n_nodes];
-static int64_t region[n_nodes]; /* of a rank's part: the lowest node of each node's region, within the part */
-static int64_t lowest[n_nodes]; /* for each such node: the lowest node of the region, within the whole mesh */
+static int64_t region[n_nodes]; /* for each node of a rank's part: the lowest node of its region, within the part */
+static int64_t lowest[n_nodes]; /* for each such node: the lowest node of its region, within the whole mesh */
 static int64_t label[n_nodes], by_ranks[n_nodes];
 
 static void check(riis_status status) {
   if (status == RIIS_OK) return;
   fprintf(stderr, "%s: %s\n", riis_status_name(status), riis_last_error());
-  MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE); /* the other ranks would wait for this one */
+  MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE); /* without this, the other ranks would wait for this rank */
 }
 
-/* Marks n_planes planes of the grid from node `first` on, and labels their open regions by ids that count from there. */
+/* Marks n_planes planes of the grid from node `first` on, and labels their open regions with ids that count from `first`. */
 static int64_t label_part(const riis_surface *surface, riis_marks *marks, int first, int n_planes, int64_t *labels) {
   riis_mesh *mesh = NULL;
   riis_adjacency *adjacency = NULL;
@@ -30,7 +31,7 @@ static int64_t label_part(const riis_surface *surface, riis_marks *marks, int fi
   int64_t n_regions = 0;
   double *own = xyz + 3 * first;
   check(riis_mark_options_init(&options, sizeof options));
-  options.n_threads = 1; /* one thread suits a rank on every core */
+  options.n_threads = 1; /* one thread per rank, because each core has a rank */
   options.node_mask = in_tube + first;
   check(riis_mesh_create(n_planes * plane, own, own + 1, own + 2, 3, &mesh));
   check(riis_adjacency_create_from_grid(n, n, n_planes, 1, &adjacency));
@@ -43,8 +44,8 @@ static int64_t label_part(const riis_surface *surface, riis_marks *marks, int fi
   return n_regions;
 }
 
-/* Sends the labels of one plane of the part to a rank, and takes those of another rank for the same or the other plane. Returns 1
- * if these labels show that a region reaches to a lower node. */
+/* Sends the labels of one plane of the part to a rank, and receives another rank's labels for the same plane or another one.
+ * Returns 1 if these labels show that a region reaches to a lower node. */
 static int exchange(int from_plane, int to_rank, int at_plane, int from_rank) {
   int64_t sent[plane], got[plane];
   int changed = 0;
@@ -79,7 +80,7 @@ int main(int argc, char **argv) {
     in_tube[i] = x * x + y * y <= 1.2 * 1.2;
   }
 
-  /* The cusps of this aortic valve nearly meet. The surface is small, so every rank makes it for itself, with the same bits. */
+  /* In this aortic valve the cusps nearly meet. The surface is small, so every rank makes its own copy, with the same bits. */
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_marks *marks = NULL;
@@ -97,8 +98,8 @@ int main(int argc, char **argv) {
 
   int changed = 1;
   while (changed) {
-    changed = exchange(0, before, n_planes - 1, behind);            /* first planes go to the rank before */
-    changed = exchange(n_planes - 1, behind, 0, before) || changed; /* last planes to the rank behind */
+    changed = exchange(0, before, n_planes - 1, behind);            /* sends the first plane to the rank before */
+    changed = exchange(n_planes - 1, behind, 0, before) || changed; /* sends the last plane to the rank behind */
     MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
   }
 

@@ -9,10 +9,12 @@ program mpi_leaks
   use riis
   implicit none
   integer, parameter :: n = 27, plane = n**2, n_nodes = n * plane
-  double precision :: xyz(3, n_nodes) ! a cube of 3.25 cm around the valve, a node every 1.25 mm; here every rank has all
+  ! A cube of 3.25 cm around the valve, a node every 1.25 mm; in this example every rank stores all nodes.
+  double precision :: xyz(3, n_nodes)
   logical :: in_tube(n_nodes)
-  integer(int64) :: region(n_nodes)   ! of a rank's part: the lowest node of each node's region, within the part; 0: none
-  integer(int64) :: lowest(n_nodes)   ! for each such node: the lowest node of the region, within the whole mesh
+  ! For each node of a rank's part: the lowest node of its region, within the part; 0: no region.
+  integer(int64) :: region(n_nodes)
+  integer(int64) :: lowest(n_nodes)   ! for each such node: the lowest node of its region, within the whole mesh
   integer(int64) :: label(n_nodes), by_ranks(n_nodes), n_regions
   type(riis_valve) :: valve
   type(riis_surface) :: surface
@@ -32,7 +34,7 @@ program mpi_leaks
   end do
   in_tube = xyz(1, :)**2 + xyz(2, :)**2 <= 1.2d0**2
 
-  ! The cusps of this aortic valve nearly meet. The surface is small, so every rank makes it for itself, with the same bits.
+  ! In this aortic valve the cusps nearly meet. The surface is small, so every rank makes its own copy, with the same bits.
   call valve%create('aortic')
   call valve%set('leaflet_radius_in', 0.02d0)
   call surface%create(valve)
@@ -51,8 +53,8 @@ program mpi_leaks
   changed = .true.
   do while (changed)
     changed = .false.
-    call exchange(1, before, n_planes, behind) ! first planes go to the rank before
-    call exchange(n_planes, behind, 1, before) ! last planes to the rank behind
+    call exchange(1, before, n_planes, behind) ! sends the first plane to the rank before
+    call exchange(n_planes, behind, 1, before) ! sends the last plane to the rank behind
     call MPI_Allreduce(MPI_IN_PLACE, changed, 1, MPI_LOGICAL, MPI_LOR, MPI_COMM_WORLD)
   end do
 
@@ -81,7 +83,7 @@ program mpi_leaks
 
 contains
 
-  ! Marks planes of the grid from node `start` on, and labels their open regions by numbers that count from there.
+  ! Marks planes of the grid from node `start` on, and labels their open regions with numbers that count from `start`.
   subroutine label_part(start, planes, labels)
     integer, intent(in) :: start, planes
     integer(int64), intent(inout) :: labels(n_nodes)
@@ -92,13 +94,14 @@ contains
     call mesh%create(xyz(:, start:last))
     call adjacency%create_from_grid(n, n, planes)
     call mesh%set_adjacency(adjacency)
-    call riis_mark_nodes(surface, mesh, result, node_mask=in_tube(start:last), n_threads=1) ! one thread a core suits a rank
+    ! One thread per rank, because each core has a rank.
+    call riis_mark_nodes(surface, mesh, result, node_mask=in_tube(start:last), n_threads=1)
     call riis_label_open_regions(mesh, result, labels(1:planes * plane), n_regions, in_tube(start:last), 1)
     call mesh%destroy()
     call adjacency%destroy()
   end subroutine label_part
 
-  ! Sends the labels of one plane of the part to a rank, and takes those of another rank for the other plane. These labels may
+  ! Sends the labels of one plane of the part to a rank, and receives another rank's labels for the other plane. These labels may
   ! show that a region reaches to a lower node.
   subroutine exchange(from_plane, to_rank, at_plane, from_rank)
     integer, intent(in) :: from_plane, to_rank, at_plane, from_rank

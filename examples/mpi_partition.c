@@ -8,21 +8,23 @@
 #include <stdlib.h>
 
 enum { n = 27, plane = n * n, n_nodes = n * plane };
-static double xyz[3 * n_nodes]; /* a cube of 3.25 cm around the valve, a node every 1.25 mm; here every rank has all */
+/* A cube of 3.25 cm around the valve, a node every 1.25 mm; in this example every rank stores all nodes. */
+static double xyz[3 * n_nodes];
 static double distance[n_nodes], by_ranks[n_nodes];
 static int32_t offsets[n_nodes + 1], columns[6 * n_nodes];
 
 static void check(riis_status status) {
   if (status == RIIS_OK) return;
   fprintf(stderr, "%s: %s\n", riis_status_name(status), riis_last_error());
-  MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE); /* the other ranks would wait for this one */
+  MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE); /* without this, the other ranks would wait for this rank */
 }
 
-static int first_node(int rank, int n_ranks) { return n * rank / n_ranks * plane; } /* whole planes of the grid */
+/* Returns the first node of a rank's part, which consists of whole planes of the grid. */
+static int first_node(int rank, int n_ranks) { return n * rank / n_ranks * plane; }
 
 /* Makes compressed sparse rows of the rank's own nodes, n_rows from the first one on. The neighbours in the planes before and
- * behind are other ranks' nodes. These ghosts are numbered from n_rows on, as in most solvers. Returns the number of own nodes
- * and ghosts. */
+ * behind belong to other ranks. These ghost nodes are numbered from n_rows on, as in most solvers. Returns the number of own
+ * nodes and ghost nodes. */
 static int make_rows(int first, int n_rows) {
   int n_before = first > 0 ? plane : 0, n_behind = first + n_rows < n_nodes ? plane : 0, end = 0;
   for (int i = 0; i < n_rows; ++i) {
@@ -49,7 +51,7 @@ static int make_rows(int first, int n_rows) {
 static int64_t read_marks(const riis_marks *marks, int64_t n, double *distances) {
   riis_dense_arrays arrays;
   riis_mark_list marked;
-  check(riis_dense_arrays_init(&arrays, sizeof arrays)); /* RIIS_FAR_DISTANCE is the default */
+  check(riis_dense_arrays_init(&arrays, sizeof arrays)); /* far_distance keeps its default, RIIS_FAR_DISTANCE */
   arrays.n_nodes = n;
   arrays.distance = distances;
   check(riis_marks_get_dense(marks, &arrays));
@@ -69,7 +71,7 @@ int main(int argc, char **argv) {
     distance[i] = RIIS_FAR_DISTANCE;
   }
 
-  /* The surface is small, so every rank makes it for itself. All have the same bits. */
+  /* The surface is small, so every rank makes its own copy. All copies have the same bits. */
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
@@ -78,9 +80,9 @@ int main(int argc, char **argv) {
   check(riis_surface_create(valve, NULL, &surface));
   check(riis_marks_create(&marks));
 
-  /* If every core has a rank, one thread suits each rank. Ranks that are bound to several cores each, such as by mpirun --map-by
-   * slot:PE=4, leave n_threads at 0, which means all cores of the rank. If nothing binds the ranks, 0 means all cores of the
-   * machine for each rank. */
+  /* If every core has a rank, each rank should use one thread. If each rank is bound to several cores, such as by mpirun
+   * --map-by slot:PE=4, leave n_threads at 0, which means all cores of the rank. If ranks are not bound, 0 means all cores of
+   * the machine for each rank. */
   riis_mark_options options;
   check(riis_mark_options_init(&options, sizeof options));
   options.n_threads = 1;

@@ -7,7 +7,8 @@ program mpi_partition
   use riis
   implicit none
   integer, parameter :: n = 27, plane = n**2, n_nodes = n * plane
-  double precision :: xyz(3, n_nodes) ! a cube of 3.25 cm around the valve, a node every 1.25 mm; here every rank has all
+  ! A cube of 3.25 cm around the valve, a node every 1.25 mm; in this example every rank stores all nodes.
+  double precision :: xyz(3, n_nodes)
   double precision :: distance(n_nodes), by_ranks(n_nodes)
   integer :: offsets(n_nodes + 1), columns(6 * n_nodes)
   type(riis_valve) :: valve
@@ -24,11 +25,11 @@ program mpi_partition
     xyz(:, i + 1) = -1.625d0 + 0.125d0 * [mod(i, n), mod(i / n, n), i / plane]
   end do
 
-  ! The surface is small, so every rank makes it for itself. All have the same bits.
+  ! The surface is small, so every rank makes its own copy. All copies have the same bits.
   call valve%create('aortic')
   call surface%create(valve)
 
-  first = n * rank / n_ranks * plane + 1 ! whole planes of the grid
+  first = n * rank / n_ranks * plane + 1 ! a part consists of whole planes of the grid
   last = n * (rank + 1) / n_ranks * plane
   distance = RIIS_FAR_DISTANCE
   n_marked = 0
@@ -36,9 +37,9 @@ program mpi_partition
     call make_rows(last - first + 1, n_all)
     call mesh%create(xyz(:, first:last))
     call mesh%set_adjacency(offsets(1:last - first + 2), columns, n_all=n_all)
-    ! If every core has a rank, one thread suits each rank. Ranks that are bound to several cores each, such as by mpirun --map-by
-    ! slot:PE=4, leave n_threads out, which means all cores of the rank. If nothing binds the ranks, it means all cores of the
-    ! machine for each rank.
+    ! If every core has a rank, each rank should use one thread. If each rank is bound to several cores, such as by mpirun
+    ! --map-by slot:PE=4, leave n_threads out, which means all cores of the rank. If ranks are not bound, it means all cores of
+    ! the machine for each rank.
     call riis_mark_nodes(surface, mesh, result, search=RIIS_SEARCH_NEIGHBOR, n_threads=1)
     n_marked = int(result%n_marked())
     call result%dense(distance=distance(first:last))
@@ -69,10 +70,10 @@ program mpi_partition
 contains
 
   ! Makes compressed sparse rows of the rank's own nodes, n_rows from the first one on. The neighbours in the planes before and
-  ! behind are other ranks' nodes. These ghosts are numbered from n_rows + 1 on, as in most solvers.
+  ! behind belong to other ranks. These ghost nodes are numbered from n_rows + 1 on, as in most solvers.
   subroutine make_rows(n_rows, n_all)
     integer, intent(in) :: n_rows
-    integer, intent(out) :: n_all ! the number of own nodes and ghosts
+    integer, intent(out) :: n_all ! the number of own nodes and ghost nodes
     integer :: n_before, n_behind, i
     n_before = merge(plane, 0, first > 1)
     n_behind = merge(plane, 0, last < n_nodes)

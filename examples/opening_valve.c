@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A mitral valve that opens step by step by a law of opening, and the resistance of every node to the flow relative to the
- * moving leaflets. The mesh is in metres, the valve's tables are in centimetres, so the scale is 0.01. */
+ * A mitral valve opens step by step by a law of opening. The program computes the resistance of every node to the flow
+ * relative to the moving leaflets. The mesh is in metres and the valve in centimetres, so the scale is 0.01. */
 #include <riis/riis.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 enum { n = 37, n_nodes = n * n * n, n_steps = 5 };
 static double xyz[3 * n_nodes];      /* [m] a cube of 4.5 cm around the valve, a node every 1.25 mm */
-static double coefficient[n_nodes];  /* [kg/(m^3 s)] K of the term K (u - u_surface) in the momentum equation */
-static double momentum[3 * n_nodes]; /* [N/m^3] K u_surface: it goes to the right-hand side */
-static const double R = 1e4;         /* [kg/(m s)] of the model, from its literature or by calibration */
+static double coefficient[n_nodes];  /* [kg/(m^3 s)] K in the term K (u - u_surface) of the momentum equation */
+static double momentum[3 * n_nodes]; /* [N/m^3] K u_surface, which goes to the right-hand side */
+static const double R = 1e4;         /* [kg/(m s)] the resistance of the model, from literature or by calibration */
 static const double eps = 1e-3;      /* [m] the half thickness */
 static const double dt = 0.01;       /* [s] the time step */
 
@@ -26,18 +26,18 @@ int main(void) {
     xyz[3 * i + 2] = -0.02 + 0.00125 * (i / (n * n));
   }
 
-  /* These are made once, and every step reuses their memory. */
+  /* These objects are made once, and every step reuses their memory. */
   riis_valve *valve = NULL, *valve_before = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
   riis_marks *marks = NULL;
   check(riis_valve_create("mitral", &valve));
   check(riis_valve_set_scalar(valve, "opening", 0));
-  check(riis_valve_copy(valve, &valve_before)); /* its opening is that of the step before */
+  check(riis_valve_copy(valve, &valve_before)); /* valve_before has the opening of the previous step */
   riis_surface_options options;
   check(riis_surface_options_init(&options, sizeof options));
   options.scale = 0.01;         /* centimetres to metres */
-  options.half_thickness = eps; /* in the mesh's unit */
+  options.half_thickness = eps; /* the unit is the mesh's */
   check(riis_surface_create(valve, &options, &surface));
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
   check(riis_marks_create(&marks));
@@ -64,17 +64,19 @@ int main(void) {
 
   riis_mark_list marked = {.n_nodes = 0};
   for (int step = 0; step <= n_steps; ++step) {
-    /* Resets only the nodes that the last step set. Their list lives until the next marking with these marks. */
+    /* Resets only the nodes that the last step set. Their list is valid until the next marking with these marks. */
     for (int64_t i = 0; i < marked.n_nodes; ++i) {
       coefficient[marked.node_id[i]] = 0;
       for (int c = 0; c < 3; ++c) momentum[3 * marked.node_id[i] + c] = 0;
     }
 
     const double time = times.opening_start + step * dt;
-    double opening; /* in other laws the flow opens the valve: riis_opening_switch_advance and _angle_advance */
+    /* With other laws the flow opens the valve: riis_opening_switch_advance and riis_opening_angle_advance. */
+    double opening;
     check(riis_opening_from_times(&times, time, &opening, NULL));
     check(riis_valve_set_scalar(valve, "opening", opening));
-    check(riis_surface_update_moving(surface, valve, valve_before, dt, NULL, NULL)); /* NULL: it keeps its options */
+    /* NULL: the surface keeps its options. */
+    check(riis_surface_update_moving(surface, valve, valve_before, dt, NULL, NULL));
     check(riis_valve_set_scalar(valve_before, "opening", opening));
     check(riis_mark_nodes(surface, mesh, &mark_options, marks));
     check(riis_marks_add_resistance(marks, &resistance, &arrays));

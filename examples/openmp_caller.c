@@ -1,7 +1,6 @@
-/* SPDX-License-Identifier: Apache-2.0
- * Two ways to mark from a code that is itself parallel by OpenMP. The first is one call between the code's own parallel
- * regions, which starts threads of its own. The second is a call from each of the code's threads for its block of the mesh,
- * which starts none. Lengths are in cm. */
+/* Two ways to mark nodes in a code that uses OpenMP itself. The first way is one call between the code's parallel regions,
+ * which starts its own threads. The second way is one call from each of the code's threads, for its block of the mesh, which
+ * starts no threads. Lengths are in cm. */
 #include <omp.h>
 #include <riis/riis.h>
 #include <stdio.h>
@@ -23,7 +22,7 @@ static void check(riis_status status) {
 static int first_node(int block) { return n_nodes * block / n_blocks; }
 
 int main(void) {
-  omp_set_num_threads(3); /* the code's settings: riis neither follows nor changes them */
+  omp_set_num_threads(3); /* the code's settings, which riis neither follows nor changes */
   omp_set_dynamic(0);
 #pragma omp parallel for
   for (int i = 0; i < n_nodes; ++i) {
@@ -39,8 +38,8 @@ int main(void) {
   check(riis_valve_create("aortic", &valve));
   check(riis_surface_create(valve, NULL, &surface));
 
-  /* One call between parallel regions. Whatever OpenMP's settings are, the call uses the processors that this thread may run on.
-   * For another number of threads, set n_threads in riis_mark_options. */
+  /* One call between parallel regions. Whatever OpenMP's settings are, the call uses the processors on which this thread may
+   * run. For another number of threads, set n_threads in riis_mark_options. */
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
   check(riis_marks_create(&marks));
   check(riis_mark_nodes(surface, mesh, NULL, marks));
@@ -55,8 +54,8 @@ int main(void) {
   printf("one call, marked: %lld, the farthest at %8.6f cm\n", (long long)marked.n_nodes, farthest);
   printf("settings of OpenMP: %s\n", kept ? "as they were" : "changed");
 
-  /* A call from each thread. All read one surface, and each has a mesh and a marks of its own. While any thread marks, none may
-   * update the surface. Do that before the region, or in a single construct, at whose end all threads wait. */
+  /* One call from each thread. All threads read one surface. Each has a mesh and marks of its own. While any thread marks, no
+   * thread may update the surface. Update it before the region, or in a single construct, at whose end all threads wait. */
   riis_mark_options options;
   riis_mesh *block_mesh[n_blocks] = {NULL};
   riis_marks *block_marks[n_blocks] = {NULL};
@@ -70,7 +69,7 @@ int main(void) {
     check(riis_mark_nodes(surface, block_mesh[i], &options, block_marks[i]));
   }
 
-  /* The lists of the blocks, one after the other, make the list of the whole mesh. */
+  /* The lists of the blocks, one after the other, are the list of the whole mesh. */
   int64_t n_found = 0;
   int same = 1;
   for (int i = 0; i < n_blocks; ++i) {

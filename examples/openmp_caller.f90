@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Two ways to mark from a code that is itself parallel by OpenMP. The first is one call between the code's own parallel
-! regions, which starts threads of its own. The second is a call from each of the code's threads for its block of the
-! mesh, which starts none. Lengths are in cm.
+! Two ways to mark nodes in a code that uses OpenMP itself. The first way is one call between the code's parallel regions, which
+! starts its own threads. The second way is one call from each of the code's threads, for its block of the mesh, which starts no
+! threads. Lengths are in cm.
 program openmp_caller
   use omp_lib
   use riis
@@ -18,7 +18,7 @@ program openmp_caller
   integer :: i, n_found, n_in_block
   logical :: kept, same
 
-  call omp_set_num_threads(3) ! the code's settings: riis neither follows nor changes them
+  call omp_set_num_threads(3) ! the code's settings, which riis neither follows nor changes
   call omp_set_dynamic(.false.)
   !$omp parallel do
   do i = 0, n_nodes - 1
@@ -28,7 +28,7 @@ program openmp_caller
   call valve%create('aortic')
   call surface%create(valve)
 
-  ! One call between parallel regions. Whatever OpenMP's settings are, the call uses the processors that this thread may run on.
+  ! One call between parallel regions. Whatever OpenMP's settings are, the call uses the processors on which this thread may run.
   ! For another number of threads, set n_threads.
   call mesh%create(xyz)
   call riis_mark_nodes(surface, mesh, result)
@@ -43,15 +43,15 @@ program openmp_caller
   print '(a, i0, a, f8.6, a)', 'one call, marked: ', size(node_num), ', the farthest at ', farthest, ' cm'
   print '(2a)', 'settings of OpenMP: ', trim(merge('as they were', 'changed     ', kept))
 
-  ! A call from each thread. All read one surface, and each has a mesh and a result of its own. While any thread marks, none
-  ! may update the surface. Do that before the region, or in a single construct, at whose end all threads wait.
+  ! One call from each thread. All threads read one surface. Each has a mesh and a result of its own. While any thread marks, no
+  ! thread may update the surface. Update it before the region, or in a single construct, at whose end all threads wait.
   !$omp parallel do num_threads(n_blocks) schedule(static, 1)
   do i = 1, n_blocks
     call block_mesh(i)%create(xyz(:, last_node(i - 1) + 1:last_node(i)))
     call riis_mark_nodes(surface, block_mesh(i), block_result(i), n_threads=1)
   end do
 
-  ! The lists of the blocks, one after the other, make the list of the whole mesh.
+  ! The lists of the blocks, one after the other, are the list of the whole mesh.
   n_found = 0
   same = .true.
   do i = 1, n_blocks

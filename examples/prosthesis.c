@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A valve of one's own: a bioprosthesis of three cusps from control points, marked while it opens. Lengths are in cm. The
- * ring of radius 1.2 lies at z = 0, and blood flows to +z. The tips of the posts, the commissures, are at z = 1.2. A
- * leaflet is two patches, which meet in its middle line from the ring to the free edge. Each patch lies between two curves
- * from a commissure to that line: the attachment at v = 0, down the post to the ring, and half of the free edge at v = 1.
- * Its side at the commissure is collapsed to a point, so the patch consists of straight lines from the attachment to the
- * free edge. When the valve opens, only the free edges and the middle lines move.
+ * A user-defined valve: a bioprosthesis of three cusps from control points, marked while it opens. Lengths are in cm.
  *
- * When the valve is closed, each half of a free edge runs from its commissure to the axis. It has the same control points as the
- * half beside it, so the leaflets meet without a hole. All control points of a leaflet lie in its third of the ring, at every
- * opening. A third is convex, so the leaflet also stays in it, and leaflets never cross. */
+ * The ring of radius 1.2 lies at z = 0, and blood flows to +z. The tips of the posts, the commissures, are at z = 1.2. A
+ * leaflet consists of two patches. They meet in the leaflet's middle line, from the ring to the free edge. Each patch lies
+ * between two curves from a commissure to the middle line: the attachment at v = 0, down the post to the ring, and half of the
+ * free edge at v = 1. The patch's side at the commissure is a point, so the patch consists of straight lines from the
+ * attachment to the free edge. When the valve opens, only the free edges and the middle lines move.
+ *
+ * When the valve is closed, each half of a free edge runs from its commissure to the axis. It has the same control points as
+ * the adjacent half of the neighbouring leaflet, so the leaflets meet without a hole. All control points of a leaflet lie in
+ * its third of the ring, at every opening. A third is convex, so the whole leaflet stays in it, and leaflets never cross. */
 #include <riis/riis.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,7 +18,7 @@
 enum { n = 27, n_nodes = n * n * n };
 static double xyz[3 * n_nodes]; /* a cube of 3.25 cm around the prosthesis, a node every 1.25 mm */
 
-/* Control points of curves 0 to 5, the free edges, and 6 to 8, the middle lines, of the closed valve. */
+/* Control points of the closed valve: curves 0 to 5 are the free edges, and 6 to 8 the middle lines. */
 static const double closed_moving[][3] = {
     {0.60, -1.04, 1.20},  {0.45, -0.78, 1.00}, {0.30, -0.52, 0.80}, {0.00, 0.00, 0.80}, /* edge 0a */
     {0.60, 1.04, 1.20},   {0.45, 0.78, 1.00},  {0.30, 0.52, 0.80},  {0.00, 0.00, 0.80}, /* edge 0b */
@@ -29,7 +30,7 @@ static const double closed_moving[][3] = {
     {-0.60, 1.04, 0.00},  {0.00, 0.00, 0.80},                                           /* middle 1 */
     {-0.60, -1.04, 0.00}, {0.00, 0.00, 0.80},                                           /* middle 2 */
 };
-/* The same curves of the open valve. */
+/* The same curves for the open valve. */
 static const double open_moving[][3] = {
     {0.60, -1.04, 1.20},  {0.87, -0.80, 1.20},  {1.05, -0.37, 1.20},  {1.05, 0.00, 1.20},   /* edge 0a */
     {0.60, 1.04, 1.20},   {0.87, 0.80, 1.20},   {1.05, 0.37, 1.20},   {1.05, 0.00, 1.20},   /* edge 0b */
@@ -41,7 +42,8 @@ static const double open_moving[][3] = {
     {-0.60, 1.04, 0.00},  {-0.52, 0.91, 1.20},                                              /* middle 1 */
     {-0.60, -1.04, 0.00}, {-0.52, -0.91, 1.20},                                             /* middle 2 */
 };
-/* Control points of curves 9 to 14, the attachments, and 15 to 17, the commissures, which are lines from a point to itself. */
+/* Control points that do not move: curves 9 to 14 are the attachments, and 15 to 17 the commissures, which are lines from a
+ * point to itself. */
 static const double fixed[][3] = {
     {0.60, -1.04, 1.20}, {1.00, -0.81, 0.40},  {1.20, -0.40, 0.00},  {1.20, 0.00, 0.00},   /* attachment 0a */
     {0.60, 1.04, 1.20},  {1.00, 0.81, 0.40},   {1.20, 0.40, 0.00},   {1.20, 0.00, 0.00},   /* attachment 0b */
@@ -55,7 +57,7 @@ static const double fixed[][3] = {
 };
 
 static const int32_t degree[] = {3, 3, 3, 3, 3, 3, 1, 1, 1, 3, 3, 3, 3, 3, 3, 1, 1, 1};
-/* The curves at v = 0, v = 1, u = 0, u = 1 of each half leaflet, and the curves that run backwards. */
+/* The curves at v = 0, v = 1, u = 0, u = 1 of each half leaflet, and whether a side runs opposite to its curve. */
 static const int32_t curve_id[][4] = {{9, 0, 15, 6},  {10, 1, 6, 16}, {11, 2, 16, 7},
                                       {12, 3, 7, 17}, {13, 4, 17, 8}, {14, 5, 8, 15}};
 static const int32_t reversed[][4] = {{0, 0, 0, 0}, {1, 1, 0, 0}, {0, 0, 0, 0},
@@ -99,7 +101,7 @@ int main(void) {
   riis_mesh *mesh = NULL;
   riis_marks *result = NULL;
   check(riis_valve_set_open_state(valve, open));
-  riis_valve_destroy(&open); /* the valve has a copy of it */
+  riis_valve_destroy(&open); /* the valve has copied it */
   check(riis_surface_create(valve, NULL, &surface));
   check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh));
   check(riis_marks_create(&result));
@@ -107,7 +109,7 @@ int main(void) {
   printf("%d nodes\n", n_nodes);
   for (int step = 0; step <= 2; ++step) {
     riis_mark_list marked;
-    check(riis_valve_set_scalar(valve, "opening", 0.5 * step)); /* the valve moves */
+    check(riis_valve_set_scalar(valve, "opening", 0.5 * step)); /* moves the valve */
     check(riis_surface_update(surface, valve, NULL));
     check(riis_mark_nodes(surface, mesh, NULL, result));
     check(riis_marks_get_list(result, RIIS_LIST_MARKED, &marked, sizeof marked));

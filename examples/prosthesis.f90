@@ -1,20 +1,20 @@
 ! SPDX-License-Identifier: Apache-2.0
-! A valve of one's own: a bioprosthesis of three cusps from control points, marked while it opens. Lengths are in cm.
+! A user-defined valve: a bioprosthesis of three cusps from control points, marked while it opens. Lengths are in cm.
 !
-! The ring of radius 1.2 lies at z = 0, and blood flows to +z. The tips of the posts, the commissures, are at z = 1.2. A
-! leaflet is two patches, which meet in its middle line from the ring to the free edge. Each patch lies between two
-! curves from a commissure to that line: the attachment at v = 0, down the post to the ring, and half of the free edge at
-! v = 1. Its side at the commissure is collapsed to a point, so the patch consists of straight lines from the attachment
-! to the free edge. When the valve opens, only the free edges and the middle lines move.
+! The ring of radius 1.2 lies at z = 0, and blood flows to +z. The tips of the posts, the commissures, are at z = 1.2. A leaflet
+! consists of two patches. They meet in the leaflet's middle line, from the ring to the free edge. Each patch lies between two
+! curves from a commissure to the middle line: the attachment at v = 0, down the post to the ring, and half of the free edge at v
+! = 1. The patch's side at the commissure is a point, so the patch consists of straight lines from the attachment to the free
+! edge. When the valve opens, only the free edges and the middle lines move.
 !
 ! When the valve is closed, each half of a free edge runs from its commissure to the axis. It has the same control points as the
-! half beside it, so the leaflets meet without a hole. All control points of a leaflet lie in its third of the ring, at every
-! opening. A third is convex, so the leaflet also stays in it, and leaflets never cross.
+! adjacent half of the neighbouring leaflet, so the leaflets meet without a hole. All control points of a leaflet lie in its third
+! of the ring, at every opening. A third is convex, so the whole leaflet stays in it, and leaflets never cross.
 program prosthesis
   use riis
   implicit none
   integer, parameter :: n = 27, n_nodes = n**3
-  ! Control points of curves 1 to 6, the free edges, and 7 to 9, the middle lines, of the closed valve.
+  ! Control points of the closed valve: curves 1 to 6 are the free edges, and 7 to 9 the middle lines.
   double precision, parameter :: closed_moving(90) = [ &
       0.60d0, -1.04d0,  1.20d0,  0.45d0, -0.78d0,  1.00d0,  0.30d0, -0.52d0,  0.80d0,  0.00d0,  0.00d0,  0.80d0, &
       0.60d0,  1.04d0,  1.20d0,  0.45d0,  0.78d0,  1.00d0,  0.30d0,  0.52d0,  0.80d0,  0.00d0,  0.00d0,  0.80d0, &
@@ -25,7 +25,7 @@ program prosthesis
       1.20d0,  0.00d0,  0.00d0,  0.00d0,  0.00d0,  0.80d0, &
      -0.60d0,  1.04d0,  0.00d0,  0.00d0,  0.00d0,  0.80d0, &
      -0.60d0, -1.04d0,  0.00d0,  0.00d0,  0.00d0,  0.80d0]
-  ! The same curves of the open valve.
+  ! The same curves for the open valve.
   double precision, parameter :: open_moving(90) = [ &
       0.60d0, -1.04d0,  1.20d0,  0.87d0, -0.80d0,  1.20d0,  1.05d0, -0.37d0,  1.20d0,  1.05d0,  0.00d0,  1.20d0, &
       0.60d0,  1.04d0,  1.20d0,  0.87d0,  0.80d0,  1.20d0,  1.05d0,  0.37d0,  1.20d0,  1.05d0,  0.00d0,  1.20d0, &
@@ -36,7 +36,8 @@ program prosthesis
       1.20d0,  0.00d0,  0.00d0,  1.05d0,  0.00d0,  1.20d0, &
      -0.60d0,  1.04d0,  0.00d0, -0.52d0,  0.91d0,  1.20d0, &
      -0.60d0, -1.04d0,  0.00d0, -0.52d0, -0.91d0,  1.20d0]
-  ! Control points of curves 10 to 15, the attachments, and 16 to 18, the commissures, which are lines from a point to itself.
+  ! Control points that do not move: curves 10 to 15 are the attachments, and 16 to 18 the commissures, which are lines from a
+  ! point to itself.
   double precision, parameter :: fixed(90) = [ &
       0.60d0, -1.04d0,  1.20d0,  1.00d0, -0.81d0,  0.40d0,  1.20d0, -0.40d0,  0.00d0,  1.20d0,  0.00d0,  0.00d0, &
       0.60d0,  1.04d0,  1.20d0,  1.00d0,  0.81d0,  0.40d0,  1.20d0,  0.40d0,  0.00d0,  1.20d0,  0.00d0,  0.00d0, &
@@ -61,13 +62,13 @@ program prosthesis
   call make_valve(valve, closed_moving)
   call make_valve(open, open_moving)
   call valve%set_open_state(open)
-  call open%destroy() ! the valve has a copy of it
+  call open%destroy() ! the valve has copied it
   call surface%create(valve)
   call mesh%create(xyz)
 
   print '(i0, a)', n_nodes, ' nodes'
   do step = 0, 2
-    call valve%set('opening', 0.5d0 * step) ! the valve moves
+    call valve%set('opening', 0.5d0 * step) ! moves the valve
     call surface%update(valve)
     call riis_mark_nodes(surface, mesh, result)
     print '(a, f3.1, a, i0)', 'opening ', 0.5d0 * step, ', marked: ', result%n_marked()
@@ -84,12 +85,12 @@ contains
     type(riis_valve), intent(inout) :: valve
     double precision, intent(in) :: moving(:)
     integer, parameter :: degree(18) = [3, 3, 3, 3, 3, 3, 1, 1, 1, 3, 3, 3, 3, 3, 3, 1, 1, 1]
-    integer, parameter :: curve_id(4, 6) = reshape([ & ! at v = 0, v = 1, u = 0, u = 1 of each half leaflet
+    integer, parameter :: curve_id(4, 6) = reshape([ & ! the curves at v = 0, v = 1, u = 0, u = 1 of each half leaflet
       10, 1, 16, 7,  11, 2, 7, 17, &
       12, 3, 17, 8,  13, 4, 8, 18, &
       14, 5, 18, 9,  15, 6, 9, 16], [4, 6])
     logical, parameter :: f = .false., t = .true.
-    logical, parameter :: reversed(4, 6) = reshape([ & ! whether they run backwards
+    logical, parameter :: reversed(4, 6) = reshape([ & ! whether a side runs opposite to its curve
       f, f, f, f,  t, t, f, f, &
       f, f, f, f,  t, t, f, f, &
       f, f, f, f,  t, t, f, f], [4, 6])

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Resistances for a finite element code: K and K u_surface at the quadrature points of tetrahedra, which are the mesh's nodes
- * and need no adjacency, and their sums with the shape functions. The valve is half open and moves with the heart. The sums
- * are checked: that of K is the area of the valve times R/eps, and K u_surface is K times the valve's velocity. In metres. */
+ * Resistances for a finite element code: K and K u_surface at the quadrature points of tetrahedra, and their integrals with
+ * the shape functions. The quadrature points are the nodes of riis's mesh, which needs no adjacency. The valve is half open
+ * and moves with the heart. The program checks that the integral of K is the area of the valve times R/eps, and that K
+ * u_surface is K times the valve's velocity. Lengths are in metres. */
 #include <math.h>
 #include <riis/riis.h>
 #include <stdio.h>
@@ -11,13 +12,13 @@ enum { n = 33, n_nodes = n * n * n, n_cells = 6 * (n - 1) * (n - 1) * (n - 1), n
 static double xyz[n_nodes][3];                        /* [m] a cube of 4.8 cm around the valve, a node every 1.5 mm */
 static int node_ids[n_cells][4];                      /* four nodes per tetrahedron */
 static double point[n_points][3];                     /* [m] four quadrature points per tetrahedron, of degree 2 */
-static double weight[n_points];                       /* [m^3] a quarter of the tetrahedron's volume each */
+static double weight[n_points];                       /* [m^3] each is a quarter of the tetrahedron's volume */
 static double coefficient[n_points];                  /* [kg/(m^3 s)] K */
 static double momentum[n_points][3];                  /* [N/m^3] K u_surface */
 static double lumped[n_nodes];                        /* [kg/s] integral of K times the node's shape function */
-static double right_hand_side[n_nodes][3];            /* [N] integral of K u_surface times it */
+static double right_hand_side[n_nodes][3];            /* [N] integral of K u_surface times the shape function */
 static const double R = 1e4, eps = 1.5e-3, dt = 1e-3; /* [kg/(m s)], [m], [s] */
-static const double speed[3] = {0, 0.01, 0.05};       /* [m/s] of the heart */
+static const double speed[3] = {0, 0.01, 0.05};       /* [m/s] the heart's velocity */
 
 static void check(riis_status status) {
   if (status == RIIS_OK) return;
@@ -25,7 +26,8 @@ static void check(riis_status status) {
   exit(EXIT_FAILURE);
 }
 
-/* Cuts each cube of the grid into six: along three edges from its first node to its last, in every order of the axes. */
+/* Cuts each cube of the grid into six tetrahedra. Each follows three edges from the cube's first node to its last, with the
+ * axes in another order. */
 static void make_tetrahedra(void) {
   static const int axes[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   static const int step[3] = {1, n, n * n};
@@ -40,7 +42,7 @@ static void make_tetrahedra(void) {
   }
 }
 
-/* The shape function of corner a at quadrature point q of its tetrahedron. */
+/* Returns the shape function of corner a at quadrature point q of its tetrahedron. */
 static double shape(int a, int q) { return a == q ? 0.58541019662496852 : 0.1381966011250105; }
 
 static void make_points(void) {
@@ -73,9 +75,10 @@ int main(void) {
   check(riis_valve_create("mitral", &valve));
   check(riis_valve_set_scalar(valve, "opening", 0.5));
   check(riis_surface_options_init(&options, sizeof options));
-  options.scale = 0.01; /* the valve's tables are in centimetres */
+  options.scale = 0.01; /* the valve is given in centimetres */
   options.half_thickness = eps;
-  before = options; /* a time step ago the valve was elsewhere; a leaflet that moves has another opening there */
+  /* One time step ago the valve was elsewhere; a leaflet that moves would have another opening there. */
+  before = options;
   for (int c = 0; c < 3; ++c) before.translation[c] = -speed[c] * dt;
   check(riis_surface_create(valve, &options, &surface));
   check(riis_surface_update_moving(surface, valve, valve, dt, &options, &before));

@@ -1,22 +1,23 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Resistances for a finite element code: K and K u_surface at the quadrature points of tetrahedra, which are the mesh's nodes
-! and need no adjacency, and their sums with the shape functions. The valve is half open and moves with the heart. The sums
-! are checked: that of K is the area of the valve times R/eps, and K u_surface is K times the valve's velocity. In metres.
+! Resistances for a finite element code: K and K u_surface at the quadrature points of tetrahedra, and their integrals with the
+! shape functions. The quadrature points are the nodes of riis's mesh, which needs no adjacency. The valve is half open and moves
+! with the heart. The program checks that the integral of K is the area of the valve times R/eps, and that K u_surface is K times
+! the valve's velocity. Lengths are in metres.
 program quadrature_points
   use riis
   implicit none
   integer, parameter :: n = 33, n_nodes = n**3, n_cells = 6 * (n - 1)**3, n_points = 4 * n_cells
   double precision, parameter :: R = 1d4, eps = 1.5d-3, dt = 1d-3         ! [kg/(m s)], [m], [s]
-  double precision, parameter :: speed(3) = [0d0, 0.01d0, 0.05d0]         ! [m/s] of the heart
-  double precision, parameter :: weight = 0.0015d0**3 / 6 / 4             ! [m^3] a quarter of the volume of each tetrahedron
-  double precision, parameter :: near = 0.58541019662496852d0, far = 0.1381966011250105d0 ! shape functions
+  double precision, parameter :: speed(3) = [0d0, 0.01d0, 0.05d0]         ! [m/s] the heart's velocity
+  double precision, parameter :: weight = 0.0015d0**3 / 6 / 4             ! [m^3] each is a quarter of the tetrahedron's volume
+  double precision, parameter :: near = 0.58541019662496852d0, far = 0.1381966011250105d0 ! values of the shape functions
   double precision :: xyz(3, n_nodes)             ! [m] a cube of 4.8 cm around the valve, a node every 1.5 mm
   integer :: node_ids(4, n_cells)                 ! the four nodes of each tetrahedron
   double precision :: point(3, n_points)          ! [m] four quadrature points per tetrahedron, of degree 2
   double precision :: coefficient(n_points)       ! [kg/(m^3 s)] K
   double precision :: momentum(3, n_points)       ! [N/m^3] K u_surface
   double precision :: lumped(n_nodes)             ! [kg/s] integral of K times the node's shape function
-  double precision :: right_hand_side(3, n_nodes) ! [N] integral of K u_surface times it
+  double precision :: right_hand_side(3, n_nodes) ! [N] integral of K u_surface times the shape function
   double precision :: force(3), expected
   type(riis_valve) :: valve
   type(riis_surface) :: surface
@@ -29,8 +30,8 @@ program quadrature_points
   call make_points()
   call valve%create('mitral')
   call valve%set('opening', 0.5d0)
-  call surface%create(valve, half_thickness=eps, scale=0.01d0) ! the valve's tables are in centimetres
-  ! A time step ago the valve was elsewhere. A leaflet that moves has another opening there.
+  call surface%create(valve, half_thickness=eps, scale=0.01d0) ! the valve is given in centimetres
+  ! One time step ago the valve was elsewhere. A leaflet that moves would have another opening there.
   call surface%update_moving(valve, valve, dt, translation=[0d0, 0d0, 0d0], translation_before=-speed * dt)
   call mesh%create(point)
 
@@ -58,7 +59,8 @@ program quadrature_points
 
 contains
 
-  ! Cuts each cube of the grid into six: along three edges from its first node to its last, in every order of the axes.
+  ! Cuts each cube of the grid into six tetrahedra. Each follows three edges from the cube's first node to its last, with the axes
+  ! in another order.
   subroutine make_tetrahedra()
     integer, parameter :: axes(3, 6) = reshape([1, 2, 3, 1, 3, 2, 2, 1, 3, 2, 3, 1, 3, 1, 2, 3, 2, 1], [3, 6])
     integer, parameter :: step(3) = [1, n, n**2]
@@ -79,7 +81,7 @@ contains
     end do
   end subroutine make_tetrahedra
 
-  ! The shape functions of the four corners at a quadrature point.
+  ! Returns the shape functions of the four corners at a quadrature point.
   pure function shapes(q) result(values)
     integer, intent(in) :: q
     double precision :: values(4)

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # expand_templates.sh [FOLDER]
-# Expands templates/riis_*.fypp, and writes riisf.f90 (interfaces.py), into FOLDER/riis_*.f90, by default generated/ beside this
-# script. Needs fypp (Debian's package fypp).
+# Expands each templates/riis_*.fypp into FOLDER/riis_*.f90, and writes FOLDER/riisf.f90 (interfaces.py). FOLDER is generated/
+# beside this script by default. Needs fypp (Debian's package fypp).
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 folder=$(cd "${1:-$here/generated}" && pwd)
@@ -12,7 +12,7 @@ if ! command -v fypp >/dev/null; then
 fi
 for template in "$here"/templates/riis_*.fypp; do
   source=$folder/$(basename "$template" .fypp).f90
-  # What comes out is read by people: lines are as long as the template makes them, and whole or not there.
+  # People read the generated files, so --no-folding keeps the templates' line breaks. A file is replaced only when complete.
   fypp --no-folding "$template" "$source.part"
   mv "$source.part" "$source"
 done

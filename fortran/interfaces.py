@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""interfaces.py FOLDER: writes FOLDER/riisf.f90, the explicit interfaces of the subroutines in FOLDER/riis_f77*.f90 and in
+"""interfaces.py FOLDER: writes FOLDER/riisf.f90. It has explicit interfaces for the subroutines in FOLDER/riis_f77*.f90 and in
 riis_f77_laws.f90 beside this script. expand_templates.sh starts it."""
 
 import re
@@ -19,7 +19,7 @@ module riisf
 
 
 def statements(text):
-    """Yields the statements of a file, without comments and in one line each."""
+    """Yields the statements of a file, each in one line and without comments."""
     whole = ""
     for line in text.splitlines():
         line = re.sub(r"!.*", "", line).rstrip()
@@ -32,7 +32,7 @@ def statements(text):
 
 
 def interfaces(text):
-    """Yields the name, the head and the declarations of arguments of each subroutine."""
+    """Yields the name, the first statement and the argument declarations of each subroutine."""
     name = head = None
     arguments = []
     for statement in statements(text):
@@ -46,7 +46,7 @@ def interfaces(text):
 
 
 def folded(line, indent):
-    """The line in lines of at most 120 columns."""
+    """Returns the line, split into lines of at most 120 columns."""
     lines = []
     while len(line) > 116 - len(indent):
         cut = line.rfind(", ", 0, 116 - len(indent)) + 1

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> riis for Fortran: heart valves as resistive immersed implicit surfaces. All of riis.h is here in types with procedures.
-!! Callers need neither iso_c_binding nor TARGET.
+!> riis for Fortran: heart valves as resistive immersed implicit surfaces. Types with procedures offer all of riis.h. Callers need
+!! neither iso_c_binding nor TARGET.
 !!
 !!     use riis
 !!     type(riis_valve) :: valve
@@ -20,33 +20,33 @@
 !! Rules for every procedure:
 !!
 !! - Errors. The last argument is `integer(riis_status), intent(out), optional :: status`: RIIS_OK or an error, whose message
-!!   riis_error_message() gives. Without it an error stops the program, with its name and message on the error unit. A
-!!   positive error refuses the call, and nothing changed. A negative error leaves an object passed for writing fit for
-!!   destruction only. Each thread has its own message. Messages name the C arguments and count from 0.
-!! - Objects. Each is empty until it is created, and must be destroyed: nothing happens by itself at the end of a scope. An
-!!   intent(out) argument loses its object. Creating an object twice is an error, and so is the use of an empty one;
-!!   destroying twice is none. Objects cannot be copied: a = b stops the program unless both are empty. Pass them as
+!!   riis_error_message() gives. Without it an error stops the program, with its name and message on the error unit. After a
+!!   positive error nothing has changed. After a negative error, an object that the call would have written can only be
+!!   destroyed. Each thread has its own message. Messages name the C arguments and count from 0.
+!! - Objects. Each is empty until it is created, and must be destroyed: the end of a scope does not destroy it. An
+!!   intent(out) argument loses its object. Creating an object twice is an error, and so is the use of an empty object.
+!!   Destroying it twice is allowed. Objects cannot be copied: a = b stops the program unless both are empty. Pass them as
 !!   arguments or point to them; functions cannot return them. Array constructors and allocate(..., source=...) copy objects
-!!   unnoticed. So does gfortran when it assigns a variable of a type with objects in allocatable components, such as
-!!   type(riis_valve), allocatable :: v. Do none of these, and do not enlarge an array of objects by assignment.
+!!   without an error. So does gfortran when it assigns a variable of a type with objects in allocatable components, such as
+!!   type(riis_valve), allocatable :: v. Avoid all of these, and do not enlarge an array of objects by assignment.
 !! - Integers. Ids, counts, numbers of threads and bases may be integer(int32), the default kind, or integer(int64). Optional
-!!   ones are declared class(*), since a generic cannot choose by them; anything but an integer is refused. If a call has
-!!   several counts that are not optional (n_nodes and stride; ni, nj, nk), they have one kind. Integers that the library
-!!   writes have their kind in C: triangle_id integer(int64), leaflet_id, patch_id and side integer(int32).
-!! - Counting. Anything called *_id counts from 0, as in C, also triangle_id and leaflet_id (RIIS_LEAFLET_*). Anything called
+!!   integers are declared class(*), since a generic procedure cannot distinguish them; other types are refused. If a call has
+!!   several counts that are not optional (n_nodes and stride; ni, nj, nk), they must be of one kind. Integers that the
+!!   library writes have the same kind as in C: triangle_id integer(int64), leaflet_id, patch_id and side integer(int32).
+!! - Counting. Anything called *_id counts from 0, as in C, including triangle_id and leaflet_id (RIIS_LEAFLET_*). Anything called
 !!   node_num counts from 1. Ids that the caller gives count from index_base, by default 1.
 !! - Reals are real(c_double), real(8) with most compilers. Lengths have one unit of the caller's choice, angles are in
 !!   degrees.
 !! - Arrays are whole or sections. Coordinates are read in place, with any positive stride. The coordinates of a mesh and
-!!   the rows of an adjacency are borrowed beyond the call: riis_mesh says how, and what not to pass there. Other arrays are
-!!   used during the call only. Sections of them that are not contiguous are copied for it, and arrays of which the
-!!   procedure says so. If the argument is CONTIGUOUS, gfortran also copies the target of a pointer that is not declared so.
+!!   the rows of an adjacency are borrowed beyond the call: riis_mesh describes how, and which arguments to avoid. Other arrays
+!!   are used during the call only. The call copies sections that are not contiguous, and arrays for which the procedure's
+!!   comment says so. If the argument is CONTIGUOUS, gfortran also copies the target of a pointer without this attribute.
 !! - Threads. Any number of threads may read an object (intent(in)) at once. One thread may write it while no other reads it.
 !!   Different objects never interfere. Results are bitwise the same for any number of threads. In an OpenMP region, declare
 !!   a thread's own objects in a procedure that it calls or in a BLOCK: gfortran leaves copies by PRIVATE undefined.
 !! - Compiler options. With options that change the default kinds (-fdefault-integer-8), logical arguments need the kind that
 !!   this module was compiled with; leaflet_id, side and marks stay integer(int32). Compile these sources without gfortran's
-!!   -fno-automatic: it makes threads share local variables in static memory, and messages of errors get lost.
+!!   -fno-automatic: it puts local variables into static memory that all threads share, and error messages get lost.
 module riis
   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int32_t, c_int64_t, c_null_funptr, c_null_ptr, c_ptr, &
     c_f_procpointer
@@ -101,7 +101,7 @@ module riis
     RIIS_INTERPOLATION_LINEAR, RIIS_INTERPOLATION_CUBIC, RIIS_PHASE_CLOSING, RIIS_PHASE_OPENING, &
     RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED, RIIS_PASSAGE_CLOSED, RIIS_PASSAGE_OPEN, RIIS_PASSAGE_NONE
 
-  integer, parameter, public :: riis_id = c_int64_t         !< The kind of node, triangle and vertex ids, for codes in
+  integer, parameter, public :: riis_id = c_int64_t         !< The kind of node, triangle and vertex ids. It is for codes in
                                                             !! Fortran 2003, which has no int64.
 
   !> Returns the name of a status.
@@ -136,7 +136,8 @@ module riis
 
 contains
 
-  ! A pure function may give the length of a result, and it may call only functions that are declared pure.
+  ! A pure function may give the length of a result, and it may call only functions that are declared pure. So this interface
+  ! declares the C function pure.
   pure function error_length() result(length)
     integer :: length
     interface
@@ -175,8 +176,8 @@ contains
     length = riis_c_text_length(version_text())
   end function version_length
 
-  !> Returns the message of the calling thread's last error, which names the argument and its value. '' if there was none. A
-  !! call that succeeds leaves it alone.
+  !> Returns the message of the calling thread's last error, which names the argument and its value. '' if there was none. A call
+  !! that succeeds does not change it.
   function riis_error_message() result(text)
     character(len=error_length()) :: text                   !< A copy.
     text = riis_c_text(riis_last_error())
@@ -184,7 +185,7 @@ contains
 
   !> Returns the status's own name, such as 'RIIS_INVALID_ARGUMENT', or 'unknown status'.
   function status_name(status) result(name)
-    integer(riis_status), intent(in) :: status              !< Any.
+    integer(riis_status), intent(in) :: status              !< Any value.
     character(len=name_length(status)) :: name              !< A copy.
     name = riis_c_text(c_status_name(status))
   end function status_name
@@ -203,15 +204,15 @@ contains
     text = riis_c_text(c_version_string())
   end function version_string
 
-  !> Sets the procedure that receives the messages of the whole process. Without an argument there is silence, the default.
-  !! Any thread may call it. A message under way in another thread may still reach the former procedure.
+  !> Sets the procedure that receives the messages of the whole process. Without an argument no messages are sent, which is the
+  !! default. Any thread may call it. A message that another thread is sending may still reach the former procedure.
   subroutine set_log(procedure)
-    procedure(riis_log_procedure), optional :: procedure    !< Called until another is set. A module or external procedure, not
-                                                            !! internal to a procedure that returns.
+    procedure(riis_log_procedure), optional :: procedure    !< Called until another one is set. It must be a module or external
+                                                            !! procedure, not an internal one of a procedure that returns.
     type(c_funptr) :: location
     if (present(procedure)) then
       location = c_funloc(procedure)
-      ! The library keeps function and user data together under a lock, so the procedure travels as user data.
+      ! The library stores function and user data together under a lock, so the procedure is passed as user data.
       call c_set_log(c_funloc(pass_message), transfer(location, c_null_ptr))
     else
       call c_set_log(c_null_funptr, c_null_ptr)

@@ -87,7 +87,7 @@ contains
     integer(int64), intent(in) :: n_nodes                   !< The number of nodes of the marking.
     real(c_double), intent(in) :: value(*)                  !< (n_nodes).
     real(c_double), intent(in) :: weight(*)                 !< (n_nodes).
-    type(riis_band_sums), intent(inout) :: sums             !< Left alone on an error.
+    type(riis_band_sums), intent(inout) :: sums             !< Unchanged on an error.
     integer(riis_status) :: code                            !< RIIS_OK or the error.
     type(riis_band) :: band
     code = riis_band_init(band, c_sizeof(band))
@@ -109,7 +109,7 @@ contains
     integer(int64), intent(in) :: from(*)                   !< (n_from), from 0.
     integer(int64), intent(in) :: n_to                      !< At least 1.
     integer(int64), intent(in) :: to(*)                     !< (n_to), from 0.
-    type(riis_passage), intent(inout) :: passage            !< Left alone on an error.
+    type(riis_passage), intent(inout) :: passage            !< Unchanged on an error.
     integer(riis_status) :: code                            !< RIIS_OK or the error.
     type(riis_passage_ends) :: ends
     code = riis_passage_ends_init(ends, c_sizeof(ends))

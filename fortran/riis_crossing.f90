@@ -10,29 +10,29 @@ module riis_crossing
   private
   public :: riis_crossings, riis_crossing_list, riis_find_crossings
 
-  !> Pairs of triangles that cross, by %get_list. The crossings own the arrays, which count from 1. Lengths are in mesh units.
+  !> Pairs of triangles that cross, from %get_list. The crossings own the arrays, which count from 1. Lengths are in mesh units.
   type :: riis_crossing_list
     integer(int64) :: n_pairs = 0                           !< The number of pairs. Without one, ids are -1, and other components
                                                             !! but seconds 0.
     integer(int64), pointer :: triangle_id(:, :) => null()  !< (2, n_pairs), from 0, ascending.
     real(c_double), pointer :: point(:, :) => null()        !< (3, n_pairs): the middle of the pair's intersection.
     real(c_double), pointer :: depth(:) => null()           !< (n_pairs): the penetration depth.
-    real(c_double), pointer :: length(:) => null()          !< (n_pairs), of the intersection.
+    real(c_double), pointer :: length(:) => null()          !< (n_pairs): the length of the intersection.
     real(c_double) :: total_length = 0                      !< The sum of length.
-    real(c_double) :: deepest_depth = 0                     !< Of the deepest pair.
-    real(c_double) :: deepest_point(3) = 0                  !< The middle of its intersection.
-    integer(int64) :: deepest_triangle_id(2) = -1           !< Its triangles, ascending, from 0.
-    integer(int32) :: deepest_leaflet_id(2) = -1            !< Their leaflets.
+    real(c_double) :: deepest_depth = 0                     !< The depth of the deepest pair.
+    real(c_double) :: deepest_point(3) = 0                  !< The middle of the deepest pair's intersection.
+    integer(int64) :: deepest_triangle_id(2) = -1           !< The deepest pair's triangles, ascending, from 0.
+    integer(int32) :: deepest_leaflet_id(2) = -1            !< The leaflets of these triangles.
     real(c_double) :: seconds = 0                           !< Wall time of riis_find_crossings.
   end type riis_crossing_list
 
-  !> The pairs that riis_find_crossings found. They are empty until it and after %destroy, which must be called.
+  !> The pairs that riis_find_crossings found. They are empty before that call and after %destroy, which must be called.
   type :: riis_crossings
     private
     type(c_ptr) :: handle = c_null_ptr
   contains
     procedure, non_overridable :: get_list => crossings_get_list        !< Gives the pairs.
-    procedure, non_overridable :: is_created => crossings_is_created    !< Tells whether it was created.
+    procedure, non_overridable :: is_created => crossings_is_created    !< Returns whether it was created.
     procedure, non_overridable :: c_handle => crossings_c_handle        !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => crossings_destroy          !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -51,15 +51,15 @@ module riis_crossing
 contains
 
   !> Finds every pair of the surface's triangles that go through each other. A pair's depth is its penetration depth: the length
-  !! of the shortest translation of one triangle after which both only touch. Triangles that touch or lie in one plane have depth
-  !! 0. Triangles of one leaflet that share a vertex are no pair. %get_list of the crossings gives the pairs. Errors:
-  !! RIIS_INVALID_ARGUMENT naming depth or n_threads; the crossings are then as they were.
+  !! of the shortest translation of one triangle after which the two only touch. Triangles that touch or lie in one plane have
+  !! depth zero. Triangles of one leaflet that share a vertex do not count as a pair. %get_list of the crossings gives the pairs.
+  !! Errors: RIIS_INVALID_ARGUMENT naming depth or n_threads; the crossings are then as they were.
   subroutine find_crossings(surface, crossings, depth, n_threads, status)
-    class(riis_surface), intent(in) :: surface              !< Created.
-    type(riis_crossings), intent(inout) :: crossings        !< Empty, or from a call before; replaced, but not on an error.
-    real(c_double), intent(in), optional :: depth           !< Half thicknesses, 0 to 1: a pair at most so deep touches. Default
-                                                            !! 1e-6.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: 1 per 4096 triangles, at most 1 a
+    class(riis_surface), intent(in) :: surface              !< Must be created.
+    type(riis_crossings), intent(inout) :: crossings        !< Empty, or from an earlier call; replaced, but not on an error.
+    real(c_double), intent(in), optional :: depth           !< In half thicknesses, 0 to 1. Pairs of at most this depth only
+                                                            !! touch. Default 1e-6.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: 1 per 4096 triangles, at most 1 per
                                                             !! processor.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_crossing_options) :: options
@@ -72,11 +72,12 @@ contains
     was_empty = .not. c_associated(crossings%handle)
     if (code == RIIS_OK .and. was_empty) code = riis_crossings_create(crossings%handle)
     if (code == RIIS_OK) code = c_find_crossings(surface%c_handle(), options, crossings%handle)
-    if (code /= RIIS_OK .and. was_empty) call riis_crossings_destroy(crossings%handle) ! empty as before
+    ! The crossings were empty before the call and stay so.
+    if (code /= RIIS_OK .and. was_empty) call riis_crossings_destroy(crossings%handle)
     call finish(code, status)
   end subroutine find_crossings
 
-  !> Gives the pairs that riis_find_crossings found last, ascending, without a copy. They are valid until the next
+  !> Gives the pairs from the last call of riis_find_crossings, ascending, without a copy. They are valid until the next
   !! riis_find_crossings with these crossings or their destruction. Do not write to them. On an error all sizes are 0.
   subroutine crossings_get_list(this, list, status)
     class(riis_crossings), intent(in) :: this               !< From riis_find_crossings.
@@ -103,30 +104,30 @@ contains
     call finish(code, status)
   end subroutine crossings_get_list
 
-  !> Tells whether the crossings were found and not destroyed.
+  !> Returns whether the crossings were found and not destroyed.
   pure function crossings_is_created(this) result(is_created)
-    class(riis_crossings), intent(in) :: this               !< Any.
+    class(riis_crossings), intent(in) :: this               !< May be empty.
     logical :: is_created                                   !< .false. for empty ones.
     is_created = c_associated(this%handle)
   end function crossings_is_created
 
   !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
   function crossings_c_handle(this) result(handle)
-    class(riis_crossings), intent(in) :: this               !< Any.
+    class(riis_crossings), intent(in) :: this               !< May be empty.
     type(c_ptr) :: handle                                   !< c_null_ptr for empty ones.
     handle = this%handle
   end function crossings_c_handle
 
   !> Frees the memory of the crossings, which are then empty and can be used again. Nothing happens to empty ones.
   subroutine crossings_destroy(this)
-    class(riis_crossings), intent(inout) :: this            !< Any.
+    class(riis_crossings), intent(inout) :: this            !< May be empty.
     call riis_crossings_destroy(this%handle)
   end subroutine crossings_destroy
 
   !> Stops the program unless both are empty.
   impure elemental subroutine crossings_assign(left, right)
-    class(riis_crossings), intent(inout) :: left            !< Empty.
-    class(riis_crossings), intent(in) :: right              !< Empty.
+    class(riis_crossings), intent(inout) :: left            !< Must be empty.
+    class(riis_crossings), intent(in) :: right              !< Must be empty.
     call refuse_copy(left%handle, right%handle, 'riis_crossings')
   end subroutine crossings_assign
 end module riis_crossing

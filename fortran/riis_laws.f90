@@ -1,12 +1,12 @@
 ! SPDX-License-Identifier: Apache-2.0
 !> Laws of opening: riis_opening_* of riis.h, as a part of module riis.
 !!
-!! The same arguments give the same bits, and nothing is kept between calls. Times, pressures and flows have the solver's
-!! units. The pressure difference is that upstream less that downstream, and flow is positive downstream, so both open a
-!! valve. Laws and states are variables like others, without anything to create or destroy. A structure constructor makes a
-!! law: riis_opening_switch(opening_duration=0.04d0, closing_duration=0.04d0) has defaults for the rest. A state can be copied
-!! by =, for a step that may be taken again. A restart file holds it as it is, by an unformatted WRITE or in full precision,
-!! and the law goes on with the same bits.
+!! The same arguments give the same bits, and nothing is kept between calls. Times, pressures and flows have the solver's units.
+!! The pressure difference is upstream pressure minus downstream pressure, and flow is positive downstream, so both open a valve.
+!! Laws and states are ordinary variables, which are neither created nor destroyed. A structure constructor makes a law: in
+!! riis_opening_switch(opening_duration=0.04d0, closing_duration=0.04d0) the other components have their defaults. A state can be
+!! copied by =, for a step that may be repeated. If a restart file contains the state, by an unformatted WRITE or in full
+!! precision, the law continues with the same bits.
 module riis_laws
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -25,63 +25,66 @@ module riis_laws
   ! NaN stands for a number that has no default, or that is not known yet.
   real(c_double), parameter :: no_value = transfer(int(z'7FF8000000000000', int64), 0._c_double)
 
-  !> An opening by times: a mitral valve opens at 0.45 s in 0.05 s, and closes at 0.95 s in 0.05 s, every 1 s. The ramps are
-  !! of fifth degree: neither the rate nor its derivative jumps.
+  !> An opening by times. Example: a mitral valve opens at 0.45 s in 0.05 s, and closes at 0.95 s in 0.05 s, every 1 s. The ramps
+  !! are of fifth degree: neither the rate nor its derivative jumps.
   type :: riis_opening_times
-    real(c_double) :: opening_start = no_value   !< When the valve begins to open. No default, as for the next three.
-    real(c_double) :: opening_duration = no_value !< How long that takes, > 0.
+    real(c_double) :: opening_start = no_value   !< When the valve begins to open. This and the next three components have no
+                                                 !! default.
+    real(c_double) :: opening_duration = no_value !< The duration of opening, > 0.
     real(c_double) :: closing_start = no_value   !< When it begins to close, at least opening_start + opening_duration.
-    real(c_double) :: closing_duration = no_value !< How long that takes, > 0.
+    real(c_double) :: closing_duration = no_value !< The duration of closing, > 0.
     real(c_double) :: closed = 0                 !< The opening when closed, 0 to 1.
     real(c_double) :: open = 1                   !< The opening when open, 0 to 1.
-    real(c_double) :: period = 0                 !< > 0: it repeats, not before it has closed. 0: it opens once.
+    real(c_double) :: period = 0                 !< > 0: the motion repeats, at the earliest when the valve has closed. 0: the
+                                                 !! valve opens once.
   end type riis_opening_times
 
-  !> A valve that opens when the pressure difference exceeds a value, and closes when the flow falls below one. An aortic
-  !! valve in SI units: opening_duration 0.04, closing_duration 0.04, open_above 0, close_below 0 (the flow reverses),
-  !! filter_time 0.002, dwell_time 0.02.
+  !> A valve that opens when the pressure difference exceeds open_above, and closes when the flow falls below close_below.
+  !! Example: an aortic valve in SI units has opening_duration 0.04, closing_duration 0.04, open_above 0, close_below 0 (the flow
+  !! reverses), filter_time 0.002, dwell_time 0.02.
   type :: riis_opening_switch
-    real(c_double) :: opening_duration = no_value !< From closed to open, > 0. No default, as for the next.
-    real(c_double) :: closing_duration = no_value !< From open to closed, > 0.
-    real(c_double) :: open_above = 0             !< Pressure difference.
-    real(c_double) :: close_below = 0            !< Flow.
-    real(c_double) :: filter_time = 0         !< Time constant of a filter of first order on both, >= 0. 0: no filter.
+    real(c_double) :: opening_duration = no_value !< The time from closed to open, > 0. This and the next component have no
+                                                  !! default.
+    real(c_double) :: closing_duration = no_value !< The time from open to closed, > 0.
+    real(c_double) :: open_above = 0             !< A pressure difference.
+    real(c_double) :: close_below = 0            !< A flow.
+    real(c_double) :: filter_time = 0         !< Time constant of a first-order filter of both, >= 0. 0: no filter.
     real(c_double) :: dwell_time = 0          !< The least time from one turn to the next, >= 0.
   end type riis_opening_switch
 
   !> The state of a switch. It begins as a closed valve at time 0.
   type :: riis_opening_switch_state
-    real(c_double) :: time = 0                   !< Of this state.
-    real(c_double) :: opening = 0                !< What the law says at that time.
+    real(c_double) :: time = 0                   !< The time of this state.
+    real(c_double) :: opening = 0                !< The opening at that time.
     real(c_double) :: rate = 0                   !< The derivative of the opening by time.
-    real(c_double) :: progress = 0               !< Share of the way from closed to open, 0 to 1; the opening is a smooth ramp
-                                                 !! over it.
+    real(c_double) :: progress = 0               !< The fraction of the way from closed to open, 0 to 1. The opening is a smooth
+                                                 !! ramp of it.
     real(c_double) :: pressure_difference = no_value !< Filtered; NaN: none yet.
     real(c_double) :: flow = no_value            !< Filtered; NaN: none yet.
     real(c_double) :: turn_time = no_value       !< The time of the last turn; NaN: none yet.
     integer(int32) :: phase = RIIS_PHASE_CLOSING !< RIIS_PHASE_*.
   end type riis_opening_switch_state
 
-  !> The angle law of T. Korakianitis and Y. Shi, Med. Eng. Phys. 28 (2006), with angles in radians, between stops that take
-  !! all speed:
+  !> The angle law of T. Korakianitis and Y. Shi, Med. Eng. Phys. 28 (2006), with angles in radians, between stops that absorb all
+  !! speed:
   !!
   !!     angle'' = -friction angle' + (pressure_gain dp + flow_gain Q) cos(angle) - vortex_gain max(Q, 0) sin(2 angle)
   !!
-  !! The opening is the angle's share of its range. The paper's values, for mmHg, ml and s: pressure_gain 5500, flow_gain 2,
-  !! friction 50, vortex_gain 7 for the aortic and 3.5 for the mitral valve.
+  !! The opening is the angle's fraction of the range from angle_min to angle_max. The paper's values, for mmHg, ml and s:
+  !! pressure_gain 5500, flow_gain 2, friction 50, vortex_gain 7 for the aortic and 3.5 for the mitral valve.
   type :: riis_opening_angle
-    real(c_double) :: pressure_gain = no_value   !< K_p, >= 0. No default, as for the next three.
+    real(c_double) :: pressure_gain = no_value   !< K_p, >= 0. This and the next three components have no default.
     real(c_double) :: flow_gain = no_value       !< K_q, >= 0.
     real(c_double) :: friction = no_value        !< K_f, >= 0.
     real(c_double) :: vortex_gain = no_value     !< K_v, >= 0.
-    real(c_double) :: angle_min = 0              !< Degrees, 0 to 90: closed.
-    real(c_double) :: angle_max = 75             !< Degrees, above angle_min, at most 90: open.
+    real(c_double) :: angle_min = 0              !< Degrees, 0 to 90: the closed angle.
+    real(c_double) :: angle_max = 75             !< Degrees, above angle_min, at most 90: the open angle.
   end type riis_opening_angle
 
-  !> The state of the angle law. It begins with a closed valve at rest, at time 0: its angle 0 stands for angle_min.
+  !> The state of the angle law. It begins with a closed valve at rest, at time 0. Its angle 0 means angle_min.
   type :: riis_opening_angle_state
-    real(c_double) :: time = 0                   !< Of this state.
-    real(c_double) :: opening = 0                !< What the law says at that time.
+    real(c_double) :: time = 0                   !< The time of this state.
+    real(c_double) :: opening = 0                !< The opening at that time.
     real(c_double) :: rate = 0                   !< The derivative of the opening by time.
     real(c_double) :: angle = 0                  !< Degrees.
     real(c_double) :: angle_rate = 0             !< Degrees per time.
@@ -89,12 +92,12 @@ module riis_laws
     real(c_double) :: flow = no_value            !< At that time; NaN: none yet.
   end type riis_opening_angle_state
 
-  !> Tells the opening at a time by keys.
+  !> Gives the opening at a time from a table of keys.
   interface riis_opening_from_table
     module procedure from_table
   end interface riis_opening_from_table
 
-  !> Tells the opening at a time by the times of opening and closing.
+  !> Gives the opening at a time from the times of opening and closing.
   interface riis_opening_from_times
     module procedure from_times
   end interface riis_opening_from_times
@@ -107,18 +110,19 @@ module riis_laws
 
 contains
 
-  !> Tells the opening at a time by keys. Errors: RIIS_INVALID_ARGUMENT naming the key and its value, from 0.
+  !> Gives the opening at a time from a table of keys. Errors: RIIS_INVALID_ARGUMENT naming the key, counted from 0, and its
+  !! value.
   subroutine from_table(key_time, key_opening, time, opening, rate, period, interpolation, status)
     real(c_double), intent(in), contiguous, target :: key_time(:) !< (n_keys), 1 to 1,000,000, strictly ascending, magnitude
                                                             !! at most 1e30.
     real(c_double), intent(in), contiguous, target :: key_opening(:) !< (n_keys), 0 to 1.
     real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
-    real(c_double), intent(inout) :: opening                !< Left alone on an error.
-    real(c_double), intent(inout), optional :: rate         !< Its derivative by time. Left alone on an error.
-    real(c_double), intent(in), optional :: period          !< > 0: the table repeats; its keys lie within a period of the
-                                                            !! first, and a last key that is a period after the first has its
-                                                            !! opening. Default 0: the first key's opening counts before it,
-                                                            !! the last one's after it.
+    real(c_double), intent(inout) :: opening                !< Unchanged on an error.
+    real(c_double), intent(inout), optional :: rate         !< Its derivative by time. Unchanged on an error.
+    real(c_double), intent(in), optional :: period          !< > 0: the table repeats. Its keys lie within one period of the
+                                                            !! first. A last key one period after the first must have the same
+                                                            !! opening. Default 0: the opening is constant before the first key
+                                                            !! and after the last.
     class(*), intent(in), optional :: interpolation         !< integer, RIIS_INTERPOLATION_*. Default
                                                             !! RIIS_INTERPOLATION_LINEAR.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
@@ -137,12 +141,12 @@ contains
     call finish(code, status)
   end subroutine from_table
 
-  !> Tells the opening at a time. Errors: RIIS_INVALID_ARGUMENT naming the component and its value.
+  !> Gives the opening at a time. Errors: RIIS_INVALID_ARGUMENT naming the component and its value.
   subroutine from_times(times, time, opening, rate, status)
     type(riis_opening_times), intent(in) :: times           !< The law.
     real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
-    real(c_double), intent(inout) :: opening                !< Left alone on an error.
-    real(c_double), intent(inout), optional :: rate         !< Its derivative by time. Left alone on an error.
+    real(c_double), intent(inout) :: opening                !< Unchanged on an error.
+    real(c_double), intent(inout), optional :: rate         !< Its derivative by time. Unchanged on an error.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(c_times) :: law
     integer(riis_status) :: code
@@ -160,15 +164,14 @@ contains
     call finish(code, status)
   end subroutine from_times
 
-  !> Advances a switch to a time. It turns at the end of the step in which its condition was met, so its opening has first
-  !! order in the length of steps. Errors: RIIS_INVALID_ARGUMENT naming the argument or component and its value.
+  !> Advances a switch to a time. The valve turns at the end of the step in which its condition was met, so the opening is
+  !! accurate to first order in the time step. Errors: RIIS_INVALID_ARGUMENT naming the argument or component and its value.
   subroutine advance_switch(law, state, time, pressure_difference, flow, status)
     type(riis_opening_switch), intent(in) :: law            !< The law.
-    type(riis_opening_switch_state), intent(inout) :: state !< Its state, which becomes that of the time. Left alone on an
-                                                            !! error.
+    type(riis_opening_switch_state), intent(inout) :: state !< Its state, which is advanced to the time. Unchanged on an error.
     real(c_double), intent(in) :: time                      !< At least state%time.
-    real(c_double), intent(in) :: pressure_difference       !< Upstream less downstream, at the time.
-    real(c_double), intent(in) :: flow                      !< Positive downstream, at the time.
+    real(c_double), intent(in) :: pressure_difference       !< Upstream minus downstream, at the given time.
+    real(c_double), intent(in) :: flow                      !< Positive downstream, at the given time.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(c_switch) :: made
     type(c_switch_state) :: before, now
@@ -199,16 +202,15 @@ contains
   end subroutine advance_switch
 
   !> Advances the angle law to a time. Pressure difference and flow are taken as linear over the step, which makes the angle
-  !! second order in the length of steps. Without values before, the present ones count for the whole step. Errors:
-  !! RIIS_INVALID_ARGUMENT naming the argument or component and its value; RIIS_LIMIT_EXCEEDED for a step so long that the
-  !! motion would take more than a million steps within it.
+  !! accurate to second order in the time step. If there are no earlier values, the present ones are used for the whole step.
+  !! Errors: RIIS_INVALID_ARGUMENT naming the argument or component and its value; RIIS_LIMIT_EXCEEDED for a step so long that it
+  !! would need more than a million inner steps.
   subroutine advance_angle(law, state, time, pressure_difference, flow, status)
     type(riis_opening_angle), intent(in) :: law             !< The law.
-    type(riis_opening_angle_state), intent(inout) :: state  !< Its state, which becomes that of the time. Left alone on an
-                                                            !! error.
+    type(riis_opening_angle_state), intent(inout) :: state  !< Its state, which is advanced to the time. Unchanged on an error.
     real(c_double), intent(in) :: time                      !< At least state%time.
-    real(c_double), intent(in) :: pressure_difference       !< Upstream less downstream, at the time.
-    real(c_double), intent(in) :: flow                      !< Positive downstream, at the time.
+    real(c_double), intent(in) :: pressure_difference       !< Upstream minus downstream, at the given time.
+    real(c_double), intent(in) :: flow                      !< Positive downstream, at the given time.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(c_angle) :: made
     type(c_angle_state) :: before, now

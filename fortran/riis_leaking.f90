@@ -12,27 +12,28 @@ module riis_leaking
   private
   public :: riis_leaks, riis_leak_list, riis_find_leaks
 
-  !> Edges that leak, by %get_list. The leaks own the arrays, which count from 1. Lengths are in mesh units.
+  !> Edges that leak, from %get_list. The leaks own the arrays, which count from 1. Lengths are in mesh units.
   type :: riis_leak_list
     integer(int64) :: n_edges = 0                           !< The number of edges. Without one, node ids are -1, and other
                                                             !! components but seconds 0.
     integer(int64), pointer :: node_id(:, :) => null()      !< (2, n_edges), from 0, ascending: node_id + 1 are columns of xyz.
     real(c_double), pointer :: length(:) => null()          !< (n_edges).
-    real(c_double), pointer :: distance(:) => null()        !< (n_edges): the distance of its nearer node.
-    real(c_double) :: half_thickness = 0                    !< The smallest that gives each edge a marked node.
+    real(c_double), pointer :: distance(:) => null()        !< (n_edges): the distance of the edge's nearer node.
+    real(c_double) :: half_thickness = 0                    !< The smallest half thickness that would give each edge a marked
+                                                            !! node.
     integer(int64) :: longest_node_id(2) = -1               !< The longest edge's nodes, ascending, from 0.
-    real(c_double) :: longest_length = 0                    !< Its length.
-    real(c_double) :: longest_middle(3) = 0                 !< Its middle.
+    real(c_double) :: longest_length = 0                    !< The longest edge's length.
+    real(c_double) :: longest_middle(3) = 0                 !< The longest edge's middle.
     real(c_double) :: seconds = 0                           !< Wall time of riis_find_leaks.
   end type riis_leak_list
 
-  !> The edges that riis_find_leaks found. They are empty until it and after %destroy, which must be called.
+  !> The edges that riis_find_leaks found. They are empty before that call and after %destroy, which must be called.
   type :: riis_leaks
     private
     type(c_ptr) :: handle = c_null_ptr
   contains
     procedure, non_overridable :: get_list => leaks_get_list            !< Gives the edges.
-    procedure, non_overridable :: is_created => leaks_is_created        !< Tells whether it was created.
+    procedure, non_overridable :: is_created => leaks_is_created        !< Returns whether it was created.
     procedure, non_overridable :: c_handle => leaks_c_handle            !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => leaks_destroy              !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -52,18 +53,18 @@ module riis_leaking
 
 contains
 
-  !> Finds every edge of the mesh's adjacency that leaks: it crosses the surface between two unmarked nodes. Edges that are
-  !! at most two half thicknesses long do not leak. Gaps of the surface itself are not found. %get_list of the leaks
-  !! gives the edges. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or if the marks were never marked with, or
-  !! were marked with another mesh or half thickness. The leaks are then as they were.
+  !> Finds every edge of the mesh's adjacency that leaks: it crosses the surface between two unmarked nodes. Edges that are at
+  !! most two half thicknesses long do not leak. Gaps of the surface itself are not found. %get_list of the leaks gives the edges.
+  !! Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or if the marks do not come from a marking with this mesh and
+  !! half thickness. The leaks are then as they were.
   subroutine find_leaks_logical(surface, mesh, marks, leaks, node_mask, n_threads, status)
     class(riis_surface), intent(in) :: surface              !< The surface of the marking.
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
     class(riis_marks), intent(in) :: marks                  !< From riis_mark_nodes.
-    type(riis_leaks), intent(inout) :: leaks                !< Empty, or from a call before; replaced, but not on an error.
-    logical, intent(in), optional :: node_mask(:)           !< (n_nodes), as in the marking: edges to nodes with .false. are no
-                                                            !! paths; copied. Default: all nodes.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    type(riis_leaks), intent(inout) :: leaks                !< Empty, or from an earlier call; replaced, but not on an error.
+    logical, intent(in), optional :: node_mask(:)           !< (n_nodes), as in the marking: edges to nodes with .false. are
+                                                            !! ignored; copied. Default: all nodes.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
@@ -78,9 +79,9 @@ contains
     class(riis_surface), intent(in) :: surface              !< The surface of the marking.
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
     class(riis_marks), intent(in) :: marks                  !< From riis_mark_nodes.
-    type(riis_leaks), intent(inout) :: leaks                !< Empty, or from a call before; replaced, but not on an error.
-    integer(int8), intent(in), contiguous :: node_mask(:)   !< (n_nodes): edges to nodes with 0 are no paths.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    type(riis_leaks), intent(inout) :: leaks                !< Empty, or from an earlier call; replaced, but not on an error.
+    integer(int8), intent(in), contiguous :: node_mask(:)   !< (n_nodes): edges to nodes with 0 are ignored.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = RIIS_OK
@@ -93,9 +94,9 @@ contains
     class(riis_surface), intent(in) :: surface              !< The surface of the marking.
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
     class(riis_marks), intent(in) :: marks                  !< From riis_mark_nodes.
-    type(riis_leaks), intent(inout) :: leaks                !< Empty, or from a call before; replaced, but not on an error.
-    integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): edges to nodes with 0 are no paths.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    type(riis_leaks), intent(inout) :: leaks                !< Empty, or from an earlier call; replaced, but not on an error.
+    integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): edges to nodes with 0 are ignored.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
@@ -105,7 +106,7 @@ contains
     call finish(code, status)
   end subroutine find_leaks_int32
 
-  ! This is the common part of all specifics. It does nothing after an error.
+  ! The common part of all specific procedures. It does nothing after an error.
   subroutine find(surface, mesh, marks, leaks, mask, n_threads, code)
     class(riis_surface), intent(in) :: surface
     class(riis_mesh), intent(in) :: mesh
@@ -129,11 +130,11 @@ contains
     if (code == RIIS_OK .and. was_empty) code = riis_leaks_create(leaks%handle)
     if (code == RIIS_OK) &
       code = c_find_leaks(surface%c_handle(), mesh%c_handle(), marks%c_handle(), options, leaks%handle)
-    if (code /= RIIS_OK .and. was_empty) call riis_leaks_destroy(leaks%handle) ! empty as before
+    if (code /= RIIS_OK .and. was_empty) call riis_leaks_destroy(leaks%handle) ! the leaks were empty before the call and stay so
   end subroutine find
 
-  !> Gives the edges that riis_find_leaks found last, ascending, without a copy. They are valid until the next riis_find_leaks
-  !! with these leaks or their destruction. Do not write to them. On an error all sizes are 0.
+  !> Gives the edges from the last call of riis_find_leaks, ascending, without a copy. They are valid until the next
+  !! riis_find_leaks with these leaks or their destruction. Do not write to them. On an error all sizes are 0.
   subroutine leaks_get_list(this, list, status)
     class(riis_leaks), intent(in) :: this                   !< From riis_find_leaks.
     type(riis_leak_list), intent(inout) :: list             !< Every component is set.
@@ -157,30 +158,30 @@ contains
     call finish(code, status)
   end subroutine leaks_get_list
 
-  !> Tells whether the leaks were found and not destroyed.
+  !> Returns whether the leaks were found and not destroyed.
   pure function leaks_is_created(this) result(is_created)
-    class(riis_leaks), intent(in) :: this                   !< Any.
+    class(riis_leaks), intent(in) :: this                   !< May be empty.
     logical :: is_created                                   !< .false. for empty ones.
     is_created = c_associated(this%handle)
   end function leaks_is_created
 
   !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
   function leaks_c_handle(this) result(handle)
-    class(riis_leaks), intent(in) :: this                   !< Any.
+    class(riis_leaks), intent(in) :: this                   !< May be empty.
     type(c_ptr) :: handle                                   !< c_null_ptr for empty ones.
     handle = this%handle
   end function leaks_c_handle
 
   !> Frees the memory of the leaks, which are then empty and can be used again. Nothing happens to empty ones.
   subroutine leaks_destroy(this)
-    class(riis_leaks), intent(inout) :: this                !< Any.
+    class(riis_leaks), intent(inout) :: this                !< May be empty.
     call riis_leaks_destroy(this%handle)
   end subroutine leaks_destroy
 
   !> Stops the program unless both are empty.
   impure elemental subroutine leaks_assign(left, right)
-    class(riis_leaks), intent(inout) :: left                !< Empty.
-    class(riis_leaks), intent(in) :: right                  !< Empty.
+    class(riis_leaks), intent(inout) :: left                !< Must be empty.
+    class(riis_leaks), intent(in) :: right                  !< Must be empty.
     call refuse_copy(left%handle, right%handle, 'riis_leaks')
   end subroutine leaks_assign
 end module riis_leaking

@@ -15,13 +15,13 @@ module riis_support
   public :: finish, fail, refuse, out_of_memory, check_created, check_not_created, refuse_copy, get_integer, check_size
   public :: get_faces, get_mask, end_for_c
 
-  !> The place of points as riis.h takes them: point i is x[i * stride], y[i * stride], z[i * stride].
+  !> The location of points in the form of riis.h: point i is x[i * stride], y[i * stride], z[i * stride].
   type :: strided_points
     integer(int64) :: n = 0               !< The number of points.
-    integer(int64) :: stride = 1          !< From one point to the next, in reals.
-    type(c_ptr) :: x = c_null_ptr         !< The first point's; null without points, as y and z are.
-    type(c_ptr) :: y = c_null_ptr         !< The first point's.
-    type(c_ptr) :: z = c_null_ptr         !< The first point's.
+    integer(int64) :: stride = 1          !< The distance from one point to the next, in reals.
+    type(c_ptr) :: x = c_null_ptr         !< The first point's x; null, like y and z, if there are no points.
+    type(c_ptr) :: y = c_null_ptr         !< The first point's y.
+    type(c_ptr) :: z = c_null_ptr         !< The first point's z.
   end type strided_points
 
   !> Gives the points of the caller's arrays without a copy: xyz(3, n), or x(n), y(n), z(n).
@@ -30,43 +30,43 @@ module riis_support
     module procedure points_of_vectors
   end interface points_of
 
-  !> Gives the value of an option of either integer kind. An option that is left out changes nothing.
+  !> Gets the value of an option of either integer kind. If the option is absent, the value does not change.
   interface get_integer
     module procedure get_int32
     module procedure get_int64
   end interface get_integer
 
-  !> Makes bytes of a mask: 1 for .true. and for numbers other than 0. Bytes that are not allocated are not present where they are
-  !! passed on as optional.
+  !> Makes bytes of a mask: 1 for .true. and for numbers other than 0. If the bytes are not allocated, they count as absent when
+  !! passed to an optional argument.
   interface get_mask
     module procedure get_mask_logical
     module procedure get_mask_int32
   end interface get_mask
 
-  !> Returns an integer of either kind as text without blanks.
+  !> Returns an integer of either kind as a text without blanks.
   interface text_of
     module procedure text_of_int32
     module procedure text_of_int64
   end interface text_of
 
   interface
-    !> Makes the message the calling thread's last error, so that riis_last_error also gives errors of this layer. It is from
-    !! the library's src/base/component.h.
+    !> Makes the message the calling thread's last error, so that riis_last_error returns errors of this layer too. The function
+    !! is in the library's src/base/component.h.
     function riis_component_error(status, text) result(same) bind(c, name='riis_component_error')
       import :: c_char, riis_status
       implicit none
-      integer(riis_status), value :: status                 !< What happened.
+      integer(riis_status), value :: status                 !< The error's status.
       character(kind=c_char), intent(in) :: text(*)         !< Ended by a null character.
-      integer(riis_status) :: same                          !< The status that was given.
+      integer(riis_status) :: same                          !< The same status.
     end function riis_component_error
   end interface
 
 contains
 
-  !> Ends every public procedure: gives the status if it is present, else an error stops the program.
+  !> Ends every public procedure. Gives the status if the argument is present; otherwise an error stops the program.
   subroutine finish(code, status)
-    integer(riis_status), intent(in) :: code                !< How it went.
-    integer(riis_status), intent(out), optional :: status   !< The caller's.
+    integer(riis_status), intent(in) :: code                !< The result of the procedure.
+    integer(riis_status), intent(out), optional :: status   !< The caller's argument.
     if (present(status)) then
       status = code
     else if (code /= RIIS_OK) then
@@ -76,22 +76,22 @@ contains
 
   !> Sets the message of the calling thread's last error.
   function fail(code, text) result(same)
-    integer(riis_status), intent(in) :: code                !< Which error.
-    character(len=*), intent(in) :: text                    !< What was wrong, naming the argument and its value.
-    integer(riis_status) :: same                            !< The code.
+    integer(riis_status), intent(in) :: code                !< The status of the error.
+    character(len=*), intent(in) :: text                    !< The fault, with the argument's name and value.
+    integer(riis_status) :: same                            !< The same status.
     same = riis_component_error(code, riis_c_string(text))
   end function fail
 
-  !> Does the same for the most frequent error.
+  !> Does the same for RIIS_INVALID_ARGUMENT, the most frequent error.
   function refuse(text) result(code)
-    character(len=*), intent(in) :: text                    !< What was wrong, naming the argument and its value.
+    character(len=*), intent(in) :: text                    !< The fault, with the argument's name and value.
     integer(riis_status) :: code                            !< RIIS_INVALID_ARGUMENT.
     code = fail(RIIS_INVALID_ARGUMENT, text)
   end function refuse
 
   !> Turns the STAT of an ALLOCATE into a status.
   function out_of_memory(stat) result(code)
-    integer, intent(in) :: stat                             !< 0: it succeeded.
+    integer, intent(in) :: stat                             !< 0 if it succeeded.
     integer(riis_status) :: code                            !< RIIS_OK or RIIS_OUT_OF_MEMORY.
     code = RIIS_OK
     if (stat /= 0) code = fail(RIIS_OUT_OF_MEMORY, 'out of memory')
@@ -106,7 +106,7 @@ contains
     if (.not. c_associated(handle)) code = refuse(name // ' was not created, or was destroyed')
   end function check_created
 
-  !> Checks that a handle is empty, because creating would lose its object.
+  !> Checks that a handle is empty, because creating an object would lose the present one.
   function check_not_created(handle, name) result(code)
     type(c_ptr), intent(in) :: handle                       !< The handle.
     character(len=*), intent(in) :: name                    !< The caller's name for it.
@@ -115,11 +115,11 @@ contains
     if (c_associated(handle)) code = refuse(name // ' was already created: destroy it first')
   end function check_not_created
 
-  !> The body of the assignments: two variables with one handle would destroy it twice.
+  !> Is called by the assignments. Two variables with one handle would destroy it twice.
   subroutine refuse_copy(left, right, name)
-    type(c_ptr), intent(in) :: left                         !< The handle to be written over.
-    type(c_ptr), intent(in) :: right                        !< The handle to be copied.
-    character(len=*), intent(in) :: name                    !< The type.
+    type(c_ptr), intent(in) :: left                         !< The handle that would be overwritten.
+    type(c_ptr), intent(in) :: right                        !< The handle that would be copied.
+    character(len=*), intent(in) :: name                    !< The name of the type.
     if (c_associated(right)) then
       error stop 'riis: a ' // name // ' cannot be copied: pass it as an argument, or point to it'
     else if (c_associated(left)) then
@@ -127,21 +127,21 @@ contains
     end if
   end subroutine refuse_copy
 
-  !> Checks the length of an array of the caller's.
+  !> Checks the length of the caller's array.
   function check_size(n, expected, name, of) result(code)
-    integer(int64), intent(in) :: n                         !< The length.
-    integer(int64), intent(in) :: expected                  !< What it must be.
-    character(len=*), intent(in) :: name                    !< The argument.
-    character(len=*), intent(in) :: of                      !< The things that are counted, such as 'points'.
+    integer(int64), intent(in) :: n                         !< The array's length.
+    integer(int64), intent(in) :: expected                  !< The expected length.
+    character(len=*), intent(in) :: name                    !< The argument's name.
+    character(len=*), intent(in) :: of                      !< What is counted, such as 'points'.
     integer(riis_status) :: code                            !< RIIS_OK or RIIS_INVALID_ARGUMENT.
     code = RIIS_OK
     if (n /= expected) code = refuse('the size of ' // name // ' is ' // text_of(n) // '; there are ' // &
       text_of(expected) // ' ' // of)
   end function check_size
 
-  !> Does what riis_c_string does, into memory of the caller's: gfortran allocates a function's text in every call.
+  !> Does the same as riis_c_string, but writes to the caller's memory. gfortran would allocate a function's text in every call.
   subroutine end_for_c(text, c_text)
-    character(len=*), intent(in) :: text                    !< Any.
+    character(len=*), intent(in) :: text                    !< Any text.
     character(len=*, kind=c_char), intent(out) :: c_text    !< Of the length len_trim(text) + 1.
     c_text = text
     c_text(len(c_text):) = c_null_char
@@ -149,14 +149,14 @@ contains
 
   !> Fills the faces of a surface, except vertex_ids. It does nothing after an error.
   subroutine get_faces(n_vertices, n_corners, n_faces, vertex_id_bits, leaflet_id, index_base, arrays, code)
-    integer(int64), intent(in) :: n_vertices                !< How many there are.
+    integer(int64), intent(in) :: n_vertices                !< The number of vertices.
     integer, intent(in) :: n_corners                        !< The first extent of vertex_ids.
     integer(int64), intent(in) :: n_faces                   !< Its second extent.
     integer, intent(in) :: vertex_id_bits                   !< 32 or 64.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces).
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1. Default 1.
-    type(riis_surface_arrays), intent(inout) :: arrays      !< Its vertices stay NULL.
-    integer(riis_status), intent(inout) :: code             !< Left alone on success.
+    type(riis_surface_arrays), intent(inout) :: arrays      !< Its vertices are set elsewhere and stay NULL here.
+    integer(riis_status), intent(inout) :: code             !< Unchanged on success.
     if (code == RIIS_OK) code = riis_surface_arrays_init(arrays, c_sizeof(arrays))
     if (code /= RIIS_OK) return
     arrays%n_vertices = n_vertices
@@ -174,11 +174,11 @@ contains
     if (size(leaflet_id, kind=int64) > 0) arrays%leaflet_id = c_loc(leaflet_id)
   end subroutine get_faces
 
-  !> Does get_mask.
+  !> Implements get_mask.
   subroutine get_mask_logical(mask, bytes, code)
-    logical, intent(in), optional :: mask(:)                !< Any.
-    integer(int8), allocatable, intent(out) :: bytes(:)     !< 1 or 0. Not allocated without a mask.
-    integer(riis_status), intent(inout) :: code             !< Left alone on success; nothing happens after an error.
+    logical, intent(in), optional :: mask(:)                !< Any mask.
+    integer(int8), allocatable, intent(out) :: bytes(:)     !< 1 or 0. Not allocated if the mask is absent.
+    integer(riis_status), intent(inout) :: code             !< Unchanged on success; after an earlier error nothing happens.
     integer :: stat
     if (code /= RIIS_OK .or. .not. present(mask)) return
     allocate (bytes(size(mask, kind=int64)), stat=stat)
@@ -186,11 +186,11 @@ contains
     if (code == RIIS_OK) bytes = merge(1_int8, 0_int8, mask)
   end subroutine get_mask_logical
 
-  !> Does get_mask.
+  !> Implements get_mask.
   subroutine get_mask_int32(mask, bytes, code)
-    integer(int32), intent(in) :: mask(:)                   !< Any.
+    integer(int32), intent(in) :: mask(:)                   !< Any mask.
     integer(int8), allocatable, intent(out) :: bytes(:)     !< 1 or 0.
-    integer(riis_status), intent(inout) :: code             !< Left alone on success; nothing happens after an error.
+    integer(riis_status), intent(inout) :: code             !< Unchanged on success; after an earlier error nothing happens.
     integer :: stat
     if (code /= RIIS_OK) return
     allocate (bytes(size(mask, kind=int64)), stat=stat)
@@ -198,33 +198,33 @@ contains
     if (code == RIIS_OK) bytes = merge(1_int8, 0_int8, mask /= 0)
   end subroutine get_mask_int32
 
-  !> Turns a handle of Fortran 77 into one of C.
+  !> Turns a Fortran 77 handle into a C handle.
   function c_handle_of(handle) result(c_handle)
-    integer(int64), intent(in) :: handle                    !< 0 for none.
-    type(c_ptr) :: c_handle                                 !< c_null_ptr for none.
+    integer(int64), intent(in) :: handle                    !< 0 for no object.
+    type(c_ptr) :: c_handle                                 !< c_null_ptr for no object.
     c_handle = transfer(int(handle, c_intptr_t), c_handle)
   end function c_handle_of
 
-  !> Turns a handle of C into one of Fortran 77.
+  !> Turns a C handle into a Fortran 77 handle.
   function handle_of(c_handle) result(handle)
-    type(c_ptr), intent(in) :: c_handle                     !< c_null_ptr for none.
-    integer(int64) :: handle                                !< 0 for none.
+    type(c_ptr), intent(in) :: c_handle                     !< c_null_ptr for no object.
+    integer(int64) :: handle                                !< 0 for no object.
     handle = int(transfer(c_handle, 0_c_intptr_t), int64)
   end function handle_of
 
-  !> Gives the address of a Fortran 77 caller's array, because TARGET there would need an explicit interface.
+  !> Returns the address of a Fortran 77 caller's array. (A TARGET attribute there would need an explicit interface.)
   function location_of(array) result(location)
-    type(*), intent(in), target :: array(*)                 !< Any kind.
-    type(c_ptr) :: location                                 !< Its first entry.
+    type(*), intent(in), target :: array(*)                 !< An array of any type.
+    type(c_ptr) :: location                                 !< The address of the first entry.
     location = c_loc(array)
   end function location_of
 
-  !> Makes the options of a surface from the arguments of a Fortran 77 caller. The others have their defaults.
+  !> Makes the options of a surface from the arguments of a Fortran 77 caller. All other options have their defaults.
   function get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options) result(code)
     real(c_double), intent(in) :: half_thickness            !< Mesh units.
     real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1.
     real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12.
-    real(c_double), intent(in) :: rotation_axis(3)          !< Of any length.
+    real(c_double), intent(in) :: rotation_axis(3)          !< Of any length but 0.
     real(c_double), intent(in) :: rotation_angle            !< Degrees.
     real(c_double), intent(in) :: translation(3)            !< Mesh units.
     type(riis_surface_options), intent(inout) :: options    !< Written on success.
@@ -239,17 +239,17 @@ contains
     options%translation = translation
   end function get_placement
 
-  !> Returns the address as a number, for differences.
+  !> Returns an address as a number, for differences of addresses.
   function address_of(location) result(address)
     type(c_ptr), intent(in) :: location                     !< From c_loc.
     integer(c_intptr_t) :: address                          !< In bytes.
     address = transfer(location, address)
   end function address_of
 
-  !> Turns a stride in bytes into one in reals, if the library can use it.
+  !> Converts a stride in bytes to a stride in reals, or refuses it if the library cannot use it.
   subroutine get_stride(n_bytes, name, stride, code)
-    integer(c_intptr_t), intent(in) :: n_bytes              !< From one entry to the next.
-    character(len=*), intent(in) :: name                    !< The argument.
+    integer(c_intptr_t), intent(in) :: n_bytes              !< The distance from one entry to the next.
+    character(len=*), intent(in) :: name                    !< The argument's name.
     integer(int64), intent(inout) :: stride                 !< In reals.
     integer(riis_status), intent(out) :: code               !< RIIS_OK or RIIS_INVALID_ARGUMENT.
     integer(c_intptr_t), parameter :: real_bytes = storage_size(0._c_double) / 8
@@ -265,11 +265,11 @@ contains
     end if
   end subroutine get_stride
 
-  !> Takes xyz(3, n): whole arrays and sections with a positive stride.
+  !> Takes xyz(3, n). It may be a whole array or a section with a positive stride.
   subroutine points_of_matrix(xyz, name, points, code)
     real(c_double), intent(in), target :: xyz(:, :)         !< The coordinates, (3, n).
-    character(len=*), intent(in) :: name                    !< The argument.
-    type(strided_points), intent(out) :: points             !< Their place.
+    character(len=*), intent(in) :: name                    !< The argument's name.
+    type(strided_points), intent(out) :: points             !< The location of the points.
     integer(riis_status), intent(out) :: code               !< RIIS_OK or RIIS_INVALID_ARGUMENT.
     if (size(xyz, 1) /= 3) then
       code = refuse('the shape of ' // name // ' is (' // text_of(size(xyz, 1, int64)) // ', ' // &
@@ -285,14 +285,14 @@ contains
     if (points%n > 1) call get_stride(address_of(c_loc(xyz(1, 2))) - address_of(points%x), name, points%stride, code)
   end subroutine points_of_matrix
 
-  !> Takes x(n), y(n), z(n): whole arrays and sections with the same positive stride.
+  !> Takes x(n), y(n) and z(n). They may be whole arrays or sections with the same positive stride.
   subroutine points_of_vectors(x, y, z, points, code, prefix)
     real(c_double), intent(in), target :: x(:)              !< (n).
     real(c_double), intent(in), target :: y(:)              !< (n).
     real(c_double), intent(in), target :: z(:)              !< (n).
-    type(strided_points), intent(out) :: points             !< Their place.
+    type(strided_points), intent(out) :: points             !< The location of the points.
     integer(riis_status), intent(out) :: code               !< RIIS_OK or RIIS_INVALID_ARGUMENT.
-    character(len=*), intent(in), optional :: prefix        !< 'v' for arguments vx, vy, vz. Default: x, y, z.
+    character(len=*), intent(in), optional :: prefix        !< 'v' if the arguments are vx, vy, vz. Default: x, y, z.
     integer(int64) :: y_stride, z_stride
     if (size(y, kind=int64) /= size(x, kind=int64) .or. size(z, kind=int64) /= size(x, kind=int64)) then
       code = refuse_unequal('sizes', size(x, kind=int64), size(y, kind=int64), size(z, kind=int64), prefix)
@@ -316,7 +316,7 @@ contains
       code = refuse_unequal('strides', points%stride, y_stride, z_stride, prefix)
   end subroutine points_of_vectors
 
-  ! Returns the name of one of three arguments.
+  ! Returns an argument's name with its prefix.
   function prefixed(name, prefix) result(whole)
     character(len=1), intent(in) :: name
     character(len=*), intent(in), optional :: prefix
@@ -325,7 +325,7 @@ contains
     if (present(prefix)) whole = prefix // name
   end function prefixed
 
-  ! Refuses three arguments whose sizes or strides differ.
+  ! Refuses three arguments because their sizes or strides differ.
   function refuse_unequal(what, x, y, z, prefix) result(code)
     character(len=*), intent(in) :: what
     integer(int64), intent(in) :: x, y, z
@@ -336,12 +336,12 @@ contains
       '; they must be equal')
   end function refuse_unequal
 
-  !> Does this for options that are int32_t in riis.h.
+  !> Implements get_integer for options that are int32_t in riis.h.
   subroutine get_int32(option, name, value, code)
     class(*), intent(in), optional :: option                !< integer(int32) or integer(int64).
-    character(len=*), intent(in) :: name                    !< The argument.
-    integer(int32), intent(inout) :: value                  !< The option's, if it is present.
-    integer(riis_status), intent(inout) :: code             !< Left alone on success; an error before is kept.
+    character(len=*), intent(in) :: name                    !< The argument's name.
+    integer(int32), intent(inout) :: value                  !< Gets the option's value, if the option is present.
+    integer(riis_status), intent(inout) :: code             !< Unchanged on success; an earlier error is kept.
     integer(int64) :: wide
     wide = value
     call get_int64(option, name, wide, code)
@@ -353,12 +353,12 @@ contains
     end if
   end subroutine get_int32
 
-  !> Does this for options that are int64_t in riis.h.
+  !> Implements get_integer for options that are int64_t in riis.h.
   subroutine get_int64(option, name, value, code)
     class(*), intent(in), optional :: option                !< integer(int32) or integer(int64).
-    character(len=*), intent(in) :: name                    !< The argument.
-    integer(int64), intent(inout) :: value                  !< The option's, if it is present.
-    integer(riis_status), intent(inout) :: code             !< Left alone on success; an error before is kept.
+    character(len=*), intent(in) :: name                    !< The argument's name.
+    integer(int64), intent(inout) :: value                  !< Gets the option's value, if the option is present.
+    integer(riis_status), intent(inout) :: code             !< Unchanged on success; an earlier error is kept.
     if (code /= RIIS_OK .or. .not. present(option)) return
     select type (option)
     type is (integer(int32))
@@ -370,7 +370,7 @@ contains
     end select
   end subroutine get_int64
 
-  ! Returns the number of letters of a number as text, its sign included.
+  ! Returns the length of a number as text, with its sign.
   pure function n_letters(number) result(n)
     integer(int64), intent(in) :: number
     integer :: n
@@ -383,10 +383,10 @@ contains
     end do
   end function n_letters
 
-  !> Does text_of.
+  !> Implements text_of.
   function text_of_int64(number) result(text)
-    integer(int64), intent(in) :: number                    !< Any.
-    character(len=n_letters(number)) :: text                !< Its digits.
+    integer(int64), intent(in) :: number                    !< Any value.
+    character(len=n_letters(number)) :: text                !< The number as text.
     integer(int64) :: rest
     integer :: i
     rest = number
@@ -397,10 +397,10 @@ contains
     if (number < 0) text(1:1) = '-'
   end function text_of_int64
 
-  !> Does text_of.
+  !> Implements text_of.
   function text_of_int32(number) result(text)
-    integer(int32), intent(in) :: number                    !< Any.
-    character(len=n_letters(int(number, int64))) :: text    !< Its digits.
+    integer(int32), intent(in) :: number                    !< Any value.
+    character(len=n_letters(int(number, int64))) :: text    !< The number as text.
     text = text_of_int64(int(number, int64))
   end function text_of_int32
 

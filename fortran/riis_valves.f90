@@ -11,30 +11,29 @@ module riis_valves
 
   !> The description of a parameter.
   type :: riis_parameter_info
-    character(len=:), allocatable :: name            !< As riis_valve%set takes it, such as 'right.leaflet_angle'.
+    character(len=:), allocatable :: name            !< The name for riis_valve%set, such as 'right.leaflet_angle'.
     character(len=:), allocatable :: unit            !< 'length', 'degree' or '1'.
     character(len=:), allocatable :: description     !< One line.
-    real(c_double), allocatable :: default_values(:) !< The paper's, 1 or 3, as the parameter has values.
-    real(c_double) :: minimum = 0                    !< Of every value, inclusive.
-    real(c_double) :: maximum = 0                    !< Of every value, inclusive.
+    real(c_double), allocatable :: default_values(:) !< The paper's values, 1 or 3.
+    real(c_double) :: minimum = 0                    !< The least allowed value, for each value.
+    real(c_double) :: maximum = 0                    !< The greatest allowed value, for each value.
   end type riis_parameter_info
 
-  !> A parametric valve: its kind and its parameters' values. It is empty until %create or %create_from_patches and after
-  !! %destroy, which must be called. Any number of threads may read it at once. One thread may write it while no other reads
-  !! it.
+  !> A parametric valve: its kind and its parameters' values. It is empty before %create or %create_from_patches and after
+  !! %destroy, which must be called. Any number of threads may read it at once. One thread may write it while no other reads it.
   type :: riis_valve
     private
     type(c_ptr) :: handle = c_null_ptr
   contains
-    procedure, non_overridable :: create => valve_create                !< Makes it by the name of its kind.
-    generic :: create_from_patches => from_patches_int32, from_patches_int64 !< Makes the caller's own valve.
-    procedure, non_overridable :: copy => valve_copy                    !< Makes a second valve like it.
+    procedure, non_overridable :: create => valve_create                !< Makes the valve from the name of a kind.
+    generic :: create_from_patches => from_patches_int32, from_patches_int64 !< Makes a valve from the caller's patches.
+    procedure, non_overridable :: copy => valve_copy                    !< Makes a copy of the valve.
     generic :: set => set_scalar, set_vector                            !< Sets a parameter's value or values.
     generic :: get => get_scalar, get_vector                            !< Gets a parameter's value or values.
-    procedure, non_overridable :: set_open_state => valve_set_open_state !< Gives a second state to open to.
+    procedure, non_overridable :: set_open_state => valve_set_open_state !< Gives the valve an open state.
     procedure, non_overridable :: n_parameters => valve_n_parameters    !< Returns the number of parameters.
     generic :: parameter => parameter_int32, parameter_int64            !< Describes a parameter.
-    procedure, non_overridable :: is_created => valve_is_created        !< Tells whether it was created.
+    procedure, non_overridable :: is_created => valve_is_created        !< Returns whether it was created.
     procedure, non_overridable :: c_handle => valve_c_handle            !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => valve_destroy              !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -62,9 +61,9 @@ contains
     call finish(code, status)
   end subroutine valve_create
 
-  !> Makes a second valve with the same parameters, patches and states. Each is destroyed on its own.
+  !> Makes a copy with the same parameters, patches and states. Each valve is destroyed separately.
   subroutine valve_copy(this, copy, status)
-    class(riis_valve), intent(in) :: this                   !< Created.
+    class(riis_valve), intent(in) :: this                   !< Must be created.
     class(riis_valve), intent(inout) :: copy                !< Must be empty.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
@@ -74,19 +73,19 @@ contains
     call finish(code, status)
   end subroutine valve_copy
 
-  !> Makes a valve, such as a prosthesis, from Coons patches by their four boundary curves. Its only parameter is 'opening'.
-  !! The sides v = 0 and v = 1 run from the side u = 0 to the side u = 1; those run from v = 0 to v = 1. Corners meet to 1e-9
-  !! of the valve's size, and normals are along S_u x S_v. All arrays are read during the call only; sections that are not
-  !! contiguous are copied for it. Errors: RIIS_INVALID_ARGUMENT for sizes that do not go together, RIIS_INVALID_PARAMETER
-  !! naming the curve or patch and its value.
+  !> Makes a valve, such as a prosthesis, from Coons patches, each given by its four boundary curves. Its only parameter is
+  !! 'opening'. The sides v = 0 and v = 1 run from the side u = 0 to the side u = 1. The sides u = 0 and u = 1 run from v = 0 to v
+  !! = 1. Corners must meet to 1e-9 of the valve's size. Normals point along S_u x S_v. All arrays are read during the call only,
+  !! and sections that are not contiguous are copied. Errors: RIIS_INVALID_ARGUMENT for sizes that do not match,
+  !! RIIS_INVALID_PARAMETER naming the curve or patch and its value.
   subroutine valve_from_patches_int32(this, degree, control, curve_id, reversed, leaflet_id, index_base, status)
     class(riis_valve), intent(inout) :: this                     !< Must be empty.
-    integer(int32), intent(in), contiguous, target :: degree(:)  !< (n_curves): 1, 2 or 3, Bezier curves.
-    real(c_double), intent(in), contiguous, target :: control(:, :) !< (3, sum(degree + 1)): the control points, curve
-                                                                 !! after curve.
+    integer(int32), intent(in), contiguous, target :: degree(:)  !< (n_curves): the degrees of the Bezier curves, 1, 2 or 3.
+    real(c_double), intent(in), contiguous, target :: control(:, :) !< (3, sum(degree + 1)): the control points, one curve
+                                                                 !! after the other.
     integer(int32), intent(in), contiguous, target :: curve_id(:, :) !< (4, n_patches): the curves at v = 0, v = 1,
                                                                  !! u = 0, u = 1, counted from index_base.
-    logical, intent(in), optional :: reversed(:, :)              !< (4, n_patches): .true. if the side runs against its curve.
+    logical, intent(in), optional :: reversed(:, :)              !< (4, n_patches): .true. if the side runs opposite to its curve.
                                                                  !! Default .false.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_patches), >= 0. Default 0.
     class(*), intent(in), optional :: index_base                 !< integer, 0 or 1: the first curve's number. Default 1.
@@ -123,7 +122,7 @@ contains
     call finish(code, status)
   end subroutine valve_from_patches_int32
 
-  !> Does the same for integer(int64), which are copied.
+  !> Does the same for integer(int64). These arrays are copied.
   subroutine valve_from_patches_int64(this, degree, control, curve_id, reversed, leaflet_id, index_base, status)
     class(riis_valve), intent(inout) :: this                     !< Must be empty.
     integer(int64), intent(in) :: degree(:)                      !< (n_curves).
@@ -161,7 +160,7 @@ contains
       code = refuse('the first extent of control is ' // text_of(size(control, 1)) // '; it must be 3')
     else if (size(curve_id, 1) /= 4) then
       code = refuse('the first extent of curve_id is ' // text_of(size(curve_id, 1)) // '; it must be 4')
-    else if (all(degree >= 1 .and. degree <= 3)) then ! the library names the bad one
+    else if (all(degree >= 1 .and. degree <= 3)) then ! the library names the bad degree
       code = check_size(size(control, 2, int64), sum(int(degree, int64) + 1), 'control(1, :)', 'control points by degree')
     end if
     if (code == RIIS_OK .and. present(reversed)) then
@@ -173,7 +172,7 @@ contains
       code = check_size(size(leaflet_id, kind=int64), size(curve_id, 2, int64), 'leaflet_id', 'patches')
   end function check_patches
 
-  ! Tells whether a conversion to integer(int32) changes nothing.
+  ! Checks that conversion to integer(int32) changes no value.
   function check_fits(values, name) result(code)
     integer(int64), intent(in) :: values(:)
     character(len=*), intent(in) :: name
@@ -187,11 +186,11 @@ contains
     end do
   end function check_fits
 
-  !> Sets a parameter with one value. A cusp's parameter without a cusp's name ('leaflet_angle') sets all three cusps.
-  !! 'opening', from 0 to 1, moves every valve. Errors: RIIS_INVALID_PARAMETER naming the parameter and the value; the valve
-  !! is then unchanged.
+  !> Sets a parameter with one value. A cusp's parameter without a cusp's name ('leaflet_angle') sets all three cusps. Every valve
+  !! has the parameter 'opening', from 0 to 1. Errors: RIIS_INVALID_PARAMETER naming the parameter and the value; the valve is
+  !! then unchanged.
   subroutine valve_set_scalar(this, name, value, status)
-    class(riis_valve), intent(inout) :: this                !< Created.
+    class(riis_valve), intent(inout) :: this                !< Must be created.
     character(len=*), intent(in) :: name                    !< Trailing blanks do not matter.
     real(c_double), intent(in) :: value                     !< Lengths in the valve's unit, angles in degrees.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
@@ -206,7 +205,7 @@ contains
   !> Sets a parameter with as many values as it has, 1 or 3, which are copied. Errors: RIIS_INVALID_PARAMETER naming the
   !! parameter and the value; the valve is then unchanged.
   subroutine valve_set_vector(this, name, value, status)
-    class(riis_valve), intent(inout) :: this                !< Created.
+    class(riis_valve), intent(inout) :: this                !< Must be created.
     character(len=*), intent(in) :: name                    !< Trailing blanks do not matter.
     real(c_double), intent(in), contiguous :: value(:)      !< Lengths in the valve's unit, angles in degrees.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
@@ -220,9 +219,9 @@ contains
 
   !> Gets a parameter with one value. A name that stands for all three cusps cannot be read.
   subroutine valve_get_scalar(this, name, value, status)
-    class(riis_valve), intent(in) :: this                   !< Created.
+    class(riis_valve), intent(in) :: this                   !< Must be created.
     character(len=*), intent(in) :: name                    !< Trailing blanks do not matter.
-    real(c_double), intent(inout) :: value                  !< Left alone on an error.
+    real(c_double), intent(inout) :: value                  !< Unchanged on an error.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     character(len=len_trim(name) + 1, kind=c_char) :: c_name
@@ -237,9 +236,9 @@ contains
 
   !> Gets a parameter with as many values as it has, 1 or 3. A name that stands for all three cusps cannot be read.
   subroutine valve_get_vector(this, name, value, status)
-    class(riis_valve), intent(in) :: this                   !< Created.
+    class(riis_valve), intent(in) :: this                   !< Must be created.
     character(len=*), intent(in) :: name                    !< Trailing blanks do not matter.
-    real(c_double), intent(inout), contiguous :: value(:)   !< Left alone on an error.
+    real(c_double), intent(inout), contiguous :: value(:)   !< Unchanged on an error.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     character(len=len_trim(name) + 1, kind=c_char) :: c_name
@@ -249,12 +248,12 @@ contains
     call finish(code, status)
   end subroutine valve_get_vector
 
-  !> Gives the valve a second state to open to: its own state is at 'opening' 0, the other valve's at 'opening' 1. Between
-  !! them control points are blended. Errors: RIIS_INVALID_PARAMETER for a valve of another kind or build; the valve is then
-  !! unchanged.
+  !> Gives the valve an open state: its own state is at 'opening' 0, and the other valve's state at 'opening' 1. Between them,
+  !! control points are interpolated. Errors: RIIS_INVALID_PARAMETER for a valve of another kind or with other patches; the valve
+  !! is then unchanged.
   subroutine valve_set_open_state(this, open, status)
-    class(riis_valve), intent(inout) :: this                !< Created.
-    class(riis_valve), intent(in) :: open                   !< Created. It is copied, so it may be destroyed.
+    class(riis_valve), intent(inout) :: this                !< Must be created.
+    class(riis_valve), intent(in) :: open                   !< Must be created. It is copied, so it may be destroyed.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = check_created(this%handle, 'the valve')
@@ -263,9 +262,9 @@ contains
     call finish(code, status)
   end subroutine valve_set_open_state
 
-  !> Returns the number of the valve's parameters; 0 on an error.
+  !> Returns the number of the valve's parameters, or 0 on an error.
   function valve_n_parameters(this, status) result(n)
-    class(riis_valve), intent(in) :: this                   !< Created.
+    class(riis_valve), intent(in) :: this                   !< Must be created.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int64) :: n                                     !< >= 1.
     integer(riis_status) :: code
@@ -275,20 +274,20 @@ contains
     call finish(code, status)
   end function valve_n_parameters
 
-  !> Describes one parameter. Errors: RIIS_INVALID_ARGUMENT for a number out of range; info is then left alone.
+  !> Describes one parameter. Errors: RIIS_INVALID_ARGUMENT for a number out of range; info is then unchanged.
   subroutine valve_parameter_int32(this, number, info, status)
-    class(riis_valve), intent(in) :: this                   !< Created.
+    class(riis_valve), intent(in) :: this                   !< Must be created.
     integer(int32), intent(in) :: number                    !< From 1 to %n_parameters().
-    type(riis_parameter_info), intent(inout) :: info        !< Copies.
+    type(riis_parameter_info), intent(inout) :: info        !< Gets copies of the texts and values.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     call valve_parameter_int64(this, int(number, int64), info, status)
   end subroutine valve_parameter_int32
 
   !> Does the same.
   subroutine valve_parameter_int64(this, number, info, status)
-    class(riis_valve), intent(in) :: this                   !< Created.
+    class(riis_valve), intent(in) :: this                   !< Must be created.
     integer(int64), intent(in) :: number                    !< From 1 to %n_parameters().
-    type(riis_parameter_info), intent(inout) :: info        !< Copies.
+    type(riis_parameter_info), intent(inout) :: info        !< Gets copies of the texts and values.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_parameter) :: parameter
     integer(int64) :: n
@@ -310,30 +309,30 @@ contains
     call finish(code, status)
   end subroutine valve_parameter_int64
 
-  !> Tells whether the valve was created and not destroyed.
+  !> Returns whether the valve was created and not destroyed.
   pure function valve_is_created(this) result(is_created)
-    class(riis_valve), intent(in) :: this                   !< Any.
+    class(riis_valve), intent(in) :: this                   !< May be empty.
     logical :: is_created                                   !< .false. for an empty one.
     is_created = c_associated(this%handle)
   end function valve_is_created
 
   !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
   function valve_c_handle(this) result(handle)
-    class(riis_valve), intent(in) :: this                   !< Any.
+    class(riis_valve), intent(in) :: this                   !< May be empty.
     type(c_ptr) :: handle                                   !< c_null_ptr for an empty one.
     handle = this%handle
   end function valve_c_handle
 
   !> Frees the memory of the valve, which is then empty and can be created again. Nothing happens to an empty one.
   subroutine valve_destroy(this)
-    class(riis_valve), intent(inout) :: this                !< Any.
+    class(riis_valve), intent(inout) :: this                !< May be empty.
     call riis_valve_destroy(this%handle)
   end subroutine valve_destroy
 
   !> Stops the program unless both are empty.
   impure elemental subroutine valve_assign(left, right)
-    class(riis_valve), intent(inout) :: left                !< Empty.
-    class(riis_valve), intent(in) :: right                  !< Empty.
+    class(riis_valve), intent(inout) :: left                !< Must be empty.
+    class(riis_valve), intent(in) :: right                  !< Must be empty.
     call refuse_copy(left%handle, right%handle, 'riis_valve')
   end subroutine valve_assign
 end module riis_valves

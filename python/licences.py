@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""licences.py FOLDER MODULE: puts the licences of all that a wheel brings into its metadata, as texts and as an expression.
+"""licences.py FOLDER MODULE: puts the licences of everything in a wheel into its metadata, as texts and as an expression.
 
 FOLDER  the wheel, repaired by auditwheel and unpacked
-MODULE  the extension module as it was built. Its loader finds the libraries that the wheel has copies of
+MODULE  the extension module before the repair, which the loader links to the system's libraries that the wheel copies
 
-Debian keeps the licence of each package in /usr/share/doc, and the texts that it refers to in /usr/share/common-licenses.
-The module itself contains parts of nanobind and of its robin_map. This Python has to have the nanobind that built it.
+Debian keeps the licence of each package in /usr/share/doc, and the texts that it refers to in /usr/share/common-licenses. The
+module itself contains parts of nanobind and of its robin_map. The Python that runs this script must have the nanobind that built
+the module.
 """
 import importlib.metadata
 import pathlib
@@ -25,7 +26,7 @@ def fail(text):
 
 
 def package_of(library):
-    """The Debian package that has the library. It may list the file below /lib, which is /usr/lib."""
+    """Returns the Debian package that contains the library. The package may list the file below /lib, which is /usr/lib."""
     for path in (library, pathlib.Path("/", *library.parts[2:])):
         answer = subprocess.run(["dpkg-query", "-S", path], capture_output=True, text=True, check=False)
         if answer.returncode == 0:
@@ -34,7 +35,7 @@ def package_of(library):
 
 
 def expression_of(own, libraries):
-    """The expression of the module, and of the libraries that the wheel has."""
+    """Returns the licence expression of the module and of the libraries in the wheel."""
     parts = own.split(" AND ")
     for name in libraries:
         stem = re.match(r"lib[a-z_+]+", name)[0]
@@ -43,7 +44,7 @@ def expression_of(own, libraries):
 
 
 def texts_of_nanobind():
-    """The licence of nanobind, and that of robin_map, which is the comment at the top of its header."""
+    """Returns the licences of nanobind and of robin_map. The latter is the comment at the top of robin_map's header."""
     files = {file.name: file for file in importlib.metadata.files("nanobind")}
     header = files["robin_map.h"].read_text(encoding="utf-8")
     comment = header[: header.index("*/") + 2]
@@ -59,7 +60,7 @@ def main(folder, module):
     licences = metadata.parent / "licenses"
     texts, libraries = {}, []
     for bundled in sorted(folder.glob("riis.libs/*")):
-        name = re.sub(r"-[0-9a-f]{8}(?=\.so)", "", bundled.name)  # auditwheel adds a part of the checksum
+        name = re.sub(r"-[0-9a-f]{8}(?=\.so)", "", bundled.name)  # auditwheel appends a part of the checksum
         library = found.get(name) or fail(f"{module} loads no {name}, which the wheel has as {bundled.name}")
         libraries.append(name)
         package = package_of(library)

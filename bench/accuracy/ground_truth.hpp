@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points whose distance to the smooth surface is known: points on it, and points off it along its normal.
-// In: patches, the number of points, a seed. Out: points with their distances, and the results of checks.
+// Points whose distance to the smooth surface is known: points on it, and points moved from it along its normal.
+// Input: patches, the number of points, a seed. Output: points with their distances, and the results of checks.
 #pragma once
 
 #include <array>
@@ -20,31 +20,32 @@ struct TruePoints {
   const double *point(std::size_t i) const { return xyz.data() + 3 * i; }
 };
 
-// The points' offsets from the surface, in half thicknesses.
+// The points' offsets along the normal, in half thicknesses.
 inline constexpr std::array<double, 6> offsets{-1, -0.5, -0.1, 0.1, 0.5, 1};
-// An offset is at most this share of the curvature radius.
+// An offset is at most this fraction of the radius of curvature.
 inline constexpr double largest_share_of_radius = 0.5;
 
 struct TruthRequest {
   std::size_t n_points;
   std::uint64_t seed;
-  double fine_tolerance;  // of the triangles that check the distances
+  double fine_tolerance;  // tolerance of the triangles that check the distances
 };
 
 struct GroundTruth {
-  TruePoints on_surface;   // evenly by area; u and v at least SmoothSurface::step away from a patch's sides
-  TruePoints off_surface;  // one for each of them, with offsets in turn; two kinds are left out:
-  std::int64_t n_curved;   // the curvature radius is too small for the offset
-  std::int64_t n_nearer;   // another part of the surface is nearer than the foot
+  TruePoints on_surface;  // evenly by area; u and v at least SmoothSurface::step away from a patch's sides
+  // One for each point of on_surface, with the offsets in turn; the next two fields count points that are left out.
+  TruePoints off_surface;
+  std::int64_t n_curved;  // points whose radius of curvature is too small for the offset
+  std::int64_t n_nearer;  // points to which another part of the surface is nearer than the foot
   std::int64_t n_fine_triangles;
-  // Both are in half thicknesses. Every true distance was compared with the distance to triangles within fine_error of the smooth
-  // surface. So all true distances are right within twice fine_error. (They are right up to rounding: an offset point's foot is
-  // the only minimum near itself.)
+  // This and the next field are in half thicknesses. Every true distance was compared with the distance to triangles within
+  // fine_error of the smooth surface. So all true distances are right within twice fine_error. (Near the foot they are right up
+  // to rounding, because there the foot is the only minimum.)
   double fine_error;
-  double most_from_fine;  // the largest difference between a true distance and the distance to these triangles
+  double most_from_fine;  // the largest difference between a true distance and the distance to the fine triangles
 };
 
-// Throws std::logic_error if true distances and fine triangles contradict each other.
+// Throws std::logic_error if the true distances contradict the fine triangles.
 GroundTruth make_ground_truth(const PatchSet &patches, const TruthRequest &request);
 
 }  // namespace riis::accuracy

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The paper's three ways to measure a distance, with the compared settings, on a single leaflet as in the paper.
-// In: a leaflet, a method, a tolerance. Out: a surface for queries through the public interface.
+// The paper's three methods for measuring a distance, with the compared settings, on a single leaflet as in the paper.
+// Input: a leaflet, a method, a tolerance. Output: a surface for queries through the public interface.
 #pragma once
 
 #include <riis/riis.h>
@@ -14,7 +14,7 @@
 
 namespace riis::accuracy {
 
-inline constexpr double half_thickness = 0.1;  // the paper's, cm
+inline constexpr double half_thickness = 0.1;  // as in the paper, cm
 
 struct Leaflet {
   const char *name, *valve;
@@ -24,16 +24,16 @@ struct Leaflet {
 inline constexpr std::array<Leaflet, 2> leaflets{
     {{"right cusp", "aortic", RIIS_LEAFLET_RIGHT}, {"anterior leaflet", "mitral", RIIS_LEAFLET_ANTERIOR}}};
 
-// Returns the valve's patches without those of its other leaflets.
+// Returns the valve's patches that belong to this leaflet.
 PatchSet patches_of(const Leaflet &leaflet);
 
 struct Setting {
-  std::int32_t method;  // RIIS_DISTANCE_*
-  double tolerance;     // share of the half thickness
+  std::int32_t method;  // RIIS_MEASURE_*
+  double tolerance;     // fraction of the half thickness
   const char *name;
 };
 const char *name_of(std::int32_t method);
-// Minimisation has the paper's settings, the others have 1, 2, 5 and 10 %.
+// Minimisation has the paper's tolerances; the other methods have 1, 2, 5 and 10 %.
 inline constexpr std::array<Setting, 10> settings{{{RIIS_MEASURE_MINIMIZATION, 0.001, "0.001"},
                                                    {RIIS_MEASURE_MINIMIZATION, 0.01, "0.01"},
                                                    {RIIS_MEASURE_SAMPLING, 0.01, "1 %"},
@@ -45,14 +45,14 @@ inline constexpr std::array<Setting, 10> settings{{{RIIS_MEASURE_MINIMIZATION, 0
                                                    {RIIS_MEASURE_TRIANGLES, 0.05, "5 %"},
                                                    {RIIS_MEASURE_TRIANGLES, 0.1, "10 %"}}};
 
-// The surface of patches. Failures throw std::runtime_error with the library's message.
+// A surface made of patches. Failures throw std::runtime_error with the library's message.
 class MeasuredSurface {
  public:
   MeasuredSurface(const PatchSet &patches, std::int32_t method, double tolerance);
 
   riis_closest closest(const double *point) const;
   double distance(const double *point) const { return closest(point).distance; }
-  // Returns the number of triangles, samples or patches that distances are measured to.
+  // Returns the number of triangles, samples or patches used to measure distances.
   std::int64_t size() const;
 
  private:

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The smooth surface that tolerances refer to (docs/theory.md, section 2): Coons patches and patches of arcs of the Bézier curves
-// themselves, by the share of their exact length. It has no polylines, no grid and no tolerance.
-// In: curves and patches of a valve. Out: points, normals and curvatures anywhere.
+// The smooth surface to which tolerances refer (docs/theory.md, section 2). It consists of Coons patches and patches of arcs,
+// made from the Bézier curves themselves with the fraction of their exact length as parameter. It has no polylines, no grid and
+// no tolerance.
+// Input: curves and patches of a valve. Output: points, normals and curvatures anywhere.
 #pragma once
 
 #include <cstddef>
@@ -16,22 +17,22 @@ namespace riis::accuracy {
 
 // A point of a placed patch.
 struct SurfacePoint {
-  Vec3 point, normal;  // unit, along S_u x S_v, turned over in mirror images; 0 if undefined
-  double curvature;    // the larger principal curvature, without sign; infinite if there is no normal
+  Vec3 point, normal;  // normal: unit vector along S_u x S_v, reversed in mirror images; 0 if undefined
+  double curvature;    // the absolute value of the larger principal curvature; infinite if there is no normal
 };
 
 class SmoothSurface {
  public:
   explicit SmoothSurface(const PatchSet &set);
 
-  // Images of patches have numbers and a patch_id.
+  // Each image of a patch has a number and a patch_id.
   std::size_t n_images() const { return images_.size(); }
   std::int32_t patch_id(std::size_t image) const { return images_[image].image.patch_id; }
   std::size_t image_of(std::int32_t patch_id) const;
 
-  // The result is right up to the rounding of the curves' lengths, 1e-13 of them.
+  // The relative error is the rounding of the curves' lengths, 1e-13.
   Vec3 at(std::size_t image, double u, double v) const;
-  // Uses differences over `step`. u and v must be at least that far from 0 and 1.
+  // Computes derivatives by differences over `step`. u and v must be at least that far from 0 and 1.
   static constexpr double step = 1e-4;
   SurfacePoint describe(std::size_t image, double u, double v) const;
   // Returns all points (u[i], v[j]), with u running fastest. Every curve is evaluated once per line.
@@ -40,14 +41,14 @@ class SmoothSurface {
  private:
   struct SmoothPatch {
     Curve v0, v1;
-    std::optional<Curve> u0, u1;  // for a Coons patch
-    std::optional<Bulge> bulge;   // for a patch of arcs
+    std::optional<Curve> u0, u1;  // used by a Coons patch
+    std::optional<Bulge> bulge;   // used by a patch of arcs
   };
   struct Image {
     std::size_t patch;
     PatchImage image;
   };
-  // The curves' values on a line u = const, and on a line v = const.
+  // The curves' values on a line of constant u, and on a line of constant v.
   struct AcrossU {
     Vec3 c0, c1, offset;
   };

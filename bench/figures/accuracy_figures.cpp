@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The errors of the paper's three ways to measure a distance, painted on a leaflet, and their distributions.
+// Draws the errors of the paper's three methods for a distance, painted on a leaflet, and their distributions.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,7 +29,7 @@ using accuracy::SmoothSurface;
 constexpr PictureSize painted_size{900, 760};
 const View views[2] = {looking({-1, 0.35, -0.55}, {0, 0, 1}), looking({-0.35, -1, -0.35}, {0, 0, 1})};
 
-// Errors have colours by their logarithm. They go from dark to bright for any colour vision (viridis).
+// The logarithm of an error gives its colour, from dark to bright. The colour map, viridis, suits any colour vision.
 constexpr double darkest_power = -5, brightest_power = -1;
 Colour colour_of_error(double error) {
   constexpr std::array<Colour, 6> stops{
@@ -45,15 +45,15 @@ Colour colour_of_error(double error) {
   return {mixed(a.red, b.red), mixed(a.green, b.green), mixed(a.blue, b.blue)};
 }
 
-// Returns a share of the half thickness as text.
+// Returns a fraction of the half thickness as text.
 std::string share_text(double share) { return number(100 * share, 2) + " %"; }
 
-// A part of a patch's range of parameters, in one direction.
+// A part of a patch's range of one parameter.
 struct Part {
   double from, to;
 };
 
-// Returns the middles of n equal steps (first = 0.5), or their beginnings (first = 0).
+// Returns the middles of n equal steps (first = 0.5), or their starts (first = 0).
 std::vector<double> equal_steps(std::size_t n, double first, const Part &part) {
   std::vector<double> steps;
   for (std::size_t i = 0; i < n; ++i)
@@ -74,7 +74,8 @@ struct Painting {
 
 class Painter {
  public:
-  // Paints cells of about the given size. A cell's colour is the error of its middle's distance, which is truly 0.
+  // Paints cells of about the given size. A cell's colour is the error of the distance at its middle, where the true distance is
+  // 0.
   Painter(const SmoothSurface &smooth, const MeasuredSurface &surface, double cell)
       : smooth_(smooth), surface_(surface), cell_(cell) {}
 
@@ -95,7 +96,7 @@ class Painter {
     return painting;
   }
 
-  // Returns the number of cells for the longest of some lines along which one of the parameters goes from end to end.
+  // Returns how many cells are needed for the longest of several lines, along each of which one parameter takes its whole range.
   std::size_t n_cells(std::size_t image, const Part &u, const Part &v, bool along_u) const {
     constexpr std::size_t n = 16;
     const std::vector<Vec3> net = smooth_.at_lines(image, ends_of_steps(n, u), ends_of_steps(n, v));
@@ -129,7 +130,7 @@ class Painter {
   double cell_;
 };
 
-// Returns a method's errors, without sign, for points whose true distance is known.
+// Returns the absolute errors of a method, for points whose true distance is known.
 std::vector<double> errors_of(const MeasuredSurface &surface, const accuracy::TruePoints &points) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < points.n(); ++i)
@@ -151,7 +152,7 @@ Colour colour_of_method(std::int32_t method) {
 
 Figure accuracy_figure() {
   Figure figure{"Errors of distances, painted", {}, 3, {}, {}, {}, {}};
-  // At 10 % samples are far enough apart to be visible.
+  // At 10 %, samples are far enough apart to be visible.
   constexpr std::array<Setting, 3> painted{{{RIIS_MEASURE_MINIMIZATION, 0.01, "0.01"},
                                             {RIIS_MEASURE_SAMPLING, 0.1, "10 %"},
                                             {RIIS_MEASURE_TRIANGLES, 0.1, "10 %"}}};
@@ -162,7 +163,7 @@ Figure accuracy_figure() {
     const SmoothSurface smooth(patches);
     for (const Setting &setting : painted) {
       const MeasuredSurface surface(patches, setting.method, setting.tolerance);
-      // Minimisation is slow, and has no pattern as fine as samples.
+      // Minimisation is slow, and its errors vary less finely than those of sampling.
       const double cell = setting.method == RIIS_MEASURE_MINIMIZATION ? 0.007 : 0.0035;
       const Painting painting = row == 1
                                     ? Painter(smooth, surface, 0.001).part(smooth.image_of(0), {0, 0.3}, {0.6, 0.9})
@@ -185,12 +186,12 @@ Figure accuracy_figure() {
                                                              : power == brightest_power ? " or more"
                                                                                         : "")});
   figure.caption =
-      "What points of the smooth surface are said to be away from it by the three methods, in per cent of the half "
-      "thickness, on one cusp of the aortic valve (top), a part of it below its middle, and the anterior leaflet of "
-      "the mitral valve, open (bottom). "
-      "The truth is 0 everywhere. Between samples distances grow to about the tolerance; triangles touch the surface "
-      "along their edges' ends and leave it in between, by no more than the tolerance; minimisation is limited by "
-      "when it stops and by the patches it works on, and now and then by a local minimum.";
+      "Distances that the three methods give for points on the smooth surface, in per cent of the half thickness. "
+      "From the top: one cusp of the aortic valve, a part of this cusp below its middle, and the anterior leaflet of "
+      "the open mitral valve. "
+      "The true distance is 0 everywhere. Between samples, distances grow to about the tolerance. Triangles touch the "
+      "surface at their corners, and in between leave it by at most the tolerance. Minimisation has errors because it "
+      "stops early, because of the patches that it uses, and sometimes because of a local minimum.";
   figure.paper =
       "section 4.1, “Performance evaluation”, figure “Errors in distance calculation plotted on aortic cusp surfaces "
       "for all three distance functions”.";
@@ -231,11 +232,11 @@ Figure accuracy_distribution_figure() {
     figure.key.push_back({colour_of_method(method), name_of(method)});
   figure.key.push_back({vermilion, "tolerance"});
   figure.caption =
-      "How far distances are off, in per cent of the half thickness; note the logarithmic scale. Widths are shares of "
-      "the points, lines the median and 95 %, dots the largest error. Distances by samples and by triangles stay below "
-      "the tolerance; that of minimisation only says when to stop. The points' true distances are known: the smooth "
-      "surface is evaluated from its curves, without polylines, and points off it lie on its normals, but for those "
-      "with another part of the leaflet nearer, or with an offset of more than half the curvature radius.";
+      "Errors of distances, in per cent of the half thickness, on a logarithmic scale. Widths show fractions of the "
+      "points, lines the median and 95 %, dots the largest error. The errors of samples and of triangles stay below "
+      "the tolerance; for minimisation the tolerance only says when to stop. The points' true distances are known: the "
+      "smooth surface is evaluated from its curves, without polylines, and other points lie on its normals. Points are "
+      "left out if another part of the leaflet is nearer, or if the offset exceeds half the radius of curvature.";
   figure.table = html_table(rows);
   figure.paper =
       "section 4.1, “Performance evaluation”, figure “Results for accuracy and performance testing for each distance "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole aortic valve, and one of its cusps.
+// Draws the whole aortic valve, and one of its cusps.
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -189,10 +189,10 @@ Figure aortic_cusp_figure() {
       {surface.png(), "The surface (" + count(smooth.size()) + " triangles at " + percent(fine) + ")."}};
   figure.caption = "The right cusp, seen from outside and above, with the paper's parameters; tolerance " +
                    percent(tolerance) +
-                   " but for the last picture. A half is made once and put in place twice, as it is and mirrored, so "
+                   " except in the last picture. A half is made once and placed twice, unchanged and mirrored, so "
                    "the halves meet "
                    "to the last bit. At the root the lower patches end in one point: " +
-                   "the quads there are triangles, and what has no area is dropped.";
+                   "the quads there are triangles, and triangles without area are dropped.";
   figure.paper =
       "figures “Curves used for defining the aortic valve cusp” (section 2.1) and “Aortic valve cusp surface "
       "representations” "

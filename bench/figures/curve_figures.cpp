@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stages of a curve and of a patch.
+// Draws the stages by which a curve and a patch are made.
 #include <algorithm>
 #include <string>
 
@@ -91,7 +91,7 @@ Panel polyline(double max_error) {
                              number(measured) + "."};
 }
 
-// A tolerance for the upper patch of half a cusp, so coarse that every line can be told from the next.
+// This tolerance for the upper patch of half a cusp is so coarse that the grid lines can be distinguished.
 constexpr double coarse = 0.2;
 constexpr std::int32_t cusp = RIIS_LEAFLET_NON_CORONARY;
 constexpr PictureSize patch_size{900, 680};
@@ -99,7 +99,7 @@ const char *const side_names[4] = {"v = 0, bending curve", "v = 1, leaflet curve
                                    "u = 1, sinus curve"};
 constexpr Colour side_colours[4] = {blue, vermilion, green, purple};
 
-// One image of one patch.
+// Returns a model with one image of one patch.
 Model upper_half_patch() {
   const PatchSet set = Valve(find_valve_kind("aortic")).make_patches();
   Model model;
@@ -221,7 +221,7 @@ class PatchPictures {
   }
 
  private:
-  // Returns the inner vertices that are far enough from others for a label.
+  // Returns the inner vertices that are far enough from other vertices for a label.
   static std::vector<std::size_t> labelled(const BoundaryPolyline &polyline) {
     std::vector<std::size_t> found;
     double last = 1;
@@ -285,7 +285,7 @@ Figure coons_figure() {
       "outside and above. The tolerance is " +
       percent(coarse) + " (" + number(coarse * half_thickness) +
       " cm), four times coarser than the default, so that single lines can be seen. The other half "
-      "is the same patch put in place once more, mirrored.";
+      "is a mirrored copy of the same patch.";
   figure.paper =
       "section 3.3, figure “Aortic valve cusp surface representations”; section 4.1, algorithm “Recursive quad "
       "subdivision for triangulation”.";

@@ -44,7 +44,7 @@ json json_of(const CuspCurves &curves) {
           {"symmetry", json_of(curves.symmetry)}};
 }
 
-// Returns the same patches before cusps are turned and moved.
+// Returns the same patches in their own frames, before cusps are turned and moved.
 PatchSet in_own_frames(PatchSet set) {
   for (Patch &patch : set.patches)
     for (PatchImage &image : patch.images) {
@@ -54,7 +54,7 @@ PatchSet in_own_frames(PatchSet set) {
   return set;
 }
 
-// A valve that opens to the state of its own parameters.
+// Describes a valve that opens to the state given by its own parameters.
 json openings() {
   Valve valve(find_valve_kind("aortic"));
   json states = json::array();
@@ -79,8 +79,8 @@ json aortic() {
   return {{"parameters", parameters_of(valve.kind())}, {"cusps", cusps}, {"openings", openings()}};
 }
 
-// Adds arcs from the annulus to the free edges on the half x >= 0, at shares u of the annulus' length from its posterior point.
-// "lines" has the ends of many, "arcs" the curves between two patches.
+// Adds arcs from the annulus to the free edges on the half x >= 0, at fractions u of the annulus' length from its posterior
+// point. "lines" has the ends of many arcs. "arcs" has the arcs between two patches.
 void add_arcs(json &state, const PatchSet &set) {
   constexpr int n = 32;
   double whole = 0;
@@ -88,7 +88,7 @@ void add_arcs(json &state, const PatchSet &set) {
   const auto curve = [&](const Side &side) {
     return side.reversed ? set.curves[side.curve].reversed() : set.curves[side.curve];
   };
-  double u = 0.5;  // patches run from the anterior point to the posterior one
+  double u = 0.5;  // patches go from the anterior to the posterior point
   for (const Patch &patch : set.patches) {
     const PatchImage &image = patch.images.front();
     const Curve base = curve(patch.v0), edge = curve(patch.v1);
@@ -123,7 +123,7 @@ json mitral() {
   return {{"parameters", parameters_of(valve.kind())}, {"states", states}};
 }
 
-// One cusp in its own frame, and all in place, closed and on the way.
+// Describes one cusp in its own frame, and all cusps in place: closed, and partly open.
 json trileaflet() {
   Valve valve(find_valve_kind("trileaflet"));
   json states = json::array();
@@ -139,7 +139,7 @@ json trileaflet() {
   return {{"parameters", parameters_of(valve.kind())}, {"states", states}};
 }
 
-// Lengths that are 0 by default have these values here, so that there is something to see.
+// Lengths that are 0 by default have other values here, so that they are visible.
 json bileaflet() {
   const std::pair<const char *, double> shown[] = {{"gap", 0.1}, {"hinge_height", 0.14}, {"ring_height", 1.4}};
   Valve valve(find_valve_kind("bileaflet"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The figures. Each is made of pictures, and of texts with numbers that are counted on the way.
+// The figures. Each consists of pictures and of texts. The texts contain numbers that are counted while drawing.
 #pragma once
 
 #include "figures/page.hpp"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures for the same page that another program has drawn, such as the plots of ./run bench.
-// In: a JSON file: {"figures": [{"title", "columns", "panels": [{"png", "caption"}, ...], "caption", "paper"}, ...], "left_out":
-// [...]}. Texts are HTML, and paths of pictures start from the file's folder. "left_out" names the missing figures and the way to
-// get them. Out: the figures and these texts. Throws std::runtime_error that names the file and the fault.
+// Reads figures that another program drew for the same page, such as the plots of ./run bench.
+// Input: a JSON file: {"figures": [{"title", "columns", "panels": [{"png", "caption"}, ...], "caption", "paper"}, ...],
+// "left_out": [...]}. Texts are HTML. Paths of pictures are relative to the file's folder. "left_out" names the missing figures
+// and the commands that make them.
+// Output: the figures and these texts. Throws std::runtime_error with the file's name and the fault.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis-figures FILE.html [GIVEN.json|KIND.csv...]: draws the geometry into one page, beginning with the paper's figures. Next
-// come valves at the openings of tables by riis states, then the pictures that the JSON files name. riis-figures --curves
-// FILE.json: writes the valves' parameters and curves, for parameters/draw.py.
+// riis-figures FILE.html [GIVEN.json|KIND.csv...] draws the geometry into one page, beginning with the paper's figures. Next come
+// valves at the openings in the KIND.csv tables of `riis states`, then the pictures that the GIVEN.json files name.
+// riis-figures --curves FILE.json writes the valves' parameters and curves, for parameters/draw.py.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -40,7 +40,7 @@ std::string parameter_tables() {
   return html + "</section>\n";
 }
 
-// The files that the page also shows.
+// The content of the given files.
 struct Given {
   std::vector<StateTable> states;
   std::vector<Figure> figures;

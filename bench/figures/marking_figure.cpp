@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Marked tetrahedra around both valves.
+// Draws the marked tetrahedra around both valves.
 #include <string>
 #include <utility>
 
@@ -25,7 +25,7 @@ Marked marked(const char *kind, double opening, const Cylinder &cylinder) {
   return {std::move(mesh), std::move(marks), cylinder};
 }
 
-// The rims of the cylinder.
+// Returns the edges of the cylinder's ends.
 std::vector<Points> outline(const Cylinder &cylinder) {
   std::vector<Points> rims;
   for (const double up : {-0.5, 0.5}) {

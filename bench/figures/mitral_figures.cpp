@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mitral valve: its curves, its surfaces from closed to open, its quads and triangles.
+// Draws the mitral valve: its curves, its surfaces from closed to open, its quads and triangles.
 #include <string>
 
 #include "figures/figures.hpp"
@@ -27,19 +27,19 @@ void add_controlled(Picture &picture, const Pieces &pieces, Colour colour, doubl
   picture.add_points(control_points(pieces), colour, diameter);
 }
 
-// Names the ends of pieces in the order of the paper's points P0 to P5 of the annulus, anticlockwise from the posterior point.
+// Labels the joints of the annulus' pieces in the order of the paper's points P0 to P5, anticlockwise from the posterior point.
 void name_annulus_points(Picture &picture, const Pieces &annulus, bool from_top) {
   Vec3 middle{0, 0, 0};
   for (const Bezier &piece : annulus) middle = middle + (1.0 / static_cast<double>(annulus.size())) * piece.first();
   const std::size_t n = annulus.size();
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t of_paper = annulus[1].first().x > annulus[0].first().x ? i : (n - i) % n;
-    // From the side the points with x < 0 are behind those with x > 0.
+    // Seen from the side, points with x < 0 are hidden by those with x > 0.
     if (!from_top && annulus[i].first().x < -1e-9) continue;
     const std::string name = "A" + std::to_string(of_paper);
     if (from_top)
       picture.add_label_away(annulus[i].first(), middle, name, 34, annulus_colour, 26);
-    else  // here A2 and A3 nearly meet
+    else  // in this view A2 and A3 nearly coincide
       picture.add_label(annulus[i].first(), name,
                         of_paper == 2   ? 30
                         : of_paper == 3 ? -14
@@ -198,8 +198,8 @@ Figure mitral_quads_figure() {
                 {pale[0], "anterior leaflet"},
                 {pale[1], "posterior leaflet"}};
   figure.caption = "The valve at a tolerance of " + percent(tolerance) +
-                   ", with the paper's parameters. Half a valve is made of five patches and put in place twice, as it "
-                   "is and mirrored in x. "
+                   ", with the paper's parameters. Half a valve consists of five patches, which are placed twice, "
+                   "unchanged and mirrored in x. "
                    "Beside each commissure a patch has a part of the annulus on one side and a single point, the end "
                    "of the free edge, on "
                    "the other: the paper's triangle regions.";

@@ -70,7 +70,7 @@ void put(std::ostream &out, const Figure &figure, std::size_t number) {
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     const Panel &panel = figure.panels[i];
     const std::string letter(1, static_cast<char>('a' + static_cast<char>(i)));
-    // These are the picture's own sizes. The style lets the panel decide the shown size.
+    // The attributes give the picture's own size. The style sheet lets the panel decide the displayed size.
     out << "<figure><img width=\"" << panel.picture.width << "\" height=\"" << panel.picture.height
         << "\" alt=\"Figure " << number << letter << "\" src=\"data:image/png;base64," << base64(panel.picture.bytes)
         << "\">\n"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One HTML file that holds everything. Pictures are base64, styles are inline, and there are no scripts and nothing to load.
-// In: figures with their pictures and texts (HTML). Out: the file.
+// Writes one HTML file that contains everything: pictures as base64 and inline styles. It has no scripts and loads nothing.
+// Input: figures with their pictures and texts (HTML). Output: the file.
 #pragma once
 
 #include <string>
@@ -28,17 +28,18 @@ struct Figure {
   std::vector<KeyEntry> key;
   std::string caption;
   std::string paper;  // the part of the paper that the figure shows
-  std::string table;  // below the pictures; may be empty
+  std::string table;  // a table below the pictures; may be empty
 };
 
-// Returns a table of texts. The first row is its head.
+// Returns an HTML table of texts. The first row is its head.
 std::string html_table(const std::vector<std::vector<std::string>> &rows);
 
-// Makes an empty file, so that a path that cannot be written is refused before anything is drawn. Both functions throw a
+// Makes an empty file, so that a bad path is refused before anything is drawn. This function and write_page throw a
 // std::runtime_error that names the path.
 void begin_page(const std::string &path);
 
-// left_out has a text (HTML) for each figure that the page lacks, with the way to get it. appendix is HTML after the last figure.
+// left_out has a text (HTML) for each figure that the page lacks, with the command that makes it. appendix is HTML after the last
+// figure.
 void write_page(const std::string &path, const std::vector<Figure> &figures, const std::vector<std::string> &left_out,
                 const std::string &appendix);
 

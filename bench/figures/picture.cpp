@@ -61,7 +61,7 @@ void set_colour(vtkActor *actor, Colour colour) {
   actor->GetProperty()->SetColor(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
 }
 
-// Lines and points have their colour from all sides.
+// Makes lines and points keep their colour from every direction of view.
 void set_unlit(vtkActor *actor) {
   actor->GetProperty()->SetAmbient(1);
   actor->GetProperty()->SetDiffuse(0);
@@ -88,7 +88,7 @@ Picture::Picture(PictureSize size, const View &view, const Points &to_fit, doubl
   pixel_ = std::max(2 * x.half() / (size.width - 2 * margin), 2 * y.half() / (size.height - title_height - 2 * margin));
   focus_ = x.middle() * right_ + (y.middle() + 0.5 * title_height * pixel_) * up_ + z.middle() * direction_;
   depth_ = std::max({x.half(), y.half(), z.half()});
-  // One lamp is at the eye, one to its upper left. Parts that face away from both are dim, but not black.
+  // One lamp is at the eye, the other to the eye's upper left. Parts that face away from both lamps are dim, but not black.
   const double lamps[2][4] = {{0, 0, 1, 0.62}, {-0.6, 0.8, 1, 0.45}};
   for (const auto &[x_of_eye, y_of_eye, z_of_eye, intensity] : lamps) {
     vtkNew<vtkLight> light;
@@ -111,7 +111,7 @@ Vec3 Picture::at_pixel(double x, double y) const {
   return focus_ + pixel_ * (x - 0.5 * size_.width) * right_ + pixel_ * (y - 0.5 * size_.height) * up_;
 }
 
-// Moves the point towards the eye. Without perspective it keeps its place in the picture.
+// Moves the point towards the eye. In a picture without perspective, the point's position does not change.
 Vec3 Picture::raised(Vec3 p, int layer) const { return p - 0.004 * layer * depth_ * direction_; }
 
 vtkSmartPointer<vtkPolyData> Picture::lines(const std::vector<Points> &lines, int layer) const {
@@ -160,7 +160,7 @@ void Picture::add_faces(const Faces &faces, Shading shading) {
   data->GetCellData()->SetScalars(colours);
   vtkSmartPointer<vtkPolyData> shown = data;
   if (shading == Shading::smooth || shading == Shading::ghost) {
-    // Patches have separate points where they meet. One normal for both hides the seam.
+    // Where patches meet, they have separate points. One common normal hides the seam.
     vtkNew<vtkCleanPolyData> clean;
     clean->SetInputData(data);
     clean->ToleranceIsAbsoluteOn();
@@ -173,7 +173,7 @@ void Picture::add_faces(const Faces &faces, Shading shading) {
   const vtkSmartPointer<vtkActor> actor = vtk::coloured_actor_of(shown);
   vtkProperty *property = actor->GetProperty();
   if (shading == Shading::flat) property->SetInterpolationToFlat();
-  // The surface has some light of its own, so that parts that face away from the lamps keep their colour.
+  // The surface emits some light, so that parts that face away from the lamps keep their colour.
   property->SetAmbient(0.52);
   property->SetDiffuse(0.55);
   if (shading == Shading::ghost) {
@@ -274,7 +274,7 @@ void Picture::add_scale_and_axes() {
   const char *names[3] = {"x", "y", "z"};
   for (std::size_t k = 0; k < 3; ++k) {
     const double x = dot(axes[k], right_), y = dot(axes[k], up_);
-    if (std::hypot(x, y) < 0.15) continue;  // it points at the eye
+    if (std::hypot(x, y) < 0.15) continue;  // the axis points at the eye
     const Vec3 arm = pixel_ * (x * right_ + y * up_);
     add_tubes(lines({{in_front(origin), in_front(origin + 38 * arm)}}, 0), dark, 3);
     add_label_away(origin + 38 * arm, origin, names[k], 17, dark, 24);

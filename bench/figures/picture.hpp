@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture of surfaces, curves, points and texts seen from far away, without perspective, on white.
-// In: the objects in centimetres, and the sizes of lines, points and texts in pixels. Out: the bytes of a PNG file.
+// A picture of surfaces, curves, points and texts, seen without perspective on a white background.
+// Input: objects in centimetres, and the sizes of lines, points and texts in pixels. Output: the bytes of a PNG file.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ inline constexpr Colour blue = distinct(0), orange = distinct(1), green = distin
                         vermilion = distinct(4), sky_blue = distinct(5), dark{45, 45, 45}, grey{130, 130, 130},
                         light_grey{205, 205, 205};
 
-// Mixes the colour with this share of white.
+// Mixes the colour with white. `white` is the fraction of white.
 Colour paler(Colour colour, double white);
 
 struct Png {
@@ -41,9 +41,9 @@ struct Png {
 using Points = std::vector<Vec3>;
 using Segments = std::vector<std::array<Vec3, 2>>;
 
-// Triangles or quads, and the colour of each.
+// Triangles or quads, each with a colour.
 struct Faces {
-  std::size_t n_corners;  // of every face
+  std::size_t n_corners;  // of each face
   Points points;
   std::vector<std::int64_t> corners;  // (n_corners, n)
   std::vector<Colour> colours;
@@ -51,10 +51,11 @@ struct Faces {
   std::size_t size() const { return colours.size(); }
 };
 
-// A ghost is transparent. Painted faces keep their colours from all sides, because these carry data.
+// The styles of surfaces. A ghost is transparent. Painted faces keep their colours from every direction, because the colours are
+// data.
 enum class Shading { smooth, flat, ghost, painted };
 
-// The direction of view and the upward direction.
+// The direction in which the eye looks, and the upward direction.
 struct View {
   Vec3 direction, up;  // unit, perpendicular
 };
@@ -67,11 +68,11 @@ struct PictureSize {
 
 class Picture {
  public:
-  // All points to_fit are inside, at least the margin (pixels) away from the edges and from the title.
+  // The picture contains all points of to_fit, at least the margin (pixels) away from the edges and from the title.
   Picture(PictureSize size, const View &view, const Points &to_fit, double margin = 60);
 
-  // Objects that lie in faces are drawn on them: segments above faces, curves above segments, points above curves. Objects of one
-  // kind are drawn above others of a lower rank.
+  // Objects that lie in faces are drawn above them, in this order: faces, segments, curves, points. Among objects of one kind, a
+  // higher rank is drawn above a lower one.
   void add_faces(const Faces &faces, Shading shading);
   void add_segments(const Segments &segments, Colour colour, double width, int rank = 0);
   void add_curve(const Points &points, Colour colour, double width, int rank = 0);
@@ -80,12 +81,12 @@ class Picture {
 
   // Adds a text whose middle is `right` pixels to the right of a point and `above` pixels above it.
   void add_label(Vec3 at, const std::string &text, double right, double above, Colour colour = dark, int size = 26);
-  // Adds a text whose middle is moved away from `from`, as this camera sees it.
+  // Adds a text whose middle is moved away from the point `from`, as seen by this camera.
   void add_label_away(Vec3 at, Vec3 from, const std::string &text, double distance, Colour colour = dark,
                       int size = 26);
   void add_title(const std::string &text);
 
-  // Adds a line of 1 cm at the lower left, and the directions of x, y and z at the lower right.
+  // Adds a scale bar of 1 cm at the lower left, and the directions of x, y and z at the lower right.
   void add_scale_and_axes();
 
   Png png() const;
@@ -99,9 +100,9 @@ class Picture {
 
   PictureSize size_;
   Vec3 right_, up_, direction_;
-  Vec3 focus_;    // in the middle of the picture
+  Vec3 focus_;    // the point in the middle of the picture
   double depth_;  // half of the largest extent
-  double pixel_;  // its size in centimetres
+  double pixel_;  // the size of a pixel in centimetres
   vtkSmartPointer<vtkRenderer> renderer_;
 };
 

@@ -33,7 +33,7 @@ double largest_difference(const Bezier &a, const Bezier &b) {
   return largest;
 }
 
-// Finds the curve that has the parts a and b, by de Casteljau's algorithm run backwards. Returns false if there is none.
+// Finds the curve whose parts are a and b, by de Casteljau's algorithm in reverse. Returns false if there is none.
 bool join(const Bezier &a, const Bezier &b, Bezier &whole) {
   if (a.degree != b.degree) return false;
   const auto n = static_cast<std::size_t>(a.degree);
@@ -194,7 +194,7 @@ std::array<BoundaryPolyline, 4> boundary_polylines(const PatchSet &set, const Pa
 
 CuspCurves cusp_curves(const PatchSet &set, std::int32_t cusp) {
   const Patch *below = nullptr, *above = nullptr;
-  std::vector<PatchImage> images;  // of the patch below, as it is and mirrored
+  std::vector<PatchImage> images;  // the images of the patch below: unchanged and mirrored
   for (const Patch &patch : set.patches) {
     std::vector<PatchImage> of_cusp;
     for (const PatchImage &image : patch.images)
@@ -218,7 +218,7 @@ CuspCurves cusp_curves(const PatchSet &set, std::int32_t cusp) {
 
 // The patches of one half of the valve are listed from the anterior point of the annulus to the posterior point.
 MitralCurves mitral_curves(const PatchSet &set) {
-  std::array<Pieces, 2> annulus, anterior, posterior;  // and mirrored
+  std::array<Pieces, 2> annulus, anterior, posterior;  // here each curve, and its mirror image
   for (const Patch &patch : set.patches)
     for (std::size_t k = 0; k < 2; ++k) {
       const PatchImage &image = patch.images.at(k);

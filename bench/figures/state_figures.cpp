@@ -15,17 +15,17 @@ namespace riis::figures {
 namespace {
 
 constexpr PictureSize size{480, 400};
-constexpr std::size_t most_openings = 6;  // pictures side by side
+constexpr std::size_t most_openings = 6;  // as many pictures side by side
 constexpr double margin = 26, tolerance = 0.01;
 constexpr Colour orifice_colour{247, 196, 190}, outline_colour = dark;
-// The closed leaflets are inside.
+// Higher than closed leaflets, so that they lie inside.
 constexpr double housing_height = 1.1;
 
 struct Subject {
   const char *kind, *title, *from_above, *from_the_side;
   View side;
   std::vector<const char *> leaflets;
-  const char *disc;  // its name; the orifice is a part of it
+  const char *disc;  // the name of the disc that contains the orifice
   const char *caption, *paper;
 };
 
@@ -101,7 +101,7 @@ Points circle(double radius, Vec3 centre) {
   return points;
 }
 
-// Returns the edge of the disc that the orifice is a part of.
+// Returns the edge of the disc that contains the orifice.
 Points edge_of_disc(const Valve &valve, const PatchSet &set) {
   const std::string kind = valve.kind().name;
   if (kind == "mitral") return samples(mitral_curves(set).annulus);
@@ -138,7 +138,7 @@ std::vector<Points> outlines(const std::string &kind, const PatchSet &set) {
   return lines;
 }
 
-// The disc, moved below all else, so that from above its uncovered part is the orifice.
+// Returns the disc, moved below everything else. Seen from above, its uncovered part is the orifice.
 Faces disc_below(const Points &edge, double z) {
   Faces faces{3, {}, {}, {}};
   Vec3 middle{0, 0, z};
@@ -181,7 +181,7 @@ double lowest(const Points &points) {
   return z;
 }
 
-// All states at one scale.
+// Draws all states at the same scale.
 class StatePictures {
  public:
   StatePictures(const Subject &subject, const std::vector<double> &openings) : subject_(subject) {
@@ -238,7 +238,7 @@ std::string fixed(double value, int n_digits) {
   return text;
 }
 
-// Returns a table cell: the value, and its change since the valve was closed.
+// Returns a table cell: the value, and its change from the closed valve.
 std::string cell_of(const Measure &measure, std::size_t i) {
   std::string text = fixed(measure.values[i], 2);
   if (i == 0 || measure.shares.empty()) return text;
@@ -292,7 +292,7 @@ Figure states_figure(const StateTable &table) {
   for (std::size_t k = 0; k < subject.leaflets.size(); ++k)
     figure.key.push_back({leaflet_colours[k], subject.leaflets[k]});
   figure.key.push_back({orifice_colour, "orifice, seen from above"});
-  // The annulus is dark, as the leaflets' other edges are.
+  // The annulus is drawn dark, like the leaflets' other edges.
   if (table.kind != "mitral") figure.key.push_back({grey, "edge of " + std::string(subject.disc)});
   const bool has_edges = !table.edges.empty();
   figure.caption =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: measures of a valve at some openings. Out: a figure of the valve at these openings, from above and from the side, with
-// the measures in a table.
+// Draws a valve at some openings, from above and from the side.
+// Input: measures of the valve at these openings. Output: a figure with the pictures and a table of the measures.
 #pragma once
 
 #include <array>
@@ -11,15 +11,15 @@
 
 namespace riis::figures {
 
-// The kinds in the order of the page.
+// The kinds of valve, in the order of the page.
 inline constexpr std::array<const char *, 4> kinds_with_states = {"aortic", "trileaflet", "mitral", "bileaflet"};
 
-// Refuses a table of another kind, of other leaflets or of other openings by a std::runtime_error.
+// Throws std::runtime_error if the table is for another kind, other leaflets or other openings.
 void check_table(const StateTable &table);
 
 Figure states_figure(const StateTable &table);
 
-// Says how to get the figure (HTML).
+// Returns a text (HTML) that says how to make the figure.
 std::string how_to_show_states(const std::string &kind);
 
 }  // namespace riis::figures

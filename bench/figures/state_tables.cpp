@@ -28,7 +28,7 @@ bool ends_in(const std::string &text, const std::string &ending) {
   return text.size() >= ending.size() && text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-// Adds a column to the table. Columns of shares follow those of their measure. Returns false if the name is none of a table's.
+// Adds a column to the table. A column of shares follows the column of its measure. Returns false if the name is unknown.
 bool add(const std::string &column, const std::vector<double> &values, StateTable &table) {
   if (column == "orifice_area") {
     table.orifice.values = values;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a file KIND.csv that `riis states KIND.csv --valve KIND` wrote. Out: its numbers.
+// Reads tables of `riis states`.
+// Input: a file KIND.csv from `riis states KIND.csv --valve KIND`. Output: its numbers.
 #pragma once
 
 #include <string>
@@ -7,7 +8,7 @@
 
 namespace riis::figures {
 
-// A measure at every opening, and its share of the closed value. A measure without shares has none.
+// A measure at every opening, and its ratio to the closed value, if the table has one.
 struct Measure {
   std::vector<double> values, shares;
 };
@@ -15,11 +16,11 @@ struct Measure {
 struct StateTable {
   std::string kind;  // the file's name without its ending
   std::vector<double> openings;
-  std::vector<Measure> edges, areas;  // of the leaflets by ascending id; no edges if the leaflets are rigid
+  std::vector<Measure> edges, areas;  // one per leaflet, by ascending id; edges is empty if the leaflets are rigid
   Measure orifice;
 };
 
-// Throws a std::runtime_error that names the file.
+// Throws std::runtime_error with the file's name.
 StateTable read_state_table(const std::string &path);
 
 }  // namespace riis::figures

@@ -13,7 +13,8 @@
 namespace riis::figures {
 namespace {
 
-// The corners 0, a, b, 7 of a cube whose corner k is at (k & 1, k >> 1 & 1, k >> 2): six ways from 0 to 7 along edges.
+// The corners 0, a, b, 7 of a tetrahedron in a cube whose corner k is at (k & 1, k >> 1 & 1, k >> 2). There are six paths from 0
+// to 7 along edges.
 constexpr int ways[6][2] = {{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}};
 
 template <class T, void (*destroy)(T **)>
@@ -23,7 +24,7 @@ struct Destroy {
 template <class T, void (*destroy)(T **)>
 using Handle = std::unique_ptr<T, Destroy<T, destroy>>;
 
-// A place for a create function to write the handle. The owner takes the handle at the end of the statement.
+// A place to which a create function writes a handle. The owner takes the handle at the end of the statement.
 template <class Owner>
 class Out {
  public:
@@ -116,7 +117,7 @@ Marks mark(const TetrahedralMesh &mesh, const char *kind, double opening, double
 }
 
 Faces marked_faces(const TetrahedralMesh &mesh, const Marks &marks) {
-  // A face that two tetrahedra share is inside.
+  // A face that belongs to two tetrahedra is not on the outside.
   std::map<std::array<std::int64_t, 3>, std::pair<int, std::int32_t>> faces;
   for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
     if (!marks.is_whole[i]) continue;
@@ -148,7 +149,8 @@ Faces slice(const TetrahedralMesh &mesh, const Marks &marks, Vec3 normal, Segmen
     for (const std::int64_t node : mesh.tetrahedra[i])
       (dot(mesh.node(node), normal) < 0 ? before : behind).push_back(mesh.node(node));
     if (before.empty() || behind.empty()) continue;
-    // Points go round the section in order: two points in front of the plane and two behind it make a quad.
+    // The points go around the section in order: if two corners are in front of the plane and two behind it, the section is a
+    // quad.
     Points section;
     for (std::size_t a = 0; a < before.size(); ++a)
       for (std::size_t b = 0; b < behind.size(); ++b) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tetrahedral mesh of a cylinder about the z axis, and its marks.
-// In: the cylinder, the size of cells, a valve. Out: nodes, tetrahedra, marks, and faces to draw.
+// A tetrahedral mesh of a cylinder around the z axis, and its marks.
+// Input: the cylinder, the size of cells, a valve. Output: nodes, tetrahedra, marks, and faces to draw.
 #pragma once
 
 #include <array>
@@ -31,15 +31,16 @@ struct TetrahedralMesh {
 TetrahedralMesh mesh_cylinder(const Cylinder &cylinder, double edge);
 
 struct Marks {
-  std::size_t n_marked;               // nodes
-  std::vector<std::int32_t> leaflet;  // for each tetrahedron, its closest marked node's, or -1
-  std::vector<bool> is_whole;         // all four nodes are marked
-  std::size_t n_whole, n_touched;     // tetrahedra with all nodes marked, or at least one
+  std::size_t n_marked;               // number of marked nodes
+  std::vector<std::int32_t> leaflet;  // for each tetrahedron, the leaflet of its closest marked node, or -1
+  std::vector<bool> is_whole;         // whether all four nodes are marked
+  std::size_t n_whole, n_touched;     // number of tetrahedra with all nodes marked, and with at least one
 };
-// Marks by the public interface, as users do, with a valve of the given kind, its default parameters and an opening.
+// Marks nodes through the public interface, as users do. The valve has the given kind, its default parameters and the given
+// opening.
 Marks mark(const TetrahedralMesh &mesh, const char *kind, double opening, double tolerance);
 
-// Returns the outside of the tetrahedra with all nodes marked.
+// Returns the outer faces of the tetrahedra with all nodes marked.
 Faces marked_faces(const TetrahedralMesh &mesh, const Marks &marks);
 
 // Cuts the mesh by the plane through the origin with the given normal. Faces have the colour of their tetrahedron's leaflet,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers in captions. In: numbers. Out: text for people.
+// Formats numbers for captions.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace riis::figures {
 // Returns 12345 as "12,345".
 std::string count(std::size_t n);
 
-// Returns the number with at most this many significant digits: 0.050 as "0.05".
+// Returns the number with at most this many significant digits: 0.050 becomes "0.05".
 std::string number(double value, int digits = 3);
 
 // Returns 0.05 as "5 %".

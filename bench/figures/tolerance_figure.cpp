@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The effect of the tolerance on the triangles.
+// Draws the effect of the tolerance on the triangles.
 #include <string>
 
 #include "figures/figures.hpp"
@@ -37,7 +37,7 @@ Figure tolerance_figure() {
       Picture picture(size, subject.view, quads.points, 45);
       picture.add_title(percent(tolerances[k]));
       picture.add_faces(triangles, Shading::flat);
-      // Dark edges would cover the finest triangles.
+      // The finest triangles have edges in the leaflet's colour, because dark edges would cover them.
       picture.add_segments(edges_of(triangles), k == 3 ? leaflet_colours[0] : dark, 1);
       figure.panels.push_back({picture.png(), "The " + std::string(subject.name) + " at " + percent(tolerances[k]) +
                                                   ": " + count(quads.size()) + " quads, " + count(triangles.size()) +

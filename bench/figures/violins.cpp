@@ -11,7 +11,7 @@ namespace {
 
 constexpr PictureSize size{1120, 760};
 constexpr double least_power = -6, most_power = 0;
-// Lengths are in pixels, which are also the units of space.
+// Lengths are in pixels, which are also the units of the picture's coordinates.
 constexpr double left = 110, right = 1100, bottom = 70, top = 660, half_width = 0.42;
 
 double height_of(double value) {
@@ -22,7 +22,7 @@ double height_of(double value) {
 
 Vec3 at(double x, double y) { return {x, y, 0}; }
 
-// Returns half widths from the lower end of the scale to the upper, with 1 for the widest. They are counts of bins, smoothed by a
+// Returns half widths from the lower to the upper end of the scale, with 1 for the widest. They are counts in bins, smoothed by a
 // Gaussian.
 std::vector<double> outline_of(const std::vector<double> &ascending) {
   constexpr std::size_t bins_per_power = 20;
@@ -52,7 +52,7 @@ void add_outline(Faces &faces, double middle, double step, const Violin &violin)
     // A single point among thousands would have no visible width.
     if (std::max(a, b) < 0.4) continue;
     const double y = bottom + rise * (static_cast<double>(i) + 0.5);
-    // Smoothing must not reach beyond the least and the largest value.
+    // The smoothed outline must not reach beyond the least and the greatest value.
     if (y + rise > height_of(violin.values.back()) + 0.5 || y < height_of(violin.values.front()) - 0.5) continue;
     const auto first = static_cast<std::int64_t>(faces.points.size());
     for (const Vec3 &p : {at(middle - a, y), at(middle + a, y), at(middle + b, y + rise), at(middle - b, y + rise)})

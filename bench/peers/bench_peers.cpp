@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench peers: gives the same nodes and triangles to other programs (CGAL, VTK, OpenVDB), on one thread. First their marks
-// are compared with those of a loop over all triangles. Then their times are taken in turns. Fails if the library or CGAL does
-// not mark the loop's nodes.
+// ./run bench peers: gives the same nodes and triangles to other programs (CGAL, VTK, OpenVDB), on one thread. First it compares
+// their marks with those of a loop over all triangles. Then it takes their times in turns. Fails if the library or CGAL does not
+// mark the same nodes as the loop.
 //   argv[1]  a file for the results as JSON
-//   argv[2]  thousands of nodes; 100 if left out
-//   argv[3]  a folder that gets nodes, triangles and distances as raw binary numbers, for peers.py
+//   argv[2]  thousands of nodes; default 100
+//   argv[3]  a folder for nodes, triangles and distances as raw binary numbers, for peers.py
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -39,22 +39,23 @@ using nlohmann::json;
 
 constexpr double half_thickness = 0.1;
 constexpr int n_turns = 10, n_slow_turns = 5;
-// Voxels of OpenVDB's band: 4 and 8 a half thickness.
+// Sizes of OpenVDB's voxels: 4 and 8 per half thickness.
 constexpr std::pair<const char *, double> voxels[] = {{"0.025", 0.025}, {"0.0125", 0.0125}};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // The reference for all peers: distances by a loop over all triangles.
 struct Truth {
   std::vector<double> distance;
-  std::vector<bool> nearest_is_thin;  // the nearest triangle's height over its longest edge is below 1e-6 of that edge
+  std::vector<bool> nearest_is_thin;  // whether the nearest triangle's height is below 1e-6 of its longest edge
 };
 
-// A peer measures to the triangles, or to something near them.
+// Whether a peer measures distances to the triangles or to an approximation of them.
 enum class Measures { triangles, approximately };
 
-// Compares one peer's distances with the truth. Nodes that are marked differently are counted by reason.
+// Compares one peer's distances with the truth. Counts nodes that are marked differently, by reason.
 json compared(const Truth &truth, const std::vector<double> &distance, Measures measures = Measures::triangles) {
-  constexpr double rounding = 1e-12, single = 2e-6;  // cm, of coordinates of some cm
+  // The errors, in cm, of coordinates of some centimetres in double and single precision.
+  constexpr double rounding = 1e-12, single = 2e-6;
   std::map<std::string, std::int64_t> reasons;
   std::int64_t n_marked = 0, n_different = 0;
   double largest = 0;
@@ -83,7 +84,7 @@ bool is_equal(const json &comparison) {
   return comparison["different"] == n_rounding && comparison["largest_difference"] <= 1e-12;
 }
 
-// The loop over triangles, on all processors.
+// Computes the truth by the loop over triangles, on all processors.
 Truth truth_of(const riis_surface *surface, const Triangles &triangles, const CylinderNodes &nodes) {
   const std::int64_t n = nodes.n_nodes();
   Truth truth;
@@ -94,7 +95,7 @@ Truth truth_of(const riis_surface *surface, const Triangles &triangles, const Cy
   for (std::int64_t i = 0; i < n; ++i)
     truth.distance[static_cast<std::size_t>(i)] =
         every_triangle(nodes.xyz().data() + 3 * i, std::numeric_limits<double>::infinity());
-  // The library gives the nearest triangle, and the comparison checks its distance.
+  // The library gives the nearest triangle. The comparison checks the triangle's distance.
   std::vector<std::int64_t> nearest(static_cast<std::size_t>(n));
   riis_closest_arrays arrays;
   check(riis_closest_arrays_init(&arrays, sizeof arrays));
@@ -127,7 +128,7 @@ void write(const std::string &path, const std::vector<Number> &numbers) {
   }
 }
 
-// nodes (3, n) and distances (n), vertices (3, n) as float64; triangles (3, n) as int64.
+// Writes nodes (3, n), distances (n) and vertices (3, n) as float64, and triangles (3, n) as int64.
 void write_all(const std::string &prefix, const riis_surface *surface, const CylinderNodes &nodes, const Truth &truth) {
   const riis_triangles triangles = triangles_of(surface);
   const double *xyz = triangles.xyz;
@@ -138,14 +139,14 @@ void write_all(const std::string &prefix, const riis_surface *surface, const Cyl
   write(prefix + "triangles.i64", std::vector<std::int64_t>(vertex_id, vertex_id + 3 * triangles.n_triangles));
 }
 
-// The distances of marked nodes, infinity for the others.
+// Returns the distances of marked nodes, and infinity for the other nodes.
 std::vector<double> marked_distances(const riis_marks *result, std::int64_t n_nodes) {
   std::vector<double> distance(static_cast<std::size_t>(n_nodes));
   get_distances(result, infinity, distance);
   return distance;
 }
 
-// Returns false if the library or CGAL marks other nodes than the loop.
+// Returns false if the library or CGAL does not mark the same nodes as the loop.
 bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_nodes, const std::string &folder,
              json &out) {
   const Surface made = [&] {

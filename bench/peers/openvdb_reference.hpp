@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A competitor of the library's marking, if OpenVDB was found: a narrow band of voxels with distances, interpolated at the nodes.
-// It runs on one thread and in single precision.
+// A competitor of the library's marking, built if OpenVDB was found. It makes a narrow band of voxels with distances, and
+// interpolates them at the nodes. It runs on one thread and in single precision.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@ class OpenVdbBand {
   // The band reaches one voxel beyond the limit.
   OpenVdbBand(const Triangles &triangles, double voxel, double limit);
   ~OpenVdbBand();
-  // Makes the band. It has to be made again for a surface that moved.
+  // Makes the band. This must be repeated if the surface moved.
   void make();
-  // distance: (n_nodes), about the limit where the band does not reach. xyz: (3, n_nodes).
+  // distance: (n_nodes); about the limit for nodes outside the band. xyz: (3, n_nodes).
   void distances(std::int64_t n_nodes, const double *xyz, double *distance) const;
 
  private:

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Gives the nodes and triangles that riis_bench_peers wrote to Python packages. Measures their marks, then their times, as JSON.
+"""Gives the nodes and triangles from riis_bench_peers to Python packages. Compares their marks, then measures their times, and
+writes both as JSON.
 
-Runs in a virtual environment that study.py makes. A missing package is left out, with the reason. The process keeps to one
-processor, so that work of these packages on threads of their own costs as much as on one."""
+Runs in a virtual environment that study.py makes. A missing package is left out, with the reason. The process uses one
+processor, so that packages with threads of their own have no advantage."""
 
 import argparse
 import collections
@@ -52,7 +53,7 @@ def fcpw(np, nodes, vertices, triangles):
         scene.find_closest_points(asked, squared_radii, found)
         return None
 
-    # The list becomes an array outside the measured time.
+    # The list becomes an array after the measured time.
     ask.read = lambda: np.array([at.d if at.primitive_index != 2**32 - 1 and at.d >= 0 else np.inf for at in found])
     return ask
 
@@ -67,7 +68,7 @@ PEERS = {
 
 
 def compared(np, truth, distance):
-    """Compares as riis_bench_peers does: counts nodes that are marked differently, by reason."""
+    """Compares as riis_bench_peers does. Counts nodes that are marked differently, by reason."""
     by_peer, marked = distance <= HALF_THICKNESS, truth <= HALF_THICKNESS
     reasons = collections.Counter()
     for i in np.flatnonzero(by_peer != marked):
@@ -103,7 +104,7 @@ def measure(np, folder, kind):
             ask = make(np, nodes, vertices, triangles)
             version = importlib.metadata.version(package)
             answer = ask()
-        except Exception as error:  # any error of a package is the reason to leave it out
+        except Exception as error:  # whatever error a package raises, it is left out with that reason
             out["left_out"][name] = f"not available: {type(error).__name__}: {error}".splitlines()[0]
             continue
         label = f"{name} {version}"

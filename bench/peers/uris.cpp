@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run uris: reads exports back and marks the nodes of a cylinder by the rule of svMultiPhysics: a node's distance is the
-// distance to the nearest middle of a triangle. Compares with the library's distances to the same triangles, and prints rows of
-// the table of docs/export.md.
+// ./run uris: reads exports back and marks the nodes of a cylinder by the rule of svMultiPhysics. There a node's distance is the
+// distance to the nearest middle of a triangle. The program compares this with the library's distances to the same triangles, and
+// prints rows of the table in docs/export.md.
 //   argv[1]   the kind of the valve
 //   argv[2]   thousands of nodes
-//   argv[3..] what riis export printed
+//   argv[3..] the output of riis export
 #include <vtkCell.h>
 #include <vtkNew.h>
 #include <vtkUnstructuredGrid.h>
@@ -32,7 +32,7 @@ namespace {
 using namespace bench;
 
 constexpr double pi = 3.14159265358979323846;
-// Holds the bileaflet valve, open or closed.
+// Contains the bileaflet valve, open or closed.
 constexpr Cylinder prosthesis_cylinder{1.6, -1.0, 1.6, 0};
 
 [[noreturn]] void give_up(const std::string &text) {
@@ -43,7 +43,8 @@ constexpr Cylinder prosthesis_cylinder{1.6, -1.0, 1.6, 0};
 // Triangles in one state: their corners, (3, 3, n).
 using Corners = std::vector<double>;
 
-// The solver's input in one state: the triangles of the leaflets, and all nodes, also those of the face that widens its box.
+// The solver's input in one state: the leaflets' triangles, and all nodes, including those of the face that enlarges the solver's
+// box.
 struct State {
   Corners leaflets, nodes;
 };
@@ -133,7 +134,7 @@ State state_at(const char *kind, double opening) {
   return {corners, corners};
 }
 
-// The distances of nodes to these triangles by the library, infinity beyond the half thickness.
+// Returns the library's distances from nodes to these triangles, and infinity beyond the half thickness.
 std::vector<double> distances_by_library(const Corners &corners, double half_thickness, const CylinderNodes &nodes) {
   std::vector<std::int64_t> ids(corners.size() / 3);
   std::iota(ids.begin(), ids.end(), 0);
@@ -165,7 +166,8 @@ double longest_edge(const Corners &corners) {
   return longest;
 }
 
-// Tells whether a node is in the solver's box, which is a tenth larger on each side than that of the faces' nodes.
+// Tests whether a node is in the solver's box. On each side, that box is a tenth larger than the bounding box of the faces'
+// nodes.
 class SolverBox {
  public:
   explicit SolverBox(const std::vector<double> &xyz) {
@@ -194,7 +196,7 @@ double delta(double distance, double thickness) {
   return distance < thickness ? (1 + std::cos(pi * distance / thickness)) / (2 * thickness) : 0;
 }
 
-// A loop over all middles must find the same distances as the locator.
+// Checks that a loop over all middles finds the same distances as the locator.
 void check_locator(const std::vector<double> &middles, const std::vector<double> &xyz,
                    const std::vector<double> &found) {
   constexpr std::int64_t n_checked = 100;

@@ -1,13 +1,13 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# ./run uris: exports each kind of valve for svMultiPhysics with triangles of several sizes, reads the files back, and prints how
-# far marks by the middles of triangles are off. run reads this file, which uses its $build, $n_jobs, install_missing, step and
-# say.
+# ./run uris: exports each kind of valve for svMultiPhysics with triangles of several sizes and reads the files back. It prints
+# the error of marks by the middles of triangles. The script `run` reads this file, which uses $build, $n_jobs, install_missing,
+# step and say of `run`.
 
-# Largest edges, cm. The half thickness is 0.1. "none" leaves the triangles as the library cuts them.
+# Largest edges, cm. The half thickness is 0.1. "none" means the triangles that the library makes.
 uris_edges=(none 0.1 0.05 0.035 0.025 0.02 0.015)
 
-# export_of_size KIND EDGE: writes build/uris/KIND_EDGE and the block build/uris/KIND_EDGE.xml.
+# export_of_size KIND EDGE: writes build/uris/KIND_EDGE, and prints the solver's input to build/uris/KIND_EDGE.xml.
 export_of_size() {
   local folder=$build/uris/$1_$2 size=()
   [[ $2 == none ]] || size=(--largest-edge "$2")

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench proof, its first part: the search over clusters marks the same nodes as a loop over triangles, with the same
-// distances to the last bit and the same triangles. It runs on a million nodes, with both valves, three positions, three half
-// thicknesses, every instruction set of the processor and 1 to 4 threads. The loop runs the scalar form of the library's decision
-// kernel on every triangle whose box is near the node. A grid of the loop's own finds these triangles. On a sample of nodes the
-// loop runs the kernel on every triangle. Prints a table and fails on any difference. argv[1]: thousands of nodes instead of a
-// million.
+// distances to the last bit and the same triangles. The proof covers a million nodes, both valves, three positions, three half
+// thicknesses, every instruction set of the processor, and 1 to 4 threads. The loop runs the scalar form of the library's
+// decision kernel on every triangle whose box is near the node. It finds these triangles by a grid of its own. On a sample of
+// nodes it runs the kernel on every triangle. The program prints a table and fails on any difference. argv[1]: thousands of
+// nodes, instead of a million.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -21,10 +21,10 @@ namespace {
 
 using namespace bench;
 
-// Finds the triangles whose boxes are near a point, by lists in the cells of a grid over the surface.
+// Finds the triangles whose boxes are near a point. Each cell of a grid over the surface has a list of triangles.
 class NearTriangles {
  public:
-  // Boxes farther than reach do not matter.
+  // Boxes that are farther than `reach` are ignored.
   NearTriangles(const riis::TriangleSet &set, double reach) : set_(set), edge_(std::max(reach, 0.05)) {
     boxes_.reserve(set.triangle_id.size());
     for (std::int64_t i = 0; i < set.n_triangles(); ++i) {
@@ -48,8 +48,8 @@ class NearTriangles {
             cells_[i + n_[0] * (j + n_[1] * k)].push_back(t);
   }
 
-  // Returns the closest of the triangles whose boxes are within reach, and the lowest of equally close ones. Counts the pairs
-  // that it measures.
+  // Returns the closest of the triangles whose boxes are within reach, or the lowest of several equally close ones. Counts the
+  // pairs that it measures.
   riis::ClosestTriangle closest(const double *p, std::int64_t &n_pairs) const {
     riis::ClosestTriangle best{INFINITY, -1};
     if (!has(whole_, p)) return best;
@@ -72,7 +72,7 @@ class NearTriangles {
       if (p[i] < box.lower[i] || p[i] > box.upper[i]) return false;
     return true;
   }
-  // The function is monotone, so a point in a box is in one of the box's cells.
+  // The function is monotone. So if a point is in a box, the point's cell is one of the box's cells.
   std::size_t cell_of(double coordinate, int i) const {
     return static_cast<std::size_t>((coordinate - whole_.lower[i]) / edge_);
   }
@@ -92,7 +92,8 @@ struct Expected {
 };
 
 Expected by_brute_force(const CylinderNodes &nodes, const riis::TriangleSet &set, double half_thickness) {
-  const double slack = 1e-6;  // rounding of the kernel, of coordinates of some centimetres, is a billionth of it
+  // The kernel's rounding error, for coordinates of some centimetres, is a billionth of this.
+  const double slack = 1e-6;
   const NearTriangles near(set, half_thickness + slack);
   const std::int64_t n = nodes.n_nodes();
   std::vector<riis::ClosestTriangle> closest(static_cast<std::size_t>(n));
@@ -140,8 +141,7 @@ Differences compare(const Expected &expected, const riis_mark_list &marked) {
   return d;
 }
 
-// Checks that the grid leaves nothing out: every 997th node, and a thousand of the marked ones, are measured against every
-// triangle.
+// Checks that the grid misses nothing: measures every 997th node, and a thousand marked nodes, against every triangle.
 Differences compare_sample(const CylinderNodes &nodes, const riis::TriangleSet &set, double half_thickness,
                            const Expected &expected) {
   Differences d;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench proof, its second part: 10,000 time steps of a valve that opens and closes, for both valves, with 100,000 nodes and
-// 2 threads. At the end, the process has the memory that it had at step 100, to 1 MB. With one thread, a marking requests nothing
-// from malloc once the valve has been through all its positions. Prints a table and fails if this does not hold. argv[1]: another
-// number of steps, a multiple of 100.
+// 2 threads. At the end, the memory of the process equals the memory at step 100 to within 1 MB. With one thread, a marking calls
+// malloc no more once the valve has been in all positions. The program prints a table and fails if this does not hold. argv[1]:
+// another number of steps, a multiple of 100.
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -25,8 +25,8 @@ void count() {
 
 }  // namespace
 
-// An executable's functions take precedence over those of the libraries. So all allocations of the process pass through these,
-// also those of operator new.
+// An executable's functions take precedence over those of libraries. So all allocations of the process call these functions,
+// including those of operator new.
 extern "C" {
 void *__libc_malloc(std::size_t size);
 void *__libc_calloc(std::size_t n, std::size_t size);
@@ -68,12 +68,12 @@ struct Case {
   const Cylinder &cylinder;
   int n_threads;
   int n_steps;
-  // The limit for all markings after the warm steps. Threads share the work as it comes, so their shares depend on chance. If a
-  // thread gets more than ever before, its room doubles, which soon ends.
+  // The limit on allocations of all markings after the warm-up. Threads divide the work by chance. If a thread gets more work
+  // than ever before, its memory doubles. This soon stops.
   std::int64_t most_allocations;
 };
 
-// Returns true if memory stays.
+// Returns true if the memory stays the same.
 bool prove(const Case &of) {
   const CylinderNodes nodes(of.cylinder, 100000);
   const Mesh mesh = mesh_over(nodes);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench proof, its third part: the memory of the process does not grow while every search marks a small mesh again and
-// again. It runs with 1, 2 and 4 threads, on processors that other processes keep busy. Threads then come late to a search of
-// less than a millisecond, and TBB keeps the memory that it made for them. Prints a table and fails if memory grows. argv[1]:
-// another number of markings. OpenMP's threads should sleep while they wait (OMP_WAIT_POLICY=passive), or the run takes many
-// times as long.
+// ./run bench proof, its third part: the memory of the process does not grow while every search marks a small mesh many times. It
+// runs with 1, 2 and 4 threads, on processors that other processes keep busy. Threads then arrive late at a search of less than a
+// millisecond, and TBB keeps the memory that it allocated for them. The program prints a table and fails if memory grows.
+// argv[1]: another number of markings. OpenMP's threads should sleep while they wait (OMP_WAIT_POLICY=passive), or the run takes
+// many times as long.
 #include <sched.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -22,8 +22,8 @@ namespace {
 
 using namespace bench;
 
-// Processes that compute, one for each processor that this process may use. They end with this object. If this process ends
-// before it (exit, a signal), the system kills them.
+// Processes that keep the processors busy, one for each processor that this process may use. They end with this object. If this
+// process ends first (by exit or a signal), the system kills them.
 class BusyProcessors {
  public:
   BusyProcessors() {
@@ -48,7 +48,7 @@ class BusyProcessors {
  private:
   [[noreturn]] static void compute_for(pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(0);  // the parent ended before the system was told
+    if (getppid() != parent) _exit(0);  // the parent ended before the system was asked to kill this process with it
     for (volatile unsigned step = 0;; step = step + 1) {
     }
   }
@@ -62,8 +62,8 @@ class BusyProcessors {
   std::vector<pid_t> processes_;
 };
 
-// The time at which the handles of a marking are made. A solver keeps them. If its mesh moves, it may make the mesh each time. A
-// subroutine that keeps nothing between its calls makes all of them each time.
+// When the handles of a marking are made. A solver keeps them. If its mesh moves, it may make the mesh each time. A subroutine
+// that keeps nothing between calls makes all of them each time.
 enum class Made { before, mesh_each_time, all_each_time };
 
 struct Case {
@@ -88,7 +88,7 @@ Surface aortic_surface() {
   return make_surface(valve.get(), &options);
 }
 
-// The handles of a marking, made at the times that the case says.
+// The handles of a marking, made when the case requires.
 class Marking {
  public:
   Marking(const Case &of, int n_threads) : made_(of.made), nodes_(cylinders[0], 3000), rows_(nodes_.rows()) {
@@ -119,12 +119,12 @@ class Marking {
   Result result_;
 };
 
-// The bytes that the markings may add to the memory of the process. A thread that comes only now adds its stack and its
-// allocator's first pages. In the short form (300 markings) this limit is 1 kB per marking. TBB's arena of two threads takes 7
-// kB.
+// The number of bytes that the markings may add to the memory of the process. A thread that first takes part during the
+// measurement adds its stack and its allocator's first pages. In the short form (300 markings) this limit is 1 kB per marking.
+// TBB's arena of two threads takes 7 kB.
 constexpr double most_growth = 3e5;
 
-// A leak grows in every round. Memory that is made once does not.
+// A leak grows in every round. Memory that is allocated only once does not.
 bool stays(const Case &of, int n_threads, int n_markings) {
   Marking marking(of, n_threads);
   for (int i = 0; i < 60; ++i) marking.mark();
@@ -147,7 +147,7 @@ int main(int argc, char **argv) {
     std::fprintf(stderr, "%s: %s is not a number of markings, 300 or more\n", argv[0], argv[1]);
     return 2;
   }
-  const BusyProcessors busy;  // it forks, so it comes before the first thread
+  const BusyProcessors busy;  // its constructor forks, so it comes before the first thread
   std::printf("| search | threads | round of %d markings | growth, MB | bytes a marking |\n|---|---|---|---|---|\n",
               n_markings);
   bool all_stay = true;

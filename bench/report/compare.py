@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Says which benchmark became slower than a kept baseline; exit status 1 if one did.
+"""Reports which benchmarks became slower than a kept baseline. The exit status is 1 if there are any.
 
-Times are divided by those of the calibration benchmarks of the same run, so that runs of two machines, or of one machine on two
-days, can be compared. There are two calibrations, of memory and of arithmetic. It is not known which of them a benchmark depends
-on, so it counts as slower only if it is slower by both. If the machines' two calibrations differ much, a loss below that
-difference is not seen. --factor should not be below it, and a line says how large it is.
+Times are divided by those of the calibration benchmarks of the same run. So runs of two machines, or of one machine on two
+days, can be compared. There are two calibrations, for memory and for arithmetic. A benchmark may depend on either, so it
+counts as slower only if it is slower by both. If the machines' two calibrations differ much, a loss smaller than this
+difference is not noticed. --factor should not be below the difference, which the output gives.
 
-Exit status: 0, none is slower; 1, one is slower, is gone or ended early; 2, a file has the wrong content."""
+Exit status: 0, none is slower; 1, one is slower, is missing or ended early; 2, a file has the wrong content."""
 
 import argparse
 import json
@@ -23,7 +23,7 @@ class Unusable(Exception):
 
 
 def read(path):
-    """Returns times in milliseconds by name, and the failures, from a baseline or from Google Benchmark's own JSON."""
+    """Returns times in milliseconds by name, and the failures. It reads a baseline or Google Benchmark's own JSON."""
     try:
         with open(path, encoding="utf-8") as file:
             data = json.load(file)
@@ -35,7 +35,7 @@ def read(path):
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise Unusable(f"{path}: {type(error).__name__}: {error}") from error
     if not any(name.startswith(CALIBRATION) for name in times):
-        raise Unusable(f"{path}: no benchmark {CALIBRATION}*, so that nothing can be compared")
+        raise Unusable(f"{path}: no benchmark {CALIBRATION}*, so nothing can be compared")
     for name, ms in times.items():
         if not ms > 0:
             raise Unusable(f"{path}: {name} took {ms} ms")
@@ -43,7 +43,8 @@ def read(path):
 
 
 def compare(base, now):
-    """Returns by name how many times slower each is now, by the lesser calibration, and the calibrations' own factors."""
+    """Returns how many times slower each benchmark is now, by name and by the more lenient calibration. Also returns the
+    calibrations' own factors."""
     calibrations = sorted(name for name in base if name.startswith(CALIBRATION) and name in now)
     if not calibrations:
         raise Unusable("the two files have no calibration in common")

@@ -7,15 +7,15 @@ MILLISECONDS = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
 
 
 def without_suffix(name):
-    """Makes search_clusters/0/110/1 of search_clusters/0/110/1/min_time:0.250/real_time."""
+    """Shortens search_clusters/0/110/1/min_time:0.250/real_time to search_clusters/0/110/1."""
     parts = name.split("/")
     return "/".join(p for p in parts if p not in ("real_time", "process_time") and not p.startswith(("min_time:", "repeats:")))
 
 
 def least_times(runs):
-    """Returns the "benchmarks" of a file by name. Of repeated runs it takes the one with the least time, which is in "ms". That
-    is the counter least_ms, the shortest single call, if a benchmark has it, else the time per iteration. The second result has
-    the runs that ended early, with their messages."""
+    """Returns the "benchmarks" of a file by name, and a second result: the runs that ended early, with their messages. For
+    repeated runs it takes the one with the least time. Its time is in "ms": the counter least_ms, the shortest single call,
+    if the benchmark has it, or else the time per iteration."""
     best, failed = {}, {}
     for run in runs:
         if run.get("run_type", "iteration") != "iteration":

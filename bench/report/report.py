@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes docs/performance.md and out/bench/details.md from the JSON in out/bench and the prose in *.template.md.
 
-Every number of the pages is computed here from the JSON. A ratio is always of two times of the same run."""
+This script computes every number of the pages from the JSON. A ratio is always between two times of the same run."""
 
 import argparse
 import json
@@ -20,7 +20,7 @@ METHODS = ("triangles", "sampling", "minimisation")
 
 
 class Data:
-    """What there is in the folder; None for what there is not."""
+    """The results in the folder. A result that is not there is None."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -50,7 +50,7 @@ class Data:
         return times
 
     def run(self, name):
-        """When, by which command and under which load it was measured; None if that is not known."""
+        """Returns when, by which command and under which load a part was measured, or None if this is unknown."""
         return ((self.machine or {}).get("runs") or {}).get(name)
 
     def run_values(self, name):
@@ -73,7 +73,7 @@ def search(data, name, valve, size, threads):
 
 
 def paper_rows(data, valve):
-    """Every row of the paper's table with this run's searches of that size and number of threads."""
+    """Returns every row of the paper's table, with this run's searches of that size and number of threads."""
     for block, size in zip(data.paper[valve], SIZES):
         for threads, exhaustive, neighbor in block["rows"]:
             runs = {
@@ -122,7 +122,7 @@ def table_of_paper(data, valve):
 
 
 def table_of_threads(data, valve):
-    """How many times faster than on one thread."""
+    """Returns the table of speed-ups compared with one thread."""
     names = ("paper_exhaustive", "paper_neighbor", "exhaustive", "neighbor_warm", "clusters")
     first, rows = {}, []
     for nodes, threads, exhaustive, neighbor, runs in paper_rows(data, valve):
@@ -163,7 +163,7 @@ def table_of_other_searches(data):
 
 
 def queried_values(data, valve):
-    """What share of the nodes the plain neighbour search queries, by size."""
+    """Returns the fraction of nodes that the plain neighbour search queries, by size."""
     rows, sample = [], None
     for nodes, threads, exhaustive, neighbor, runs in paper_rows(data, valve):
         if threads != 1:
@@ -278,26 +278,26 @@ def table_of_queries(data):
 
 
 def pair_ns(data):
-    """What the plain loop of the reference takes for a node and a triangle."""
+    """Returns the reference's time for one node and one triangle, by the plain loop."""
     counts = data.marking["counts"]
     least = data.marking["times"]["the paper's search, every triangle, 1 thread"]["least_ms"]
     return 1e6 * least / counts["asked_by_paper"] / counts["triangles"]
 
 
 def query_ns(data):
-    """What a point query of the reference takes."""
+    """Returns the reference's time for a point query."""
     least = data.marking["times"]["the paper's search, point queries, 1 thread"]["least_ms"]
     return 1e6 * least / data.marking["counts"]["asked_by_paper"]
 
 
 def stage_shares(case):
-    """The share of each stage in the sum of all stages of a step."""
+    """Returns each stage's fraction of the sum of all stages of a step."""
     spent = {stage: case["nanoseconds"][stage] for stage, _, _ in STEP_STAGES}
     return {stage: ns / sum(spent.values()) for stage, ns in spent.items()}
 
 
 def floor_values(data):
-    """What of a step the bars that are not met would leave, and what its parts take, by the shares of the roofline."""
+    """Returns the step's time if the missed bars were met, and the time of the step's parts by the roofline's fractions."""
     least = {name: t["least_ms"] for name, t in data.marking["times"].items()}
     step, fine = least.get("step, 1 thread"), least.get("step, 2 threads, fine triangles")
     queries, cgal = least.get("the paper's search, point queries, 1 thread"), least.get("CGAL, every node, 1 thread")
@@ -315,7 +315,7 @@ def floor_values(data):
 
 
 def design_values(data):
-    """What changes of the design bought: measured once, kept in design_steps.json."""
+    """Returns the gains of design changes, which were measured once and are kept in design_steps.json."""
     if not data.marking:
         return None
     design = data.design
@@ -332,7 +332,7 @@ def design_values(data):
 
 
 def few_processors(data):
-    """The number of the machine's processors if these are too few for 4 to 16 threads."""
+    """Returns the number of the machine's processors if it is too small for 4 to 16 threads."""
     n = data.machine["machine"]["processors"] if data.machine else 0
     return str(n) if 0 < n < 4 else ""
 
@@ -390,13 +390,13 @@ STEP_STAGES = (
 
 
 def peak_ns(peak, stage, unit, case):
-    """The least time that the machine needs for a stage's operations or for its bytes, whichever takes longer."""
+    """Returns the least time that the machine needs for a stage: the longer of the times for its operations and for its bytes."""
     by_memory = case["bytes"][stage] / peak["bytes"]
     return max(by_memory, case["operations"][stage] / peak[unit]) if unit else by_memory
 
 
 def table_of_stages(data, case):
-    """A row for each stage, all per marked node, and their sum."""
+    """Returns a row for each stage, per marked node, and a row for their sum."""
     peak, marked, rows, sums = data.roofline["peak"], case["marked"], [], [0.0] * 4
     for stage, label, unit in STEP_STAGES:
         values = [
@@ -511,7 +511,7 @@ SEARCH_LINES = (
 
 
 def plot_searches(data, path):
-    """Seconds by nodes, on one thread; False if it cannot be drawn."""
+    """Plots seconds by nodes, on one thread. Returns False if the data is missing."""
     panels = []
     for valve in VALVES:
         rows = [row for row in paper_rows(data, valve) if row[1] == 1]
@@ -528,7 +528,7 @@ def plot_searches(data, path):
 
 
 def plot_threads(data, path):
-    """How many times faster than one thread, a million nodes; False if it cannot be drawn."""
+    """Plots the speed-up over one thread for a million nodes. Returns False if the data is missing."""
     if not data.searches or not data.machine:
         return False
     panels, ticks = [], [row[0] for row in data.paper[VALVES[0]][0]["rows"]]
@@ -557,7 +557,7 @@ def plot_threads(data, path):
 
 
 def plot_peers(data, path):
-    """Milliseconds of each; False if it cannot be drawn."""
+    """Plots milliseconds of each peer. Returns False if the data is missing."""
     panels = []
     for valve in VALVES:
         bars = {
@@ -579,7 +579,7 @@ PLOTS = (
 
 
 def images_for_page(data, folder):
-    """Draws what there is; the markdown of each by its name."""
+    """Draws the plots whose data exists. Returns the markdown of each by its name."""
     return {
         name: f"![{title}](performance-{name}.png)\n"
         for name, plot, title in PLOTS
@@ -588,7 +588,8 @@ def images_for_page(data, folder):
 
 
 def measured_text(data, name):
-    """When and where it was measured, in HTML, with the machine, which has no table there."""
+    """Returns when and where a part was measured, in HTML. It includes the machine, because the page of figures has no table
+    of it."""
     run = data.run(name)
     if not run:
         return ""
@@ -601,7 +602,7 @@ def measured_text(data, name):
 
 
 def plot_left_out(data, name, title):
-    """Which plot is not drawn, why, and the command that gets it."""
+    """Returns a text that names the missing plot, the reason, and the command that makes it."""
     measured = data.peers if name == "peers" else data.searches
     if not measured:
         file, command = ("peers", "./run bench peers") if name == "peers" else ("searches", "./run bench search")
@@ -614,7 +615,8 @@ def plot_left_out(data, name, title):
 
 
 def write_figures(data, folder):
-    """The plots for the page that riis-figures makes, and plots.json: its texts for them, and which are left out and why."""
+    """Writes the plots for the page of riis-figures, and plots.json, which has their texts and names the missing plots with
+    reasons."""
     os.makedirs(folder, exist_ok=True)
     drawn = {name: title for name, plot, title in PLOTS if plot(data, os.path.join(folder, name + ".png"))}
     figures = []
@@ -658,7 +660,7 @@ def write_figures(data, folder):
 
 
 def values_of_page(data, plots):
-    """Every value by the name that the templates have for it; empty where nothing was measured."""
+    """Returns every value by its name in the templates. A value that was not measured is empty."""
     return {
         "machine": data.machine and {"machine_table": machine_table(data)},
         "searches": searches_values(data, plots),
@@ -673,7 +675,7 @@ def values_of_page(data, plots):
 
 
 def template(*names):
-    """The prose of these pages, one after the other."""
+    """Returns the prose of these pages, one after the other."""
     texts = []
     for name in names:
         with open(os.path.join(HERE, f"{name}.template.md"), encoding="utf-8") as file:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The numbers on accuracy in docs/performance.md, from what ./run bench accuracy leaves in out/bench/accuracy.json.
+"""Computes the numbers on accuracy in docs/performance.md from out/bench/accuracy.json, which ./run bench accuracy writes.
 
-accuracy_values(data) returns them by the names that performance.template.md has for them.
+accuracy_values(data) returns the numbers by their names in performance.template.md.
 """
 
 
@@ -10,7 +10,7 @@ def _count(n):
 
 
 def _share(share):
-    """Half thicknesses as per cent, with two digits."""
+    """Formats a fraction of the half thickness as per cent, with two digits."""
     percent = 100 * share
     if percent >= 9.95:
         return f"{percent:.0f} %"
@@ -61,7 +61,7 @@ def _results(runs):
 
 
 def _findings(data):
-    """What the numbers say."""
+    """Returns sentences that interpret the numbers."""
     used = [run[where]["max"] / run["tolerance"] for run in _runs(data, "triangulation")
             for where in ("on_surface", "off_surface")]
     sampled = [run["on_surface"]["max"] / run["tolerance"] for run in _runs(data, "sampling")]
@@ -106,7 +106,7 @@ def _leaflet_values(leaflet):
 
 
 def accuracy_values(data: dict) -> dict:
-    """For the content of accuracy.json."""
+    """Returns the values for the content of accuracy.json."""
     machine, first = data["machine"], data["leaflets"][0]["truth"]
     return {
         "offsets": ", ".join(f"{offset:g}" for offset in first["offsets_half_thicknesses"]),

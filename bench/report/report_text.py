@@ -8,10 +8,10 @@ _TAG = re.compile(r"^[ \t]*\{\{([#^/])(\w+)\}\}[ \t]*\n|\{\{([#^/]?)(\w+)\}\}", 
 
 
 class Template:
-    """Markdown with places for values, as Mustache has them.
+    """Markdown with placeholders for values, in the syntax of Mustache.
 
-    {{name}} is a value. {{#name}} ... {{/name}} is there if the value is not empty, once for each item of a list, with the names
-    of a dict within reach. {{^name}} ... {{/name}} is there if the value is empty. A name without a value is an error.
+    {{name}} is a value. {{#name}} ... {{/name}} is used if the value is not empty, once for each item of a list. If an item is a
+    dict, its names can be used inside. {{^name}} ... {{/name}} is used if the value is empty. A name without a value is an error.
     """
 
     def __init__(self, text):
@@ -33,7 +33,7 @@ class Template:
         self._parts = stack[0][1] + [text[end:]]
 
     def fill(self, values, only=None):
-        """The whole text, or only the parts of that name; its prose is wrapped."""
+        """Returns the whole text, or only the parts with the name `only`, with prose wrapped."""
         parts = [part for part in self._parts if only is None or part[1:2] == (only,)]
         return wrapped(_filled(parts, [values]))
 
@@ -64,7 +64,8 @@ def _filled(parts, scopes):
 
 
 def wrapped(text):
-    """Paragraphs and list items wrapped as all pages are, tables and the like as they are, one empty line between."""
+    """Wraps paragraphs and list items as on all pages, leaves tables and similar blocks unchanged, and puts one empty line
+    between blocks."""
     blocks = [block.strip("\n") for block in re.split(r"\n(?:[ \t]*\n)+", text)]
     return (
         "\n\n".join(block if block.startswith(("|", "#", "!", "<!--")) else _wrapped_block(block) for block in blocks if block)
@@ -78,14 +79,14 @@ def _wrapped_block(block):
 
 
 def _wrapped_item(item, mark):
-    # No line begins with a per cent sign. Code in backticks and links may be cut at spaces only.
+    # No line begins with a per cent sign. Code in backticks and links are broken only at spaces.
     text = " ".join(item[len(mark) :].split()).replace(" %", "~%")
     indents = {"initial_indent": mark, "subsequent_indent": " " * len(mark)}
     return textwrap.fill(text, width=100, break_long_words=False, break_on_hyphens=False, **indents).replace("~%", " %")
 
 
 def number(value):
-    """Three digits that count."""
+    """Returns the number with three significant digits."""
     if value >= 999.5:
         return grouped(value)
     digits = 0 if value >= 99.95 else 1 if value >= 9.995 else 2 if value >= 0.9995 else 3
@@ -110,7 +111,7 @@ def table(heads, rows):
 
 
 class figure:
-    """Plots with logarithmic axes, if there is matplotlib; without it there are none, and a line says so."""
+    """Makes plots with logarithmic axes. If matplotlib is missing, it makes none and prints a line that says so."""
 
     @staticmethod
     def _pyplot():
@@ -131,15 +132,16 @@ class figure:
 
     @staticmethod
     def _save(pyplot, plot, path):
-        # Without the program's version in it the same data gives the same bytes.
+        # The program's version is left out, so that the same data gives the same bytes.
         plot.savefig(path, dpi=110, metadata={"Software": None})
         pyplot.close(plot)
         return True
 
     @staticmethod
     def lines(panels, across, up, path, ticks=None, limit=None):
-        """panels: title and lines, each a label, points and a style; a line has the same colour in all panels. ticks: those
-        across, in place of powers of ten. limit: (at, text), what lies beyond is shaded and has that text in it."""
+        """Draws lines. panels: titles and lines. A line is a label, points and a style, and has the same colour in all panels.
+        ticks: values on the horizontal axis, instead of powers of ten. limit: (at, text); the region beyond `at` is shaded
+        and contains the text."""
         pyplot = figure._pyplot()
         if not pyplot:
             return False

@@ -19,12 +19,12 @@ PAPER_THREADS = (1, 2, 4, 8, 12)
 SEARCHES = "exhaustive|clusters|neighbor_warm|neighbor_cold|paper|all_distances|paper_exhaustive|paper_neighbor"
 ONCE = "^search_(every_triangle|groups|adjacency)"
 STAGES = "^(calibration|pipeline|distance_query|surface_update|closest_point|mark_exhaustive|brute_force)"
-# Baselines keep these benchmarks: all that take no more than about a second, on the smallest mesh.
+# Baselines keep these benchmarks: all that take at most about a second, on the smallest mesh.
 GUARDED = (
     r"^(calibration|pipeline|surface_update|closest_point/|mark_exhaustive|distance_query/.*/(method:0/|method:1/tolerance:50/))"
     r"|^search_(exhaustive|clusters|neighbor_warm|neighbor_cold|all_distances)/[01]/110/[12]/"
 )
-# Files that others wrote, or that are made anew, are not removed.
+# Files from other programs, and files that are always written again, are not removed.
 OWN_JSON = ("searches", "stages", "marking", "roofline", "accuracy", "peers", "peers_python")
 
 
@@ -52,7 +52,7 @@ def operating_system():
 
 
 def caches():
-    """Sizes of the first processor's, by level."""
+    """Returns the cache sizes of the first processor, by level."""
     folder, found = "/sys/devices/system/cpu/cpu0/cache", []
     try:
         for index in sorted(os.listdir(folder)):
@@ -106,7 +106,7 @@ class Study:
         return os.path.join(self.build, "bench", name)
 
     def run(self, name, command):
-        """Runs what writes out/bench/NAME.json, which is replaced only if it succeeds, and takes down when that was."""
+        """Runs a command that writes out/bench/NAME.json, and records when. The file is replaced only if the command succeeds."""
         print(f"==> {name}: {' '.join(command)}", flush=True)
         load = os.getloadavg()[0]
         date = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC")
@@ -122,7 +122,7 @@ class Study:
             file.write("\n")
 
     def google_benchmark(self, name, regex, seconds, repetitions):
-        # In random order, other work of the machine slows all benchmarks alike.
+        # The order is random, so that other work on the machine slows all benchmarks alike.
         self.run(
             name,
             [
@@ -150,7 +150,7 @@ class Study:
         self.run("accuracy", [self.program("riis_accuracy"), "OUT", "20000" if full else "2000"])
 
     def peers(self):
-        # The results of the peers from PyPI belong to the last run of the peers.
+        # The results of the Python packages belong to the last run of the peers.
         if os.path.exists(self.path("peers_python")):
             os.remove(self.path("peers_python"))
         os.makedirs(os.path.join(self.out, "peers"), exist_ok=True)
@@ -171,7 +171,8 @@ class Study:
         self.run("peers_python", [python, os.path.join(here, "..", "peers", "peers.py"), os.path.join(self.out, "peers"), "OUT"])
 
     def missing_for_figures(self):
-        """Measures the costs that the figures' page plots and that out/bench lacks; what is there may be of a longer run."""
+        """Measures the costs that the page of figures plots and that out/bench lacks. Existing results are kept, since they
+        may come from a longer run."""
         for name, measure in (("searches", lambda: self.searches(False)), ("peers", self.peers)):
             if os.path.exists(self.path(name)):
                 print(f"==> {self.path(name)} is there and is not measured again", flush=True)
@@ -216,7 +217,7 @@ def main(arguments):
             parser.error(f"{options.what} takes a file")
         if options.what == "compare":
             try:
-                compare.read(options.file)  # before minutes are spent
+                compare.read(options.file)  # read first, before minutes are spent
             except compare.Unusable as error:
                 sys.exit(f"study.py: {error}")
         study.guard()
@@ -240,7 +241,7 @@ def main(arguments):
     if options.what in ("short", "full"):
         return report.main(["--data", options.out])
     if options.what == "accuracy":
-        return 0  # it has printed its tables
+        return 0  # the program has printed its tables
     return report.main(["--data", options.out, "--print", options.what])
 
 

@@ -3,7 +3,7 @@
 
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Simple_cartesian.h>
-#if __has_include(<CGAL/AABB_traits_3.h>)  // CGAL 6
+#if __has_include(<CGAL/AABB_traits_3.h>)  // in CGAL 6
 #include <CGAL/AABB_traits_3.h>
 #include <CGAL/AABB_triangle_primitive_3.h>
 #else
@@ -37,8 +37,8 @@ double distance_sq(const Point &p, const CGAL::Bbox_3 &box) {
   return x * x + y * y + z * z;
 }
 
-// Tells CGAL's traversal which boxes to enter and what to do with a triangle. CGAL's own for closest points does the same, but
-// this one begins with a radius.
+// Tells CGAL's traversal which boxes to enter and what to do with a triangle. CGAL's own class for closest points does the same,
+// but this one starts with a limit on the distance.
 struct WithinLimit {
   double radius_sq;
   bool has_found = false;
@@ -76,7 +76,7 @@ void CgalQuery::distances(std::int64_t n_nodes, const double *xyz, double limit,
                           double *distance) const {
   const Tree &tree = implementation_->tree;
   const CGAL::Bbox_3 box = tree.bbox();
-  // Threads take chunks, since nodes near the valve cost more than others.
+  // Threads take chunks, since nodes near the valve take longer than others.
 #pragma omp parallel for num_threads(n_threads) schedule(dynamic, 4096)
   for (std::int64_t i = 0; i < n_nodes; ++i) {
     const Point p(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);

@@ -32,12 +32,12 @@ void Contest::run() {
   int most = 0;
   for (const Contender &contender : contenders_) {
     most = std::max(most, contender.n_turns);
-    contender.before();  // memory and caches settle
+    contender.before();  // an untimed turn, so that memory and caches settle
     contender.work();
   }
   for (int turn = 0; turn < most; ++turn)
     for (const Contender &contender : contenders_) {
-      // A contender with fewer turns has them spread over the whole run.
+      // If a contender has fewer turns, they are spread over the whole run.
       if (turn * contender.n_turns / most == (turn + 1) * contender.n_turns / most) continue;
       contender.before();
       times_[contender.name].push_back(milliseconds_of(contender.work));

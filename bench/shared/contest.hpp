@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times of several pieces of work that take turns, so that other work of the machine slows all alike. Ratios of these times must
-// meet bars. Out: tables in markdown, and JSON.
+// Times several pieces of work in turns, so that other work on the machine slows all of them alike. Ratios of these times must
+// meet bars. The output is tables in markdown, and JSON.
 #pragma once
 
 #include <functional>
@@ -15,17 +15,17 @@ class Contest {
  public:
   using Work = std::function<void()>;
 
-  // before() prepares a turn outside its time. There must be at least 5 turns, because a ratio is the median of five parts of the
+  // before() prepares a turn and is not timed. There must be at least 5 turns, because a ratio is the median of five parts of the
   // run.
   void add(
       const std::string &name, int n_turns, Work work, Work before = [] {});
-  // Records a contender that cannot take part here. Bars with it are left out, and the reason is printed.
+  // Records a contender that cannot take part here. Its bars are left out, and the reason is printed.
   void leave_out(const std::string &name, const std::string &why) { left_out_[name] = why; }
-  // Runs all contenders that were added since the last run. Each works once, untimed, before the first turn.
+  // Runs all contenders that were added since the last run. Before the first turn, each works once untimed.
   void run();
 
   double least(const std::string &name) const;
-  // Returns the median over the fifths of the run of the ratio of the two contenders' least times.
+  // Returns the ratio of the two contenders' least times in each fifth of the run, and of these the median.
   double ratio(const std::string &above, const std::string &below) const;
   // Returns the reason why a contender was left out, or "" if it was not.
   std::string why_left_out(const std::string &name) const;
@@ -48,7 +48,7 @@ class Contest {
 
 enum class Wanted { at_least, at_most };
 
-// The bar for the ratio of two contenders.
+// A bar: the required ratio of two contenders' times.
 struct RatioBar {
   const char *name, *above, *below;
   Wanted wanted;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The library's handles with their destruction, for benchmarks: an error ends the program.
+// The library's handles with destructors, for benchmarks. An error ends the program.
 #pragma once
 
 #include <riis/riis.h>
@@ -36,7 +36,7 @@ inline Valve make_valve(const char *kind) {
   return Valve(valve);
 }
 
-// NULL options are the defaults.
+// If options is NULL, the defaults are used.
 inline Surface make_surface(const riis_valve *valve, const riis_surface_options *options = nullptr) {
   riis_surface *surface = nullptr;
   check(riis_surface_create(valve, options, &surface));
@@ -88,7 +88,7 @@ inline riis_triangles triangles_of(const riis_surface *surface) {
   return triangles;
 }
 
-// xyz (3, n).
+// Describes points xyz (3, n).
 inline riis_points points_of(std::int64_t n, const double *xyz) {
   riis_points points;
   check(riis_points_init(&points, sizeof points));
@@ -98,7 +98,7 @@ inline riis_points points_of(std::int64_t n, const double *xyz) {
   return points;
 }
 
-// Writes the distances of marked nodes, far_distance for the others.
+// Writes the distances of marked nodes, and far_distance for other nodes.
 inline void get_distances(const riis_marks *marks, double far_distance, std::vector<double> &distance) {
   riis_dense_arrays arrays;
   check(riis_dense_arrays_init(&arrays, sizeof arrays));
@@ -108,7 +108,7 @@ inline void get_distances(const riis_marks *marks, double far_distance, std::vec
   check(riis_marks_get_dense(marks, &arrays));
 }
 
-// K (n); K_u_surface (3, n), or NULL.
+// Adds the resistance to K (n) and to K_u_surface (3, n), which may be NULL.
 inline void add_resistance(const riis_marks *marks, const riis_resistance &resistance, std::vector<double> &K,
                            double *K_u_surface) {
   riis_resistance_arrays arrays;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The memory that the process has from malloc and from the system.
+// The memory of the process, as counted by malloc and by the system.
 #pragma once
 
 #include <malloc.h>
@@ -9,13 +9,13 @@
 
 namespace bench {
 
-// Returns the bytes that malloc gave and that are not yet freed, in all arenas and in separate pages.
+// Returns the bytes that malloc allocated and that are not yet freed, in all arenas and in separate pages.
 inline double allocated() {
   const struct mallinfo2 info = mallinfo2();
   return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
 }
 
-// Returns the bytes of the process that are in memory.
+// Returns the process's resident memory in bytes.
 inline double resident() {
   long long all = 0, in_memory = 0;
   std::FILE *file = std::fopen("/proc/self/statm", "r");

@@ -9,10 +9,10 @@
 
 namespace bench {
 
-// The middles of triangles, (3, n): the means of their corners.
+// Returns the middles of triangles, (3, n): the means of their corners.
 std::vector<double> middles_of(const Triangles &triangles);
 
-// Measures all middles for each node, as that solver does. distance: (n_nodes); xyz: (3, n_nodes).
+// For each node, measures the distances to all middles, as that solver does. distance: (n_nodes); xyz: (3, n_nodes).
 void distances_to_middles(const std::vector<double> &middles, std::int64_t n_nodes, const double *xyz,
                           double *distance);
 

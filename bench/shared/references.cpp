@@ -23,8 +23,8 @@ struct Point {
 Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 double dot(Point a, Point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-// Returns the squared distance of a point to a triangle, by the region of the triangle's plane that the point is over (C.
-// Ericson, Real-Time Collision Detection, 5.1.5).
+// Returns the squared distance of a point from a triangle, by the region of the triangle's plane into which the point projects
+// (C. Ericson, Real-Time Collision Detection, 5.1.5).
 double distance_sq(Point p, const double *corners) {
   const Point a{corners[0], corners[1], corners[2]}, b{corners[3], corners[4], corners[5]},
       c{corners[6], corners[7], corners[8]};
@@ -82,7 +82,7 @@ EveryTriangle::EveryTriangle(const Triangles &triangles) {
   }
 }
 
-// The regions are those of distance_sq above.
+// The regions are the same as in distance_sq above.
 double EveryTriangle::operator()(const double *p, double) const {
   double least = std::numeric_limits<double>::infinity();
   for (const Prepared &t : triangles_) {
@@ -136,7 +136,7 @@ struct PointQuery::Implementation {
   static void bounds(const RTCBoundsFunctionArguments *arguments) {
     const double *c = static_cast<const Implementation *>(arguments->geometryUserPtr)->triangles.corners.data() +
                       9 * std::size_t{arguments->primID};
-    constexpr double slack = 1e-6;  // for single precision of coordinates of some centimetres
+    constexpr double slack = 1e-6;  // allows for single precision of coordinates of some centimetres
     float lower[3], upper[3];
     for (int i = 0; i < 3; ++i) {
       lower[i] = static_cast<float>(std::min({c[i], c[3 + i], c[6 + i]}) - slack);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A solver's time step: the valve moves, its surface is made again, nodes are marked, and their list is read.
+// A solver's time step: the valve moves, its surface is updated, nodes are marked, and the list of marked nodes is read.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,16 @@
 namespace bench {
 
 struct StepOptions {
-  const char *kind = "aortic";  // of the valve
+  const char *kind = "aortic";  // the kind of valve
   double half_thickness = 0.1;
   double tolerance = 0.05;
   int n_threads = 1;
   std::int32_t instructions = RIIS_INSTRUCTIONS_AUTO;
-  std::int32_t triangulation = RIIS_TRIANGULATION_ADAPTED;  // if fixed, the aortic valve moves by its opening
+  // With a fixed triangulation, the aortic valve moves by its opening.
+  std::int32_t triangulation = RIIS_TRIANGULATION_ADAPTED;
 };
 
-// Marks by clusters. The mesh is borrowed.
+// Marks by the search over clusters. The mesh is borrowed.
 class TimeSteps {
  public:
   TimeSteps(const riis_mesh *mesh, const StepOptions &options)
@@ -39,15 +40,15 @@ class TimeSteps {
     marking_.instructions = options.instructions;
   }
 
-  // From position 0 to 1, the valve opens, or the free edges of the aortic valve's cusps turn by 30 degrees. A fixed
-  // triangulation serves all openings, but no other changes of the valve.
+  // Moves the valve to a position from 0 to 1. The valve opens, or the free edges of the aortic valve's cusps turn by 30 degrees.
+  // A fixed triangulation allows all openings, but no other change of the valve.
   void move_to(double position) {
     if (opens_)
       check(riis_valve_set_scalar(valve_.get(), "opening", position));
     else
       check(riis_valve_set_scalar(valve_.get(), "leaflet_angle", 30 + 30 * position));
   }
-  // Moves by a sixtieth of that range, there and back within a twelfth of it.
+  // Moves by a sixtieth of the range of positions, back and forth within a twelfth of it.
   void move() {
     step_ = (step_ + 1) % 10;
     move_to(0.5 + (step_ < 5 ? step_ : 10 - step_) / 60.0);
@@ -60,7 +61,7 @@ class TimeSteps {
     return marked_in(result_.get());
   }
 
-  // Tells whether the processor has the requested instructions.
+  // Returns whether the processor has the requested instructions.
   bool can_mark() const {
     const riis_status status = riis_mark_nodes(surface_.get(), mesh_, &marking_, make_result().get());
     if (status != RIIS_UNAVAILABLE) check(status);

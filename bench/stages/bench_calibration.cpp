@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Work that has nothing to do with the library. compare.py divides every other time by these times, so that other machines, or
-// the same one on another day, can be compared.
+// Work that does not use the library. compare.py divides every other time by these times, so that runs on other machines, or on
+// the same machine on another day, can be compared.
 #include <benchmark/benchmark.h>
 
 #include <cstddef>
@@ -19,7 +19,7 @@ void calibration_coordinates(benchmark::State &state) {
 }
 BENCHMARK(calibration_coordinates)->Unit(benchmark::kMillisecond);
 
-// Measures a core: products and sums in double precision, each waiting for the one before.
+// Measures a core: products and sums in double precision, each of which needs the previous result.
 void calibration_products(benchmark::State &state) {
   constexpr int n_products = 1000000;
   double factor = 0.9999999, summand = 1e-7;

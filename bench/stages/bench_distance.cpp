@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times and errors of a query by each of the paper's three ways to measure a distance (4.1, "Performance evaluation"). The points
-// are on the surface, as in the paper, or in a box around it. Tolerances are shares of the half thickness, 0.1.
+// Times and errors of a query by each of the paper's three methods for a distance (4.1, "Performance evaluation"). The points are
+// on the surface, as in the paper, or in a box around it. Tolerances are fractions of the half thickness, 0.1.
 #include <benchmark/benchmark.h>
 #include <riis/riis.h>
 
@@ -29,7 +29,8 @@ Surface surface_of(const char *kind, std::int32_t measure, double tolerance) {
   return make_surface(make_valve(kind).get(), &options);
 }
 
-// The points are the same in every run. Their distances are to triangles within 1e-3 half thicknesses of the smooth surface.
+// The points are the same in every run. Their reference distances are those to triangles within 1e-3 half thicknesses of the
+// smooth surface.
 struct Points {
   std::vector<double> xyz, distances;
 

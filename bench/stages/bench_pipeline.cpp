@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way from parameters to a scene, stage by stage (paper, 3 and 4.1), on one thread. Valves are the aortic one and the
-// half-open mitral one, at the default tolerance. Every stage starts from the results of the stage before. riis_surface_create
-// runs all stages. A stage costs less there if it works in the memory of the last surface.
+// Times the stages from parameters to a scene (paper, 3 and 4.1), on one thread. The valves are the aortic valve and the
+// half-open mitral valve, at the default tolerance. Every stage starts from the results of the previous one. riis_surface_create
+// runs all stages. A stage is faster there if it reuses the memory of the last surface.
 #include <benchmark/benchmark.h>
 
 #include "api/handles.hpp"
@@ -30,14 +30,14 @@ Surface surface_of(const riis_valve *valve) {
   return make_surface(valve, &options);
 }
 
-// Parameters to curves and patches.
+// From parameters to curves and patches.
 void pipeline_patches(benchmark::State &state, const char *kind) {
   const Valve valve = moved_valve(kind);
   for (auto _ : state) benchmark::DoNotOptimize(valve->valve.make_patches());
   state.counters["curves"] = static_cast<double>(valve->valve.make_patches().curves.size());
 }
 
-// Flattens every curve once, with the whole error for itself. Surfaces need finer curves.
+// Flattens every curve once with the whole tolerance. Surfaces need finer curves.
 void pipeline_curves(benchmark::State &state, const char *kind) {
   const riis::PatchSet patches = moved_valve(kind)->valve.make_patches();
   std::size_t n_points = 0;
@@ -49,13 +49,13 @@ void pipeline_curves(benchmark::State &state, const char *kind) {
   state.counters["points"] = static_cast<double>(n_points);
 }
 
-// Curves as fine as the surface needs them, and the patches' quads.
+// Flattens curves as finely as the surface needs, and makes the patches' quads.
 void pipeline_quads(benchmark::State &state, const char *kind) {
   const riis::PatchSet patches = moved_valve(kind)->valve.make_patches();
   for (auto _ : state) benchmark::DoNotOptimize(riis::make_grids(patches, max_error));
 }
 
-// The same, then the placed triangles. Quads are not kept in between.
+// Does the same and makes the placed triangles. Quads are not stored in between.
 void pipeline_triangles(benchmark::State &state, const char *kind) {
   const Valve valve = moved_valve(kind);
   const riis::PatchSet patches = valve->valve.make_patches();
@@ -64,7 +64,7 @@ void pipeline_triangles(benchmark::State &state, const char *kind) {
   state.counters["triangles"] = n_triangles_of(surface_of(valve.get()).get());
 }
 
-// A new scene.
+// Makes a new scene.
 void pipeline_scene(benchmark::State &state, const char *kind) {
   const Surface surface = surface_of(moved_valve(kind).get());
   for (auto _ : state) {
@@ -74,7 +74,7 @@ void pipeline_scene(benchmark::State &state, const char *kind) {
   state.counters["triangles"] = n_triangles_of(surface.get());
 }
 
-// The same scene again, for triangles that moved.
+// Makes the scene again for triangles that moved.
 void pipeline_scene_again(benchmark::State &state, const char *kind) {
   const Surface surface = surface_of(moved_valve(kind).get());
   riis::TriangleScene scene;

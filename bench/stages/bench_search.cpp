@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The searches, on cylinders that the valves fit generously, as in the paper's tables (4.2.3). The valve moves between markings.
-// Arguments: valve (0 aortic, 1 mitral), thousands of nodes, threads. report.py makes tables of the times.
+// Times the searches on cylinders with room around the valves, as in the paper's tables (4.2.3). The valve moves between
+// markings. Arguments: valve (0 aortic, 1 mitral), thousands of nodes, threads. report.py makes tables of the times.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ const CylinderMesh &mesh_of(const benchmark::State &state) {
   return *mesh;
 }
 
-// A valve that moves there and back, by a hundredth of its motion from state to state. The tolerance is 5 %, as in the paper.
+// A valve that moves back and forth, by a hundredth of its motion between its states. The tolerance is 5 %, as in the paper.
 class MovingValve {
  public:
   explicit MovingValve(std::int64_t kind) {
@@ -71,7 +71,7 @@ riis_mark_options options_for(const benchmark::State &state, std::int32_t search
   return options;
 }
 
-// The shortest of many markings, since other work of the machine only adds time to a marking.
+// Keeps the shortest of many markings, since other work on the machine only adds time to a marking.
 class Shortest {
  public:
   template <class Work>
@@ -94,7 +94,7 @@ void count(benchmark::State &state, const riis_marks *result) {
   count_time_per(state, "time/node", static_cast<double>(stats.n_nodes));
 }
 
-// Marks again and again into the same result while the valve moves.
+// Marks repeatedly into the same result while the valve moves.
 void mark_repeatedly(benchmark::State &state, std::int32_t search) {
   const riis_mesh *mesh = mesh_of(state).mesh();
   MovingValve &valve = valve_of(state);
@@ -115,7 +115,8 @@ void search_exhaustive(benchmark::State &state) { mark_repeatedly(state, RIIS_SE
 void search_neighbor_warm(benchmark::State &state) { mark_repeatedly(state, RIIS_SEARCH_NEIGHBOR); }
 void search_paper(benchmark::State &state) { mark_repeatedly(state, RIIS_SEARCH_PAPER); }
 
-// Marks into a new result every time, so there is no last marking to start from and no memory to reuse. The mesh has its balls.
+// Marks into a new result every time, so there is no earlier marking to start from and no memory to reuse. The mesh already has
+// its balls.
 void search_neighbor_cold(benchmark::State &state) {
   const riis_mesh *mesh = mesh_of(state).mesh();
   MovingValve &valve = valve_of(state);
@@ -134,7 +135,7 @@ void search_neighbor_cold(benchmark::State &state) {
   count(state, result.get());
 }
 
-// Computes the full distance of every node by the scene. The paper's exhaustive search also computes these distances.
+// Computes the full distance of every node with the scene. The paper's exhaustive search also computes these distances.
 void search_all_distances(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   MovingValve &valve = valve_of(state);
@@ -160,8 +161,8 @@ void search_all_distances(benchmark::State &state) {
   count_time_per(state, "time/node", static_cast<double>(mesh.n_nodes()));
 }
 
-// The paper's exhaustive search itself: every node, every triangle, one thread, with the library's kernel. Only every 50th node
-// is measured. "all_nodes_s" scales the time to all nodes, since each costs the same.
+// The paper's exhaustive search itself: every node and every triangle, on one thread, with the library's kernel. Only every 50th
+// node is measured. "all_nodes_s" extrapolates the time to all nodes, since each takes the same time.
 void search_every_triangle(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const riis_surface *surface = valve_of(state).first();
@@ -184,8 +185,8 @@ void search_every_triangle(benchmark::State &state) {
   count_time_per(state, "time/pair", static_cast<double>(n_sample) * n_triangles_of(surface));
 }
 
-// The paper's two searches, written plainly (references.hpp). The first measures every node against every triangle, for an evenly
-// spaced sample of about 2,000 nodes. "all_nodes_ms" scales the time to all nodes, since each costs the same.
+// The first of the paper's two searches, written plainly (references.hpp). It measures an evenly spaced sample of about 2,000
+// nodes against every triangle. "all_nodes_ms" extrapolates the time to all nodes, since each takes the same time.
 void search_paper_exhaustive(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const Triangles triangles(valve_of(state).first());
@@ -213,7 +214,8 @@ void search_paper_exhaustive(benchmark::State &state) {
       shortest.milliseconds() * static_cast<double>(mesh.n_nodes()) / static_cast<double>(n_sample);
 }
 
-// The second walks from marked nodes to their neighbours and measures each against every triangle.
+// The paper's second search, also written plainly. It walks from marked nodes to their neighbours and measures each against every
+// triangle.
 void search_paper_neighbor(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const Triangles triangles(valve_of(state).first());
@@ -244,7 +246,7 @@ void search_groups(benchmark::State &state) {
   count_time_per(state, "time/node", static_cast<double>(mesh.n_nodes()));
 }
 
-// Measures the making of the library's adjacency, which is needed once.
+// Times the library's construction of an adjacency, which a mesh needs once.
 void search_adjacency_of_tetrahedra(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const std::vector<std::int32_t> tetrahedra = mesh.tetrahedra();
@@ -253,7 +255,7 @@ void search_adjacency_of_tetrahedra(benchmark::State &state) {
   count_time_per(state, "time/node", static_cast<double>(mesh.n_nodes()));
 }
 
-// Measures an adjacency from faces. The grid's nodes count as cells; each face has an owner and a neighbour.
+// Times an adjacency from faces. The grid's nodes count as cells; each face has an owner and a neighbour.
 void search_adjacency_of_faces(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const std::int64_t n[3] = {mesh.n_across(), mesh.n_across(), mesh.n_along()};
@@ -296,14 +298,14 @@ void search_adjacency_of_grid(benchmark::State &state) {
   count_time_per(state, "time/node", static_cast<double>(mesh.n_nodes()));
 }
 
-// These are about the sizes of the paper's meshes, and its numbers of threads.
+// The sizes are about those of the paper's meshes. The numbers of threads are the paper's.
 const std::vector<std::int64_t> valves{0, 1}, sizes{110, 260, 500, 1000, 1480}, threads{1, 2, 4, 8, 12};
 
 void with(benchmark::internal::Benchmark *benchmark, const std::vector<std::vector<std::int64_t>> &arguments) {
   benchmark->ArgsProduct(arguments)->Unit(benchmark::kMillisecond)->UseRealTime();
 }
 void of_every_size(benchmark::internal::Benchmark *benchmark) { with(benchmark, {valves, sizes, threads}); }
-// Arguments of benchmarks that do not depend on the valve.
+// The arguments of benchmarks that do not depend on the valve.
 void of_every_mesh(benchmark::internal::Benchmark *benchmark) { with(benchmark, {{0}, {110, 500, 1000}, {1, 2}}); }
 void of_the_smallest(benchmark::internal::Benchmark *benchmark) { with(benchmark, {valves, {110}, {1}}); }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One benchmark per stage, on the aortic valve at the default tolerance and 100,000 nodes around it. Times depend on the machine.
-// The ratios guard the speed: both sides are measured in the same run.
+// One benchmark per stage, on the aortic valve at the default tolerance and 100,000 nodes around it. Times depend on the machine,
+// but the ratios hardly do, because both of their times are measured in the same run.
 #include <benchmark/benchmark.h>
 #include <riis/riis.h>
 
@@ -30,7 +30,7 @@ Surface aortic_surface(double tolerance) {
   return make_surface(make_valve("aortic").get(), &options);
 }
 
-// Nodes in the box that the demo's cylinder fills, the same in every run.
+// Returns nodes in the box around the demo's cylinder, the same nodes in every run.
 const std::vector<double> &nodes() {
   static const std::vector<double> xyz = [] {
     constexpr std::size_t n_nodes = 100000;
@@ -56,7 +56,7 @@ Mesh box_mesh() {
   return Mesh(mesh);
 }
 
-// Measures the way from parameters to triangles to the scene, as at every time step of a moving valve. Argument: tolerance in
+// Times all stages from parameters to triangles to the scene, as in every time step of a moving valve. Argument: tolerance in
 // tenths of a per cent.
 void surface_update(benchmark::State &state) {
   const Valve valve = make_valve("aortic");
@@ -79,7 +79,8 @@ void closest_point(benchmark::State &state) {
   const Surface surface = aortic_surface(static_cast<double>(state.range(0)) * 1e-3);
   std::size_t i = 0;
   riis_closest closest;
-  check(riis_closest_point(surface.get(), nodes().data(), &closest, sizeof closest));  // makes the data that sides need
+  // Makes the data that a query with sides needs.
+  check(riis_closest_point(surface.get(), nodes().data(), &closest, sizeof closest));
   for (auto _ : state) {
     check(riis_closest_point(surface.get(), nodes().data() + 3 * (i++ % 100000), &closest, sizeof closest));
     benchmark::DoNotOptimize(closest);
@@ -102,8 +103,8 @@ void mark_exhaustive(benchmark::State &state) {
 }
 BENCHMARK(mark_exhaustive)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// Compares the loop over all triangles, with the library's own kernel, with the marking of the same nodes on one thread. The
-// ratio tells how many times faster the scene is. The sample is every 100th node.
+// Compares the loop over all triangles, which uses the library's own kernel, with the marking of the same nodes on one thread.
+// The ratio tells how many times faster the marking is. The loop measures every 100th node.
 void brute_force_over_marking(benchmark::State &state) {
   const Surface surface = aortic_surface(0.05);
   const riis::TriangleSet &triangles = riis::content_of(surface.get()).triangles();

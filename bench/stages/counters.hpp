@@ -8,7 +8,7 @@
 
 namespace bench {
 
-// Reports the time of one run over n.
+// Reports the time of one run, divided by n.
 inline void count_time_per(benchmark::State &state, const char *name, double n) {
   state.counters[name] =
       benchmark::Counter(n, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);

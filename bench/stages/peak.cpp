@@ -24,7 +24,7 @@ const PeakKernels &peak_kernels(InstructionSet set) {
   return peak_kernels_baseline;
 }
 
-// Other work on the machine only adds to a time, so the shortest of many counts.
+// Other work on the machine only adds to a time, so the shortest of many runs is used.
 template <class Work>
 double shortest_nanoseconds(int n_turns, const Work &work) {
   double least = 1e300;
@@ -47,7 +47,7 @@ double operations_a_nanosecond(const PeakKernel &kernel) {
   return static_cast<double>(kernel.operations * n) / nanoseconds;
 }
 
-// Copies in blocks, because other work interrupts long copies. A pass over all blocks drives each out of the caches.
+// Copies in blocks, because other work interrupts long copies. A pass over all blocks drives each block out of the caches.
 double bytes_a_nanosecond() {
   constexpr std::size_t of_block = std::size_t{2} << 20, n_blocks = 128;
   const std::vector<char> from(n_blocks * of_block, 1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The most that one thread of this machine computes and copies. ./run bench roofline sets the stages of a step beside it.
+// The peak rates at which one thread of this machine computes and copies. ./run bench roofline compares the stages of a step with
+// them.
 #pragma once
 
 #include <stdint.h>
@@ -8,20 +9,21 @@
 
 namespace bench {
 
-// Each function repeats its operations on registers and returns a number that depends on all of them. Operations are those of
-// kernels/count.hpp.
+// Each function repeats its operations on registers and returns a number that depends on all of them. Operations are counted as
+// in kernels/count.hpp.
 struct PeakKernel {
   int64_t operations;  // in one repetition
   double (*repeat)(int64_t n);
 };
 struct PeakKernels {
-  PeakKernel floats[3];  // multiply-adds; multiply-adds and additions; multiplications and additions
-  PeakKernel doubles;    // multiplications and additions, because the decision fuses none
+  // Functions for single precision: multiply-adds; multiply-adds and additions; multiplications and additions.
+  PeakKernel floats[3];
+  PeakKernel doubles;  // for double precision: multiplications and additions, because the decision kernel fuses none
 };
 
 extern const PeakKernels peak_kernels_baseline, peak_kernels_avx2, peak_kernels_avx512;
 
-// The largest numbers in a nanosecond. Bytes are those that a copy reads and writes, of arrays that no cache holds.
+// The highest rates per nanosecond. For `bytes`, a copy reads and writes arrays that are too large for any cache.
 struct Peak {
   double floats, doubles, bytes;
 };

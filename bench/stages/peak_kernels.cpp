@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// These kernels do as many operations as the processor can, on registers alone. They are compiled for each instruction set, like
+// Kernels that do as many operations as the processor can, on registers alone. They are compiled for each instruction set, like
 // the library's kernels.
 #include "kernels/lanes.hpp"
 #include "kernels/table.hpp"
@@ -8,7 +8,7 @@
 namespace bench {
 namespace {
 
-// This many chains of operations keep all units busy, and they fit into sixteen registers.
+// This many independent chains of operations keep all units busy, and fit into sixteen registers.
 constexpr int n_chains = 12;
 
 template <class Register, class Scalar, class Step>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench roofline: the time of each stage of a step, beside the machine's limits. A step makes the surface of a valve that
-// moved and marks by clusters, on one thread. The search runs first with kernels that read a clock. Then it runs with kernels
-// that count operations and pairs, and note the memory that they are given.
+// ./run bench roofline: compares the time of each stage of a step with the machine's limits. A step makes the surface of a valve
+// that moved, and marks by the search over clusters, on one thread. First the search runs with kernels that read a clock. Then it
+// runs with kernels that count operations and pairs, and record which memory they use.
 //   argv[1]  the file for counts, times and peaks as JSON
 //   argv[2]  thousands of nodes instead of a million
 #include <riis/riis.h>
@@ -42,12 +42,12 @@ constexpr int n_turns = 100;
 
 double nanoseconds(Clock::duration duration) { return std::chrono::duration<double, std::nano>(duration).count(); }
 
-// The sums that the kernels below keep. They are called by one thread.
+// The sums that the timing kernels below keep. Only one thread calls them.
 struct Measured {
   const riis::Kernels *kernels;
-  Clock::time_point regions_end;  // the end of the last comparison of boxes
+  Clock::time_point regions_end;  // when the last comparison of boxes ended
   Clock::duration filter, decide;
-  std::int64_t n_boxes, n_filter, n_decide;  // calls
+  std::int64_t n_boxes, n_filter, n_decide;  // numbers of calls
 };
 Measured measured;
 
@@ -85,7 +85,7 @@ riis::Kernels measuring(const riis::Kernels &kernels) {
   return with_clocks;
 }
 
-// Sums the bytes of the pieces of memory that a stage was given. Each piece counts once.
+// Sums the sizes of the pieces of memory that a stage uses. Each piece counts once.
 class Touched {
  public:
   void add(const void *piece, std::size_t size) {
@@ -103,7 +103,7 @@ class Touched {
   std::size_t bytes_ = 0;
 };
 
-// The counts that the counting kernels below fill.
+// The counts that the counting kernels below make.
 struct Counted {
   Touched boxes, filter, decide, leaves;
   riis::Counts in_boxes{0, 0}, in_filter{0, 0}, in_decide{0, 0};
@@ -111,7 +111,7 @@ struct Counted {
 };
 Counted *counted = nullptr;
 
-// Adds the operations and pairs that the kernels counted while this object lived.
+// Adds the operations and pairs that the kernels count during this object's lifetime.
 class CountsOf {
  public:
   explicit CountsOf(riis::Counts &to) : to_(to), before_(riis::counts_of_kernels) {}
@@ -177,7 +177,7 @@ std::size_t bytes_of(const std::vector<Number> &numbers) {
   return numbers.size() * sizeof(Number);
 }
 
-// Returns the bytes of a surface's triangles and groups. Embree's scene needs more memory, which Embree does not report.
+// Returns the bytes of a surface's triangles and groups. Embree's scene needs additional memory, which Embree does not report.
 double bytes_of(const riis::Surface &surface) {
   const riis::TriangleSet &set = surface.triangles();
   const riis::TriangleGroups &groups = surface.scene().groups();
@@ -186,7 +186,7 @@ double bytes_of(const riis::Surface &surface) {
                              bytes_of(groups.corners) + bytes_of(groups.groups) + bytes_of(groups.bounds));
 }
 
-// The nanoseconds of one step, stage by stage.
+// The nanoseconds of each stage of one step.
 struct Times {
   double update, regions, filter, decide, rest, order;
 
@@ -217,14 +217,15 @@ class StagedSteps {
       : steps_(mesh, options), mesh_(mesh->mesh), kernels_(riis::kernels(riis::best_instruction_set())) {}
 
   void move() { steps_.move(); }
-  // A step as a solver makes it. The time is this thread's own: on a busy machine other work interrupts every whole step.
+  // Makes a step as a solver does. The time is this thread's own time, because on a busy machine other work interrupts every
+  // whole step.
   double whole() {
     const double start = nanoseconds_of_thread();
     steps_.step();
     return nanoseconds_of_thread() - start;
   }
 
-  // A step with a clock between its stages. The time that reading the clock takes is subtracted.
+  // Makes a step with a clock read between its stages. The time that reading the clock takes is subtracted.
   Times staged(double of_clock) {
     const auto start = Clock::now();
     steps_.update();
@@ -239,7 +240,7 @@ class StagedSteps {
     Times times;
     times.update = nanoseconds(updated - start);
     times.regions = nanoseconds(measured.regions_end - updated) - n_boxes * of_clock;
-    // A pair of readings includes one in its difference, and one around it.
+    // The difference of two readings includes the time of one reading, and another is made around it.
     times.filter = nanoseconds(measured.filter) - n_filter * of_clock;
     times.decide = nanoseconds(measured.decide) - n_decide * of_clock;
     times.rest = nanoseconds(searched - measured.regions_end - measured.filter - measured.decide) -
@@ -248,7 +249,7 @@ class StagedSteps {
     return times;
   }
 
-  // Counts the operations of the present step's stages, and the bytes that they touch.
+  // Counts the operations of the present step's stages, and the bytes that they use.
   nlohmann::json count() {
     Counted counts;
     counted = &counts;
@@ -279,7 +280,7 @@ class StagedSteps {
               {"filter", counts.filter.bytes()},
               {"decide", counts.decide.bytes()},
               {"rest", n_found * found_bytes},
-              // They are read, copied stretch by stretch, read again, and written into the lists.
+              // The found nodes are read, copied piece by piece, read again, and written into the lists.
               {"order", 3 * n_found * found_bytes + in_lists}}}};
   }
 
@@ -306,13 +307,13 @@ class StagedSteps {
   riis::FoundNodes &found_ = marks_.found;
 };
 
-// Measures the stages of a step with triangles of a tolerance.
+// Measures the stages of a step with triangles of the given tolerance.
 nlohmann::json measure(const riis_mesh *mesh, double tolerance, double of_clock) {
   StepOptions options;
   options.half_thickness = half_thickness;
   options.tolerance = tolerance;
   StagedSteps steps(mesh, options);
-  // Whole and staged steps take turns. Each stage has its shortest time: other work only adds to a time.
+  // Whole and timed steps take turns. For each stage the shortest time is kept, because other work only adds to a time.
   Times least{};
   double whole = 1e300;
   for (int turn = 0; turn < n_turns + 1; ++turn) {
@@ -320,7 +321,7 @@ nlohmann::json measure(const riis_mesh *mesh, double tolerance, double of_clock)
     const double of_whole = steps.whole();
     steps.move();
     const Times times = steps.staged(of_clock);
-    if (turn == 0) continue;  // caches and memory settle
+    if (turn == 0) continue;  // the first turn does not count: caches and memory settle
     whole = std::min(whole, of_whole);
     if (turn == 1) least = times;
     for (double Times::*stage :

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench marking: the cost of a time step, of an adjacency and of their competitors, in one run. A step makes the surface of
-// a valve that moved and its scene, marks, and reads the list of marked nodes with distances and triangles (time_steps.hpp).
-// Prints the measured times and the bars. Fails if a competitor does not mark the same nodes or has other rows.
+// ./run bench marking: measures the cost of a time step, of an adjacency and of their competitors in one run. A step makes the
+// surface of a valve that moved and its scene, marks nodes, and reads the list of marked nodes with distances and triangles
+// (time_steps.hpp). The program prints the times and the bars. It fails if a competitor marks other nodes or makes other rows.
 //   argv[1]  a file for the times and bars as JSON, optional
 //   argv[2]  thousands of nodes instead of a million, for a quick look
 #include <riis/riis.h>
@@ -75,7 +75,7 @@ void add(Contest &contest, const std::string &name, TimeSteps &steps) {
 std::string of_threads(int n_threads) { return n_threads == 1 ? ", 1 thread" : ", 2 threads"; }
 
 #if defined(RIIS_WITH_CGAL)
-// Tells whether CGAL marks the same nodes. Nodes whose distance equals the half thickness up to rounding may differ.
+// Returns whether CGAL marks the same nodes. Nodes whose distance equals the half thickness up to rounding may differ.
 bool is_same(const std::vector<double> &distance, const riis_mark_list &marked) {
   constexpr double rounding = 1e-12;
   std::int64_t n_different = 0, n_unexplained = 0, next = 0;
@@ -96,7 +96,7 @@ bool is_same(const std::vector<double> &distance, const riis_mark_list &marked) 
 }
 #endif
 
-// Measures steps and their competitors on the same nodes. Returns false if these do not mark the same nodes.
+// Times steps and their competitors on the same nodes. Returns false if a competitor marks other nodes.
 bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_nodes, nlohmann::json &counts) {
   const CylinderMesh nodes(wide_cylinder, about_n_nodes);
   const std::int64_t n = nodes.n_nodes();
@@ -122,7 +122,7 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
   add(contest, "step, 2 threads, fixed", coarse_fixed);
   options.triangulation = RIIS_TRIANGULATION_ADAPTED;
   options.half_thickness = 0.3;
-  options.tolerance = coarse * half_thickness / options.half_thickness;  // the same triangles
+  options.tolerance = coarse * half_thickness / options.half_thickness;  // so that the triangles are the same
   TimeSteps thick(mesh.get(), options);
   add(contest, "step, 2 threads, d_min 0.3", thick);
   TimeSteps avx2(mesh.get(), step_options(1, RIIS_INSTRUCTIONS_AVX2)),
@@ -135,7 +135,7 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
       contest.leave_out(name, "the processor has no AVX-512");
   }
 
-  // The competitors mark the present surface.
+  // The competitors mark with the present surface.
   const riis_mark_list marked = two.step();
   const Triangles triangles(two.surface());
   PaperSearch paper(n, xyz, nodes.rows());
@@ -212,7 +212,7 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
   return is_right;
 }
 
-// Measures a tenth of the nodes, the nodes, and ten times as many. Meshes are coordinates only.
+// Times a tenth of the nodes, all nodes, and ten times as many. The meshes have coordinates only.
 void compare_sizes(Contest &contest, std::int64_t about_n_nodes, nlohmann::json &counts) {
   struct Size {
     CylinderNodes nodes;
@@ -226,7 +226,7 @@ void compare_sizes(Contest &contest, std::int64_t about_n_nodes, nlohmann::json 
   const auto add_size = [&](const std::string &name, Size &size) {
     contest.add(
         name, n_turns, [&] { size.steps.step(); },
-        [&] {  // an untimed step first, so that another mesh's data in the caches does not matter
+        [&] {  // an untimed step, so that data of another mesh in the caches does not matter
           size.steps.move();
           size.steps.step();
           size.steps.move();

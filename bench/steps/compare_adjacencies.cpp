@@ -48,7 +48,7 @@ double status_kb(const char *field) {
   return kb;
 }
 
-// Returns the most megabytes in memory that work adds, in a process of its own.
+// Returns by how many megabytes the work raises the peak memory, in a process of its own.
 double peak_megabytes(const std::function<void()> &work) {
   int ends[2];
   if (pipe(ends) != 0) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the cost of each call for the table in the README: the shortest of repeated calls, and the memory that stays with the
-// handle. The meshes are cylinders of a million nodes that the valves fit, and the tolerance is 5 %. argv[1], optional: thousands
-// of nodes.
+// Measures the cost of each call for the table in the README: the time of the shortest of repeated calls, and the memory that
+// stays with the handle. The meshes are cylinders of a million nodes around the valves, and the tolerance is 5 %. argv[1],
+// optional: thousands of nodes.
 #include <riis/riis.h>
 
 #include <cstdint>
@@ -47,7 +47,7 @@ class Table {
     column_ = column;
     row_ = 0;
   }
-  // bytes < 0 means that the call leaves nothing behind.
+  // bytes < 0 means that the call keeps no memory.
   void add(const std::string &call, double seconds, double bytes = -1) {
     if (row_ == rows_.size()) rows_.push_back({call, {}, {}});
     rows_[row_].time[column_] = time_text(seconds);
@@ -68,11 +68,11 @@ class Table {
   std::vector<Row> rows_;
 };
 
-// Makes the object as often as its timing needs, and once more. Its bytes are those that malloc gave for it.
+// Makes the object as often as the timing needs, and once more to count the bytes that malloc gave it.
 template <class Handle>
 void add_making(Table &table, const std::string &name, const std::function<riis_status(Handle **)> &make,
                 void (*destroy)(Handle **), Handle **made) {
-  check(make(made));  // the first call may also make shared objects, such as Embree's device
+  check(make(made));  // the first call may also make shared objects, such as Embree's device, so it is not timed
   const double seconds = shortest([&] { check(make(made)); }, [&] { destroy(made); });
   destroy(made);
   const double before = allocated();
@@ -108,7 +108,7 @@ void add_marking(Table &table, const std::string &name, const Surface &surface, 
     options.search = search;
     options.n_threads = n_threads;
     const auto mark = [&] { check(riis_mark_nodes(surface.get(), mesh, &options, result.get())); };
-    mark();  // makes the result's memory and the mesh's clusters or balls
+    mark();  // allocates the result's memory and makes the mesh's clusters or balls
     const double bytes = allocated() - before;
     table.add("`riis_mark_nodes`, " + name + (n_threads == 1 ? ", 1 thread" : ", 2 threads"), shortest(mark),
               n_threads == 1 ? bytes : -1);

@@ -8,7 +8,7 @@
 namespace bench {
 namespace {
 
-// One kind of triangles, with the change of K in the last step.
+// One kind of triangulation, with the change of K in the last step.
 class Change {
  public:
   Change(const riis_valve *valve, const CylinderNodes &nodes, double tolerance, std::int32_t triangulation)

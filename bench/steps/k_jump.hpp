@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far the resistance K jumps because a valve's triangles change between two steps.
-// In: a valve that opens, nodes. Out: the largest jump as a share of the largest K.
+// Measures how much the resistance K jumps because a valve's triangles change between two steps.
+// Input: a valve that opens, nodes. Output: the largest jump as a fraction of the largest K.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@
 namespace bench {
 
 struct KJump {
-  double motion;        // the largest change of K in a step, on triangles so fine that their own change does not matter
-  double with_adapted;  // the largest difference from that change
+  double motion;        // the largest change of K in a step, on triangles so fine that their change does not matter
+  double with_adapted;  // the largest difference from that change, with adapted triangles
   double with_fixed;
 };
 
-// Takes n_steps steps of the opening by `step`, from evenly spaced openings. All values are shares of the largest K.
+// Makes n_steps steps of the opening by `step`, from evenly spaced openings. All values are fractions of the largest K.
 KJump measure_k_jump(riis_valve *valve, const CylinderNodes &nodes, double step, int n_steps);
 
 }  // namespace bench

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench leaks: measures how fine a mesh must be, for the tables of docs/meshes.md:
+// ./run bench leaks measures how fine a mesh must be, for the tables of docs/meshes.md:
 //   the edges that leak through a closed valve, by the longest edge
 //   the part of the aortic valve's cross-section that its triangles leave open
-//   the cost of riis_find_leaks, riis_label_open_regions and riis_find_passage beside a marking
-// argv[1], optional: thousands of nodes for the last item. Random places come from printed seeds.
+//   the cost of riis_find_leaks, riis_label_open_regions and riis_find_passage, compared with a marking
+// argv[1], optional: thousands of nodes for the last item. Random positions come from printed seeds.
 #include <riis/riis.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ riis_surface_info info_of(const Surface &surface) {
   return info;
 }
 
-// The same triangles with another half thickness.
+// Returns the same triangles with another half thickness.
 Surface with_half_thickness(const Surface &surface, double thickness) {
   riis_surface_arrays arrays;
   check(riis_surface_arrays_init(&arrays, sizeof arrays));
@@ -52,9 +52,9 @@ Surface with_half_thickness(const Surface &surface, double thickness) {
   return make_surface(arrays, thickness);
 }
 
-// A cube of nodes at the corners and in the middles of small cubes, turned and shifted at random. It is cut into equal
-// tetrahedra. Some of their edges are the cubes' own, of this length. The others go from a middle to the eight corners round it
-// and are 0.87 times as long.
+// Nodes at the corners and in the middles of small cubes that fill a large cube, turned and shifted at random. The large cube is
+// cut into equal tetrahedra. Some of their edges are edges of the small cubes, of this length. The others lead from a middle to
+// the eight corners around it and are 0.87 times as long.
 struct Crystal {
   std::vector<double> xyz;
   std::vector<std::int64_t> offsets{0}, columns;
@@ -75,7 +75,7 @@ Crystal crystal_round(const riis_surface_info &info, double edge, std::uint64_t 
   std::mt19937_64 random(seed);
   const std::array<Point, 3> rotation = random_rotation(random);
   std::uniform_real_distribution<double> share(0, 1);
-  double reach = 0;  // radius of a ball round the surface
+  double reach = 0;  // radius of a ball around the surface
   Point middle, shift;
   for (std::size_t i = 0; i < 3; ++i) {
     middle[i] = 0.5 * (info.lower[i] + info.upper[i]);
@@ -126,7 +126,7 @@ Mesh mesh_over(const Crystal &crystal) {
   return Mesh(mesh);
 }
 
-// Returns the numbers of the leaks; the arrays are gone.
+// Returns the numbers of leaks. The list's arrays are not valid.
 riis_leak_list leaks_of(const Surface &surface, const Mesh &mesh) {
   const Result result = make_result();
   const Leaks leaks = make_leaks();
@@ -159,7 +159,7 @@ void print_leaks(const char *kind) {
   }
 }
 
-// Returns the share of a disc round the axis that no triangle covers, seen along the axis. It counts points of a square grid.
+// Returns the fraction of a disc around the axis that no triangle covers, seen along the axis. It counts points of a square grid.
 double open_share(const Surface &surface, double radius, int n_per_radius) {
   const int side = 2 * n_per_radius + 1;
   const auto place = [&](int i) { return radius * (i - n_per_radius) / n_per_radius; };
@@ -197,8 +197,8 @@ double open_share(const Surface &surface, double radius, int n_per_radius) {
   return static_cast<double>(n_open) / static_cast<double>(n_disc);
 }
 
-// Prints milliseconds of a marking by clusters, a first search for leaks, a search when the edges are known, labels of regions,
-// and the passage from the first node to the last one.
+// Prints the milliseconds of a marking by clusters, a first search for leaks, a second one whose edges are known, the labels of
+// regions, and the passage from the first node to the last one.
 void print_cost(double thickness, const CylinderMesh &nodes) {
   const Surface surface = with_half_thickness(surface_of("aortic", 0), thickness);
   const double *xyz = nodes.xyz().data();

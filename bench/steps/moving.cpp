@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench moving: the cost of a valve's velocity, of the fields of the closest points and of the resistance, beside a plain
-// time step on the same nodes in the same run. It measures the same for triangles that stay as the valve opens, coarse and fine,
-// and for the search for crossings. Prints times and bars.
+// ./run bench moving: measures the cost of a valve's velocity, of the fields of the closest points and of the resistance. It
+// compares them with a plain time step on the same nodes in the same run. It does the same for fixed triangulations, coarse and
+// fine, and for the search for crossings. It prints times and bars.
 //   argv[1]  thousands of nodes instead of a million, for a quick look
 #include <riis/riis.h>
 
@@ -22,7 +22,7 @@ using namespace bench;
 constexpr int n_turns = 60;
 constexpr std::int32_t all_fields = 255;
 
-// The mitral valve opens by itself. The aortic one opens to the state of README.md.
+// The mitral valve has an open state of its own. The aortic valve opens to the state in README.md.
 Valve opening_valve(const char *kind) {
   Valve valve = make_valve(kind);
   if (std::string(kind) != "aortic") return valve;
@@ -33,7 +33,7 @@ Valve opening_valve(const char *kind) {
   return valve;
 }
 
-// A valve that opens by a thousandth in each step, there and back, on one thread.
+// A valve that opens by a thousandth in each step, back and forth, on one thread.
 class MovingSteps {
  public:
   MovingSteps(const char *kind, const CylinderNodes &nodes)
@@ -64,7 +64,7 @@ class MovingSteps {
   }
   void update() { check(riis_surface_update(surface_.get(), valve_.get(), nullptr)); }
   void update_fixed() { check(riis_surface_update(fixed_.get(), valve_.get(), nullptr)); }
-  // Chooses the lines of the fixed triangulation once more.
+  // Chooses the grid lines of the fixed triangulation again.
   void choose() {
     riis_surface_options options;
     check(riis_surface_options_init(&options, sizeof options));
@@ -84,7 +84,7 @@ class MovingSteps {
   riis_mark_stats stats() const { return stats_of(result_.get()); }
   double n_triangles() const { return n_triangles_of(surface_.get()); }
   double n_fixed_triangles() const { return n_triangles_of(fixed_.get()); }
-  // Returns the largest number of adapted triangles at 1,001 openings.
+  // Returns the largest number of triangles of an adapted triangulation at 1,001 openings.
   double most_triangles() {
     double most = 0;
     for (int i = 0; i <= 1000; ++i) {
@@ -110,10 +110,10 @@ class MovingSteps {
   double opening_ = 0.45;
 };
 
-// A tolerance for about ten times as many triangles as the default's.
+// A tolerance that gives about ten times as many triangles as the default.
 constexpr double fine = 0.0034;
 
-// The same motion on fine triangles, adapted and fixed, without a mesh.
+// The same motion with fine triangulations, adapted and fixed, without a mesh.
 class FineSteps {
  public:
   explicit FineSteps(const char *kind) : valve_(opening_valve(kind)) {
@@ -172,7 +172,7 @@ void measure(Contest &contest, Bars &bars, int valve, std::int64_t about_n_nodes
     steps.update_moving();
     steps.mark(all_fields);
   });
-  // This one comes last, because the caller's arrays push the mesh out of the caches.
+  // This contender comes last, because the caller's arrays push the mesh out of the caches.
   add(contest, name("step with velocity, K and K u"), steps, [&] {
     steps.update_moving();
     steps.mark(RIIS_FIELD_VELOCITY);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop of riis_adjacency_create_from_cells before it counted into 32-bit entries. It is the competitor of the present one.
+// A former version of riis_adjacency_create_from_cells, from before it counted into 32-bit entries. It is the competitor of the
+// present version.
 #pragma once
 
 #include <riis/riis.h>
@@ -14,7 +15,7 @@ struct PlainRows {
   std::vector<std::int32_t> columns;
 };
 
-// Makes the rows of cells of 4, 5, 6 or 8 nodes each, with ids of either width. The cells must be right, and there must be fewer
+// Makes the rows of cells of 4, 5, 6 or 8 nodes each, with ids of either width. The cells must be valid, and there must be fewer
 // than 2^31 nodes.
 PlainRows plain_adjacency(const riis_mesh_cells &cells, int n_threads);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench ranks: the cost of a time step on each rank of a partitioned mesh, for the table of docs/solvers.md. METIS cuts a
-// mesh of a million nodes into 2 to 64 parts. A rank's step runs alone here, on one thread, part by part. The marks of all parts
-// together must be those of the whole mesh, bit for bit. Otherwise the program ends with status 1.
+// ./run bench ranks: measures the cost of a time step on each rank of a partitioned mesh, for the table of docs/solvers.md. METIS
+// cuts a mesh of a million nodes into 2 to 64 parts. The ranks' steps run here one after the other, on one thread. The marks of
+// all parts together must equal those of the whole mesh, bit for bit. Otherwise the program ends with status 1.
 //   argv[1]  thousands of nodes instead of a million, for a quick look
 #include <metis.h>
 #include <riis/riis.h>
@@ -22,7 +22,7 @@ namespace {
 
 using namespace bench;
 
-constexpr int n_steps = 21;  // of each part; their median counts
+constexpr int n_steps = 21;  // steps of each part, of which the median counts
 using NodeDistances = std::vector<std::pair<std::int64_t, double>>;
 
 double milliseconds_of(std::chrono::steady_clock::duration time) {
@@ -34,7 +34,7 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-// The graph of the mesh, as METIS takes it.
+// The graph of the mesh, in METIS's format.
 struct Graph {
   std::vector<idx_t> offsets, columns;
 };
@@ -48,7 +48,7 @@ Graph graph_of(const CylinderNodes &nodes) {
   return {{offsets, offsets + nodes.n_nodes() + 1}, {columns, columns + offsets[nodes.n_nodes()]}};
 }
 
-// Returns the part of each node. Every weight is balanced over the parts.
+// Returns the part of each node. Every kind of weight is balanced between the parts.
 std::vector<idx_t> partition(Graph &graph, idx_t n_parts, std::vector<idx_t> &weights) {
   auto n_nodes = static_cast<idx_t>(graph.offsets.size() - 1);
   auto n_weights = static_cast<idx_t>(weights.size() / static_cast<std::size_t>(n_nodes)), cut = idx_t{0};
@@ -63,7 +63,7 @@ std::vector<idx_t> partition(Graph &graph, idx_t n_parts, std::vector<idx_t> &we
   std::exit(1);
 }
 
-// One rank. It has a whole surface of its own, as every rank has, and the nodes of a part.
+// One rank. It has a whole surface of its own, as every rank has, and the nodes of one part.
 class Rank {
  public:
   Rank(const CylinderNodes &nodes, std::vector<std::int64_t> ids)
@@ -91,7 +91,7 @@ class Rank {
     momentum_.resize(3 * ids_.size());
   }
 
-  // Runs time steps, and keeps the median times of their parts.
+  // Runs time steps, and keeps the median time of each of their parts.
   void run() {
     std::vector<double> updates, markings;
     for (int i = 0; i < n_steps; ++i) {
@@ -109,7 +109,7 @@ class Rank {
     marking = median(markings);
   }
 
-  // Appends the marked nodes of the last step by their numbers in the whole mesh.
+  // Appends the marked nodes of the last step, with their numbers in the whole mesh.
   void append_marks(NodeDistances &marks) const {
     std::int64_t n = 0;
     const std::int64_t *node_id = nullptr;
@@ -145,7 +145,7 @@ class Rank {
 
 struct Cost {
   double update = 0, marking_mean = 0, marking_most = 0, step_most = 0, marked_mean = 0, marked_most = 0;
-  int n_empty = 0;  // ranks without a marked node
+  int n_empty = 0;  // number of ranks without a marked node
 };
 
 Cost cost_of(const CylinderNodes &nodes, const std::vector<idx_t> &part, idx_t n_parts, NodeDistances &marks) {
@@ -167,7 +167,7 @@ Cost cost_of(const CylinderNodes &nodes, const std::vector<idx_t> &part, idx_t n
     cost.marked_most = std::max(cost.marked_most, n_marked);
     cost.n_empty += n_marked == 0;
   }
-  // Every rank makes the same surface, so one number stands for all.
+  // Every rank makes the same surface, so one time stands for all.
   cost.update = median(updates);
   cost.step_most = cost.update + cost.marking_most;
   std::sort(marks.begin(), marks.end());

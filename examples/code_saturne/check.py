@@ -2,13 +2,13 @@
 """Checks the runs of ./run code_saturne, prints their tables, and draws them.
 
 check.py STUDY closed [open] [beat] [--out FOLDER]
-  STUDY   the study's folder; the runs are in STUDY/CASE/RESU/NAME
-  closed  the closed valve: the drop, the solver's own head-loss zone, the ranks
-  open    the open valve, and none
-  beat    the beat: the ranks, the velocity of the leaflets, the restart
-  --out   draws plots and the flow there; needs matplotlib
+  STUDY   the study's folder, with the runs in STUDY/CASE/RESU/NAME
+  closed  checks the closed valve: the pressure drop, the solver's own head-loss zone, the ranks
+  open    checks the open valve, and the flow without a valve
+  beat    checks the beat: the ranks, the velocity of the leaflets, the restart
+  --out   a folder for plots and pictures of the flow; needs matplotlib
 
-The exit status is 0 if every check holds, 1 if one fails, 2 if a file is missing or no record of a run.
+The exit status is 0 if every check holds, 1 if one fails, 2 if a file is missing or is not a record of a run.
 """
 import argparse
 import glob
@@ -16,13 +16,13 @@ import math
 import os
 import sys
 
-INFLOW = 0.05  # m/s, of the closed valve
+INFLOW = 0.05  # m/s, for the closed valve
 RESISTANCE = 20.0  # kg/(m s)
 HALF_THICKNESS = 0.002  # m
 
 
 class BadRecord(Exception):
-    """A file is missing, or no record of a run."""
+    """Raised if a file is missing or is not a record of a run."""
 
 
 def read_history(study, case, name):
@@ -58,7 +58,7 @@ def read_history(study, case, name):
 
 
 def read_cells(study, case, name, step):
-    """Returns the marked cells of a run by their global numbers: the centre's and K's bits."""
+    """Returns the marked cells of a run by their global numbers, with the bits of each centre and of K."""
     paths = sorted(glob.glob(os.path.join(study, case, "RESU", name, f"cells_{step:05d}.*.csv")))
     cells = {}
     for path in paths:
@@ -95,13 +95,13 @@ def mean(values):
 
 
 def runs_on_ranks(study, case, first):
-    """Returns the numbers of ranks of the runs that are there: NAME_1, NAME_2, ..., ascending."""
+    """Returns the numbers of ranks for which there are runs NAME_1, NAME_2, ..., ascending."""
     found = glob.glob(os.path.join(study, case, "RESU", first + "_[0-9]*", "history.csv"))
     return sorted(int(os.path.basename(os.path.dirname(path)).rsplit("_", 1)[1]) for path in found)
 
 
 def cost_row(solver, ranks, history, equal, drop, reference):
-    """Returns a row of the table of costs. The first step is left out: it makes the surface, and the solver's lists."""
+    """Returns a row of the table of costs. The first step is left out, because it makes the surface and the solver's lists."""
     library, total = mean(history["seconds_riis"][1:]), mean(history["seconds"][1:])
     return [solver, ranks, int(history["cells"][0]), len(history["step"]), f"{1e3 * library:.2f} ms", f"{total:.3f} s",
             f"{100 * library / total:.2f} %", equal, drop, reference]
@@ -111,7 +111,7 @@ COST_HEAD = ["solver", "ranks", "cells", "steps", "riis a step", "a step", "shar
 
 
 def compare_ranks(report, text, one, many):
-    """Checks that two runs have the same marked cells in all time steps that both have; also compares centres and K."""
+    """Checks that two runs have the same marked cells in all their common time steps. Also compares centres and K."""
     steps = min(len(one["step"]), len(many["step"]))
     ids = sum(one["ids"][i] == many["ids"][i] for i in range(steps))
     centres = sum(one["centres"][i] == many["centres"][i] for i in range(steps))
@@ -124,7 +124,7 @@ def compare_ranks(report, text, one, many):
 
 
 def compare_cells(report, text, one, many):
-    """Checks K cell by cell: it has the same bits where the centre has."""
+    """Checks K cell by cell: K must have the same bits if the centre has the same bits."""
     report.check(one.keys() == many.keys(), f"{text}: {len(one)} and {len(many)} cells are marked, "
                                             f"{len(one.keys() & many.keys())} by both")
     same = [cell for cell in one if cell in many and one[cell][0] == many[cell][0]]
@@ -136,7 +136,7 @@ def compare_cells(report, text, one, many):
 
 
 def check_closed(report, study):
-    """The closed valve: drops, the solver's own zone, ranks."""
+    """Checks the closed valve: drops, the solver's own zone, ranks."""
     reference = read_history(study, "reference", "closed")
     target, steps = reference["drop"][-1], len(reference["step"])
     flat = RESISTANCE / HALF_THICKNESS * INFLOW
@@ -160,7 +160,7 @@ def check_closed(report, study):
     rows.append(cost_row("the solver's own zone", 1, reference, "-", f"{target:.1f}", f"{flat:.0f} (flat)"))
     report.check(first["c"]["resistances"][0] == first["fortran"]["resistances"][0],
                  "C and Fortran: the same cells are marked, and K has the same bits")
-    # The leaflets are larger than the tube's section, so the flow through them is slower. The integral of K is R/eps times
+    # The leaflets' area is larger than the tube's section, so the flow through them is slower. The integral of K is R/eps times
     # their area.
     ratio, one = RESISTANCE / HALF_THICKNESS, first["c"]
     curved = ratio * one["flow"][-1] / (one["integral"][-1] / ratio)
@@ -176,7 +176,7 @@ def check_closed(report, study):
 
 
 def check_open(report, study):
-    """The open valve is close to none."""
+    """Checks that the open valve's drop is close to the drop without a valve."""
     with_valve, without = read_history(study, "c", "open"), read_history(study, "c", "none")
     closed = read_history(study, "c", "closed_1")
     scale = closed["drop"][-1] * 0.2 / INFLOW
@@ -188,7 +188,7 @@ def check_open(report, study):
 
 
 def check_beat(report, study):
-    """The beat: opening, ranks, velocity of the leaflets, restart."""
+    """Checks the beat: opening, ranks, velocity of the leaflets, restart."""
     rows = []
     histories = {}
     for case, language in (("c", "C, head losses"), ("fortran", "Fortran, momentum source")):
@@ -217,7 +217,7 @@ def check_beat(report, study):
 
 
 def restart_difference(whole, continued):
-    """Returns the largest difference of the drops in the time steps of a run that was continued, and the largest drop."""
+    """Returns the largest difference of the drops between a whole run and a restarted run, and the largest drop."""
     place = {step: i for i, step in enumerate(whole["step"])}
     pairs = [(whole["drop"][place[step]], drop) for step, drop in zip(continued["step"], continued["drop"]) if step in place]
     if not pairs:
@@ -226,7 +226,7 @@ def restart_difference(whole, continued):
 
 
 def check_restart(report, study, case, language):
-    """A run that went on from a checkpoint in mid-motion: marks, K and pressures."""
+    """Checks a run that was restarted from a checkpoint in mid-motion: marks, K and pressures."""
     whole, continued = read_history(study, case, "beat"), read_history(study, case, "continued")
     place = {step: i for i, step in enumerate(whole["step"])}
     steps = len(continued["step"])
@@ -253,7 +253,7 @@ def main():
         for part in words.parts:
             {"closed": check_closed, "open": check_open, "beat": check_beat}[part](report, words.study)
         if words.out:
-            import draw  # it needs matplotlib, the checks do not
+            import draw  # imported here, because only drawing needs matplotlib
             draw.draw_all(words.study, words.parts, words.out, read_history)
     except BadRecord as error:
         print(f"check.py: {error}", file=sys.stderr)

@@ -1,9 +1,10 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# The steps of ./run code_saturne, which reads this file, and of the test example_code_saturne. A study of code_saturne has one
-# case for each language, c and fortran, and one with a head-loss zone of the solver's own, reference. Each run has a name.
+# The steps of ./run code_saturne, which reads this file, and of the test example_code_saturne. The study of code_saturne has
+# three cases: c and fortran, one for each language, and reference, with a head-loss zone of the solver's own. Each run has a
+# name.
 
-# saturne_environment WORK PREFIX: prepares for runs in the folder WORK with the riis that is installed in PREFIX.
+# saturne_environment WORK PREFIX: prepares for runs in the folder WORK with the riis installed in PREFIX.
 saturne_environment() {
   saturne_work=$(cd -- "$1" && pwd)
   saturne_source=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
@@ -11,13 +12,13 @@ saturne_environment() {
   export RIIS_PREFIX
   # code_saturne's script ends without this variable, which containers lack.
   export USER=${USER:-$(id -un)}
-  # Open MPI refuses root, and more ranks than processors, unless it is told. Each rank has one thread.
+  # By default, Open MPI refuses to run as root and with more ranks than processors. Each rank has one thread.
   export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
   export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1
   export OMPI_MCA_plm=isolated OMPI_MCA_pml=ob1 OMPI_MCA_btl=self,vader OMPI_MCA_btl_vader_single_copy_mechanism=none
 }
 
-# saturne_mesh: makes the mesh of the root, with one thread for the same mesh everywhere.
+# saturne_mesh: makes the mesh of the root. It uses one thread, so that the mesh is the same everywhere.
 saturne_mesh() {
   gmsh -3 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -format msh22 -o "$saturne_work/root.msh" "$saturne_source/root.geo"
 }
@@ -43,8 +44,8 @@ saturne_run() {
   (cd "$saturne_work/STUDY/$case/DATA" && env "$@" timeout "${saturne_limit:-1800}" code_saturne run -n "$ranks" --id "$name")
 }
 
-# saturne_closed STEPS FORTRAN_STEPS RANKS...: the closed valve in a flow of 5 cm/s, in C and in Fortran, with each number of
-# ranks. Then the solver's own head-loss zone has the same cells and the same K.
+# saturne_closed STEPS FORTRAN_STEPS RANKS...: runs the closed valve in a flow of 5 cm/s, in C and in Fortran, with each number of
+# ranks. Then runs the solver's own head-loss zone with the same cells and the same K.
 saturne_closed() {
   local ranks steps=$1 fortran_steps=$2 cells=$saturne_work/STUDY/c/RESU/closed_1
   shift 2
@@ -57,14 +58,14 @@ saturne_closed() {
     saturne_run reference closed 1 REFERENCE_CELLS="$saturne_work/cells.csv" RUN_INFLOW=0.05 RUN_STEPS="$steps"
 }
 
-# saturne_open: the open valve, and none, in a flow of 20 cm/s.
+# saturne_open: runs the open valve, and no valve, in a flow of 20 cm/s.
 saturne_open() {
   saturne_run c open 1 VALVE_OPENING=1 RUN_INFLOW=0.2 RUN_STEPS=25 &&
     saturne_run c none 1 VALVE_PRESENT=0 RUN_INFLOW=0.2 RUN_STEPS=25
 }
 
-# saturne_beat: the beat, in which the pressures of the solver open and close the valve. It is run without u_surface, by several
-# ranks up to the open valve, and in two halves. Both halves are also run without a valve.
+# saturne_beat: runs the beat, in which the solver's pressures open and close the valve. Further runs leave out u_surface, or use
+# several ranks up to the open valve, or consist of two halves. Both halves are also run without a valve.
 saturne_beat() {
   local half=30 steps=45
   saturne_run c beat 1 RUN_STEPS=150 RUN_SLICE_EVERY=5 RUN_CHECKPOINT=$half &&
@@ -82,11 +83,11 @@ saturne_beat() {
     saturne_run c none_continued 1 RUN_STEPS=$steps VALVE_PRESENT=0 RUN_RESTART="$saturne_work"/STUDY/c/RESU/none_half/checkpoint
 }
 
-# Packages that ./run code_saturne needs, without recommends. Debian 13 lacks the first two.
+# Packages that ./run code_saturne needs, without recommended packages. Debian 13 lacks the first two.
 saturne_packages=(code-saturne code-saturne-include gmsh openmpi-bin libopenmpi-dev python3-numpy python3-matplotlib)
 saturne_build_packages=(gcc g++ gfortran cmake ninja-build pkg-config libembree-dev libtbb-dev)
 
-# saturne_is_there: tells whether code_saturne is installed, or a package of this distribution.
+# saturne_is_there: returns whether code_saturne is installed or available as a package of this distribution.
 saturne_is_there() {
   command -v code_saturne >/dev/null || [[ $(version_on_offer code-saturne) ]]
 }
@@ -98,8 +99,8 @@ saturne_install_riis() {
     cmake --build "$1/riis" --parallel "$(nproc)" && cmake --install "$1/riis"
 }
 
-# code_saturne_example [--short]: the command of ./run, with its $build, $packages, install_missing, version_on_offer, say and
-# step.
+# code_saturne_example [--short]: the command of ./run. It uses $build, $packages, install_missing, version_on_offer, say and step
+# of `run`.
 code_saturne_example() {
   local folder=$build/code_saturne parts=(closed open beat) python
   case $* in

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the runs of ./run code_saturne: the drop of the closed valve, the beat, and the flow with the leaflets."""
+"""Draws the runs of ./run code_saturne: the pressure drop of the closed valve, the beat, and the flow with the leaflets."""
 import ctypes
 import glob
 import os
@@ -15,7 +15,7 @@ DT = 0.002  # s, RUN_DT of settings.c
 
 
 class Triangles(ctypes.Structure):
-    """riis_triangles of riis.h."""
+    """The struct riis_triangles of riis.h."""
 
     _fields_ = [("n_vertices", ctypes.c_int64), ("xyz", ctypes.POINTER(ctypes.c_double)),
                 ("uv", ctypes.POINTER(ctypes.c_double)), ("velocity", ctypes.POINTER(ctypes.c_double)),
@@ -25,7 +25,7 @@ class Triangles(ctypes.Structure):
 
 
 def leaflets_cut(opening):
-    """Returns the segments in which the plane y = 0 cuts the valve at an opening: (n, 2, 2), x and z in metres."""
+    """Returns the segments in which the plane y = 0 cuts the valve at an opening: (n, 2, 2), with x and z in metres."""
     riis = ctypes.CDLL(os.path.join(os.environ["RIIS_PREFIX"], "lib", "libriis.so"))
     riis.riis_last_error.restype = ctypes.c_char_p
 
@@ -56,7 +56,7 @@ def leaflets_cut(opening):
 
 
 def draw_flow(study, out, history):
-    """Draws the speed in the plane y = 0 at moments of the beat, with the leaflets."""
+    """Draws the speed in the plane y = 0 at several times of the beat, with the leaflets."""
     opening = history["opening"]
     steps = sorted(int(os.path.basename(path).split("_")[1].split(".")[0])
                    for path in glob.glob(os.path.join(study, "c", "RESU", "beat", "slice_*.0.csv")))
@@ -77,7 +77,7 @@ def draw_flow(study, out, history):
         mesh = Triangulation(x, z)
         sides = np.hypot(x[mesh.triangles] - np.roll(x[mesh.triangles], 1, axis=1),
                          z[mesh.triangles] - np.roll(z[mesh.triangles], 1, axis=1)).max(axis=1)
-        mesh.set_mask(sides > 6.5)  # gaps outside the curved wall
+        mesh.set_mask(sides > 6.5)  # hides gaps outside the curved wall
         colours = axis.tripcolor(mesh, np.minimum(speed, 0.8), shading="gouraud", vmin=0, vmax=0.8, cmap="viridis")
         axis.quiver(x[::2], z[::2], rows[::2, 2], rows[::2, 4], color="white", scale=8, width=0.004)
         for ends in leaflets_cut(opening[step - 1]):
@@ -97,7 +97,7 @@ def draw_flow(study, out, history):
 
 
 def draw_beat(study, out, read_history):
-    """Draws drop, flow and opening over the beat."""
+    """Draws the pressure drop, the flow and the opening over the beat."""
     runs = [("C, head losses", read_history(study, "c", "beat"), "tab:blue", "-"),
             ("C, without the leaflets' velocity", read_history(study, "c", "beat_still"), "tab:orange", "--"),
             ("Fortran, momentum source", read_history(study, "fortran", "beat"), "tab:green", ":")]
@@ -122,7 +122,7 @@ def draw_beat(study, out, read_history):
 
 
 def draw_closed(study, out, read_history):
-    """Draws how the drop of the closed valve builds up."""
+    """Draws how the pressure drop of the closed valve builds up."""
     figure, axis = plt.subplots(figsize=(8, 4.5), constrained_layout=True)
     reference = read_history(study, "reference", "closed")
     for label, history, style in (("C, head losses", read_history(study, "c", "closed_1"), "o-"),
@@ -140,7 +140,7 @@ def draw_closed(study, out, read_history):
 
 
 def draw_all(study, parts, out, read_history):
-    """Draws what the parts of check.py have run."""
+    """Draws the runs of the given parts of check.py."""
     os.makedirs(out, exist_ok=True)
     if "closed" in parts:
         draw_closed(study, out, read_history)

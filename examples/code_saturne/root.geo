@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The aortic root of ./run demo for a flow solver: with a tube at either end, and with numbers for the inlet, the outlet and the
-// wall. This makes it in metres, with edges of 1.8 mm around the valve:
+// The aortic root of ./run demo, prepared for a flow solver: it has a tube at each end, and numbers for the inlet, the outlet and
+// the wall. This command makes the mesh in metres, with edges of 1.8 mm around the valve:
 // gmsh -3 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -format msh22 -o root.msh root.geo
-DefineConstant[ size = 0.18 ]; // of the edges around the valve, in centimetres
+DefineConstant[ size = 0.18 ]; // length of the edges around the valve, in centimetres
 tube_length = 1;
-// Sections closer together than the edges are long would leave flat tetrahedra at the wall.
+// Sections closer together than the length of edges would leave flat tetrahedra at the wall.
 spacing = size;
 n_points = 48;
 Include "../demo/aortic_root.geo";
@@ -26,7 +26,7 @@ Physical Surface(1) = inlet[];
 Physical Surface(2) = outlet[];
 Physical Surface(3) = wall[];
 Physical Volume(4) = root[];
-// The edges are so short around the valve, and twice as long in the tubes.
+// Edges have the length `size` around the valve, and twice this length in the tubes.
 Field[1] = Box;
 Field[1].XMin = -2; Field[1].XMax = 2; Field[1].YMin = -2; Field[1].YMax = 2; Field[1].ZMin = -1.35; Field[1].ZMax = 0.4;
 Field[1].Thickness = 1; Field[1].VIn = size; Field[1].VOut = 2 * size;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface of an aortic root that the trileaflet valve fills: outflow tract, three sinuses, ascending aorta, in centimetres.
-// The cusps' attachment lies on the wall, and the sinuses bulge above it. With -setnumber paper 1 it is a root for the paper's
-// aortic valve. fill.geo fills it with about 100,000 nodes. For gmsh: gmsh -2 -format msh2 -o SURFACE.msh aortic_root.geo
+// The surface of an aortic root that the trileaflet valve fills: outflow tract, three sinuses and ascending aorta, in
+// centimetres. The cusps' attachment lies on the wall, and the sinuses bulge outwards above the attachment. With -setnumber paper
+// 1 the file makes a root for the paper's aortic valve. fill.geo fills it with about 100,000 nodes. Command: gmsh -2 -format msh2
+// -o SURFACE.msh aortic_root.geo
 SetFactory("OpenCASCADE");
 DefineConstant[ paper = 0 ];
 h = 0.05;
-// The valve's parameters of these names. Lists have a number for each cusp: right, left, non-coronary.
+// Parameters of the valve, with the same names. Lists have a number for each cusp: right, left, non-coronary.
 If (paper)
   root_radius = 1.29; leaflet_height = 1.02; bending_height = 0.71;
   leaflet_radius[] = {1.365, 1.495, 1.38}; leaflet_angle[] = {61, 58.5, 60.5};
@@ -17,21 +18,21 @@ Else
   bending_radius[] = {1.275, 1.275, 1.275}; bending_angle[] = {35, 35, 35};
   rotation[] = {0, 120, 240}; root_z = -1.2;
 EndIf
-// The tubes below and above the sinuses, and how far a sinus reaches beyond the attachment. Above the sinuses, at the sinotubular
-// junction, the root is as wide as at the commissures.
+// The lengths of the tubes below and above the sinuses, and how far a sinus bulges beyond the attachment. At the sinotubular
+// junction, above the sinuses, the root is as wide as at the commissures.
 outflow_length = 0.5;
 sinus_height = leaflet_height + 0.4;
 sinus_depth = 0.5;
 aorta_length = 0.8;
 
-DefineConstant[ n_points = 72 ]; // of a section
-DefineConstant[ spacing = 0.1 ]; // of the sections, from the root to the end of the sinuses
-joint = 3;      // degrees of the wall at a commissure, in which it passes from one cusp's radius to the next one's
+DefineConstant[ n_points = 72 ]; // number of points of a section
+DefineConstant[ spacing = 0.1 ]; // distance between sections, from the root to the end of the sinuses
+joint = 3;      // degrees on each side of a commissure, in which the wall changes from one cusp's radius to the next cusp's
 
-Macro Section // at height z above the root
+Macro Section // makes a section at height z above the root
   // The attachment of half a cusp is a parabola through the root, the bending curve's end and the commissure (docs/theory.md,
-  // section 3). t is its parameter at this height: its points are radius away from the axis, half_angle from the
-  // cusp's middle.
+  // section 3). t is the parabola's parameter at this height. Its point there has the distance `radius` from the axis and the
+  // angle half_angle from the cusp's middle.
   t = Min(1, Max(0, z / leaflet_height));
   s = bending_height / leaflet_height;
   For c In {0 : 2}
@@ -49,7 +50,8 @@ Macro Section // at height z above the root
   points[] = {};
   For i In {0 : n_points - 1}
     angle = 360 * i / n_points;
-    // The mean of the cusps' radii, with their weights: 1 in a cusp, falling to 0 from there to the next cusp. And the sinus.
+    // The weighted mean of the cusps' radii, to which the sinus's bulge is added. A cusp's weight is 1 in the cusp and falls to 0
+    // towards the next cusp.
     sum = 0;
     weights = 0;
     sinus = 0;

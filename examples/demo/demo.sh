@@ -1,10 +1,10 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# The steps of ./run demo, which reads this file: compile the program, mesh, mark and draw, time, tell. They use its $build,
-# $logs, $n_jobs, $demo_packages, install_missing and step.
+# The steps of ./run demo, which reads this file: compile the program, make meshes, mark and draw, measure times, and print a
+# summary. They use its variables and functions $build, $logs, $n_jobs, $demo_packages, install_missing and step.
 
-# build_demo: compiles the program. A folder that is configured for the tests keeps its configuration, so that ./run test does not
-# start again.
+# build_demo: compiles the program. A folder that is configured for the tests keeps its configuration, so that ./run test need not
+# build everything again.
 build_demo() {
   local less=(-D RIIS_WITH_FORTRAN=OFF -D RIIS_BUILD_TESTS=OFF)
   ! grep -qs '^RIIS_BUILD_TESTS:BOOL=ON' "$build/CMakeCache.txt" || less=()
@@ -12,8 +12,8 @@ build_demo() {
     cmake --build --preset test --parallel "$n_jobs" --target riis_program
 }
 
-# demo_mesh NAME: makes the mesh of examples/demo/NAME.geo, unless it is there. examples/demo/fill.geo says why the surface goes
-# through a file. Uses one thread: with more, gmsh was seen to leave stray cells in the mesh.
+# demo_mesh NAME: makes the mesh of examples/demo/NAME.geo, unless it exists. examples/demo/fill.geo explains why the surface is
+# written to a file first. gmsh runs with one thread, because with more it sometimes left stray cells in the mesh.
 demo_mesh() {
   local mesh=$build/demo/$1 surface=examples/demo/$1.geo volume=examples/demo/fill.geo
   [[ ! -s $mesh.vtk || $surface -nt $mesh.vtk || $volume -nt $mesh.vtk ]] || return 0
@@ -22,7 +22,7 @@ demo_mesh() {
     mv "$mesh.vtk.part" "$mesh.vtk"
 }
 
-# demo_parts: compiles and meshes at the same time.
+# demo_parts: compiles the program and makes the meshes at the same time.
 demo_parts() {
   local meshing status=0
   mkdir -p out "$build/demo"
@@ -37,10 +37,10 @@ demo_parts() {
 demo_valves=(aortic mitral)
 declare -A demo_kind=([aortic]=trileaflet [mitral]=mitral) demo_mesh_of=([aortic]=aortic_root [mitral]=mitral_tube)
 demo_openings=(0 0.25 0.5 0.75 1)
-# Points upstream and downstream, or the other way round.
+# Two points for each valve, one on each side. demo_states looks for a path between them through the closed valve.
 declare -A demo_from=([aortic]="0,0,-1.6" [mitral]="0,0.2,-1.3") demo_to=([aortic]="0,0,1.1" [mitral]="0,0.2,2.1")
 
-# of_each_valve COMMAND: runs it for both valves at the same time.
+# of_each_valve COMMAND: runs the command for both valves at the same time.
 of_each_valve() {
   local valve status=0 pids=()
   for valve in "${demo_valves[@]}"; do
@@ -51,8 +51,8 @@ of_each_valve() {
   return "$status"
 }
 
-# demo_states VALVE: marks and draws it at each opening into out/VALVE_OPENING*, and writes the stats to build/demo. Looks for
-# ways through the closed valve.
+# demo_states VALVE: marks and draws the valve at each opening into out/VALVE_OPENING*, and writes the stats to build/demo. Also
+# checks for ways through the closed valve.
 demo_states() {
   local opening name
   for opening in "${demo_openings[@]}"; do
@@ -65,8 +65,8 @@ demo_states() {
     --between "${demo_from[$1]}" "${demo_to[$1]}" --stats "$build/demo/$1_seal.json"
 }
 
-# demo_openings_picture: puts the marked cells of all states into one picture: a row for each valve and view, a column for each
-# opening.
+# demo_openings_picture: combines the marked cells of all states into one picture, with a row for each valve and view, and a
+# column for each opening.
 demo_openings_picture() {
   local valve view opening inputs=() parts='' tiles='' layout='' n=0 row
   for valve in "${demo_valves[@]}"; do
@@ -89,7 +89,8 @@ demo_pictures() {
   of_each_valve demo_states && demo_openings_picture
 }
 
-# demo_beat VALVE: one heartbeat as a movie of 24 frames, with its first picture, the moving surface and the orifice over time.
+# demo_beat VALVE: makes a movie of one heartbeat with 24 frames, its first picture, the moving surface, and the orifice over
+# time.
 demo_beat() {
   "$build/bin/riis" mark "$build/demo/${demo_mesh_of[$1]}.vtk" --valve "${demo_kind[$1]}" \
     --cycle "examples/demo/$1_cycle.csv" --period 0.72 --interpolation cubic --times 0:0.69:0.03 \
@@ -99,7 +100,8 @@ demo_beat() {
     orifice_over_time "$1" >"out/$1_orifice.csv"
 }
 
-# orifice_over_time VALVE: prints the orifice at the times of its heartbeat, linearly between the states of its table.
+# orifice_over_time VALVE: prints the orifice at the times of the valve's heartbeat, interpolated linearly between the states of
+# its table.
 orifice_over_time() {
   LC_ALL=C awk -F , '
     FNR == 1 { next }
@@ -125,13 +127,13 @@ number_of() { sed -n -E 's/^ *"'"$2"'": ([^,]*),?$/\1/p' "$build/demo/$1.json" |
 # thousands: puts commas between the thousands of the number that it reads.
 thousands() { sed -E ':a; s/^([0-9]+)([0-9]{3})\b/\1,\2/; ta'; }
 
-# milliseconds_of KEY...: prints the sum of these keys in the marking that timed steps.
+# milliseconds_of KEY...: prints the sum of these keys' times in the stats of the timed marking.
 milliseconds_of() {
   local key
   for key in "$@"; do number_of mitral_steps "$key"; done | LC_ALL=C awk '{ sum += $1 } END { printf "%.1f ms", 1000 * sum }'
 }
 
-# demo_row VALVE: prints the marked nodes and the orifice at each opening, two lines of the story's table.
+# demo_row VALVE: prints the marked nodes and the orifice at each opening, as two lines of the summary's table.
 demo_row() {
   local opening
   printf '  %-27s' "$1 valve, nodes marked"
@@ -145,7 +147,7 @@ demo_row() {
 # demo_seal VALVE: prints whether unmarked nodes lead through the closed valve, or around it.
 demo_seal() { printf '  %-13s %s, by riis check leaks' "$1 valve" "$(number_of "$1_seal" state | tr -d '"')"; }
 
-# demo_beat_line VALVE: prints what its heartbeat did.
+# demo_beat_line VALVE: prints a line about the valve's heartbeat.
 demo_beat_line() {
   printf '  %-13s %s to %s nodes marked, leaflets move at up to %.0f cm/s' "$1 valve" "$(of_beat "$1" 3 '<' | thousands)" \
     "$(of_beat "$1" 3 '>' | thousands)" "$(of_beat "$1" 4 '>')"
@@ -192,7 +194,7 @@ demo() {
   packages=("${demo_packages[@]}")
   install_missing
   step "compile the program, mesh an aortic root and a mitral tube meanwhile" demo_parts
-  # Pictures are drawn through X. A temporary virtual screen draws the same ones everywhere.
+  # Pictures are drawn through X. On a temporary virtual screen they are the same everywhere.
   step "mark and draw both valves at five openings" xvfb-run -a -s "-screen 0 1600x1200x24" ./run demo-pictures
   step "move both valves through a heartbeat, for movies" xvfb-run -a -s "-screen 0 1600x1200x24" ./run demo-beats
   step "time the steps of a moving valve" "$build/bin/riis" mark "$build/demo/mitral_tube.vtk" --valve mitral \

@@ -1,18 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes bicuspid.json: an aortic valve with two cusps instead of three, for riis mark --valve bicuspid.json.
+"""Writes an aortic valve with two cusps instead of three, for riis mark --valve bicuspid.json.
 
-Two equal cusps without a raphe (type 0 of Sievers and Schmidtke, J. Thorac. Cardiovasc. Surg. 133, 2007) hang in a root
-of constant radius. Their free edges close along the line between the commissures and open to a fish's mouth. Lengths
-are in centimetres. Run it as python3 bicuspid.py > bicuspid.json  after a change of the numbers below.
+Two equal cusps without a raphe (type 0 of Sievers and Schmidtke, J. Thorac. Cardiovasc. Surg. 133, 2007) hang in a root of
+constant radius. Their free edges close along the line between the commissures and open like a fish's mouth. Lengths are in
+centimetres. After a change of the numbers below, run python3 bicuspid.py > bicuspid.json.
 """
 import json
 
 ROOT_RADIUS = 1.2
-COMMISSURE_HEIGHT = 1.2  # above the lowest points of the attachment
-COAPTATION_HEIGHT = 0.8  # of the free edges' middles when the valve is closed
-OPEN_WIDTH = 0.6  # how far the middle of an open edge is from the line between the commissures
-CIRCLE = 0.5522847498307936  # a cubic with this handle is a quarter of a circle to 0.03 % of its radius
+COMMISSURE_HEIGHT = 1.2  # height above the lowest points of the attachment
+COAPTATION_HEIGHT = 0.8  # height of the free edges' middles when the valve is closed
+OPEN_WIDTH = 0.6  # distance of an open edge's middle from the line between the commissures
+CIRCLE = 0.5522847498307936  # a cubic with handles of this length approximates a quarter of a circle to 0.03 % of its radius
 
 
 def cusp(side, state):
@@ -39,7 +39,7 @@ def state_curves(state):
 
 
 def patches():
-    """u x v points downstream, so the cusps at +x and at -x run along u in opposite ways."""
+    """u x v must point downstream, so u runs in opposite directions on the two cusps."""
     made = []
     for number, (first, second) in ((0, ("a", "b")), (1, ("b", "a"))):
         made.append({"v0": f"attachment {first} {number}", "v1": f"edge {first} {number}", "u0": f"commissure {first}",

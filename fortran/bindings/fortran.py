@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What Fortran says for what a C header declares. Where C leaves something open, the table has to say it."""
+"""Translates declarations of a C header to Fortran. If C leaves something open, the table has to say it."""
 
 import fnmatch
 import re
@@ -12,13 +12,14 @@ NUMBERS = {"uint8_t": "integer(c_int8_t)", "int32_t": "integer(c_int32_t)", "int
            "double": "real(c_double)"}
 EITHER_INTEGER = "integer(c_int32_t) or (c_int64_t)"  # an array behind void *
 EITHER_REAL = "real(c_double) or (c_float)"  # an array behind void * with the word "real"
-AS_IN_C = "as in riis.h"  # the table's text of a struct whose comments come from there
-WIDTH = 120  # of what is wrapped
+AS_IN_C = "as in riis.h"  # the table's text for a struct whose comments come from the header
+WIDTH = 120  # of wrapped lines
 RULE = "! " + "-" * 113
 
-# How an argument is declared: "TYPE, ATTRIBUTES :: name SHAPE"; note: what its comment begins with.
+# How an argument is declared: "TYPE, ATTRIBUTES :: name SHAPE". `note` is the beginning of its comment.
 Declared = namedtuple("Declared", "type attributes shape note")
-# The words that the table may have for an argument of this sort, in the order of ORDER, "(" being a shape; and what they mean.
+# ORDER is the order of the words that the table may have for an argument; "(" stands for a shape. The dictionary gives the words
+# for each sort of argument, and their meaning.
 ORDER = "optional", "required", "borrowed", "scalar", "(", "out"
 SUITABLE = {
     "value": ("", "nothing but '-' and a text"),
@@ -37,17 +38,17 @@ SUITABLE = {
 
 
 def in_c(type_, names):
-    """A declaration as C writes it."""
+    """Returns a declaration as C writes it."""
     return f"'{'const ' if type_.const else ''}{type_.base} {'*' * type_.stars}{names}'"
 
 
 def natural(name):
-    """A key that sorts c_int8_t before c_int32_t."""
+    """Returns a sort key that puts c_int8_t before c_int32_t."""
     return [int(part) if part.isdigit() else part for part in re.split(r"([0-9]+)", name)]
 
 
 def wrapped(first, rest, pieces):
-    """Lines of Fortran, broken between pieces; what follows the first begins with rest."""
+    """Returns lines of Fortran, broken between pieces. Lines after the first begin with `rest`."""
     lines, line = [], first + pieces[0]
     for i, piece in enumerate(pieces[1:], 1):
         if len(line) + 1 + len(piece) + (2 if i < len(pieces) - 1 else 0) > WIDTH:
@@ -59,7 +60,7 @@ def wrapped(first, rest, pieces):
 
 
 def listed(indent, entries):
-    """A comment that lists names with their texts."""
+    """Returns a comment that lists names with their texts."""
     width = max((len(names) for names, _ in entries), default=0)
     lines = []
     for names, text in entries:
@@ -83,9 +84,9 @@ class Bindings:
         self.callback_names = {callback.name for callback in header.callbacks}
         self.problems = []
         self.missing = {}  # lines that the table lacks, by entry
-        self.used = set()  # entries and names of the table that the header has: (entry, None), (entry, name)
+        self.used = set()  # entries of the table that were used, (entry, None), and names in them, (entry, name)
 
-    # What the table lacks, and what it has in vain -----------------------------------------------------------------
+    # Entries that the table lacks, and useless ones -----------------------------------------------------------------
 
     def refuse(self, line, message):
         self.problems.append(f"{self.header.shown}:{line}: {message}")
@@ -121,7 +122,7 @@ class Bindings:
         return line
 
     def kept(self, constants, file):
-        """The constants but for those that the table omits from the file."""
+        """Returns the constants without those that the table omits from the file."""
         entry = self.entry("omit from " + file)
         kept = []
         for constant in constants:
@@ -149,8 +150,8 @@ class Bindings:
         return lines
 
     def fixed_form_constants(self):
-        """For fixed form, which has 72 columns. A real's D0 is of another kind where options change the default kinds: what is
-        not exact in every kind is converted to the kind of the first."""
+        """Returns the constants for fixed form, which has 72 columns. If options change the default kinds, a real constant
+        with D0 has another kind. So values that are not exact in every kind are converted to the kind of the first one."""
         lines, first_real = [], None
         for block in [*self.header.enums, self.header.macros]:
             for constant in self.kept(self.kept(block, "riis_c.f90"), "riisf.h"):
@@ -168,7 +169,7 @@ class Bindings:
     # Structs ------------------------------------------------------------------------------------------------------
 
     def field_text(self, struct, line, field_line, as_in_c):
-        """Type in Fortran and comment of fields that one line of C declares."""
+        """Returns the Fortran type and the comment of the fields that one line of C declares."""
         type_ = field_line.fields[0].type
         names = ", ".join(field.name for field in field_line.fields)
         text = line.text if line else field_line.text if as_in_c else ""
@@ -218,7 +219,7 @@ class Bindings:
 
     def layouts(self):
         lines = ["/* SPDX-License-Identifier: Apache-2.0",
-                 " * Where the fields of riis.h are, for c_twin.c. Written by fortran/bindings/generate.py: ./run bindings. */"]
+                 " * The fields of the structs in riis.h, for c_twin.c. Written by fortran/bindings/generate.py. */"]
         for struct in self.header.structs:
             pieces = [f"AT({field.name})" for line in struct.lines for field in line.fields]
             text = ", ".join([f"LAYOUT({struct.name}", *pieces]) + ")"
@@ -228,7 +229,7 @@ class Bindings:
     # Arguments ----------------------------------------------------------------------------------------------------
 
     def sort_of(self, type_):
-        """Which sort of argument a C type makes, or None."""
+        """Returns the sort of argument that a C type makes, or None."""
         base, const, stars = type_
         if stars == 0:
             return "value" if self.number(base) or base in self.callback_names else None
@@ -245,7 +246,7 @@ class Bindings:
         return None
 
     def words_for(self, function, entry, argument, sort):
-        """The table's words for the argument, () if they do not suit."""
+        """Returns the table's words for the argument, or () if they do not suit it."""
         line = self.line_of(entry, argument.name)
         words = line.words if line else []
         plain = sorted(("(" if word.startswith("(") else word for word in words), key=ORDER.index)
@@ -260,7 +261,7 @@ class Bindings:
         return ()
 
     def declared(self, function, entry, argument):
-        """How Fortran declares an argument of a function."""
+        """Returns the Fortran declaration of a function's argument."""
         base, const, _ = argument.type
         sort = self.sort_of(argument.type)
         if not sort:
@@ -282,7 +283,7 @@ class Bindings:
         return Declared(self.number(base) or f"type({base})", intent + optional, shape, "")
 
     def declarations(self, arguments, declared):
-        """Lines that declare arguments: neighbours alike in one line, handles each in its own."""
+        """Returns lines that declare arguments. Adjacent arguments of one kind share a line; each handle has its own."""
         lines, last = [], None
         for argument, how in zip(arguments, declared):
             key = how[:2], argument.type if argument.type.base in self.header.handles else None
@@ -296,11 +297,12 @@ class Bindings:
     # Functions ----------------------------------------------------------------------------------------------------
 
     def comment_of(self, function, entry, declared):
-        """What the table says of a function and its arguments, and what follows from their types."""
+        """Returns the comment of a function: the table's text for it and its arguments, and the notes that follow from their
+        types."""
         lines = prose("    ", entry.text)
         if not lines and function.result == ("char", True, 1):
             lines = ["For riis_c_text."]
-        entries, told = [], {}  # told: notes by the table's lines
+        entries, told = [], {}  # told: notes, by the line of the table
         structs = [each.name for each in function.arguments if self.sort_of(each.type) == "struct to write"]
         for argument, how in zip(function.arguments, declared):
             line = entry.line_of(argument.name)
@@ -318,7 +320,7 @@ class Bindings:
         return comment("    ", lines + listed("    ", entries))
 
     def result_of(self, function):
-        """Name and type of the result, or two blanks."""
+        """Returns the name and the type of the result, or two blanks."""
         if function.result == ("void", False, 0):
             return "", ""
         if function.result == ("char", True, 1):
@@ -359,7 +361,8 @@ class Bindings:
         return lines
 
     def callback(self, callback):
-        """What the library calls: all arguments come by value, pointers as they are."""
+        """Returns the interface of a function that the library calls. All its arguments are passed by value, including
+        pointers."""
         entry, lines = self.entry(callback.name), []
         for argument in callback.arguments:
             type_ = self.number(argument.type.base) if argument.type.stars == 0 else "type(c_ptr)"

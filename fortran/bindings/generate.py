@@ -2,8 +2,8 @@
 """Writes riis_c.f90 and riisf.h in fortran/generated, and tests/fortran/layouts.inc, from riis.h and from bindings.table.
 
     python3 generate.py                writes the files
-    python3 generate.py --check        writes nothing; fails and shows the difference if a file is not what it should be
-    python3 generate.py --root FOLDER  does either in another copy of the sources
+    python3 generate.py --check        writes nothing; fails and shows the difference if a file is out of date
+    python3 generate.py --root FOLDER  does one or the other in another copy of the sources
 """
 
 import argparse
@@ -19,12 +19,12 @@ from table import Table
 HEADER = "include/riis/riis.h"
 TABLE = "fortran/bindings/bindings.table"
 TEMPLATES = "fortran/bindings/riis_c.f90.in", "fortran/bindings/riisf.h.in"
-# The longest line that the language allows, or the project.
+# The longest allowed line, by the language or by the project.
 WIDTHS = {"fortran/generated/riis_c.f90": 130, "fortran/generated/riisf.h": 72, "tests/fortran/layouts.inc": 130}
 
 
 def fill(template, shown, parts):
-    """The template with its lines "@name@" replaced."""
+    """Returns the template with its lines "@name@" replaced."""
     lines, left = [], set(parts)
     for number, line in enumerate(template.splitlines(), 1):
         if line.startswith("@"):
@@ -41,7 +41,7 @@ def fill(template, shown, parts):
 
 
 def generate(root):
-    """The generated files' contents by their paths."""
+    """Returns the contents of the generated files, by path."""
     header = Header(os.path.join(root, HEADER), HEADER)
     bindings = Bindings(header, Table(os.path.join(root, TABLE), TABLE))
     parts = [{"constants": bindings.constants(), "structs": bindings.structs(), "callbacks": bindings.callbacks(),

@@ -1,25 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads riis.h. Whatever this reader does not know is an error with its line, never left out."""
+"""Reads riis.h. A declaration that this reader does not know is reported as an error with its line, and never skipped."""
 
 import re
 from collections import namedtuple
 
 
 class Problem(Exception):
-    """A list of messages, each of which names the place and says what is wrong there."""
+    """A list of messages. Each names the place and the fault."""
 
     def __init__(self, *messages):
         super().__init__("\n".join(messages))
         self.messages = list(messages)
 
 
-CType = namedtuple("CType", "base const stars")  # const double **: ("double", True, 2)
+CType = namedtuple("CType", "base const stars")  # for const double **: ("double", True, 2)
 Argument = namedtuple("Argument", "name type")
-Field = namedtuple("Field", "name type extent")  # extent: "3" of double lower[3], else ""
-FieldLine = namedtuple("FieldLine", "fields text line")  # what C declares together, and its comment
+Field = namedtuple("Field", "name type extent")  # extent: "3" for double lower[3], else ""
+FieldLine = namedtuple("FieldLine", "fields text line")  # fields that C declares in one line, and their comment
 Function = namedtuple("Function", "name result arguments line")
 Struct = namedtuple("Struct", "name lines line text")
-Constant = namedtuple("Constant", "name value type line")  # value: as C writes it; type: the integer's, or double
+Constant = namedtuple("Constant", "name value type line")  # value: as C writes it; type: the integer type, or double
 Section = namedtuple("Section", "title line")
 
 COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
@@ -30,27 +30,27 @@ KNOWN_LINES = re.compile(r"#(ifndef RIIS_\w+_H|define RIIS_\w+_H|include <stdint
 
 
 def text_of(comment):
-    """The words of a C comment, without its marks and line breaks."""
+    """Returns the text of a C comment, without its marks and line breaks."""
     return " ".join(re.sub(r"^\s*\*", "", line).strip() for line in comment[2:-2].splitlines()).strip()
 
 
 def c_type(words):
-    """The type in "const double **", or None."""
+    """Returns the type in words such as "const double **", or None."""
     match = re.fullmatch(r"(const )?(\w+) ?(\**)", words.strip())
     return match and CType(match[2], bool(match[1]), len(match[3]))
 
 
 class Header:
-    """Everything that a header declares, in its order."""
+    """All declarations of a header, in order."""
 
     def __init__(self, path, shown):
         with open(path, encoding="utf-8") as file:
             self.raw = file.read()
-        self.shown = shown  # the name in messages
+        self.shown = shown  # the file's name in messages
         self.problems = []
         self.functions, self.structs, self.enums, self.macros, self.sections = [], [], [], [], []
         self.typedefs, self.handles, self.callbacks = {}, set(), []
-        # Comments become blanks, so that every place stays where it is.
+        # Comments become blanks, so that the position of everything else stays the same.
         self.code = COMMENT.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), self.raw)
         self.read_sections()
         self.read_macros()
@@ -80,13 +80,13 @@ class Header:
             return " " * len(match[0])
 
         self.code = re.sub(r"^#.*$", blank, self.code, flags=re.MULTILINE)
-        # What is inside of extern "C" is declared all the same.
+        # Declarations inside extern "C" count like others.
         self.code = re.sub(r'extern "C" \{(.*)\}', r"            \1 ", self.code, flags=re.DOTALL)
 
     def read_declarations(self):
-        """Declarations end at a semicolon outside of braces."""
+        """A declaration ends at a semicolon outside braces."""
         start = depth = 0
-        after_typedef = None  # the integer type that the declaration before this one named
+        after_typedef = None  # the integer type that the previous declaration named
         for match in re.finditer("[{};]", self.code):
             place = match.start()
             depth += (match[0] == "{") - (match[0] == "}")
@@ -120,7 +120,7 @@ class Header:
         return None
 
     def read_enum(self, words, start, after_typedef):
-        """Values are of the integer type that is named right before them."""
+        """The values have the integer type that is named just before the enum."""
         values = []
         for entry in words[len("enum {"):].rstrip("} ").rstrip(", ").split(","):
             match = re.fullmatch(r"(RIIS_[A-Z0-9_]+) = (-?[0-9]+)", entry.strip())

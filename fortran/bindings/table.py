@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads bindings.table, whose own head says how it is written."""
+"""Reads bindings.table. The head of that file describes the format."""
 
 import re
 
@@ -9,7 +9,7 @@ WORDS = {"optional", "required", "scalar", "borrowed", "out", "real"}
 
 
 class Line:
-    """What the table says of one argument or field, or of several at once."""
+    """The table's words and text for one argument or field, or for several."""
 
     def __init__(self, place, names, words, text):
         self.place, self.names, self.words, self.text = place, names, words, text
@@ -18,7 +18,7 @@ class Line:
 
 
 class Entry:
-    """What the table says of one function, struct, type or file."""
+    """The table's entry for a function, struct, type or file."""
 
     def __init__(self, place, name, text):
         self.place, self.name, self.text = place, name, text
@@ -29,7 +29,7 @@ class Entry:
 
 
 def words_of(column):
-    """The words of the second column, a shape being one, or None where it has others."""
+    """Returns the words of the second column, where a shape is one word, or None if there are other words."""
     found = []
     rest = column
     while rest:
@@ -42,7 +42,7 @@ def words_of(column):
 
 
 class Table:
-    """The entries by their names."""
+    """The entries, by name."""
 
     def __init__(self, path, shown):
         self.shown, self.entries, self.problems = shown, {}, []

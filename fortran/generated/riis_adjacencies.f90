@@ -10,20 +10,20 @@ module riis_adjacencies
   private
   public :: riis_adjacency
 
-  !> The neighbours of nodes, made from cells, faces or a structured grid. It is empty until it is created and after
-  !! %destroy, which must be called. Any number of threads may read it at once.
+  !> The neighbours of nodes, made from cells, faces or a structured grid. It is empty before it is created and after %destroy,
+  !! which must be called. Any number of threads may read it at once.
   type :: riis_adjacency
     private
     type(c_ptr) :: handle = c_null_ptr
   contains
     generic :: create_from_cells => cells_int32_int32, cells_int32_int64, cells_int64_int32, cells_int64_int64, &
       mixed_int32_int32, mixed_int32_int64, mixed_int64_int32, mixed_int64_int64
-                                                               !< From cells by their nodes.
+                                                               !< Makes it from cells, given by their nodes.
     generic :: create_from_faces => faces_int32_int32, faces_int32_int64, faces_int64_int32, faces_int64_int64, &
       owner_int32_int32, owner_int32_int64, owner_int64_int32, owner_int64_int64
-                                                               !< From faces between cells.
-    generic :: create_from_grid => grid_int32, grid_int64               !< From a structured grid.
-    procedure, non_overridable :: is_created => adjacency_is_created    !< Tells whether it was created.
+                                                               !< Makes it from faces between cells.
+    generic :: create_from_grid => grid_int32, grid_int64               !< Makes it from a structured grid.
+    procedure, non_overridable :: is_created => adjacency_is_created    !< Returns whether it was created.
     procedure, non_overridable :: c_handle => adjacency_c_handle        !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => adjacency_destroy          !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -50,16 +50,16 @@ module riis_adjacencies
 
 contains
 
-  !> Makes the adjacency of nodes that an edge of a cell joins, from cells that all have the same number of nodes. This
-  !! number tells the shape: 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron, in VTK's order. The array is read during the
-  !! call only; a section that is not contiguous is copied for it. Errors: RIIS_INVALID_ARGUMENT for an argument out of
-  !! range, RIIS_INVALID_MESH naming the cell, counted from 0, and its value.
+  !> Makes an adjacency from cells that all have the same number of nodes. Two nodes are neighbours if an edge of a cell joins
+  !! them. The number of nodes determines the shape: 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron, in VTK's order. The array is
+  !! read during the call only, and a section that is not contiguous is copied. Errors: RIIS_INVALID_ARGUMENT for an argument out
+  !! of range, RIIS_INVALID_MESH naming the cell, counted from 0, and its value.
   subroutine adjacency_cells_int32_int32(this, n_nodes, cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
-    integer(int32), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
+    integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
     integer(int32), intent(in), contiguous, target :: cells(:, :) !< (4, 5, 6 or 8, n_cells), counted from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
@@ -72,13 +72,13 @@ contains
     call finish(code, status)
   end subroutine adjacency_cells_int32_int32
 
-  !> Does the same for other kinds.
+  !> Does the same for other integer kinds.
   subroutine adjacency_cells_int32_int64(this, n_nodes, cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
-    integer(int32), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
+    integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
     integer(int64), intent(in), contiguous, target :: cells(:, :) !< (4, 5, 6 or 8, n_cells), counted from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
@@ -91,13 +91,13 @@ contains
     call finish(code, status)
   end subroutine adjacency_cells_int32_int64
 
-  !> Does the same for other kinds.
+  !> Does the same for other integer kinds.
   subroutine adjacency_cells_int64_int32(this, n_nodes, cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
-    integer(int64), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
+    integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
     integer(int32), intent(in), contiguous, target :: cells(:, :) !< (4, 5, 6 or 8, n_cells), counted from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
@@ -110,13 +110,13 @@ contains
     call finish(code, status)
   end subroutine adjacency_cells_int64_int32
 
-  !> Does the same for other kinds.
+  !> Does the same for other integer kinds.
   subroutine adjacency_cells_int64_int64(this, n_nodes, cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
-    integer(int64), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
+    integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
     integer(int64), intent(in), contiguous, target :: cells(:, :) !< (4, 5, 6 or 8, n_cells), counted from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
@@ -133,11 +133,12 @@ contains
   !! 1).
   subroutine adjacency_mixed_int32_int32(this, n_nodes, node_ids, offsets, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
-    integer(int32), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
-    integer(int32), intent(in), contiguous, target :: node_ids(:) !< The nodes of cell after cell, counted from index_base.
+    integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
+    integer(int32), intent(in), contiguous, target :: node_ids(:) !< The nodes of all cells, one cell after the other, from
+                                                                        !! index_base.
     integer(int32), intent(in), contiguous, target :: offsets(:) !< (n_cells + 1), ascending from 0 or from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
@@ -157,14 +158,15 @@ contains
     call finish(code, status)
   end subroutine adjacency_mixed_int32_int32
 
-  !> Does the same for other kinds.
+  !> Does the same for other integer kinds.
   subroutine adjacency_mixed_int32_int64(this, n_nodes, node_ids, offsets, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
-    integer(int32), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
-    integer(int64), intent(in), contiguous, target :: node_ids(:) !< The nodes of cell after cell, counted from index_base.
+    integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
+    integer(int64), intent(in), contiguous, target :: node_ids(:) !< The nodes of all cells, one cell after the other, from
+                                                                        !! index_base.
     integer(int64), intent(in), contiguous, target :: offsets(:) !< (n_cells + 1), ascending from 0 or from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
@@ -184,14 +186,15 @@ contains
     call finish(code, status)
   end subroutine adjacency_mixed_int32_int64
 
-  !> Does the same for other kinds.
+  !> Does the same for other integer kinds.
   subroutine adjacency_mixed_int64_int32(this, n_nodes, node_ids, offsets, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
-    integer(int64), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
-    integer(int32), intent(in), contiguous, target :: node_ids(:) !< The nodes of cell after cell, counted from index_base.
+    integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
+    integer(int32), intent(in), contiguous, target :: node_ids(:) !< The nodes of all cells, one cell after the other, from
+                                                                        !! index_base.
     integer(int32), intent(in), contiguous, target :: offsets(:) !< (n_cells + 1), ascending from 0 or from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
@@ -211,14 +214,15 @@ contains
     call finish(code, status)
   end subroutine adjacency_mixed_int64_int32
 
-  !> Does the same for other kinds.
+  !> Does the same for other integer kinds.
   subroutine adjacency_mixed_int64_int64(this, n_nodes, node_ids, offsets, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
-    integer(int64), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
-    integer(int64), intent(in), contiguous, target :: node_ids(:) !< The nodes of cell after cell, counted from index_base.
+    integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
+    integer(int64), intent(in), contiguous, target :: node_ids(:) !< The nodes of all cells, one cell after the other, from
+                                                                        !! index_base.
     integer(int64), intent(in), contiguous, target :: offsets(:) !< (n_cells + 1), ascending from 0 or from index_base.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_mesh_cells) :: the_cells
     integer(riis_status) :: code
@@ -238,7 +242,7 @@ contains
     call finish(code, status)
   end subroutine adjacency_mixed_int64_int64
 
-  ! Checks that offsets needs no more nodes than node_ids has.
+  ! Checks that offsets refers to no more nodes than node_ids has.
   function check_nodes_of_cells(n_asked_for, n) result(code)
     integer(int64), intent(in) :: n_asked_for, n
     integer(riis_status) :: code
@@ -247,7 +251,7 @@ contains
       text_of(n) // ' entries')
   end function check_nodes_of_cells
 
-  ! This is the common part of all specifics of create_from_cells. It does nothing after an error.
+  ! The common part of all specific procedures of create_from_cells. It does nothing after an error.
   subroutine create_from_cells(this, n_nodes, cells, index_base, n_threads, code)
     class(riis_adjacency), intent(inout) :: this
     integer(int64), intent(in) :: n_nodes
@@ -262,15 +266,16 @@ contains
     if (code == RIIS_OK) code = riis_adjacency_create_from_cells(cells, this%handle)
   end subroutine create_from_cells
 
-  !> Makes the adjacency of cells with common faces, for codes that mark cell centres. The array is read during the call
-  !! only; a section that is not contiguous is copied for it. The errors are those of %create_from_cells.
+  !> Makes an adjacency from faces, for codes that mark cell centres. Two cells are neighbours if they have a common face. The
+  !! array is read during the call only, and a section that is not contiguous is copied. The errors are those of
+  !! %create_from_cells.
   subroutine adjacency_faces_int32_int32(this, n_cells, face_cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int32), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int32), intent(in), contiguous, target :: face_cells(:, :) !< (2, n_faces), from index_base; the second is
                                                             !! index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
@@ -288,14 +293,14 @@ contains
     call finish(code, status)
   end subroutine adjacency_faces_int32_int32
 
-  !> Does the same for other kinds.
+  !> Does the same for other integer kinds.
   subroutine adjacency_faces_int32_int64(this, n_cells, face_cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int32), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int64), intent(in), contiguous, target :: face_cells(:, :) !< (2, n_faces), from index_base; the second is
                                                             !! index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
@@ -313,14 +318,14 @@ contains
     call finish(code, status)
   end subroutine adjacency_faces_int32_int64
 
-  !> Does the same for other kinds.
+  !> Does the same for other integer kinds.
   subroutine adjacency_faces_int64_int32(this, n_cells, face_cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int32), intent(in), contiguous, target :: face_cells(:, :) !< (2, n_faces), from index_base; the second is
                                                             !! index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
@@ -338,14 +343,14 @@ contains
     call finish(code, status)
   end subroutine adjacency_faces_int64_int32
 
-  !> Does the same for other kinds.
+  !> Does the same for other integer kinds.
   subroutine adjacency_faces_int64_int64(this, n_cells, face_cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int64), intent(in), contiguous, target :: face_cells(:, :) !< (2, n_faces), from index_base; the second is
                                                             !! index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
@@ -363,14 +368,14 @@ contains
     call finish(code, status)
   end subroutine adjacency_faces_int64_int64
 
-  !> Does the same with the two sides of a face in separate arrays.
+  !> Does the same with the two cells of a face in separate arrays.
   subroutine adjacency_owner_int32_int32(this, n_cells, owner, neighbor, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int32), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int32), intent(in), contiguous, target :: owner(:) !< (n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, target :: neighbor(:) !< (n_faces), index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
@@ -386,14 +391,14 @@ contains
     call finish(code, status)
   end subroutine adjacency_owner_int32_int32
 
-  !> Does the same for other kinds.
+  !> Does the same for other integer kinds.
   subroutine adjacency_owner_int32_int64(this, n_cells, owner, neighbor, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int32), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int64), intent(in), contiguous, target :: owner(:) !< (n_faces), counted from index_base.
     integer(int64), intent(in), contiguous, target :: neighbor(:) !< (n_faces), index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
@@ -409,14 +414,14 @@ contains
     call finish(code, status)
   end subroutine adjacency_owner_int32_int64
 
-  !> Does the same for other kinds.
+  !> Does the same for other integer kinds.
   subroutine adjacency_owner_int64_int32(this, n_cells, owner, neighbor, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int32), intent(in), contiguous, target :: owner(:) !< (n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, target :: neighbor(:) !< (n_faces), index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
@@ -432,14 +437,14 @@ contains
     call finish(code, status)
   end subroutine adjacency_owner_int64_int32
 
-  !> Does the same for other kinds.
+  !> Does the same for other integer kinds.
   subroutine adjacency_owner_int64_int64(this, n_cells, owner, neighbor, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
     integer(int64), intent(in), contiguous, target :: owner(:) !< (n_faces), counted from index_base.
     integer(int64), intent(in), contiguous, target :: neighbor(:) !< (n_faces), index_base - 1 for a face at the boundary.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first cell's number. Default 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_mesh_faces) :: faces
     integer(riis_status) :: code
@@ -455,7 +460,7 @@ contains
     call finish(code, status)
   end subroutine adjacency_owner_int64_int64
 
-  ! This is the common part of all specifics of create_from_faces. It does nothing after an error.
+  ! The common part of all specific procedures of create_from_faces. It does nothing after an error.
   subroutine create_from_faces(this, n_cells, faces, index_base, n_threads, code)
     class(riis_adjacency), intent(inout) :: this
     integer(int64), intent(in) :: n_cells
@@ -477,7 +482,7 @@ contains
     integer(int32), intent(in) :: ni                        !< >= 1.
     integer(int32), intent(in) :: nj                        !< >= 1.
     integer(int32), intent(in) :: nk                        !< >= 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     call adjacency_grid_int64(this, int(ni, int64), int(nj, int64), int(nk, int64), n_threads, status)
   end subroutine adjacency_grid_int32
@@ -488,7 +493,7 @@ contains
     integer(int64), intent(in) :: ni                        !< >= 1.
     integer(int64), intent(in) :: nj                        !< >= 1.
     integer(int64), intent(in) :: nk                        !< >= 1.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int32) :: n_threads_or_0
     integer(riis_status) :: code
@@ -499,30 +504,30 @@ contains
     call finish(code, status)
   end subroutine adjacency_grid_int64
 
-  !> Tells whether the adjacency was created and not destroyed.
+  !> Returns whether the adjacency was created and not destroyed.
   pure function adjacency_is_created(this) result(is_created)
-    class(riis_adjacency), intent(in) :: this                     !< Any.
+    class(riis_adjacency), intent(in) :: this                     !< May be empty.
     logical :: is_created                                   !< .false. for an empty one.
     is_created = c_associated(this%handle)
   end function adjacency_is_created
 
   !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
   function adjacency_c_handle(this) result(handle)
-    class(riis_adjacency), intent(in) :: this                     !< Any.
+    class(riis_adjacency), intent(in) :: this                     !< May be empty.
     type(c_ptr) :: handle                                   !< c_null_ptr for an empty one.
     handle = this%handle
   end function adjacency_c_handle
 
   !> Frees the memory of the adjacency, which is then empty and can be created again. Nothing happens to an empty one.
   subroutine adjacency_destroy(this)
-    class(riis_adjacency), intent(inout) :: this                  !< Any.
+    class(riis_adjacency), intent(inout) :: this                  !< May be empty.
     call riis_adjacency_destroy(this%handle)
   end subroutine adjacency_destroy
 
   !> Stops the program unless both are empty.
   impure elemental subroutine adjacency_assign(left, right)
-    class(riis_adjacency), intent(inout) :: left                  !< Empty.
-    class(riis_adjacency), intent(in) :: right                    !< Empty.
+    class(riis_adjacency), intent(inout) :: left                  !< Must be empty.
+    class(riis_adjacency), intent(in) :: right                    !< Must be empty.
     call refuse_copy(left%handle, right%handle, 'riis_adjacency')
   end subroutine adjacency_assign
 end module riis_adjacencies

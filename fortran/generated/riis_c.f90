@@ -1,10 +1,10 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Written by fortran/bindings/generate.py from riis.h and from the files in that folder: ./run bindings
-!> riis_c - riis.h for Fortran, one to one: the same names, the same order, the same arguments. riis.h describes what each
-!! function does, its ranges and its errors; this module only tells how each C argument looks from Fortran.
+! Written by fortran/bindings/generate.py from riis.h and from the files in that folder; run ./run bindings to repeat it.
+!> riis_c - riis.h for Fortran, one to one: the same names, the same order, the same arguments. riis.h describes each function,
+!! its ranges and its errors. This module only describes how each C argument is passed from Fortran.
 !!
 !!   status = riis_valve_create(riis_c_string('aortic'), valve)
-!!   status = riis_surface_create(valve, surface=surface)                            ! options left out: all defaults
+!!   status = riis_surface_create(valve, surface=surface)                            ! without options: all defaults
 !!   status = riis_mesh_create(n_nodes, c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), c_loc(xyz(3, 1)), 3_c_int64_t, mesh)
 !!   status = riis_marks_create(marks)
 !!   status = riis_mark_nodes(surface, mesh, marks=marks)                            ! once a time step
@@ -15,19 +15,19 @@
 !!
 !! - Arguments that may be NULL in C are OPTIONAL here; an argument that is left out is NULL. Use keywords for the arguments
 !!   after it.
-!! - Handles are type(c_ptr). Start them as c_null_ptr; destroying sets them back to it.
-!! - Arguments that a call writes are intent(inout), not out, because a call that is refused leaves them as they were.
-!! - Arrays that are read or written during the call only are assumed-size: pass the array, or its first element with a
+!! - Handles are type(c_ptr). Start them as c_null_ptr; destroying sets them to it again.
+!! - Arguments that a call writes are intent(inout), not intent(out), because a refused call leaves them as they were.
+!! - Arrays that are read or written during the call only are assumed-size: pass the array, or its first element and a
 !!   stride. The coordinates and the rows of a mesh are borrowed beyond the call, so they are type(c_ptr): c_loc needs
-!!   TARGET, and no compiler can slip in a temporary copy. Keep the array in place (not a local that ends, not reallocated).
-!! - Arrays of the library are type(c_ptr), for c_f_pointer with the shape that is given here. Do not write to them. Empty
+!!   TARGET, so no compiler can pass a temporary copy. Keep the array in place: no local variable that ends, no reallocation.
+!! - Arrays of the library are type(c_ptr), for c_f_pointer with the shape given here. Do not write to them. Empty
 !!   arrays are c_null_ptr.
-!! - Ids that the library gives count from 0, also here: node_id + 1 is the column of xyz(3, n). Ids in a struct count from
-!!   its index_base, so set that to 1. Its *_bits tell their kind: storage_size(the array).
+!! - Ids that the library gives count from 0, in Fortran too: node_id + 1 is the column of xyz(3, n). Ids in a struct count from
+!!   its index_base, so set that to 1. Its *_bits give their kind: storage_size(the array).
 !! - Structs: call the init function with c_sizeof(the variable) as struct_size, then set the fields that differ:
 !!     status = riis_mark_options_init(options, c_sizeof(options))
-!! - Pass texts through riis_c_string and take them through riis_c_text. A bare literal also compiles and is wrong: it has no
-!!   end.
+!! - Pass texts through riis_c_string and take them through riis_c_text. A bare literal compiles too, but it is wrong, because
+!!   it lacks the null character at the end.
 module riis_c
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int8_t, c_int32_t, c_int64_t, c_null_char, &
     c_ptr, c_size_t, c_associated, c_f_pointer
@@ -117,7 +117,7 @@ module riis_c
   real(c_double), parameter :: RIIS_FAR_DISTANCE = 1.0e30_c_double
 
   ! -------------------------------------------------------------------------------------------------------------------
-  ! Structs: the fields of riis.h in their order; pointers are type(c_ptr), set by c_loc
+  ! The structs of riis.h, with their fields in order. Pointers are type(c_ptr), set by c_loc
   ! -------------------------------------------------------------------------------------------------------------------
 
   type, bind(c) :: riis_points
@@ -176,7 +176,7 @@ module riis_c
     type(c_ptr) :: x, y, z                !< real(c_double) or (c_float), (n_vertices), or xyz(3, n_vertices):
                                           !! c_loc(xyz(1, 1)), c_loc(xyz(2, 1)), ...
     integer(c_int64_t) :: stride          !< 3 for xyz(3, n_vertices)
-    type(c_ptr) :: vx, vy, vz             !< real(c_double) or (c_float), (n_vertices), or as x, y, z; or c_null_ptr
+    type(c_ptr) :: vx, vy, vz             !< real(c_double) or (c_float), (n_vertices), or like x, y, z; or c_null_ptr
     integer(c_int64_t) :: velocity_stride !< 3 for (3, n_vertices)
     integer(c_int64_t) :: n_faces
     type(c_ptr) :: vertex_ids             !< integer(c_int32_t) or (c_int64_t), (corners_per_face, n_faces)
@@ -239,7 +239,7 @@ module riis_c
   !> c_null_ptr for arrays without pairs
   type, bind(c) :: riis_crossing_list
     integer(c_int64_t) :: n_pairs
-    type(c_ptr) :: triangle_id !< integer(c_int64_t), (2, n_pairs), from 0, the lower one first
+    type(c_ptr) :: triangle_id !< integer(c_int64_t), (2, n_pairs), from 0, the lower id first
     type(c_ptr) :: point       !< real(c_double), (3, n_pairs)
     type(c_ptr) :: depth       !< real(c_double), (n_pairs)
     type(c_ptr) :: length      !< real(c_double), (n_pairs)
@@ -304,8 +304,8 @@ module riis_c
     integer(c_int64_t) :: n_nodes
     integer(c_int64_t) :: n_cells
     type(c_ptr) :: node_ids          !< integer(c_int32_t) or (c_int64_t), (nodes_per_cell, n_cells)
-    type(c_ptr) :: offsets           !< integer(c_int32_t) or (c_int64_t), (n_cells + 1), of the kind of node_ids, from
-                                     !! 0 also with index_base 1; or c_null_ptr
+    type(c_ptr) :: offsets           !< integer(c_int32_t) or (c_int64_t), (n_cells + 1), of the same kind as node_ids,
+                                     !! from 0 or from index_base; or c_null_ptr
     integer(c_int32_t) :: nodes_per_cell
     integer(c_int32_t) :: id_bits    !< storage_size(node_ids)
     integer(c_int32_t) :: index_base !< 1 for node_ids that count from 1
@@ -356,8 +356,8 @@ module riis_c
     type(c_ptr) :: K_u_surface !< real(c_double), (3, n_nodes), by the options' resistance
     type(c_ptr) :: point       !< real(c_double), (3, n_nodes), the closest point of the surface
     type(c_ptr) :: normal      !< real(c_double), (3, n_nodes), the unit normal of its triangle
-    type(c_ptr) :: barycentric !< real(c_double), (3, n_nodes), its weights of the triangle's vertices
-    type(c_ptr) :: uv          !< real(c_double), (2, n_nodes), its place on its patch
+    type(c_ptr) :: barycentric !< real(c_double), (3, n_nodes), the point's barycentric coordinates
+    type(c_ptr) :: uv          !< real(c_double), (2, n_nodes), the point's u and v on its patch
     type(c_ptr) :: velocity    !< real(c_double), (3, n_nodes), the velocity of the surface there
     type(c_ptr) :: side        !< integer(c_int32_t), (n_nodes), 1 downstream, -1 upstream, 0 on the surface or level
                                !! with its rim
@@ -429,7 +429,7 @@ module riis_c
   !> c_null_ptr for arrays without edges
   type, bind(c) :: riis_leak_list
     integer(c_int64_t) :: n_edges
-    type(c_ptr) :: node_id  !< integer(c_int64_t), (2, n_edges), from 0, the lower one first
+    type(c_ptr) :: node_id  !< integer(c_int64_t), (2, n_edges), from 0, the lower id first
     type(c_ptr) :: length   !< real(c_double), (n_edges)
     type(c_ptr) :: distance !< real(c_double), (n_edges)
     real(c_double) :: half_thickness
@@ -529,7 +529,7 @@ module riis_c
     subroutine riis_log_function(user_data, level, message) bind(c)
       import :: c_int32_t, c_ptr
       implicit none
-      type(c_ptr), value :: user_data           !< what riis_set_log was given
+      type(c_ptr), value :: user_data           !< the pointer that was given to riis_set_log
       integer(c_int32_t), value :: level        !< RIIS_LOG_*
       type(c_ptr), value :: message             !< for riis_c_text, valid during the call only
     end subroutine riis_log_function
@@ -568,7 +568,7 @@ module riis_c
       type(c_ptr) :: text
     end function riis_version_string
 
-    !>   function   c_funloc of a procedure with the interface riis_log_function; c_null_funptr for silence
+    !>   function   c_funloc of a procedure with the interface riis_log_function; c_null_funptr for no messages
     !!   user_data  c_loc of a target that outlives the log function, or c_null_ptr
     subroutine riis_set_log(function, user_data) bind(c, name='riis_set_log')
       import :: c_funptr, c_ptr
@@ -705,7 +705,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_options_init
 
-    !>   options  left out: all defaults
+    !>   options  if left out: all defaults
     function riis_surface_create(valve, options, surface) result(status) bind(c, name='riis_surface_create')
       import :: c_ptr, riis_status, riis_surface_options
       implicit none
@@ -724,7 +724,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_arrays_init
 
-    !>   options  left out: all defaults
+    !>   options  if left out: all defaults
     function riis_surface_create_from_arrays(arrays, options, surface) result(status) &
         bind(c, name='riis_surface_create_from_arrays')
       import :: c_ptr, riis_status, riis_surface_arrays, riis_surface_options
@@ -735,7 +735,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_create_from_arrays
 
-    !>   options  left out: the surface's own
+    !>   options  if left out: the surface's own options
     function riis_surface_update(surface, valve, options) result(status) bind(c, name='riis_surface_update')
       import :: c_ptr, riis_status, riis_surface_options
       implicit none
@@ -745,8 +745,8 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_update
 
-    !>   options         left out: the surface's own
-    !!   options_before  left out: the present ones
+    !>   options         if left out: the surface's own options
+    !!   options_before  if left out: the present options
     function riis_surface_update_moving(surface, valve, valve_before, dt, options, options_before) result(status) &
         bind(c, name='riis_surface_update_moving')
       import :: c_double, c_ptr, riis_status, riis_surface_options
@@ -758,7 +758,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_update_moving
 
-    !>   options  left out: the surface's own
+    !>   options  if left out: the surface's own options
     function riis_surface_update_from_arrays(surface, arrays, options) result(status) &
         bind(c, name='riis_surface_update_from_arrays')
       import :: c_ptr, riis_status, riis_surface_arrays, riis_surface_options
@@ -793,7 +793,7 @@ module riis_c
       type(c_ptr), intent(inout) :: keyframes
     end subroutine riis_keyframes_destroy
 
-    !>   options  left out: all defaults
+    !>   options  if left out: all defaults
     function riis_surface_create_from_keyframes(keyframes, time, dt, options, surface) result(status) &
         bind(c, name='riis_surface_create_from_keyframes')
       import :: c_double, c_ptr, riis_status, riis_surface_options
@@ -805,7 +805,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_create_from_keyframes
 
-    !>   options  left out: the surface's own
+    !>   options  if left out: the surface's own options
     function riis_surface_update_from_keyframes(surface, keyframes, time, dt, options) result(status) &
         bind(c, name='riis_surface_update_from_keyframes')
       import :: c_double, c_ptr, riis_status, riis_surface_options
@@ -870,7 +870,7 @@ module riis_c
       type(c_ptr), intent(inout) :: crossings
     end subroutine riis_crossings_destroy
 
-    !>   options  left out: all defaults
+    !>   options  if left out: all defaults
     function riis_find_crossings(surface, options, crossings) result(status) bind(c, name='riis_find_crossings')
       import :: c_ptr, riis_crossing_options, riis_status
       implicit none
@@ -924,7 +924,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_closest_arrays_init
 
-    !>   options  left out: all defaults
+    !>   options  if left out: all defaults
     !!   arrays   its arrays are written
     function riis_closest_points(surface, points, options, arrays) result(status) bind(c, name='riis_closest_points')
       import :: c_ptr, riis_closest_arrays, riis_closest_options, riis_points, riis_status
@@ -1002,8 +1002,8 @@ module riis_c
       integer(riis_status) :: status
     end function riis_csr_init
 
-    !>   csr  its arrays are borrowed until the mesh is destroyed or given another, csr itself is not; left out: takes
-    !!        the adjacency away
+    !>   csr  its arrays are borrowed until the mesh is destroyed or gets another adjacency; csr itself is not borrowed.
+    !!        If left out: the adjacency is removed
     function riis_mesh_set_adjacency(mesh, csr) result(status) bind(c, name='riis_mesh_set_adjacency')
       import :: c_ptr, riis_csr, riis_status
       implicit none
@@ -1066,7 +1066,7 @@ module riis_c
     end function riis_adjacency_create_from_grid
 
     !>   csr          for riis_mesh_set_adjacency; destroy the adjacency after the mesh, not before. Its offsets are
-    !!                integer(c_int64_t), (n_rows + 1), from 0; its columns integer(c_int32_t), or (c_int64_t) where
+    !!                integer(c_int64_t), (n_rows + 1), from 0; its columns integer(c_int32_t), or (c_int64_t) if
     !!                column_bits is 64, (offsets(n_rows + 1)), from 0
     !!   struct_size  c_sizeof(csr)
     function riis_adjacency_get_csr(adjacency, csr, struct_size) result(status) bind(c, name='riis_adjacency_get_csr')
@@ -1119,7 +1119,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_mark_options_init
 
-    !>   options  left out: all defaults
+    !>   options  if left out: all defaults
     function riis_mark_nodes(surface, mesh, options, marks) result(status) bind(c, name='riis_mark_nodes')
       import :: c_ptr, riis_mark_options, riis_status
       implicit none
@@ -1183,7 +1183,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_resistance_arrays_init
 
-    !>   arrays  its arrays are added to, at the nodes of the band
+    !>   arrays  values are added to its arrays, at the nodes of the band
     function riis_marks_add_resistance(marks, resistance, arrays) result(status) &
         bind(c, name='riis_marks_add_resistance')
       import :: c_ptr, riis_resistance, riis_resistance_arrays, riis_status
@@ -1203,7 +1203,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_flow_arrays_init
 
-    !>   force  added to
+    !>   force  the force is added
     function riis_marks_add_reaction(marks, resistance, flow, force) result(status) &
         bind(c, name='riis_marks_add_reaction')
       import :: c_double, c_ptr, riis_flow_arrays, riis_resistance, riis_status
@@ -1253,7 +1253,7 @@ module riis_c
       type(c_ptr), intent(inout) :: leaks
     end subroutine riis_leaks_destroy
 
-    !>   options  left out: all defaults
+    !>   options  if left out: all defaults
     function riis_find_leaks(surface, mesh, marks, options, leaks) result(status) bind(c, name='riis_find_leaks')
       import :: c_ptr, riis_mark_options, riis_status
       implicit none
@@ -1279,7 +1279,7 @@ module riis_c
     ! Open regions and passages
     ! -----------------------------------------------------------------------------------------------------------------
 
-    !>   options  left out: all defaults
+    !>   options  if left out: all defaults
     !!   label    (n_nodes), contiguous, from 0; nodes in no region get -1
     function riis_label_open_regions(mesh, marks, options, n_nodes, label, n_regions) result(status) &
         bind(c, name='riis_label_open_regions')
@@ -1303,7 +1303,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_passage_ends_init
 
-    !>   options      left out: all defaults
+    !>   options      if left out: all defaults
     !!   struct_size  c_sizeof(passage)
     function riis_find_passage(surface, mesh, ends, options, passage, struct_size) result(status) &
         bind(c, name='riis_find_passage')
@@ -1377,7 +1377,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_opening_switch_state_init
 
-    !>   now  another variable than before
+    !>   now  not the same variable as before
     function riis_opening_switch_advance(law, before, time, pressure_difference, flow, now) result(status) &
         bind(c, name='riis_opening_switch_advance')
       import :: c_double, riis_opening_switch, riis_opening_switch_state, riis_status
@@ -1408,7 +1408,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_opening_angle_state_init
 
-    !>   now  another variable than before
+    !>   now  not the same variable as before
     function riis_opening_angle_advance(law, before, time, pressure_difference, flow, now) result(status) &
         bind(c, name='riis_opening_angle_advance')
       import :: c_double, riis_opening_angle, riis_opening_angle_state, riis_status
@@ -1440,8 +1440,8 @@ contains
     c_text = trim(text) // c_null_char
   end function riis_c_string
 
-  !> Returns the length of a text of the library, 0 if there is none. Functions that return texts take their lengths from
-  !! this and are not of deferred length, because gfortran keeps a deferred length where all threads share it.
+  !> Returns the length of a text of the library, or 0 for c_null_ptr. Functions that return texts declare their length with this
+  !! function. They have no deferred length, because gfortran keeps a deferred length in memory that all threads share.
   pure function riis_c_text_length(c_text) result(length)
     type(c_ptr), intent(in) :: c_text
     integer :: length

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! Generated from fortran/templates/riis_f77.fypp by fortran/expand_templates.sh: edit that template, not this file.
-!> riis for codes that cannot use modules: external subroutines for implicit interfaces, from Fortran 77, fixed or free form.
-!! `include 'riisf.h'` gives the constants.
+!> riis for codes that cannot use modules: external subroutines with implicit interfaces, for Fortran 77 and later, in fixed or
+!! free form. `include 'riisf.h'` gives the constants.
 !!
 !!           INCLUDE 'riisf.h'
 !!           INTEGER*8 VALVE, SURFACE, MESH, RESULT
@@ -16,7 +16,7 @@
 !!
 !! Rules for every subroutine:
 !!
-!! - Give every argument, of exactly the kind that is declared here: no compiler checks it. `integer(int32)` is INTEGER*4,
+!! - Pass every argument, with exactly the kind that is declared here: no compiler checks this. `integer(int32)` is INTEGER*4,
 !!   INTEGER with the usual options; `integer(int64)` is INTEGER*8; `real(c_double)` is DOUBLE PRECISION, or REAL*8 if an
 !!   option (-fdefault-real-8) makes DOUBLE PRECISION longer.
 !! - Handles are INTEGER*8, 0 before they are created and after they are destroyed. Creating sets them only on success.
@@ -24,11 +24,11 @@
 !!   has changed. Each thread has its own message. Messages count from 0.
 !! - Names may have trailing blanks.
 !! - Coordinates, and the rows for riisf_mesh_set_adjacency, are borrowed: they must stay in place (in COMMON, or with SAVE,
-!!   or in the main program) until the mesh is destroyed or given others. All other arrays are used during the call only. No
+!!   or in the main program) until the mesh is destroyed or gets other arrays. All other arrays are used during the call only. No
 !!   array is copied except the marks of riisf_dense_mark.
 !! - Nodes that the library gives count from 1. Anything called *_id counts from 0, as in C. Ids that the caller gives count
 !!   from index_base.
-!! - A subroutine whose name ends in _64 is the same as without _64, for counts and ids of INTEGER*8.
+!! - A subroutine whose name ends in _64 does the same as the one without _64, with counts and ids of INTEGER*8.
 !! - Threads: any number of threads may read an object at once. One thread may write it while no other reads it.
 
 !> Makes a valve with the paper's parameter values. Errors: RIIS_INVALID_PARAMETER for an unknown kind.
@@ -47,14 +47,14 @@ subroutine riisf_valve_create(kind, valve, status)
   if (status == RIIS_OK) valve = handle_of(c_handle)
 end subroutine riisf_valve_create
 
-!> Makes a second valve with the same parameters and states. Each is destroyed on its own.
+!> Makes a copy with the same parameters and states. Each valve is destroyed separately.
 subroutine riisf_valve_copy(valve, copy, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_c, only: riis_status, RIIS_OK, riis_valve_copy
   use riis_support, only: c_handle_of, handle_of
   implicit none
-  integer(int64), intent(in) :: valve                     !< Created.
+  integer(int64), intent(in) :: valve                     !< Must be created.
   integer(int64), intent(inout) :: copy                   !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(c_ptr) :: c_handle
@@ -63,7 +63,7 @@ subroutine riisf_valve_copy(valve, copy, status)
   if (status == RIIS_OK) copy = handle_of(c_handle)
 end subroutine riisf_valve_copy
 
-!> Sets a parameter, which has 1 or 3 values. 'opening', from 0 to 1, moves every valve. Errors: RIIS_INVALID_PARAMETER
+!> Sets a parameter, which has 1 or 3 values. Every valve has the parameter 'opening', from 0 to 1. Errors: RIIS_INVALID_PARAMETER
 !! naming the parameter and the value.
 subroutine riisf_valve_set(valve, name, n_values, values, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double
@@ -71,7 +71,7 @@ subroutine riisf_valve_set(valve, name, n_values, values, status)
   use riis_c, only: riis_status, riis_valve_set
   use riis_support, only: c_handle_of, end_for_c
   implicit none
-  integer(int64), intent(in) :: valve                     !< Created.
+  integer(int64), intent(in) :: valve                     !< Must be created.
   character(len=*), intent(in) :: name                    !< Such as 'leaflet_angle', 'right.rotation'.
   integer(int32), intent(in) :: n_values                  !< 1 or 3, as the parameter has.
   real(c_double), intent(in) :: values(*)                 !< Lengths in the valve's unit, angles in degrees.
@@ -88,25 +88,25 @@ subroutine riisf_valve_get(valve, name, n_values, values, status)
   use riis_c, only: riis_status, riis_valve_get
   use riis_support, only: c_handle_of, end_for_c
   implicit none
-  integer(int64), intent(in) :: valve                     !< Created.
-  character(len=*), intent(in) :: name                    !< As in riisf_valve_set, with its cusp.
+  integer(int64), intent(in) :: valve                     !< Must be created.
+  character(len=*), intent(in) :: name                    !< As in riisf_valve_set, but always with the cusp's name.
   integer(int32), intent(in) :: n_values                  !< 1 or 3, as the parameter has.
-  real(c_double), intent(inout) :: values(*)              !< Left alone on an error.
+  real(c_double), intent(inout) :: values(*)              !< Unchanged on an error.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(name) + 1, kind=c_char) :: c_name
   call end_for_c(name, c_name)
   status = riis_valve_get(c_handle_of(valve), c_name, int(n_values, int64), values)
 end subroutine riisf_valve_get
 
-!> Gives the valve a second state to open to, at 'opening' 1. Its own state is the closed one. Errors: RIIS_INVALID_PARAMETER
-!! for a valve of another kind.
+!> Gives the valve an open state at 'opening' 1. Its own state is the closed state. Errors: RIIS_INVALID_PARAMETER for a valve of
+!! another kind.
 subroutine riisf_valve_set_open_state(valve, open, status)
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_c, only: riis_status, riis_valve_set_open_state
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: valve                     !< Created.
-  integer(int64), intent(in) :: open                      !< Created. It is copied, so it may be destroyed.
+  integer(int64), intent(in) :: valve                     !< Must be created.
+  integer(int64), intent(in) :: open                      !< Must be created. It is copied, so it may be destroyed.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_valve_set_open_state(c_handle_of(valve), c_handle_of(open))
 end subroutine riisf_valve_set_open_state
@@ -118,15 +118,15 @@ subroutine riisf_valve_destroy(handle)
   use riis_c, only: riis_valve_destroy
   use riis_support, only: c_handle_of, handle_of
   implicit none
-  integer(int64), intent(inout) :: handle                 !< Any.
+  integer(int64), intent(inout) :: handle                 !< May be 0.
   type(c_ptr) :: c_handle
   c_handle = c_handle_of(handle)
   call riis_valve_destroy(c_handle)
   handle = handle_of(c_handle)
 end subroutine riisf_valve_destroy
 
-!> Makes the surface of a valve, placed by x -> scale * rotation * x + translation. Errors: RIIS_INVALID_ARGUMENT for an
-!! option out of range, RIIS_INVALID_PARAMETER for parameters that do not go together.
+!> Makes the surface of a valve, placed by x -> scale * rotation * x + translation. Errors: RIIS_INVALID_ARGUMENT for an option
+!! out of range, RIIS_INVALID_PARAMETER for parameters that do not fit together.
 subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, surface, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr
@@ -134,14 +134,14 @@ subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotatio
   use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_create
   use riis_support, only: c_handle_of, get_placement, handle_of
   implicit none
-  integer(int64), intent(in) :: valve                     !< Created; read during the call only.
+  integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
                                                           !! * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 for none.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for none.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for none.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   integer(int64), intent(inout) :: surface                !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
@@ -153,19 +153,19 @@ subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotatio
   if (status == RIIS_OK) surface = handle_of(c_handle)
 end subroutine riisf_surface_create
 
-!> Replaces the surface by that of a valve that moved, with the same options. The errors are those of riisf_surface_create.
+!> Replaces the surface by the surface of a valve that moved, with the same options. The errors are those of riisf_surface_create.
 subroutine riisf_surface_update(surface, valve, status)
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_c, only: riis_status, riis_surface_update
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: surface                   !< Created.
-  integer(int64), intent(in) :: valve                     !< Created; read during the call only.
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve))
 end subroutine riisf_surface_update
 
-!> Does the same with other options, which are those of riisf_surface_create.
+!> Does the same with other options. They are those of riisf_surface_create.
 subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, status)
   use, intrinsic :: iso_c_binding, only: c_double
@@ -173,15 +173,15 @@ subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale,
   use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_update
   use riis_support, only: c_handle_of, get_placement
   implicit none
-  integer(int64), intent(in) :: surface                   !< Created.
-  integer(int64), intent(in) :: valve                     !< Created; read during the call only.
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
                                                           !! * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 for none.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for none.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for none.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
   status = get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options)
@@ -189,7 +189,7 @@ subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale,
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_place
 
-!> Does the same with another way of measuring distances, which riisf_surface_update keeps.
+!> Does the same with another method of measuring distances, which riisf_surface_update keeps.
 subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, measure, measure_tolerance, status)
   use, intrinsic :: iso_c_binding, only: c_double
@@ -197,18 +197,18 @@ subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scal
   use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_update
   use riis_support, only: c_handle_of, get_placement
   implicit none
-  integer(int64), intent(in) :: surface                   !< Created.
-  integer(int64), intent(in) :: valve                     !< Created; read during the call only.
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
                                                           !! * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 for none.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for none.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for none.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   integer(int32), intent(in) :: measure                   !< RIIS_MEASURE_*.
-  real(c_double), intent(in) :: measure_tolerance        !< A share of half_thickness, 1e-6 to 1; RIIS_AUTO: tolerance.
-                                                          !! RIIS_MEASURE_TRIANGLES does not use it.
+  real(c_double), intent(in) :: measure_tolerance        !< A fraction of half_thickness, 1e-6 to 1; RIIS_AUTO: tolerance.
+                                                          !! Not used by RIIS_MEASURE_TRIANGLES.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
   status = get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options)
@@ -218,10 +218,10 @@ subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scal
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_measure
 
-!> Does the same with the other way of cutting a valve into triangles, which riisf_surface_update and
-!! riisf_surface_update_moving keep. With RIIS_TRIANGULATION_FIXED triangles keep their ids, vertices and neighbours at every
-!! opening, and only the opening may move. Errors then: RIIS_INVALID_PARAMETER naming another parameter that moved,
-!! RIIS_LIMIT_EXCEEDED for an opening where the tolerance does not hold.
+!> Does the same with a given kind of triangulation, which riisf_surface_update and riisf_surface_update_moving keep. With
+!! RIIS_TRIANGULATION_FIXED, triangles keep their ids, vertices and neighbours at every opening, and only the opening may change.
+!! Errors then: RIIS_INVALID_PARAMETER naming another parameter that changed, RIIS_LIMIT_EXCEEDED for an opening at which the
+!! tolerance does not hold.
 subroutine riisf_surface_triangulate(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, triangulation, status)
   use, intrinsic :: iso_c_binding, only: c_double
@@ -229,15 +229,15 @@ subroutine riisf_surface_triangulate(surface, valve, half_thickness, tolerance, 
   use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_update
   use riis_support, only: c_handle_of, get_placement
   implicit none
-  integer(int64), intent(in) :: surface                   !< Created.
-  integer(int64), intent(in) :: valve                     !< Created; read during the call only.
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
                                                           !! * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 for none.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for none.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for none.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   integer(int32), intent(in) :: triangulation             !< RIIS_TRIANGULATION_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
@@ -247,25 +247,25 @@ subroutine riisf_surface_triangulate(surface, valve, half_thickness, tolerance, 
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_triangulate
 
-!> As riisf_surface_update, with the same triangles, and gives every vertex a velocity: from the point with the same patch, u
-!! and v of the state before to the vertex, over the time between. Errors: as of riisf_surface_create;
-!! RIIS_INVALID_ARGUMENT for dt out of range; RIIS_INVALID_PARAMETER for a valve_before of another kind or build.
+!> Does the same as riisf_surface_update, and also gives every vertex a velocity. The velocity is the displacement from the point
+!! with the same patch, u and v in the earlier state, divided by dt. Errors: as for riisf_surface_create; RIIS_INVALID_ARGUMENT
+!! for dt out of range; RIIS_INVALID_PARAMETER for a valve_before of another kind or with other patches.
 subroutine riisf_surface_update_moving(surface, valve, valve_before, dt, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_c, only: riis_status, riis_surface_update_moving
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: surface                   !< Created.
-  integer(int64), intent(in) :: valve                     !< Created; read during the call only.
-  integer(int64), intent(in) :: valve_before              !< The state before; read during the call only.
-  real(c_double), intent(in) :: dt                        !< From valve_before to valve, 1e-30 to 1e30, or negative as time
-                                                          !! goes back.
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
+  integer(int64), intent(in) :: valve_before              !< The earlier state; read during the call only.
+  real(c_double), intent(in) :: dt                        !< From valve_before to valve, 1e-30 to 1e30, or negative if time goes
+                                                          !! backwards.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_surface_update_moving(c_handle_of(surface), c_handle_of(valve), c_handle_of(valve_before), dt)
 end subroutine riisf_surface_update_moving
 
-!> The same for a surface that is placed otherwise, now and before.
+!> Does the same for a surface with another placement, now and before.
 subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thickness, tolerance, scale, &
     rotation_axis, rotation_angle, translation, scale_before, rotation_axis_before, rotation_angle_before, &
     translation_before, status)
@@ -274,18 +274,18 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thi
   use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_update_moving
   use riis_support, only: c_handle_of, get_placement
   implicit none
-  integer(int64), intent(in) :: surface                   !< Created.
-  integer(int64), intent(in) :: valve                     !< Created; read during the call only.
-  integer(int64), intent(in) :: valve_before              !< The state before; read during the call only.
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
+  integer(int64), intent(in) :: valve_before              !< The earlier state; read during the call only.
   real(c_double), intent(in) :: dt                        !< From valve_before to valve.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
                                                           !! * half_thickness.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 for none.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for none.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for none.
-  real(c_double), intent(in) :: scale_before              !< At the state before; so the next three.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
+  real(c_double), intent(in) :: scale_before              !< Of the earlier state, as are the next three.
   real(c_double), intent(in) :: rotation_axis_before(3)   !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle_before     !< Degrees.
   real(c_double), intent(in) :: translation_before(3)     !< Mesh units.
@@ -306,15 +306,15 @@ subroutine riisf_surface_destroy(handle)
   use riis_c, only: riis_surface_destroy
   use riis_support, only: c_handle_of, handle_of
   implicit none
-  integer(int64), intent(inout) :: handle                 !< Any.
+  integer(int64), intent(inout) :: handle                 !< May be 0.
   type(c_ptr) :: c_handle
   c_handle = c_handle_of(handle)
   call riis_surface_destroy(c_handle)
   handle = handle_of(c_handle)
 end subroutine riisf_surface_destroy
 
-!> Borrows node coordinates and checks them once. Errors: RIIS_INVALID_MESH naming the node, counted from 0, and the
-!! value.
+!> Makes a mesh that borrows node coordinates and checks them once. Errors: RIIS_INVALID_MESH naming the node, counted from 0, and
+!! the value.
 subroutine riisf_mesh_create(n_nodes, x, y, z, stride, mesh, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -356,15 +356,15 @@ subroutine riisf_mesh_create_64(n_nodes, x, y, z, stride, mesh, status)
   if (status == RIIS_OK) mesh = handle_of(c_handle)
 end subroutine riisf_mesh_create_64
 
-!> Tells the mesh that the coordinates moved, in place or to other arrays. Call it after every change of coordinates. The
-!! adjacency stays if n_nodes does.
+!> Tells the mesh that the coordinates changed, in place or to other arrays. Call it after every change of coordinates. The
+!! adjacency stays if n_nodes stays.
 subroutine riisf_mesh_update(mesh, n_nodes, x, y, z, stride, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_status, riis_mesh_update
   use riis_support, only: c_handle_of, location_of
   implicit none
-  integer(int64), intent(in) :: mesh                      !< Created.
+  integer(int64), intent(in) :: mesh                      !< Must be created.
   integer(int32), intent(in) :: n_nodes                   !< >= 0.
   real(c_double), intent(in) :: x(*)                      !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
@@ -382,7 +382,7 @@ subroutine riisf_mesh_update_64(mesh, n_nodes, x, y, z, stride, status)
   use riis_c, only: riis_status, riis_mesh_update
   use riis_support, only: c_handle_of, location_of
   implicit none
-  integer(int64), intent(in) :: mesh                      !< Created.
+  integer(int64), intent(in) :: mesh                      !< Must be created.
   integer(int64), intent(in) :: n_nodes                   !< >= 0.
   real(c_double), intent(in) :: x(*)                      !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
@@ -393,8 +393,8 @@ subroutine riisf_mesh_update_64(mesh, n_nodes, x, y, z, stride, status)
     int(stride, int64))
 end subroutine riisf_mesh_update_64
 
-!> Copies node coordinates and checks them: REAL*4 with real_bits 32, REAL*8 with 64. The caller's arrays are free afterwards.
-!! Errors: RIIS_INVALID_MESH naming the node, counted from 0, and the value.
+!> Makes a mesh that copies node coordinates and checks them: REAL*4 with real_bits 32, REAL*8 with 64. The caller's arrays are
+!! not needed afterwards. Errors: RIIS_INVALID_MESH naming the node, counted from 0, and the value.
 subroutine riisf_mesh_create_copy(n_nodes, x, y, z, stride, real_bits, &
     mesh, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
@@ -456,7 +456,7 @@ subroutine riisf_mesh_create_copy_64(n_nodes, x, y, z, stride, real_bits, &
   if (status == RIIS_OK) mesh = handle_of(c_handle)
 end subroutine riisf_mesh_create_copy_64
 
-!> Copies coordinates that moved. A mesh may change between borrowed and copied coordinates.
+!> Copies new coordinates into a mesh. A mesh may change between borrowed and copied coordinates.
 subroutine riisf_mesh_update_copy(mesh, n_nodes, x, y, z, stride, real_bits, &
     status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
@@ -464,7 +464,7 @@ subroutine riisf_mesh_update_copy(mesh, n_nodes, x, y, z, stride, real_bits, &
   use riis_c, only: riis_points, riis_status, RIIS_OK, riis_mesh_update_copy, riis_points_init
   use riis_support, only: c_handle_of, location_of
   implicit none
-  integer(int64), intent(in) :: mesh                      !< Created.
+  integer(int64), intent(in) :: mesh                      !< Must be created.
   integer(int32), intent(in) :: n_nodes                   !< >= 0.
   type(*), intent(in) :: x(*)                             !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   type(*), intent(in) :: y(*)                             !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
@@ -492,7 +492,7 @@ subroutine riisf_mesh_update_copy_64(mesh, n_nodes, x, y, z, stride, real_bits, 
   use riis_c, only: riis_points, riis_status, RIIS_OK, riis_mesh_update_copy, riis_points_init
   use riis_support, only: c_handle_of, location_of
   implicit none
-  integer(int64), intent(in) :: mesh                      !< Created.
+  integer(int64), intent(in) :: mesh                      !< Must be created.
   integer(int64), intent(in) :: n_nodes                   !< >= 0.
   type(*), intent(in) :: x(*)                             !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   type(*), intent(in) :: y(*)                             !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
@@ -512,14 +512,14 @@ subroutine riisf_mesh_update_copy_64(mesh, n_nodes, x, y, z, stride, real_bits, 
   status = riis_mesh_update_copy(c_handle_of(mesh), nodes)
 end subroutine riisf_mesh_update_copy_64
 
-!> Makes the clusters of RIIS_SEARCH_CLUSTERS now, rather than in the first marking that uses them.
+!> Makes the clusters of RIIS_SEARCH_CLUSTERS now, not in the first marking that uses them.
 subroutine riisf_mesh_prepare(mesh, n_threads, status)
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_status, riis_mesh_prepare
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: mesh                      !< Created.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int64), intent(in) :: mesh                      !< Must be created.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_mesh_prepare(c_handle_of(mesh), n_threads)
 end subroutine riisf_mesh_prepare
@@ -531,18 +531,18 @@ subroutine riisf_mesh_destroy(handle)
   use riis_c, only: riis_mesh_destroy
   use riis_support, only: c_handle_of, handle_of
   implicit none
-  integer(int64), intent(inout) :: handle                 !< Any.
+  integer(int64), intent(inout) :: handle                 !< May be 0.
   type(c_ptr) :: c_handle
   c_handle = c_handle_of(handle)
   call riis_mesh_destroy(c_handle)
   handle = handle_of(c_handle)
 end subroutine riisf_mesh_destroy
 
-!> Gives the message of the calling thread's last error, cut or padded with blanks.
+!> Gives the message of the calling thread's last error, truncated or padded with blanks.
 subroutine riisf_last_error(text)
   use riis_c, only: riis_c_text, riis_last_error
   implicit none
-  character(len=*), intent(out) :: text                   !< 512 letters hold every message.
+  character(len=*), intent(out) :: text                   !< 512 characters are enough for every message.
   text = riis_c_text(riis_last_error())
 end subroutine riisf_last_error
 
@@ -550,8 +550,8 @@ end subroutine riisf_last_error
 subroutine riisf_status_name(status, text)
   use riis_c, only: riis_c_text, riis_status, riis_status_name
   implicit none
-  integer(riis_status), intent(in) :: status              !< Any.
-  character(len=*), intent(out) :: text                   !< 24 letters hold every name.
+  integer(riis_status), intent(in) :: status              !< Any value.
+  character(len=*), intent(out) :: text                   !< 24 characters are enough for every name.
   text = riis_c_text(riis_status_name(status))
 end subroutine riisf_status_name
 
@@ -559,6 +559,6 @@ end subroutine riisf_status_name
 subroutine riisf_version(text)
   use riis_c, only: riis_c_text, riis_version_string
   implicit none
-  character(len=*), intent(out) :: text                   !< 16 letters hold every version.
+  character(len=*), intent(out) :: text                   !< 16 characters are enough for every version.
   text = riis_c_text(riis_version_string())
 end subroutine riisf_version

@@ -2,21 +2,21 @@
 ! Generated from fortran/templates/riis_f77_adjacency.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> The external subroutines for adjacencies. The conventions are those of riis_f77.f90.
 
-!> Gives the mesh its adjacency as compressed sparse rows, which are borrowed. If index_base is 1, the neighbours of node i
-!! are columns(offsets(i)) to columns(offsets(i + 1) - 1). Errors: RIIS_INVALID_ARGUMENT for an argument out of range,
-!! RIIS_INVALID_MESH naming the row, counted from 0, and its value. The mesh then keeps the rows that it had.
+!> Gives the mesh its adjacency as compressed sparse rows, which are borrowed. If index_base is 1, the neighbours of node i are
+!! columns(offsets(i)) to columns(offsets(i + 1) - 1). Errors: RIIS_INVALID_ARGUMENT for an argument out of range,
+!! RIIS_INVALID_MESH naming the row, counted from 0, and its value. The mesh then keeps its earlier rows.
 subroutine riisf_mesh_set_adjacency(mesh, n_rows, offsets, columns, index_base, n_all, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_csr, riis_status, RIIS_OK, riis_csr_init, riis_mesh_set_adjacency
   use riis_support, only: c_handle_of, location_of
   implicit none
-  integer(int64), intent(in) :: mesh                      !< Created.
+  integer(int64), intent(in) :: mesh                      !< Must be created.
   integer(int32), intent(in) :: n_rows                    !< The mesh's number of nodes.
   integer(int32), intent(in) :: offsets(*)                !< (n_rows + 1), ascending from index_base.
   integer(int32), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), from index_base.
   integer(int32), intent(in) :: index_base                !< 0 or 1.
-  integer(int32), intent(in) :: n_all                     !< n_rows plus the ghosts that columns may name; 0: n_rows.
+  integer(int32), intent(in) :: n_all                     !< n_rows plus the ghost nodes that columns may name; 0: n_rows.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_csr_init(csr, c_sizeof(csr))
@@ -38,12 +38,12 @@ subroutine riisf_mesh_set_adjacency_64(mesh, n_rows, offsets, columns, index_bas
   use riis_c, only: riis_csr, riis_status, RIIS_OK, riis_csr_init, riis_mesh_set_adjacency
   use riis_support, only: c_handle_of, location_of
   implicit none
-  integer(int64), intent(in) :: mesh                      !< Created.
+  integer(int64), intent(in) :: mesh                      !< Must be created.
   integer(int64), intent(in) :: n_rows                    !< The mesh's number of nodes.
   integer(int64), intent(in) :: offsets(*)                !< (n_rows + 1), ascending from index_base.
   integer(int64), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), from index_base.
   integer(int32), intent(in) :: index_base                !< 0 or 1.
-  integer(int64), intent(in) :: n_all                     !< n_rows plus the ghosts that columns may name; 0: n_rows.
+  integer(int64), intent(in) :: n_all                     !< n_rows plus the ghost nodes that columns may name; 0: n_rows.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_csr_init(csr, c_sizeof(csr))
@@ -58,47 +58,47 @@ subroutine riisf_mesh_set_adjacency_64(mesh, n_rows, offsets, columns, index_bas
   status = riis_mesh_set_adjacency(c_handle_of(mesh), csr)
 end subroutine riisf_mesh_set_adjacency_64
 
-!> Does the same with rows of the library. The adjacency must live until the mesh is destroyed or given another.
+!> Does the same with the library's rows. The adjacency must live until the mesh is destroyed or gets another adjacency.
 subroutine riisf_mesh_use_adjacency(mesh, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_c, only: riis_csr, riis_status, RIIS_OK, riis_adjacency_get_csr, riis_mesh_set_adjacency
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: mesh                      !< Created.
-  integer(int64), intent(in) :: adjacency                 !< Created. Destroy it after the mesh.
+  integer(int64), intent(in) :: mesh                      !< Must be created.
+  integer(int64), intent(in) :: adjacency                 !< Must be created. Destroy it after the mesh.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_adjacency_get_csr(c_handle_of(adjacency), csr, c_sizeof(csr))
   if (status == RIIS_OK) status = riis_mesh_set_adjacency(c_handle_of(mesh), csr)
 end subroutine riisf_mesh_use_adjacency
 
-!> Takes the adjacency away. Its rows are not borrowed any more.
+!> Removes the mesh's adjacency. Its rows are not borrowed any more.
 subroutine riisf_mesh_clear_adjacency(mesh, status)
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_c, only: riis_status, riis_mesh_set_adjacency
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: mesh                      !< Created.
+  integer(int64), intent(in) :: mesh                      !< Must be created.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_mesh_set_adjacency(c_handle_of(mesh))
 end subroutine riisf_mesh_clear_adjacency
 
-!> Makes the adjacency of nodes that an edge of a cell joins, from cells that all have the same number of nodes, in VTK's
-!! order. Errors: RIIS_INVALID_ARGUMENT for an argument out of range, RIIS_INVALID_MESH naming the cell, counted from 0, and
-!! its value.
+!> Makes an adjacency from cells that all have the same number of nodes, in VTK's order. Two nodes are neighbours if an edge of a
+!! cell joins them. Errors: RIIS_INVALID_ARGUMENT for an argument out of range, RIIS_INVALID_MESH naming the cell, counted from 0,
+!! and its value.
 subroutine riisf_adjacency_from_cells(n_nodes, nodes_per_cell, n_cells, cells, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_mesh_cells, riis_status, RIIS_OK, riis_adjacency_create_from_cells, riis_mesh_cells_init
   use riis_support, only: handle_of, location_of
   implicit none
-  integer(int32), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
   integer(int32), intent(in) :: nodes_per_cell            !< 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron.
   integer(int32), intent(in) :: n_cells                   !< >= 1.
   integer(int32), intent(in) :: cells(*)                  !< CELLS(nodes_per_cell, n_cells).
-  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the first node's number.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mesh_cells) :: the_cells
@@ -124,12 +124,12 @@ subroutine riisf_adjacency_from_cells_64(n_nodes, nodes_per_cell, n_cells, cells
   use riis_c, only: riis_mesh_cells, riis_status, RIIS_OK, riis_adjacency_create_from_cells, riis_mesh_cells_init
   use riis_support, only: handle_of, location_of
   implicit none
-  integer(int64), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
   integer(int32), intent(in) :: nodes_per_cell            !< 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron.
   integer(int64), intent(in) :: n_cells                   !< >= 1.
   integer(int64), intent(in) :: cells(*)                  !< CELLS(nodes_per_cell, n_cells).
-  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the first node's number.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mesh_cells) :: the_cells
@@ -156,12 +156,12 @@ subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index
   use riis_c, only: riis_mesh_cells, riis_status, RIIS_OK, riis_adjacency_create_from_cells, riis_mesh_cells_init
   use riis_support, only: handle_of, location_of
   implicit none
-  integer(int32), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
   integer(int32), intent(in) :: n_cells                   !< >= 1.
-  integer(int32), intent(in) :: node_ids(*)               !< The nodes of cell after cell.
+  integer(int32), intent(in) :: node_ids(*)               !< The nodes of all cells, one cell after the other.
   integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base.
-  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the first node's number.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mesh_cells) :: the_cells
@@ -187,12 +187,12 @@ subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, in
   use riis_c, only: riis_mesh_cells, riis_status, RIIS_OK, riis_adjacency_create_from_cells, riis_mesh_cells_init
   use riis_support, only: handle_of, location_of
   implicit none
-  integer(int64), intent(in) :: n_nodes                   !< Of the mesh, >= 1.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
   integer(int64), intent(in) :: n_cells                   !< >= 1.
-  integer(int64), intent(in) :: node_ids(*)               !< The nodes of cell after cell.
+  integer(int64), intent(in) :: node_ids(*)               !< The nodes of all cells, one cell after the other.
   integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base.
-  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the first node's number.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mesh_cells) :: the_cells
@@ -211,8 +211,8 @@ subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, in
   if (status == RIIS_OK) adjacency = handle_of(c_handle)
 end subroutine riisf_adjacency_from_mixed_64
 
-!> Makes the adjacency of cells with common faces, for codes that mark cell centres. The errors are those of
-!! riisf_adjacency_from_cells.
+!> Makes an adjacency from faces, for codes that mark cell centres. Two cells are neighbours if they have a common face. The
+!! errors are those of riisf_adjacency_from_cells.
 subroutine riisf_adjacency_from_faces(n_cells, n_faces, face_cells, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -223,8 +223,8 @@ subroutine riisf_adjacency_from_faces(n_cells, n_faces, face_cells, index_base, 
   integer(int32), intent(in) :: n_faces                   !< >= 0.
   integer(int32), intent(in) :: face_cells(*)             !< FACE_CELLS(2, n_faces); the second is index_base - 1 at the
                                                           !! boundary.
-  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the first cell's number.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mesh_faces) :: faces
@@ -257,8 +257,8 @@ subroutine riisf_adjacency_from_faces_64(n_cells, n_faces, face_cells, index_bas
   integer(int64), intent(in) :: n_faces                   !< >= 0.
   integer(int64), intent(in) :: face_cells(*)             !< FACE_CELLS(2, n_faces); the second is index_base - 1 at the
                                                           !! boundary.
-  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the first cell's number.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mesh_faces) :: faces
@@ -290,7 +290,7 @@ subroutine riisf_adjacency_from_grid(ni, nj, nk, n_threads, adjacency, status)
   integer(int32), intent(in) :: ni                        !< >= 1.
   integer(int32), intent(in) :: nj                        !< >= 1.
   integer(int32), intent(in) :: nk                        !< >= 1.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(c_ptr) :: c_handle
@@ -306,7 +306,7 @@ subroutine riisf_adjacency_destroy(handle)
   use riis_c, only: riis_adjacency_destroy
   use riis_support, only: c_handle_of, handle_of
   implicit none
-  integer(int64), intent(inout) :: handle                 !< Any.
+  integer(int64), intent(inout) :: handle                 !< May be 0.
   type(c_ptr) :: c_handle
   c_handle = c_handle_of(handle)
   call riis_adjacency_destroy(c_handle)

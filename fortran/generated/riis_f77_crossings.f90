@@ -2,8 +2,8 @@
 ! Generated from fortran/templates/riis_f77_crossings.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> The external subroutines for crossings. The conventions are those of riis_f77.f90.
 
-!> Finds every pair of the surface's triangles that go through each other, by more than a depth. Triangles of one leaflet that
-!! share a vertex are no pair. Errors: RIIS_INVALID_ARGUMENT naming the depth or n_threads.
+!> Finds every pair of the surface's triangles that go through each other by more than a depth. Triangles of one leaflet that
+!! share a vertex do not count as a pair. Errors: RIIS_INVALID_ARGUMENT naming the depth or n_threads.
 subroutine riisf_find_crossings(surface, depth, n_threads, crossings, n_pairs, length, deepest, point, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -11,14 +11,14 @@ subroutine riisf_find_crossings(surface, depth, n_threads, crossings, n_pairs, l
     riis_crossings_create, riis_crossings_destroy, riis_crossings_get_list, riis_find_crossings
   use riis_support, only: c_handle_of, handle_of
   implicit none
-  integer(int64), intent(in) :: surface                   !< Created.
-  real(c_double), intent(in) :: depth                     !< Half thicknesses, 0 to 1: a pair at most so deep touches, as 1D-6.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: 1 per 4096 triangles, at most 1 a processor.
-  integer(int64), intent(inout) :: crossings              !< 0, which creates them, or from a call before.
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  real(c_double), intent(in) :: depth                     !< Half thicknesses, 0 to 1: less deep pairs only touch; usually 1D-6.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: 1 per 4096 triangles, at most 1 per processor.
+  integer(int64), intent(inout) :: crossings              !< 0, which creates them, or from an earlier call.
   integer(int64), intent(inout) :: n_pairs                !< The number of pairs that cross, INTEGER*8.
-  real(c_double), intent(inout) :: length                 !< The length of their intersections together.
+  real(c_double), intent(inout) :: length                 !< The total length of their intersections.
   real(c_double), intent(inout) :: deepest                !< The depth of the deepest pair; 0 if none crosses.
-  real(c_double), intent(inout) :: point(3)               !< The middle of its intersection.
+  real(c_double), intent(inout) :: point(3)               !< The middle of the deepest pair's intersection.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_crossing_options) :: options
   type(riis_crossing_list) :: list
@@ -31,7 +31,7 @@ subroutine riisf_find_crossings(surface, depth, n_threads, crossings, n_pairs, l
   if (crossings == 0) status = riis_crossings_create(c_handle)
   if (status == RIIS_OK) status = riis_find_crossings(c_handle_of(surface), options, c_handle)
   if (status == RIIS_OK) status = riis_crossings_get_list(c_handle, list, c_sizeof(list))
-  if (status /= RIIS_OK .and. crossings == 0) call riis_crossings_destroy(c_handle) ! 0 as before
+  if (status /= RIIS_OK .and. crossings == 0) call riis_crossings_destroy(c_handle) ! the handle stays 0, as before the call
   crossings = handle_of(c_handle)
   if (status /= RIIS_OK) return
   n_pairs = list%n_pairs
@@ -47,7 +47,7 @@ subroutine riisf_crossings_destroy(handle)
   use riis_c, only: riis_crossings_destroy
   use riis_support, only: c_handle_of, handle_of
   implicit none
-  integer(int64), intent(inout) :: handle                 !< Any.
+  integer(int64), intent(inout) :: handle                 !< May be 0.
   type(c_ptr) :: c_handle
   c_handle = c_handle_of(handle)
   call riis_crossings_destroy(c_handle)
@@ -63,8 +63,8 @@ subroutine riisf_crossing_pairs(crossings, length, n, triangle_num, point, depth
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: crossings                 !< From riisf_find_crossings.
-  integer(int32), intent(in) :: length                    !< Of the arrays.
-  integer(int32), intent(inout) :: n                      !< The number of pairs, also if the arrays are too short.
+  integer(int32), intent(in) :: length                    !< The length of the arrays.
+  integer(int32), intent(inout) :: n                      !< The number of pairs, even if the arrays are too short.
   integer(int32), intent(inout) :: triangle_num(2, *)     !< (2, length): both triangles, counted from 1; written up to n.
   real(c_double), intent(inout) :: point(3, *)            !< (3, length): the middle of the pair's intersection.
   real(c_double), intent(inout) :: depth(*)               !< (length): the penetration depth.
@@ -85,7 +85,7 @@ subroutine riisf_crossing_pairs(crossings, length, n, triangle_num, point, depth
   call c_f_pointer(list%triangle_id, ids, [2_int64, found])
   call c_f_pointer(list%point, places, [3_int64, found])
   call c_f_pointer(list%depth, all_depths, [found])
-  triangle_num(:, :n) = int(ids + 1, int32) ! the library's limit fits into either kind
+  triangle_num(:, :n) = int(ids + 1, int32) ! the library's limit on triangles fits into either kind
   point(:, :n) = places
   depth(:n) = all_depths
 end subroutine riisf_crossing_pairs
@@ -98,8 +98,8 @@ subroutine riisf_crossing_pairs_64(crossings, length, n, triangle_num, point, de
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: crossings                 !< From riisf_find_crossings.
-  integer(int64), intent(in) :: length                    !< Of the arrays.
-  integer(int64), intent(inout) :: n                      !< The number of pairs, also if the arrays are too short.
+  integer(int64), intent(in) :: length                    !< The length of the arrays.
+  integer(int64), intent(inout) :: n                      !< The number of pairs, even if the arrays are too short.
   integer(int64), intent(inout) :: triangle_num(2, *)     !< (2, length): both triangles, counted from 1; written up to n.
   real(c_double), intent(inout) :: point(3, *)            !< (3, length): the middle of the pair's intersection.
   real(c_double), intent(inout) :: depth(*)               !< (length): the penetration depth.
@@ -120,7 +120,7 @@ subroutine riisf_crossing_pairs_64(crossings, length, n, triangle_num, point, de
   call c_f_pointer(list%triangle_id, ids, [2_int64, found])
   call c_f_pointer(list%point, places, [3_int64, found])
   call c_f_pointer(list%depth, all_depths, [found])
-  triangle_num(:, :n) = int(ids + 1, int64) ! the library's limit fits into either kind
+  triangle_num(:, :n) = int(ids + 1, int64) ! the library's limit on triangles fits into either kind
   point(:, :n) = places
   depth(:n) = all_depths
 end subroutine riisf_crossing_pairs_64

@@ -2,7 +2,7 @@
 ! Generated from fortran/templates/riis_f77_fields.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> The external subroutines for the fields of closest points. The conventions are those of riis_f77.f90.
 
-!> As riisf_mark_nodes, with fields of the closest points that the marks keep. Errors: RIIS_INVALID_ARGUMENT for fields
+!> Does the same as riisf_mark_nodes, and the marks keep fields of the closest points. Errors: RIIS_INVALID_ARGUMENT for fields
 !! that the surface lacks, such as RIIS_FIELD_VELOCITY without riisf_surface_update_moving.
 subroutine riisf_mark_with_fields(surface, mesh, distance_limit, search, n_threads, fields, marks, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
@@ -11,13 +11,14 @@ subroutine riisf_mark_with_fields(surface, mesh, distance_limit, search, n_threa
     riis_marks_create, riis_marks_destroy
   use riis_support, only: c_handle_of, handle_of
   implicit none
-  integer(int64), intent(in) :: surface                   !< Created.
-  integer(int64), intent(in) :: mesh                      !< Created.
-  real(c_double), intent(in) :: distance_limit            !< Nodes get their distance up to here; RIIS_AUTO: the half thickness.
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: mesh                      !< Must be created.
+  real(c_double), intent(in) :: distance_limit            !< Nodes get their distance up to this limit; RIIS_AUTO: the half
+                                                          !! thickness.
   integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(in) :: fields                    !< A sum of RIIS_FIELD_*; 0: none.
-  integer(int64), intent(inout) :: marks                  !< 0, which creates one, or from a call before.
+  integer(int64), intent(inout) :: marks                  !< 0, which creates one, or from an earlier call.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
   type(c_ptr) :: c_handle
@@ -30,13 +31,14 @@ subroutine riisf_mark_with_fields(surface, mesh, distance_limit, search, n_threa
   c_handle = c_handle_of(marks)
   if (marks == 0) status = riis_marks_create(c_handle)
   if (status == RIIS_OK) status = riis_mark_nodes(c_handle_of(surface), c_handle_of(mesh), options, c_handle)
-  if (status /= RIIS_OK .and. marks == 0) call riis_marks_destroy(c_handle) ! 0 as before
+  if (status /= RIIS_OK .and. marks == 0) call riis_marks_destroy(c_handle) ! the handle stays 0, as before the call
   marks = handle_of(c_handle)
 end subroutine riisf_mark_with_fields
 
-!> Copies a field of the nodes that are marked into the caller's array, in the order of riisf_marked.
-!! RIIS_FIELD_POINT, _NORMAL, _BARYCENTRIC and _VELOCITY have three values a node, RIIS_FIELD_UV two. Errors:
-!! RIIS_INVALID_ARGUMENT for another field, or if the array is too short: nothing but n is then written.
+!> Copies a field of the nodes that are marked into the caller's array,
+!! in the order of riisf_marked. RIIS_FIELD_POINT, _NORMAL, _BARYCENTRIC and _VELOCITY have three
+!! values per node, RIIS_FIELD_UV two. Errors: RIIS_INVALID_ARGUMENT for another field, or if the array is too short; only n is
+!! then written.
 subroutine riisf_marked_reals(marks, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -44,10 +46,10 @@ subroutine riisf_marked_reals(marks, field, length, n, values, status)
     RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_UV, RIIS_FIELD_VELOCITY
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: marks                     !< Of a call of riisf_mark_with_fields.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
-  integer(int32), intent(in) :: length                    !< How many nodes the array has room for.
-  integer(int32), intent(inout) :: n                      !< How many nodes there are, also if the array is too short.
+  integer(int32), intent(in) :: length                    !< The number of nodes for which the array has room.
+  integer(int32), intent(inout) :: n                      !< The number of nodes, even if the array is too short.
   real(c_double), intent(inout) :: values(*)              !< (3, length), or (2, length) for RIIS_FIELD_UV; written up to n.
   real(c_double), pointer :: kept(:)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -97,10 +99,10 @@ subroutine riisf_marked_reals_64(marks, field, length, n, values, status)
     RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_UV, RIIS_FIELD_VELOCITY
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: marks                     !< Of a call of riisf_mark_with_fields.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
-  integer(int64), intent(in) :: length                    !< How many nodes the array has room for.
-  integer(int64), intent(inout) :: n                      !< How many nodes there are, also if the array is too short.
+  integer(int64), intent(in) :: length                    !< The number of nodes for which the array has room.
+  integer(int64), intent(inout) :: n                      !< The number of nodes, even if the array is too short.
   real(c_double), intent(inout) :: values(*)              !< (3, length), or (2, length) for RIIS_FIELD_UV; written up to n.
   real(c_double), pointer :: kept(:)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -142,7 +144,7 @@ subroutine riisf_marked_reals_64(marks, field, length, n, values, status)
   end if
 end subroutine riisf_marked_reals_64
 
-!> The same for RIIS_FIELD_SIDE, RIIS_FIELD_RIM and RIIS_FIELD_PATCH, which have one value a node.
+!> Does the same for RIIS_FIELD_SIDE, RIIS_FIELD_RIM and RIIS_FIELD_PATCH, which have one value per node.
 subroutine riisf_marked_integers(marks, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -150,10 +152,10 @@ subroutine riisf_marked_integers(marks, field, length, n, values, status)
     RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_PATCH
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: marks                     !< Of a call of riisf_mark_with_fields.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
-  integer(int32), intent(in) :: length                    !< How many nodes the array has room for.
-  integer(int32), intent(inout) :: n                      !< How many nodes there are, also if the array is too short.
+  integer(int32), intent(in) :: length                    !< The number of nodes for which the array has room.
+  integer(int32), intent(inout) :: n                      !< The number of nodes, even if the array is too short.
   integer(int32), intent(inout) :: values(*)              !< (length); written up to n.
   integer(int32), pointer :: kept(:)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -197,10 +199,10 @@ subroutine riisf_marked_integers_64(marks, field, length, n, values, status)
     RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_PATCH
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: marks                     !< Of a call of riisf_mark_with_fields.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
-  integer(int64), intent(in) :: length                    !< How many nodes the array has room for.
-  integer(int64), intent(inout) :: n                      !< How many nodes there are, also if the array is too short.
+  integer(int64), intent(in) :: length                    !< The number of nodes for which the array has room.
+  integer(int64), intent(inout) :: n                      !< The number of nodes, even if the array is too short.
   integer(int32), intent(inout) :: values(*)              !< (length); written up to n.
   integer(int32), pointer :: kept(:)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -236,9 +238,10 @@ subroutine riisf_marked_integers_64(marks, field, length, n, values, status)
   end if
 end subroutine riisf_marked_integers_64
 
-!> Copies a field of the nodes within the distance limit into the caller's array, in the order of riisf_within_limit.
-!! RIIS_FIELD_POINT, _NORMAL, _BARYCENTRIC and _VELOCITY have three values a node, RIIS_FIELD_UV two. Errors:
-!! RIIS_INVALID_ARGUMENT for another field, or if the array is too short: nothing but n is then written.
+!> Copies a field of the nodes within the distance limit into the caller's array,
+!! in the order of riisf_within_limit. RIIS_FIELD_POINT, _NORMAL, _BARYCENTRIC and _VELOCITY have three
+!! values per node, RIIS_FIELD_UV two. Errors: RIIS_INVALID_ARGUMENT for another field, or if the array is too short; only n is
+!! then written.
 subroutine riisf_within_limit_reals(marks, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -246,10 +249,10 @@ subroutine riisf_within_limit_reals(marks, field, length, n, values, status)
     RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_UV, RIIS_FIELD_VELOCITY
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: marks                     !< Of a call of riisf_mark_with_fields.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
-  integer(int32), intent(in) :: length                    !< How many nodes the array has room for.
-  integer(int32), intent(inout) :: n                      !< How many nodes there are, also if the array is too short.
+  integer(int32), intent(in) :: length                    !< The number of nodes for which the array has room.
+  integer(int32), intent(inout) :: n                      !< The number of nodes, even if the array is too short.
   real(c_double), intent(inout) :: values(*)              !< (3, length), or (2, length) for RIIS_FIELD_UV; written up to n.
   real(c_double), pointer :: kept(:)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -299,10 +302,10 @@ subroutine riisf_within_limit_reals_64(marks, field, length, n, values, status)
     RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_UV, RIIS_FIELD_VELOCITY
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: marks                     !< Of a call of riisf_mark_with_fields.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
-  integer(int64), intent(in) :: length                    !< How many nodes the array has room for.
-  integer(int64), intent(inout) :: n                      !< How many nodes there are, also if the array is too short.
+  integer(int64), intent(in) :: length                    !< The number of nodes for which the array has room.
+  integer(int64), intent(inout) :: n                      !< The number of nodes, even if the array is too short.
   real(c_double), intent(inout) :: values(*)              !< (3, length), or (2, length) for RIIS_FIELD_UV; written up to n.
   real(c_double), pointer :: kept(:)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -344,7 +347,7 @@ subroutine riisf_within_limit_reals_64(marks, field, length, n, values, status)
   end if
 end subroutine riisf_within_limit_reals_64
 
-!> The same for RIIS_FIELD_SIDE, RIIS_FIELD_RIM and RIIS_FIELD_PATCH, which have one value a node.
+!> Does the same for RIIS_FIELD_SIDE, RIIS_FIELD_RIM and RIIS_FIELD_PATCH, which have one value per node.
 subroutine riisf_within_limit_integers(marks, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -352,10 +355,10 @@ subroutine riisf_within_limit_integers(marks, field, length, n, values, status)
     RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_PATCH
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: marks                     !< Of a call of riisf_mark_with_fields.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
-  integer(int32), intent(in) :: length                    !< How many nodes the array has room for.
-  integer(int32), intent(inout) :: n                      !< How many nodes there are, also if the array is too short.
+  integer(int32), intent(in) :: length                    !< The number of nodes for which the array has room.
+  integer(int32), intent(inout) :: n                      !< The number of nodes, even if the array is too short.
   integer(int32), intent(inout) :: values(*)              !< (length); written up to n.
   integer(int32), pointer :: kept(:)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -399,10 +402,10 @@ subroutine riisf_within_limit_integers_64(marks, field, length, n, values, statu
     RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_PATCH
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: marks                     !< Of a call of riisf_mark_with_fields.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
-  integer(int64), intent(in) :: length                    !< How many nodes the array has room for.
-  integer(int64), intent(inout) :: n                      !< How many nodes there are, also if the array is too short.
+  integer(int64), intent(in) :: length                    !< The number of nodes for which the array has room.
+  integer(int64), intent(inout) :: n                      !< The number of nodes, even if the array is too short.
   integer(int32), intent(inout) :: values(*)              !< (length); written up to n.
   integer(int32), pointer :: kept(:)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.

@@ -2,9 +2,9 @@
 ! Generated from fortran/templates/riis_f77_leaks.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> The external subroutines for leaks. The conventions are those of riis_f77.f90.
 
-!> Finds every edge of the mesh's adjacency that leaks: it crosses the surface between two unmarked nodes. Edges that are at
-!! most two half thicknesses long do not leak. Gaps of the surface itself are not found. Errors: RIIS_INVALID_ARGUMENT if the
-!! mesh has no adjacency, or if the marks were never marked with, or were marked with another mesh or half thickness.
+!> Finds every edge of the mesh's adjacency that leaks: it crosses the surface between two unmarked nodes. Edges that are at most
+!! two half thicknesses long do not leak. Gaps of the surface itself are not found. Errors: RIIS_INVALID_ARGUMENT if the mesh has
+!! no adjacency, or if the marks do not come from a marking with this mesh and half thickness.
 subroutine riisf_find_leaks(surface, mesh, marks, n_threads, leaks, n_edges, longest, middle, half_thickness, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -15,12 +15,12 @@ subroutine riisf_find_leaks(surface, mesh, marks, n_threads, leaks, n_edges, lon
   integer(int64), intent(in) :: surface                   !< The surface of the marking.
   integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
-  integer(int64), intent(inout) :: leaks                  !< 0, which creates them, or from a call before.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int64), intent(inout) :: leaks                  !< 0, which creates them, or from an earlier call.
   integer(int64), intent(inout) :: n_edges                !< The number of edges that leak, INTEGER*8.
-  real(c_double), intent(inout) :: longest                !< The length of the longest; 0 if none leaks.
-  real(c_double), intent(inout) :: middle(3)              !< Its middle.
-  real(c_double), intent(inout) :: half_thickness         !< The smallest that closes all of them; 0 if none leaks.
+  real(c_double), intent(inout) :: longest                !< The length of the longest edge; 0 if none leaks.
+  real(c_double), intent(inout) :: middle(3)              !< The middle of the longest edge.
+  real(c_double), intent(inout) :: half_thickness         !< The smallest half thickness that closes all edges; 0 if none leaks.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
   type(riis_leak_list) :: list
@@ -33,7 +33,7 @@ subroutine riisf_find_leaks(surface, mesh, marks, n_threads, leaks, n_edges, lon
   if (status == RIIS_OK) &
     status = riis_find_leaks(c_handle_of(surface), c_handle_of(mesh), c_handle_of(marks), options, c_handle)
   if (status == RIIS_OK) status = riis_leaks_get_list(c_handle, list, c_sizeof(list))
-  if (status /= RIIS_OK .and. leaks == 0) call riis_leaks_destroy(c_handle) ! 0 as before
+  if (status /= RIIS_OK .and. leaks == 0) call riis_leaks_destroy(c_handle) ! the handle stays 0, as before the call
   leaks = handle_of(c_handle)
   if (status /= RIIS_OK) return
   n_edges = list%n_edges
@@ -52,8 +52,8 @@ subroutine riisf_leaking_edges(leaks, length, n, node_num, status)
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: leaks                     !< From riisf_find_leaks.
-  integer(int32), intent(in) :: length                    !< Of the array.
-  integer(int32), intent(inout) :: n                      !< The number of edges, also if the array is too short.
+  integer(int32), intent(in) :: length                    !< The length of the array.
+  integer(int32), intent(inout) :: n                      !< The number of edges, even if the array is too short.
   integer(int32), intent(inout) :: node_num(2, *)         !< (2, length): both nodes, counted from 1; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_leak_list) :: list
@@ -86,8 +86,8 @@ subroutine riisf_leaking_edges_64(leaks, length, n, node_num, status)
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: leaks                     !< From riisf_find_leaks.
-  integer(int64), intent(in) :: length                    !< Of the array.
-  integer(int64), intent(inout) :: n                      !< The number of edges, also if the array is too short.
+  integer(int64), intent(in) :: length                    !< The length of the array.
+  integer(int64), intent(inout) :: n                      !< The number of edges, even if the array is too short.
   integer(int64), intent(inout) :: node_num(2, *)         !< (2, length): both nodes, counted from 1; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_leak_list) :: list
@@ -113,16 +113,16 @@ subroutine riisf_leaks_destroy(handle)
   use riis_c, only: riis_leaks_destroy
   use riis_support, only: c_handle_of, handle_of
   implicit none
-  integer(int64), intent(inout) :: handle                 !< Any.
+  integer(int64), intent(inout) :: handle                 !< May be 0.
   type(c_ptr) :: c_handle
   c_handle = c_handle_of(handle)
   call riis_leaks_destroy(c_handle)
   handle = handle_of(c_handle)
 end subroutine riisf_leaks_destroy
 
-!> Labels the open regions: the connected components of the nodes that a marking left unmarked, along the edges of the mesh's
-!! adjacency. Edges to ghosts are not looked at. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or if the marks
-!! were never marked with, or were marked with another mesh.
+!> Labels the open regions. They are the connected components of unmarked nodes along the edges of the mesh's adjacency. Edges to
+!! ghost nodes are ignored. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or if the marks do not come from a marking
+!! with this mesh.
 subroutine riisf_label_open_regions(mesh, marks, n_threads, n_nodes, region_num, n_regions, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -131,11 +131,11 @@ subroutine riisf_label_open_regions(mesh, marks, n_threads, n_nodes, region_num,
   implicit none
   integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(in) :: n_nodes                   !< The number of nodes of the marking.
   integer(int32), intent(inout) :: region_num(*)          !< (n_nodes): the lowest node of the node's region, counted from 1;
                                                           !! 0 for marked nodes.
-  integer(int32), intent(inout) :: n_regions              !< How many there are.
+  integer(int32), intent(inout) :: n_regions              !< The number of regions.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
   integer(int64) :: found
@@ -163,11 +163,11 @@ subroutine riisf_label_open_regions_64(mesh, marks, n_threads, n_nodes, region_n
   implicit none
   integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(in) :: n_nodes                   !< The number of nodes of the marking.
   integer(int64), intent(inout) :: region_num(*)          !< (n_nodes): the lowest node of the node's region, counted from 1;
                                                           !! 0 for marked nodes.
-  integer(int64), intent(inout) :: n_regions              !< How many there are.
+  integer(int64), intent(inout) :: n_regions              !< The number of regions.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
   integer(int64) :: found
@@ -181,9 +181,9 @@ subroutine riisf_label_open_regions_64(mesh, marks, n_threads, n_nodes, region_n
   n_regions = int(found, int64)
 end subroutine riisf_label_open_regions_64
 
-!> Finds the widest passage from one set of nodes to another: the path along the edges of the mesh's adjacency whose smallest
-!! distance to the surface is largest. Ends count as well. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or for
-!! a node that the mesh lacks, or that is within the half thickness.
+!> Finds the widest passage from one set of nodes to another. It is the path, along the edges of the mesh's adjacency, whose
+!! smallest distance to the surface is largest. The ends count too. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or
+!! for a node that the mesh lacks, or that is within the half thickness.
 subroutine riisf_find_passage(surface, mesh, n_from, from_num, n_to, to_num, n_threads, state, node_num, distance, &
     point, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -193,16 +193,17 @@ subroutine riisf_find_passage(surface, mesh, n_from, from_num, n_to, to_num, n_t
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: surface                   !< A surface.
-  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. It need not have been marked.
+  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. A marking is not needed.
   integer(int32), intent(in) :: n_from                    !< At least 1.
   integer(int32), intent(in) :: from_num(n_from)          !< Nodes where paths begin, counted from 1, in any order.
   integer(int32), intent(in) :: n_to                      !< At least 1.
-  integer(int32), intent(in) :: to_num(n_to)              !< Nodes where they end.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int32), intent(in) :: to_num(n_to)              !< Nodes where paths end.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_PASSAGE_*.
-  integer(int32), intent(inout) :: node_num               !< The nearest node of the path, counted from 1; 0 without a path.
-  real(c_double), intent(inout) :: distance               !< Its distance, the smallest half thickness that closes it.
-  real(c_double), intent(inout) :: point(3)               !< Its coordinates.
+  integer(int32), intent(inout) :: node_num               !< The path's node nearest to the surface, from 1; 0 without a path.
+  real(c_double), intent(inout) :: distance               !< That node's distance, the smallest half thickness that closes the
+                                                          !! path.
+  real(c_double), intent(inout) :: point(3)               !< That node's coordinates.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
   type(riis_passage) :: passage
@@ -228,16 +229,17 @@ subroutine riisf_find_passage_64(surface, mesh, n_from, from_num, n_to, to_num, 
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: surface                   !< A surface.
-  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. It need not have been marked.
+  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. A marking is not needed.
   integer(int64), intent(in) :: n_from                    !< At least 1.
   integer(int64), intent(in) :: from_num(n_from)          !< Nodes where paths begin, counted from 1, in any order.
   integer(int64), intent(in) :: n_to                      !< At least 1.
-  integer(int64), intent(in) :: to_num(n_to)              !< Nodes where they end.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int64), intent(in) :: to_num(n_to)              !< Nodes where paths end.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_PASSAGE_*.
-  integer(int64), intent(inout) :: node_num               !< The nearest node of the path, counted from 1; 0 without a path.
-  real(c_double), intent(inout) :: distance               !< Its distance, the smallest half thickness that closes it.
-  real(c_double), intent(inout) :: point(3)               !< Its coordinates.
+  integer(int64), intent(inout) :: node_num               !< The path's node nearest to the surface, from 1; 0 without a path.
+  real(c_double), intent(inout) :: distance               !< That node's distance, the smallest half thickness that closes the
+                                                          !! path.
+  real(c_double), intent(inout) :: point(3)               !< That node's coordinates.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
   type(riis_passage) :: passage

@@ -2,9 +2,9 @@
 ! Generated from fortran/templates/riis_f77_marking.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> The external subroutines for marking. The conventions are those of riis_f77.f90.
 
-!> Finds every node whose distance to the surface is at most the half thickness (marked) or the distance limit. Use the same
-!! marks every time step: their memory is kept. Errors: RIIS_INVALID_ARGUMENT for an option out of range; the marks are then
-!! as they were.
+!> Finds every node whose distance to the surface is at most the half thickness (marked) or the distance limit. Use the same marks
+!! in every time step, because they keep their memory. Errors: RIIS_INVALID_ARGUMENT for an option out of range; the marks are
+!! then as they were.
 subroutine riisf_mark_nodes(surface, mesh, distance_limit, search, n_threads, marks, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -12,12 +12,13 @@ subroutine riisf_mark_nodes(surface, mesh, distance_limit, search, n_threads, ma
     riis_marks_create, riis_marks_destroy
   use riis_support, only: c_handle_of, handle_of
   implicit none
-  integer(int64), intent(in) :: surface                   !< Created.
-  integer(int64), intent(in) :: mesh                      !< Created.
-  real(c_double), intent(in) :: distance_limit            !< Nodes get their distance up to here; RIIS_AUTO: the half thickness.
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: mesh                      !< Must be created.
+  real(c_double), intent(in) :: distance_limit            !< Nodes get their distance up to this limit; RIIS_AUTO: the half
+                                                          !! thickness.
   integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
-  integer(int64), intent(inout) :: marks                  !< 0, which creates one, or from a call before.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int64), intent(inout) :: marks                  !< 0, which creates one, or from an earlier call.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
   type(c_ptr) :: c_handle
@@ -29,7 +30,7 @@ subroutine riisf_mark_nodes(surface, mesh, distance_limit, search, n_threads, ma
   c_handle = c_handle_of(marks)
   if (marks == 0) status = riis_marks_create(c_handle)
   if (status == RIIS_OK) status = riis_mark_nodes(c_handle_of(surface), c_handle_of(mesh), options, c_handle)
-  if (status /= RIIS_OK .and. marks == 0) call riis_marks_destroy(c_handle) ! 0 as before
+  if (status /= RIIS_OK .and. marks == 0) call riis_marks_destroy(c_handle) ! the handle stays 0, as before the call
   marks = handle_of(c_handle)
 end subroutine riisf_mark_nodes
 
@@ -43,8 +44,8 @@ subroutine riisf_marked(marks, length, n, node_num, distance, status)
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
-  integer(int32), intent(in) :: length                    !< Of the arrays.
-  integer(int32), intent(inout) :: n                      !< The number of nodes, also if the arrays are too short.
+  integer(int32), intent(in) :: length                    !< The length of the arrays.
+  integer(int32), intent(inout) :: n                      !< The number of nodes, even if the arrays are too short.
   integer(int32), intent(inout) :: node_num(*)            !< (length): counted from 1; written up to n.
   real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -82,8 +83,8 @@ subroutine riisf_marked_64(marks, length, n, node_num, distance, status)
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
-  integer(int64), intent(in) :: length                    !< Of the arrays.
-  integer(int64), intent(inout) :: n                      !< The number of nodes, also if the arrays are too short.
+  integer(int64), intent(in) :: length                    !< The length of the arrays.
+  integer(int64), intent(inout) :: n                      !< The number of nodes, even if the arrays are too short.
   integer(int64), intent(inout) :: node_num(*)            !< (length): counted from 1; written up to n.
   real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -117,8 +118,8 @@ subroutine riisf_within_limit(marks, length, n, node_num, distance, status)
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
-  integer(int32), intent(in) :: length                    !< Of the arrays.
-  integer(int32), intent(inout) :: n                      !< The number of nodes, also if the arrays are too short.
+  integer(int32), intent(in) :: length                    !< The length of the arrays.
+  integer(int32), intent(inout) :: n                      !< The number of nodes, even if the arrays are too short.
   integer(int32), intent(inout) :: node_num(*)            !< (length): counted from 1; written up to n.
   real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -156,8 +157,8 @@ subroutine riisf_within_limit_64(marks, length, n, node_num, distance, status)
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
-  integer(int64), intent(in) :: length                    !< Of the arrays.
-  integer(int64), intent(inout) :: n                      !< The number of nodes, also if the arrays are too short.
+  integer(int64), intent(in) :: length                    !< The length of the arrays.
+  integer(int64), intent(inout) :: n                      !< The number of nodes, even if the arrays are too short.
   integer(int64), intent(inout) :: node_num(*)            !< (length): counted from 1; written up to n.
   real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -181,7 +182,7 @@ subroutine riisf_within_limit_64(marks, length, n, node_num, distance, status)
   distance(:n) = near
 end subroutine riisf_within_limit_64
 
-!> Writes every node's distance. Errors: RIIS_INVALID_ARGUMENT for a far_distance that looks near.
+!> Writes every node's distance. Errors: RIIS_INVALID_ARGUMENT for a far_distance within the distance limit.
 subroutine riisf_dense_distance(marks, n_nodes, far_distance, distance, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -253,7 +254,7 @@ subroutine riisf_marks_destroy(handle)
   use riis_c, only: riis_marks_destroy
   use riis_support, only: c_handle_of, handle_of
   implicit none
-  integer(int64), intent(inout) :: handle                 !< Any.
+  integer(int64), intent(inout) :: handle                 !< May be 0.
   type(c_ptr) :: c_handle
   c_handle = c_handle_of(handle)
   call riis_marks_destroy(c_handle)

@@ -1,19 +1,19 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! Generated from fortran/templates/riis_f77_queries.fypp by fortran/expand_templates.sh: edit that template, not this file.
-!> The external subroutines for what a surface consists of, and for closest points. The conventions are those of
+!> The external subroutines for a surface's vertices and their velocities, and for closest points. The conventions are those of
 !! riis_f77.f90.
 
 !> Copies the surface's vertices, after placement, into the caller's array. Errors: RIIS_INVALID_ARGUMENT if the array is too
-!! short: nothing but n is then written.
+!! short; only n is then written.
 subroutine riisf_surface_vertices(surface, length, n, xyz, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_get_triangles, riis_triangles
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: surface                   !< Created.
-  integer(int32), intent(in) :: length                    !< How many vertices the array has room for.
-  integer(int32), intent(inout) :: n                      !< How many vertices there are, also if the array is too short.
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int32), intent(in) :: length                    !< The number of vertices for which the array has room.
+  integer(int32), intent(inout) :: n                      !< The number of vertices, even if the array is too short.
   real(c_double), intent(inout) :: xyz(*)                 !< (3, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_triangles) :: triangles
@@ -37,9 +37,9 @@ subroutine riisf_surface_vertices_64(surface, length, n, xyz, status)
   use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_get_triangles, riis_triangles
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: surface                   !< Created.
-  integer(int64), intent(in) :: length                    !< How many vertices the array has room for.
-  integer(int64), intent(inout) :: n                      !< How many vertices there are, also if the array is too short.
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: length                    !< The number of vertices for which the array has room.
+  integer(int64), intent(inout) :: n                      !< The number of vertices, even if the array is too short.
   real(c_double), intent(inout) :: xyz(*)                 !< (3, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_triangles) :: triangles
@@ -56,17 +56,17 @@ subroutine riisf_surface_vertices_64(surface, length, n, xyz, status)
   end if
 end subroutine riisf_surface_vertices_64
 
-!> Copies the velocities of the surface's vertices, after placement, into the caller's array. Errors: RIIS_INVALID_ARGUMENT if
-!! the last update gave none, or if the array is too short: nothing but n is then written.
+!> Copies the velocities of the surface's vertices, after placement, into the caller's array. Errors: RIIS_INVALID_ARGUMENT if the
+!! last update gave none, or if the array is too short; only n is then written.
 subroutine riisf_surface_vertex_velocities(surface, length, n, velocity, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_get_triangles, riis_triangles
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: surface                   !< Created.
-  integer(int32), intent(in) :: length                    !< How many vertices the array has room for.
-  integer(int32), intent(inout) :: n                      !< How many vertices there are, also if the array is too short.
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int32), intent(in) :: length                    !< The number of vertices for which the array has room.
+  integer(int32), intent(inout) :: n                      !< The number of vertices, even if the array is too short.
   real(c_double), intent(inout) :: velocity(*)            !< (3, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_triangles) :: triangles
@@ -92,9 +92,9 @@ subroutine riisf_surface_vertex_velocities_64(surface, length, n, velocity, stat
   use riis_c, only: riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_get_triangles, riis_triangles
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
-  integer(int64), intent(in) :: surface                   !< Created.
-  integer(int64), intent(in) :: length                    !< How many vertices the array has room for.
-  integer(int64), intent(inout) :: n                      !< How many vertices there are, also if the array is too short.
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: length                    !< The number of vertices for which the array has room.
+  integer(int64), intent(inout) :: n                      !< The number of vertices, even if the array is too short.
   real(c_double), intent(inout) :: velocity(*)            !< (3, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_triangles) :: triangles
@@ -115,7 +115,7 @@ end subroutine riisf_surface_vertex_velocities_64
 
 !> Finds the closest points of the surface to many points, in parallel. No array may overlap another. Errors:
 !! RIIS_INVALID_ARGUMENT naming the first bad point, counted from 0, or for a surface that measures distances by sampling or
-!! minimisation, which has no sides. Nothing is then written.
+!! minimisation, because it has no sides. Nothing is then written.
 subroutine riisf_closest_points(surface, n_points, x, y, z, stride, &
     distance_limit, n_threads, distance, point, normal, triangle_id, leaflet_id, &
     side, status)
@@ -125,15 +125,15 @@ subroutine riisf_closest_points(surface, n_points, x, y, z, stride, &
     riis_closest_options_init, riis_closest_points, riis_points, riis_points_init
   use riis_support, only: c_handle_of, location_of
   implicit none
-  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int32), intent(in) :: n_points                  !< >= 0.
   real(c_double), intent(in) :: x(*)                      !< Point i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Point i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Point i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
-  real(c_double), intent(in) :: distance_limit            !< >= 0: farther points get RIIS_FAR_DISTANCE, ids -1, side 0, zeros.
+  real(c_double), intent(in) :: distance_limit            !< >= 0. Farther points get RIIS_FAR_DISTANCE, ids -1, side 0 and zeros.
                                                           !! HUGE(1D0): no limit.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
   real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
   real(c_double), intent(inout) :: normal(*)              !< (3, n_points): the triangle's unit normal.
@@ -176,15 +176,15 @@ subroutine riisf_closest_points_64(surface, n_points, x, y, z, stride, &
     riis_closest_options_init, riis_closest_points, riis_points, riis_points_init
   use riis_support, only: c_handle_of, location_of
   implicit none
-  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: n_points                  !< >= 0.
   real(c_double), intent(in) :: x(*)                      !< Point i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Point i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Point i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
-  real(c_double), intent(in) :: distance_limit            !< >= 0: farther points get RIIS_FAR_DISTANCE, ids -1, side 0, zeros.
+  real(c_double), intent(in) :: distance_limit            !< >= 0. Farther points get RIIS_FAR_DISTANCE, ids -1, side 0 and zeros.
                                                           !! HUGE(1D0): no limit.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
   real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
   real(c_double), intent(inout) :: normal(*)              !< (3, n_points): the triangle's unit normal.
@@ -217,7 +217,7 @@ subroutine riisf_closest_points_64(surface, n_points, x, y, z, stride, &
   status = riis_closest_points(c_handle_of(surface), points, options, arrays)
 end subroutine riisf_closest_points_64
 
-!> The same for some of the points: only they are read, and only their entries are written, in their places.
+!> Does the same for a list of points. Only these points are read, and only their entries are written.
 subroutine riisf_closest_points_listed(surface, n_points, x, y, z, stride, &
     n_listed, point_num, distance_limit, n_threads, distance, point, normal, triangle_id, leaflet_id, &
     side, status)
@@ -227,18 +227,18 @@ subroutine riisf_closest_points_listed(surface, n_points, x, y, z, stride, &
     riis_closest_options_init, riis_closest_points, riis_points, riis_points_init
   use riis_support, only: c_handle_of, location_of, out_of_memory
   implicit none
-  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int32), intent(in) :: n_points                  !< >= 0.
   real(c_double), intent(in) :: x(*)                      !< Point i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Point i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Point i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   integer(int32), intent(in) :: n_listed                  !< 0 to n_points.
-  integer(int32), intent(in) :: point_num(*)              !< (n_listed), strictly ascending, from 1, as riisf_marked gives
-                                                          !! nodes; copied.
-  real(c_double), intent(in) :: distance_limit            !< >= 0: farther points get RIIS_FAR_DISTANCE, ids -1, side 0, zeros.
+  integer(int32), intent(in) :: point_num(*)              !< (n_listed), strictly ascending, from 1, like the nodes of
+                                                          !! riisf_marked; copied.
+  real(c_double), intent(in) :: distance_limit            !< >= 0. Farther points get RIIS_FAR_DISTANCE, ids -1, side 0 and zeros.
                                                           !! HUGE(1D0): no limit.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
   real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
   real(c_double), intent(inout) :: normal(*)              !< (3, n_points): the triangle's unit normal.
@@ -255,7 +255,7 @@ subroutine riisf_closest_points_listed(surface, n_points, x, y, z, stride, &
   status = riis_closest_options_init(options, c_sizeof(options))
   if (status == RIIS_OK) status = riis_closest_arrays_init(arrays, c_sizeof(arrays))
   if (status /= RIIS_OK) return
-  allocate (ids(max(n_listed, 1_int32)), stat=stat) ! a list of no points is a list
+  allocate (ids(max(n_listed, 1_int32)), stat=stat) ! an empty list still needs an address
   status = out_of_memory(stat)
   if (status /= RIIS_OK) return
   ids(:n_listed) = int(point_num(:n_listed), int64) - 1
@@ -289,18 +289,18 @@ subroutine riisf_closest_points_listed_64(surface, n_points, x, y, z, stride, &
     riis_closest_options_init, riis_closest_points, riis_points, riis_points_init
   use riis_support, only: c_handle_of, location_of, out_of_memory
   implicit none
-  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: n_points                  !< >= 0.
   real(c_double), intent(in) :: x(*)                      !< Point i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Point i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Point i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   integer(int64), intent(in) :: n_listed                  !< 0 to n_points.
-  integer(int64), intent(in) :: point_num(*)              !< (n_listed), strictly ascending, from 1, as riisf_marked gives
-                                                          !! nodes; copied.
-  real(c_double), intent(in) :: distance_limit            !< >= 0: farther points get RIIS_FAR_DISTANCE, ids -1, side 0, zeros.
+  integer(int64), intent(in) :: point_num(*)              !< (n_listed), strictly ascending, from 1, like the nodes of
+                                                          !! riisf_marked; copied.
+  real(c_double), intent(in) :: distance_limit            !< >= 0. Farther points get RIIS_FAR_DISTANCE, ids -1, side 0 and zeros.
                                                           !! HUGE(1D0): no limit.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
   real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
   real(c_double), intent(inout) :: normal(*)              !< (3, n_points): the triangle's unit normal.
@@ -317,7 +317,7 @@ subroutine riisf_closest_points_listed_64(surface, n_points, x, y, z, stride, &
   status = riis_closest_options_init(options, c_sizeof(options))
   if (status == RIIS_OK) status = riis_closest_arrays_init(arrays, c_sizeof(arrays))
   if (status /= RIIS_OK) return
-  allocate (ids(max(n_listed, 1_int64)), stat=stat) ! a list of no points is a list
+  allocate (ids(max(n_listed, 1_int64)), stat=stat) ! an empty list still needs an address
   status = out_of_memory(stat)
   if (status /= RIIS_OK) return
   ids(:n_listed) = int(point_num(:n_listed), int64) - 1

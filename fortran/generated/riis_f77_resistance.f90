@@ -2,8 +2,8 @@
 ! Generated from fortran/templates/riis_f77_resistance.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> The external subroutines for the resistance. The conventions are those of riis_f77.f90.
 
-!> As riisf_mark_with_fields, and makes K and K u_surface of the nodes in the lists. K u_surface is there if the surface has
-!! velocities. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
+!> Does the same as riisf_mark_with_fields, and also computes K and K u_surface of the nodes in the lists. K u_surface exists if
+!! the surface has velocities. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
 subroutine riisf_mark_with_resistance(surface, mesh, distance_limit, search, n_threads, fields, R, half_thickness, rim, marks, &
     status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
@@ -12,16 +12,17 @@ subroutine riisf_mark_with_resistance(surface, mesh, distance_limit, search, n_t
     riis_marks_create, riis_marks_destroy, riis_resistance_init
   use riis_support, only: c_handle_of, handle_of
   implicit none
-  integer(int64), intent(in) :: surface                   !< Created.
-  integer(int64), intent(in) :: mesh                      !< Created.
-  real(c_double), intent(in) :: distance_limit            !< Nodes get their distance up to here; RIIS_AUTO: the half thickness.
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: mesh                      !< Must be created.
+  real(c_double), intent(in) :: distance_limit            !< Nodes get their distance up to this limit; RIIS_AUTO: the half
+                                                          !! thickness.
   integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(in) :: fields                    !< A sum of RIIS_FIELD_*; 0: none.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit; RIIS_AUTO: the half thickness.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND or RIIS_RIM_CUT.
-  integer(int64), intent(inout) :: marks                  !< 0, which creates them, or from a call before.
+  integer(int64), intent(inout) :: marks                  !< 0, which creates them, or from an earlier call.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
   type(riis_resistance), target :: made
@@ -40,14 +41,13 @@ subroutine riisf_mark_with_resistance(surface, mesh, distance_limit, search, n_t
   c_handle = c_handle_of(marks)
   if (marks == 0) status = riis_marks_create(c_handle)
   if (status == RIIS_OK) status = riis_mark_nodes(c_handle_of(surface), c_handle_of(mesh), options, c_handle)
-  if (status /= RIIS_OK .and. marks == 0) call riis_marks_destroy(c_handle) ! 0 as before
+  if (status /= RIIS_OK .and. marks == 0) call riis_marks_destroy(c_handle) ! the handle stays 0, as before the call
   marks = handle_of(c_handle)
 end subroutine riisf_mark_with_resistance
 
 !> Copies K and K u_surface of the nodes that are marked, in the order of riisf_marked.
-!! Without velocities K u_surface is
-!! 0. Errors: RIIS_INVALID_ARGUMENT without riisf_mark_with_resistance, or if the arrays are too short: nothing but n is then
-!! written.
+!! Without velocities K u_surface is zero. Errors: RIIS_INVALID_ARGUMENT without riisf_mark_with_resistance, or if the arrays are
+!! too short; only n is then written.
 subroutine riisf_marked_resistance(marks, length, n, K, K_u_surface, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -55,8 +55,8 @@ subroutine riisf_marked_resistance(marks, length, n, K, K_u_surface, status)
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_resistance.
-  integer(int32), intent(in) :: length                    !< How many nodes the arrays have room for.
-  integer(int32), intent(inout) :: n                      !< How many nodes there are, also if the arrays are too short.
+  integer(int32), intent(in) :: length                    !< The number of nodes for which the arrays have room.
+  integer(int32), intent(inout) :: n                      !< The number of nodes, even if the arrays are too short.
   real(c_double), intent(inout) :: K(*)                   !< (length); written up to n.
   real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -88,8 +88,8 @@ subroutine riisf_marked_resistance_64(marks, length, n, K, K_u_surface, status)
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_resistance.
-  integer(int64), intent(in) :: length                    !< How many nodes the arrays have room for.
-  integer(int64), intent(inout) :: n                      !< How many nodes there are, also if the arrays are too short.
+  integer(int64), intent(in) :: length                    !< The number of nodes for which the arrays have room.
+  integer(int64), intent(inout) :: n                      !< The number of nodes, even if the arrays are too short.
   real(c_double), intent(inout) :: K(*)                   !< (length); written up to n.
   real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -114,9 +114,8 @@ subroutine riisf_marked_resistance_64(marks, length, n, K, K_u_surface, status)
 end subroutine riisf_marked_resistance_64
 
 !> Copies K and K u_surface of the nodes within the distance limit, in the order of riisf_within_limit.
-!! Without velocities K u_surface is
-!! 0. Errors: RIIS_INVALID_ARGUMENT without riisf_mark_with_resistance, or if the arrays are too short: nothing but n is then
-!! written.
+!! Without velocities K u_surface is zero. Errors: RIIS_INVALID_ARGUMENT without riisf_mark_with_resistance, or if the arrays are
+!! too short; only n is then written.
 subroutine riisf_within_limit_resistance(marks, length, n, K, K_u_surface, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -124,8 +123,8 @@ subroutine riisf_within_limit_resistance(marks, length, n, K, K_u_surface, statu
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_resistance.
-  integer(int32), intent(in) :: length                    !< How many nodes the arrays have room for.
-  integer(int32), intent(inout) :: n                      !< How many nodes there are, also if the arrays are too short.
+  integer(int32), intent(in) :: length                    !< The number of nodes for which the arrays have room.
+  integer(int32), intent(inout) :: n                      !< The number of nodes, even if the arrays are too short.
   real(c_double), intent(inout) :: K(*)                   !< (length); written up to n.
   real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -157,8 +156,8 @@ subroutine riisf_within_limit_resistance_64(marks, length, n, K, K_u_surface, st
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_resistance.
-  integer(int64), intent(in) :: length                    !< How many nodes the arrays have room for.
-  integer(int64), intent(inout) :: n                      !< How many nodes there are, also if the arrays are too short.
+  integer(int64), intent(in) :: length                    !< The number of nodes for which the arrays have room.
+  integer(int64), intent(inout) :: n                      !< The number of nodes, even if the arrays are too short.
   real(c_double), intent(inout) :: K(*)                   !< (length); written up to n.
   real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -234,7 +233,7 @@ subroutine riisf_add_resistance_64(marks, R, half_thickness, rim, n_nodes, K, st
   status = add_resistance_to(c_handle_of(marks), made, int(n_nodes, int64), K)
 end subroutine riisf_add_resistance_64
 
-!> The same for a surface that moves: adds K u_surface also. A scheme takes (sum of K) u - (sum of K u_surface).
+!> Does the same for a surface that moves, and also adds K u_surface. A scheme uses (sum of K) u - (sum of K u_surface).
 subroutine riisf_add_moving_resistance(marks, R, half_thickness, rim, n_nodes, K, K_u_surface, &
     status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -243,7 +242,7 @@ subroutine riisf_add_moving_resistance(marks, R, half_thickness, rim, n_nodes, K
   use riis_calls, only: add_resistance_to
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: marks                     !< Of riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
                                                           !! half thickness of the marking.
@@ -270,7 +269,7 @@ subroutine riisf_add_moving_resistance_64(marks, R, half_thickness, rim, n_nodes
   use riis_calls, only: add_resistance_to
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: marks                     !< Of riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
                                                           !! half thickness of the marking.
@@ -288,8 +287,8 @@ subroutine riisf_add_moving_resistance_64(marks, R, half_thickness, rim, n_nodes
   status = add_resistance_to(c_handle_of(marks), made, int(n_nodes, int64), K, K_u_surface)
 end subroutine riisf_add_moving_resistance_64
 
-!> Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface). Ranks add theirs by a reduction.
-!! u_surface counts where the marking had RIIS_FIELD_VELOCITY, and is 0 otherwise. Errors: as of riisf_add_resistance.
+!> Adds the force of the flow on the surface: the sum of weight * K * (velocity - u_surface). Ranks sum their forces by a
+!! reduction. u_surface is used if the marking had RIIS_FIELD_VELOCITY, and is 0 otherwise. Errors: as for riisf_add_resistance.
 subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -297,16 +296,16 @@ subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, 
   use riis_calls, only: add_reaction_to
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: marks                     !< Of a call of riisf_mark_nodes or riisf_mark_with_fields.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
                                                           !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), of the flow.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that a node stands for; 0 for the nodes
-                                                          !! of other ranks.
-  real(c_double), intent(inout) :: force(3)               !< Added to.
+  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that belongs to a node; 0 for nodes of other
+                                                          !! ranks.
+  real(c_double), intent(inout) :: force(3)               !< The force is added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: made
   status = riis_resistance_init(made, c_sizeof(made))
@@ -325,16 +324,16 @@ subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocit
   use riis_calls, only: add_reaction_to
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: marks                     !< Of a call of riisf_mark_nodes or riisf_mark_with_fields.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
                                                           !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), of the flow.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that a node stands for; 0 for the nodes
-                                                          !! of other ranks.
-  real(c_double), intent(inout) :: force(3)               !< Added to.
+  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that belongs to a node; 0 for nodes of other
+                                                          !! ranks.
+  real(c_double), intent(inout) :: force(3)               !< The force is added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: made
   status = riis_resistance_init(made, c_sizeof(made))
@@ -345,9 +344,9 @@ subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocit
   status = add_reaction_to(c_handle_of(marks), made, int(n_nodes, int64), velocity, weight, force)
 end subroutine riisf_add_reaction_64
 
-!> Sums a value, such as the pressure, over the nodes at a distance from inner to outer, by side. Nodes whose closest point
-!! is on the rim, or that are on neither side, are left out. With an open valve the two sides have no meaning. Errors:
-!! RIIS_INVALID_ARGUMENT for a distance out of range, another number of nodes, or a field that the marks lack.
+!> Sums a value, such as the pressure, over the nodes at a distance from inner to outer, separately for each side. Nodes whose
+!! closest point is on the rim, or that are on neither side, are left out. If the valve is open, the two sides have no meaning.
+!! Errors: RIIS_INVALID_ARGUMENT for a distance out of range, another number of nodes, or a field that the marks lack.
 subroutine riisf_band_sums(marks, inner, outer, n_nodes, value, weight, sum_of_values, sum_of_weights, n_in_band, &
     status)
   use, intrinsic :: iso_c_binding, only: c_double
@@ -356,16 +355,16 @@ subroutine riisf_band_sums(marks, inner, outer, n_nodes, value, weight, sum_of_v
   use riis_calls, only: band_sums_of
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: marks                     !< Of riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
   real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
   real(c_double), intent(in) :: outer                     !< Mesh units, at most the distance limit of the marking.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: value(*)                  !< (n_nodes).
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that a node stands for; 0 for the nodes
-                                                          !! of other ranks.
-  real(c_double), intent(inout) :: sum_of_values(2)       !< Of weight * value: 1 is upstream, 2 downstream.
-  real(c_double), intent(inout) :: sum_of_weights(2)      !< Of weight.
-  integer(int64), intent(inout) :: n_in_band(2)           !< How many nodes. INTEGER*8.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that belongs to a node; 0 for nodes of other
+                                                          !! ranks.
+  real(c_double), intent(inout) :: sum_of_values(2)       !< The sum of weight * value: 1 is upstream, 2 downstream.
+  real(c_double), intent(inout) :: sum_of_weights(2)      !< The sum of weight.
+  integer(int64), intent(inout) :: n_in_band(2)           !< The number of nodes. INTEGER*8.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_band_sums) :: sums
   status = band_sums_of(c_handle_of(marks), inner, outer, int(n_nodes, int64), value, weight, sums)
@@ -384,16 +383,16 @@ subroutine riisf_band_sums_64(marks, inner, outer, n_nodes, value, weight, sum_o
   use riis_calls, only: band_sums_of
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: marks                     !< Of riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
   real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
   real(c_double), intent(in) :: outer                     !< Mesh units, at most the distance limit of the marking.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: value(*)                  !< (n_nodes).
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that a node stands for; 0 for the nodes
-                                                          !! of other ranks.
-  real(c_double), intent(inout) :: sum_of_values(2)       !< Of weight * value: 1 is upstream, 2 downstream.
-  real(c_double), intent(inout) :: sum_of_weights(2)      !< Of weight.
-  integer(int64), intent(inout) :: n_in_band(2)           !< How many nodes. INTEGER*8.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that belongs to a node; 0 for nodes of other
+                                                          !! ranks.
+  real(c_double), intent(inout) :: sum_of_values(2)       !< The sum of weight * value: 1 is upstream, 2 downstream.
+  real(c_double), intent(inout) :: sum_of_weights(2)      !< The sum of weight.
+  integer(int64), intent(inout) :: n_in_band(2)           !< The number of nodes. INTEGER*8.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_band_sums) :: sums
   status = band_sums_of(c_handle_of(marks), inner, outer, int(n_nodes, int64), value, weight, sums)

@@ -11,15 +11,15 @@ module riis_frames
   private
   public :: riis_keyframes
 
-  !> A surface that moves by frames, such as a patient's valve: the same faces, other places of the vertices.
-  !! riis_surface%create_from_keyframes and %update_from_keyframes make a surface of it at a time. It is empty until %create
-  !! and after %destroy, which must be called. Any number of threads may read it at once.
+  !> A surface that moves by frames, such as a patient's valve. All frames have the same faces, but other positions of the
+  !! vertices. riis_surface%create_from_keyframes and %update_from_keyframes make the surface at a time. Keyframes are empty
+  !! before %create and after %destroy, which must be called. Any number of threads may read them at once.
   type :: riis_keyframes
     private
     type(c_ptr) :: handle = c_null_ptr
   contains
-    generic :: create => create_int32, create_int64                 !< Makes it from the caller's frames.
-    procedure, non_overridable :: is_created => keyframes_is_created    !< Tells whether it was created.
+    generic :: create => create_int32, create_int64                 !< Makes the keyframes from the caller's frames.
+    procedure, non_overridable :: is_created => keyframes_is_created    !< Returns whether it was created.
     procedure, non_overridable :: c_handle => keyframes_c_handle        !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => keyframes_destroy          !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -30,22 +30,22 @@ module riis_frames
 
 contains
 
-  !> Makes keyframes from frames, which are copied. Faces are as in %create_from_arrays of a surface. Errors:
-  !! RIIS_INVALID_ARGUMENT naming the key and its value, from 0; RIIS_INVALID_SURFACE naming the frame, vertex or face.
+  !> Makes keyframes from frames, which are copied. The faces are as for %create_from_arrays of a surface. Errors:
+  !! RIIS_INVALID_ARGUMENT naming the key, counted from 0, and its value; RIIS_INVALID_SURFACE naming the frame, vertex or face.
   subroutine keyframes_create_int32(this, time, xyz, vertex_ids, leaflet_id, index_base, period, interpolation, status)
     class(riis_keyframes), intent(inout) :: this            !< Must be empty.
     real(c_double), intent(in), contiguous, target :: time(:) !< (n_keys), 1 to 1,000,000, strictly ascending, magnitude at
                                                             !! most 1e30.
-    real(c_double), intent(in), contiguous, target :: xyz(:, :, :) !< (3, n_vertices, n_keys): the vertices, frame after
-                                                            !! frame.
+    real(c_double), intent(in), contiguous, target :: xyz(:, :, :) !< (3, n_vertices, n_keys): the vertices, one frame after
+                                                            !! the other.
     integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex's number. Default 1.
-    real(c_double), intent(in), optional :: period          !< > 0: the motion repeats; its keys lie within a period of the
-                                                            !! first, and a last key that is a period after the first has its
-                                                            !! frame. Default 0: the first frame counts before its time, the
-                                                            !! last one after it.
-    class(*), intent(in), optional :: interpolation         !< integer, RIIS_INTERPOLATION_*, of each coordinate. Default
+    real(c_double), intent(in), optional :: period          !< > 0: the motion repeats. Its keys lie within one period of the
+                                                            !! first. A last key one period after the first must have the same
+                                                            !! frame. Default 0: the surface rests before the first frame and
+                                                            !! after the last.
+    class(*), intent(in), optional :: interpolation         !< integer, RIIS_INTERPOLATION_*, for every coordinate. Default
                                                             !! RIIS_INTERPOLATION_LINEAR.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_surface_arrays) :: faces
@@ -63,16 +63,16 @@ contains
     class(riis_keyframes), intent(inout) :: this            !< Must be empty.
     real(c_double), intent(in), contiguous, target :: time(:) !< (n_keys), 1 to 1,000,000, strictly ascending, magnitude at
                                                             !! most 1e30.
-    real(c_double), intent(in), contiguous, target :: xyz(:, :, :) !< (3, n_vertices, n_keys): the vertices, frame after
-                                                            !! frame.
+    real(c_double), intent(in), contiguous, target :: xyz(:, :, :) !< (3, n_vertices, n_keys): the vertices, one frame after
+                                                            !! the other.
     integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex's number. Default 1.
-    real(c_double), intent(in), optional :: period          !< > 0: the motion repeats; its keys lie within a period of the
-                                                            !! first, and a last key that is a period after the first has its
-                                                            !! frame. Default 0: the first frame counts before its time, the
-                                                            !! last one after it.
-    class(*), intent(in), optional :: interpolation         !< integer, RIIS_INTERPOLATION_*, of each coordinate. Default
+    real(c_double), intent(in), optional :: period          !< > 0: the motion repeats. Its keys lie within one period of the
+                                                            !! first. A last key one period after the first must have the same
+                                                            !! frame. Default 0: the surface rests before the first frame and
+                                                            !! after the last.
+    class(*), intent(in), optional :: interpolation         !< integer, RIIS_INTERPOLATION_*, for every coordinate. Default
                                                             !! RIIS_INTERPOLATION_LINEAR.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_surface_arrays) :: faces
@@ -85,7 +85,7 @@ contains
     call finish(code, status)
   end subroutine keyframes_create_int64
 
-  ! This is the common part of both specifics of create. It does nothing after an error.
+  ! The common part of both specific procedures of create. It does nothing after an error.
   subroutine create(this, time, xyz, faces, period, interpolation, code)
     class(riis_keyframes), intent(inout) :: this
     real(c_double), intent(in), contiguous, target :: time(:), xyz(:, :, :)
@@ -108,16 +108,16 @@ contains
     code = riis_keyframes_create(faces, frames, this%handle)
   end subroutine create
 
-  !> Tells whether the keyframes were created and not destroyed.
+  !> Returns whether the keyframes were created and not destroyed.
   pure function keyframes_is_created(this) result(is_created)
-    class(riis_keyframes), intent(in) :: this               !< Any.
+    class(riis_keyframes), intent(in) :: this               !< May be empty.
     logical :: is_created                                   !< .false. for empty ones.
     is_created = c_associated(this%handle)
   end function keyframes_is_created
 
   !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
   function keyframes_c_handle(this) result(handle)
-    class(riis_keyframes), intent(in) :: this               !< Any.
+    class(riis_keyframes), intent(in) :: this               !< May be empty.
     type(c_ptr) :: handle                                   !< c_null_ptr for empty ones.
     handle = this%handle
   end function keyframes_c_handle
@@ -125,14 +125,14 @@ contains
   !> Frees the memory of the keyframes, which are then empty and can be created again. Surfaces made from them stay. Nothing
   !! happens to empty ones.
   subroutine keyframes_destroy(this)
-    class(riis_keyframes), intent(inout) :: this            !< Any.
+    class(riis_keyframes), intent(inout) :: this            !< May be empty.
     call riis_keyframes_destroy(this%handle)
   end subroutine keyframes_destroy
 
   !> Stops the program unless both are empty.
   impure elemental subroutine keyframes_assign(left, right)
-    class(riis_keyframes), intent(inout) :: left            !< Empty.
-    class(riis_keyframes), intent(in) :: right              !< Empty.
+    class(riis_keyframes), intent(inout) :: left            !< Must be empty.
+    class(riis_keyframes), intent(in) :: right              !< Must be empty.
     call refuse_copy(left%handle, right%handle, 'riis_keyframes')
   end subroutine keyframes_assign
 end module riis_frames

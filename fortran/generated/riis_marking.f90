@@ -13,8 +13,8 @@ module riis_marking
   private
   public :: riis_marks, riis_mark_list, riis_mark_nodes
 
-  !> Pointers to a list of a marking, by %get_list. The marks own the arrays, which count from 1 and ascend by node. The size of
-  !! an array that was not requested is 0.
+  !> Pointers to the arrays of a list, from %get_list. The marks own the arrays, which count from 1 and ascend by node. An array
+  !! that was not requested has the size 0.
   type :: riis_mark_list
     integer(int64) :: n_nodes = 0                           !< The number of nodes.
     integer(int64), pointer :: node_id(:) => null()         !< (n_nodes), from 0: node_id + 1 is the column of xyz.
@@ -26,17 +26,17 @@ module riis_marking
                                                             !! velocities.
     real(c_double), pointer :: point(:, :) => null()        !< (3, n_nodes): the closest point of the surface.
     real(c_double), pointer :: normal(:, :) => null()       !< (3, n_nodes): the unit normal of its triangle.
-    real(c_double), pointer :: barycentric(:, :) => null()  !< (3, n_nodes): its weights of the triangle's vertices.
-    real(c_double), pointer :: uv(:, :) => null()           !< (2, n_nodes): its place on its patch, in [0, 1].
-    real(c_double), pointer :: velocity(:, :) => null()     !< (3, n_nodes): the velocity of the surface there.
+    real(c_double), pointer :: barycentric(:, :) => null()  !< (3, n_nodes): the point's barycentric coordinates.
+    real(c_double), pointer :: uv(:, :) => null()           !< (2, n_nodes): the point's u and v on its patch, in [0, 1].
+    real(c_double), pointer :: velocity(:, :) => null()     !< (3, n_nodes): the surface's velocity at the point.
     integer(int32), pointer :: side(:) => null()            !< (n_nodes): 1 downstream, -1 upstream, 0 on the surface or level
                                                             !! with its rim.
     integer(int32), pointer :: rim(:) => null()             !< (n_nodes): 1 if the point lies on the rim of the surface, else 0.
     integer(int32), pointer :: patch_id(:) => null()        !< (n_nodes), from 0, as in riis_triangles.
   end type riis_mark_list
 
-  !> The nodes that a marking found, with their distances. It is empty until riis_mark_nodes and after %destroy, which must
-  !! be called. Use the same variable every time step: its memory is kept. Any number of threads may read it at once. One
+  !> The nodes that a marking found, with their distances. It is empty before riis_mark_nodes and after %destroy, which must be
+  !! called. Use the same variable in every time step, because it keeps its memory. Any number of threads may read it at once. One
   !! thread may write it while no other reads it.
   type :: riis_marks
     private
@@ -45,16 +45,16 @@ module riis_marking
     procedure, non_overridable :: n_marked => marks_n_marked           !< Returns the number of marked nodes.
     procedure, non_overridable :: n_within_limit => marks_n_within_limit !< Returns the number of nodes within the limit.
     procedure, non_overridable :: marked => marks_marked               !< Points to the arrays of the marked nodes.
-    procedure, non_overridable :: within_limit => marks_within_limit   !< Points to those of the nodes within the limit.
+    procedure, non_overridable :: within_limit => marks_within_limit   !< Points to the arrays of nodes within the limit.
     generic :: marked_nodes => marked_int32, marked_int64               !< Copies the marked nodes, counted from 1.
     generic :: nodes_within_limit => within_int32, within_int64         !< Copies the nodes within the limit, counted from 1.
-    procedure, non_overridable :: get_list => marks_get_list            !< Points to everything that a list has.
+    procedure, non_overridable :: get_list => marks_get_list            !< Points to all arrays of a list.
     procedure, non_overridable :: add_resistance => marks_add_resistance !< Adds K and K u_surface to the caller's arrays.
     procedure, non_overridable :: add_reaction => marks_add_reaction   !< Adds the force of the flow on the surface.
-    procedure, non_overridable :: band_sums => marks_band_sums         !< Sums on either side of the surface.
-    generic :: dense => dense_int8, dense_int32, dense_logical          !< Writes one entry a node into the caller's arrays.
-    procedure, non_overridable :: get_stats => marks_get_stats         !< Tells how the last marking went.
-    procedure, non_overridable :: is_created => marks_is_created       !< Tells whether it was created.
+    procedure, non_overridable :: band_sums => marks_band_sums         !< Sums a value on each side of the surface.
+    generic :: dense => dense_int8, dense_int32, dense_logical          !< Writes one entry per node into the caller's arrays.
+    procedure, non_overridable :: get_stats => marks_get_stats         !< Gives the statistics of the last marking.
+    procedure, non_overridable :: is_created => marks_is_created       !< Returns whether it was created.
     procedure, non_overridable :: c_handle => marks_c_handle           !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => marks_destroy             !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -82,27 +82,28 @@ module riis_marking
 
 contains
 
-  !> Finds every node whose distance to the surface is at most the half thickness (marked) or the distance limit. They
-  !! replace the marks' content; pointers got from it before end. Errors: RIIS_INVALID_MESH for a coordinate that became
-  !! non-finite without %update; RIIS_INVALID_ARGUMENT for an option out of range. The marks and pointers to them are then as
-  !! they were.
+  !> Finds every node whose distance to the surface is at most the half thickness (marked) or the distance limit. The result
+  !! replaces the marks' content, and earlier pointers to it become invalid. Errors: RIIS_INVALID_MESH for a coordinate that
+  !! became non-finite without %update; RIIS_INVALID_ARGUMENT for an option out of range. The marks and pointers to them are then
+  !! as they were.
   subroutine mark_nodes_logical(surface, mesh, marks, distance_limit, node_mask, search, n_threads, status, fields, R, &
       half_thickness, rim)
-    class(riis_surface), intent(in) :: surface              !< Created. Other calls under way may share it.
-    class(riis_mesh), intent(in) :: mesh                    !< Created. Other calls under way may share it.
-    class(riis_marks), intent(inout) :: marks               !< Empty, or from a call before.
-    real(c_double), intent(in), optional :: distance_limit  !< Nodes get their distance up to here, from the half thickness to
-                                                            !! 1e60. Default RIIS_AUTO: the half thickness.
+    class(riis_surface), intent(in) :: surface              !< Must be created. Calls on other threads may use it too.
+    class(riis_mesh), intent(in) :: mesh                    !< Must be created. Calls on other threads may use it too.
+    class(riis_marks), intent(inout) :: marks               !< Empty, or from an earlier call.
+    real(c_double), intent(in), optional :: distance_limit  !< Nodes get their distance up to this limit, from the half thickness
+                                                            !! to 1e60. Default RIIS_AUTO: the half thickness.
     logical, intent(in), optional :: node_mask(:)           !< (n_nodes): nodes with .false. are left out; copied. Default:
                                                             !! all nodes.
     class(*), intent(in), optional :: search                !< integer, RIIS_SEARCH_*. Default RIIS_SEARCH_AUTO.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    class(*), intent(in), optional :: fields                !< integer, a sum of RIIS_FIELD_*: what a list has of the closest
-                                                            !! points. Default 0: nothing.
-    real(c_double), intent(in), optional :: R               !< 0 to 1e60, mass / (length time): a list has K and K u_surface.
-    real(c_double), intent(in), optional :: half_thickness  !< eps of K, at most the distance limit. Default RIIS_AUTO: that of
-                                                            !! the surface. Needs R.
+    class(*), intent(in), optional :: fields                !< integer, a sum of RIIS_FIELD_*: the fields of the closest points in
+                                                            !! a list. Default 0: none.
+    real(c_double), intent(in), optional :: R               !< 0 to 1e60, mass / (length time): if given, a list has K and K
+                                                            !! u_surface.
+    real(c_double), intent(in), optional :: half_thickness  !< eps of K, at most the distance limit. Default RIIS_AUTO: the
+                                                            !! surface's half thickness. Needs R.
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND. Needs R.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
@@ -115,20 +116,21 @@ contains
   !> Does the same with a mask of bytes. Only a section that is not contiguous is copied.
   subroutine mark_nodes_int8(surface, mesh, marks, distance_limit, node_mask, search, n_threads, status, fields, R, &
       half_thickness, rim)
-    class(riis_surface), intent(in) :: surface              !< Created. Other calls under way may share it.
-    class(riis_mesh), intent(in) :: mesh                    !< Created. Other calls under way may share it.
-    class(riis_marks), intent(inout) :: marks               !< Empty, or from a call before.
-    real(c_double), intent(in), optional :: distance_limit  !< Nodes get their distance up to here, from the half thickness to
-                                                            !! 1e60. Default RIIS_AUTO: the half thickness.
+    class(riis_surface), intent(in) :: surface              !< Must be created. Calls on other threads may use it too.
+    class(riis_mesh), intent(in) :: mesh                    !< Must be created. Calls on other threads may use it too.
+    class(riis_marks), intent(inout) :: marks               !< Empty, or from an earlier call.
+    real(c_double), intent(in), optional :: distance_limit  !< Nodes get their distance up to this limit, from the half thickness
+                                                            !! to 1e60. Default RIIS_AUTO: the half thickness.
     integer(int8), intent(in), contiguous :: node_mask(:)   !< (n_nodes): nodes with 0 are left out.
     class(*), intent(in), optional :: search                !< integer, RIIS_SEARCH_*. Default RIIS_SEARCH_AUTO.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    class(*), intent(in), optional :: fields                !< integer, a sum of RIIS_FIELD_*: what a list has of the closest
-                                                            !! points. Default 0: nothing.
-    real(c_double), intent(in), optional :: R               !< 0 to 1e60, mass / (length time): a list has K and K u_surface.
-    real(c_double), intent(in), optional :: half_thickness  !< eps of K, at most the distance limit. Default RIIS_AUTO: that of
-                                                            !! the surface. Needs R.
+    class(*), intent(in), optional :: fields                !< integer, a sum of RIIS_FIELD_*: the fields of the closest points in
+                                                            !! a list. Default 0: none.
+    real(c_double), intent(in), optional :: R               !< 0 to 1e60, mass / (length time): if given, a list has K and K
+                                                            !! u_surface.
+    real(c_double), intent(in), optional :: half_thickness  !< eps of K, at most the distance limit. Default RIIS_AUTO: the
+                                                            !! surface's half thickness. Needs R.
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND. Needs R.
     integer(riis_status) :: code
     code = RIIS_OK
@@ -139,20 +141,21 @@ contains
   !> Does the same with a mask of integers, which is copied.
   subroutine mark_nodes_int32(surface, mesh, marks, distance_limit, node_mask, search, n_threads, status, fields, R, &
       half_thickness, rim)
-    class(riis_surface), intent(in) :: surface              !< Created. Other calls under way may share it.
-    class(riis_mesh), intent(in) :: mesh                    !< Created. Other calls under way may share it.
-    class(riis_marks), intent(inout) :: marks               !< Empty, or from a call before.
-    real(c_double), intent(in), optional :: distance_limit  !< Nodes get their distance up to here, from the half thickness to
-                                                            !! 1e60. Default RIIS_AUTO: the half thickness.
+    class(riis_surface), intent(in) :: surface              !< Must be created. Calls on other threads may use it too.
+    class(riis_mesh), intent(in) :: mesh                    !< Must be created. Calls on other threads may use it too.
+    class(riis_marks), intent(inout) :: marks               !< Empty, or from an earlier call.
+    real(c_double), intent(in), optional :: distance_limit  !< Nodes get their distance up to this limit, from the half thickness
+                                                            !! to 1e60. Default RIIS_AUTO: the half thickness.
     integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): nodes with 0 are left out.
     class(*), intent(in), optional :: search                !< integer, RIIS_SEARCH_*. Default RIIS_SEARCH_AUTO.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    class(*), intent(in), optional :: fields                !< integer, a sum of RIIS_FIELD_*: what a list has of the closest
-                                                            !! points. Default 0: nothing.
-    real(c_double), intent(in), optional :: R               !< 0 to 1e60, mass / (length time): a list has K and K u_surface.
-    real(c_double), intent(in), optional :: half_thickness  !< eps of K, at most the distance limit. Default RIIS_AUTO: that of
-                                                            !! the surface. Needs R.
+    class(*), intent(in), optional :: fields                !< integer, a sum of RIIS_FIELD_*: the fields of the closest points in
+                                                            !! a list. Default 0: none.
+    real(c_double), intent(in), optional :: R               !< 0 to 1e60, mass / (length time): if given, a list has K and K
+                                                            !! u_surface.
+    real(c_double), intent(in), optional :: half_thickness  !< eps of K, at most the distance limit. Default RIIS_AUTO: the
+                                                            !! surface's half thickness. Needs R.
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND. Needs R.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
@@ -162,7 +165,7 @@ contains
     call finish(code, status)
   end subroutine mark_nodes_int32
 
-  ! This is the common part of all specifics of riis_mark_nodes. It does nothing after an error.
+  ! The common part of all specific procedures of riis_mark_nodes. It does nothing after an error.
   subroutine mark(surface, mesh, marks, distance_limit, mask, search, n_threads, fields, R, half_thickness, rim, code)
     class(riis_surface), intent(in) :: surface
     class(riis_mesh), intent(in) :: mesh
@@ -195,7 +198,7 @@ contains
     end if
     if (code == RIIS_OK .and. was_empty) code = riis_marks_create(marks%handle)
     if (code == RIIS_OK) code = c_mark_nodes(surface%c_handle(), mesh%c_handle(), options, marks%handle)
-    if (code /= RIIS_OK .and. was_empty) call riis_marks_destroy(marks%handle) ! empty as before
+    if (code /= RIIS_OK .and. was_empty) call riis_marks_destroy(marks%handle) ! the marks were empty before the call and stay so
   end subroutine mark
 
   !> Returns the number of marked nodes.
@@ -224,7 +227,7 @@ contains
     call finish(code, status)
   end function marks_n_within_limit
 
-  ! The library's list of the marked nodes, or of those within the limit. On an error it is empty.
+  ! Gets the library's list of the marked nodes, or of the nodes within the limit. On an error the list is empty.
   function c_list(this, which, list) result(code)
     class(riis_marks), intent(in) :: this
     integer(int32), intent(in) :: which
@@ -236,7 +239,7 @@ contains
     if (code == RIIS_OK) code = riis_marks_get_list(this%handle, which, list, c_sizeof(list))
   end function c_list
 
-  ! Points to a list. A list without nodes has no address.
+  ! Points to a list's arrays. A list without nodes has no address.
   subroutine point_to(list, node_id, distance, triangle_id, leaflet_id)
     type(c_mark_list), intent(in) :: list
     integer(int64), pointer, intent(out), optional :: node_id(:), triangle_id(:)
@@ -260,9 +263,9 @@ contains
     end if
   end subroutine point_to
 
-  !> Points to the marks' own arrays of the marked nodes, ascending by node, without a copy. They are valid until the next
-  !! riis_mark_nodes with these marks or their destruction. Do not write to them. Without marked nodes, and on an error, their
-  !! sizes are 0.
+  !> Points to the marks' own arrays of marked nodes, ascending by node, without a copy. They are valid until the next
+  !! riis_mark_nodes with these marks or their destruction. Do not write to them. If there are no marked nodes, and on an error,
+  !! their sizes are 0.
   subroutine marks_marked(this, node_id, distance, triangle_id, leaflet_id, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     integer(int64), pointer, intent(out), optional :: node_id(:) !< (n), ascending, from 0: node_id + 1 is the column of xyz.
@@ -292,9 +295,9 @@ contains
     call finish(code, status)
   end subroutine marks_within_limit
 
-  !> Copies the arrays of the marked nodes, ascending by node; the copies stay when the marks go. Each array is allocated
-  !! to exactly the size that is needed, (0) for none, unless it has that size. Errors: RIIS_LIMIT_EXCEEDED for a node that
-  !! integer(int32) cannot count; the arrays are left alone on an error.
+  !> Copies the arrays of marked nodes, ascending by node. The copies do not depend on the marks any more. Each array is allocated
+  !! to exactly the needed size, which may be 0, unless it has that size already. Errors: RIIS_LIMIT_EXCEEDED for a node number
+  !! too large for integer(int32); the arrays are unchanged on an error.
   subroutine result_marked_int32(this, node_num, distance, triangle_id, leaflet_id, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     integer(int32), allocatable, intent(inout) :: node_num(:)  !< (n), ascending, from 1: the column of xyz.
@@ -418,7 +421,7 @@ contains
     call finish(code, status)
   end subroutine result_within_int64
 
-  ! Copies the arrays besides that of the nodes.
+  ! Copies all arrays but node_num.
   function copy_list(list, distance, triangle_id, leaflet_id) result(code)
     type(c_mark_list), intent(in) :: list
     real(c_double), allocatable, intent(inout), optional :: distance(:)
@@ -455,9 +458,9 @@ contains
     code = out_of_memory(stat)
   end function copy_list
 
-  !> Writes one entry a node into the arrays that are given. Each has the size of the mesh's number of nodes. The compiler
-  !! copies sections that are not contiguous there and back. Errors: RIIS_INVALID_ARGUMENT for another size, or a
-  !! far_distance that looks near; nothing is then written.
+  !> Writes one entry per node into the arrays that are present. Each has the size of the mesh's number of nodes. For sections
+  !! that are not contiguous, the compiler makes copies in both directions. Errors: RIIS_INVALID_ARGUMENT for another size, or for
+  !! a far_distance within the distance limit; nothing is then written.
   subroutine marks_dense_int8(this, mark, distance, triangle_id, leaflet_id, far_distance, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     integer(int8), intent(inout), optional :: mark(:) !< (n_nodes): 1 for marked nodes, 0 for others; not copied.
@@ -467,7 +470,7 @@ contains
                                                             !! 0, else -1.
     integer(int32), intent(inout), optional :: leaflet_id(:) !< (n_nodes): for nodes within the distance limit, else
                                                             !! -1.
-    real(c_double), intent(in), optional :: far_distance    !< Any value outside [0, distance_limit], NaN also. Default
+    real(c_double), intent(in), optional :: far_distance    !< Any value outside [0, distance_limit], including NaN. Default
                                                             !! RIIS_FAR_DISTANCE.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int64) :: n
@@ -490,7 +493,7 @@ contains
 
   contains
 
-    ! The first array sets the size, which the library compares with the mesh.
+    ! The first array determines the size, which the library compares with the mesh.
     subroutine check(name, n_entries)
       character(len=*), intent(in) :: name
       integer(int64), intent(in) :: n_entries
@@ -500,7 +503,7 @@ contains
     end subroutine check
   end subroutine marks_dense_int8
 
-  !> Does the same with marks in another kind of integer, which are converted.
+  !> Does the same for marks of another integer kind, which are converted.
   subroutine marks_dense_int32(this, mark, distance, triangle_id, leaflet_id, far_distance, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     integer(int32), intent(inout) :: mark(:)                !< (n_nodes): 1 for marked nodes, 0 for others.
@@ -510,7 +513,7 @@ contains
                                                             !! 0, else -1.
     integer(int32), intent(inout), optional :: leaflet_id(:) !< (n_nodes): for nodes within the distance limit, else
                                                             !! -1.
-    real(c_double), intent(in), optional :: far_distance    !< Any value outside [0, distance_limit], NaN also. Default
+    real(c_double), intent(in), optional :: far_distance    !< Any value outside [0, distance_limit], including NaN. Default
                                                             !! RIIS_FAR_DISTANCE.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
@@ -523,7 +526,7 @@ contains
     call finish(code, status)
   end subroutine marks_dense_int32
 
-  !> Does the same with logical marks, which are converted.
+  !> Does the same for logical marks, which are converted.
   subroutine marks_dense_logical(this, mark, distance, triangle_id, leaflet_id, far_distance, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     logical, intent(inout) :: mark(:)                       !< (n_nodes): .true. for marked nodes.
@@ -533,7 +536,7 @@ contains
                                                             !! 0, else -1.
     integer(int32), intent(inout), optional :: leaflet_id(:) !< (n_nodes): for nodes within the distance limit, else
                                                             !! -1.
-    real(c_double), intent(in), optional :: far_distance    !< Any value outside [0, distance_limit], NaN also. Default
+    real(c_double), intent(in), optional :: far_distance    !< Any value outside [0, distance_limit], including NaN. Default
                                                             !! RIIS_FAR_DISTANCE.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
@@ -546,8 +549,8 @@ contains
     call finish(code, status)
   end subroutine marks_dense_logical
 
-  !> Points to everything that a list has, without a copy. It is valid until the next riis_mark_nodes with these marks or their
-  !! destruction. Do not write to it. On an error all sizes are 0.
+  !> Points to all arrays of a list, without a copy. They are valid until the next riis_mark_nodes with these marks or their
+  !! destruction. Do not write to them. On an error all sizes are 0.
   subroutine marks_get_list(this, which, list, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     integer(int32), intent(in) :: which                     !< RIIS_LIST_*.
@@ -581,7 +584,7 @@ contains
     call finish(code, status)
   end subroutine marks_get_list
 
-  ! Makes the resistance as the library takes it. Does nothing after an error.
+  ! Makes the library's struct of the resistance. Does nothing after an error.
   subroutine get_resistance(R, half_thickness, rim, made, code)
     real(c_double), intent(in) :: R
     real(c_double), intent(in), optional :: half_thickness
@@ -594,7 +597,7 @@ contains
     call get_integer(rim, 'rim', made%rim, code)
   end subroutine get_resistance
 
-  ! A vector for each node: its shape is (3, n_nodes).
+  ! Checks an array of one vector per node: its shape must be (3, n_nodes).
   function check_vectors(vectors, n, name) result(code)
     real(c_double), intent(in) :: vectors(:, :)
     integer(int64), intent(in) :: n
@@ -605,10 +608,10 @@ contains
       text_of(size(vectors, 1)) // ', ' // text_of(size(vectors, 2, int64)) // '); it must be (3, ' // text_of(n) // ')')
   end function check_vectors
 
-  !> Adds the resistance K = (R / eps) delta(d), and K u_surface, to arrays of the caller's, so that several valves add up: a
-  !! scheme takes (sum of K) u - (sum of K u_surface). delta(d) is (1 + cos(pi d / eps)) / (2 eps) at the distance d < eps.
-  !! Errors: RIIS_INVALID_ARGUMENT for an argument out of range, another number of nodes, or a field that the marks lack;
-  !! the arrays are then as they were.
+  !> Adds the resistance K = (R / eps) delta(d), and K u_surface, to the caller's arrays, so that several valves add up. A scheme
+  !! uses (sum of K) u - (sum of K u_surface). delta(d) is (1 + cos(pi d / eps)) / (2 eps) at the distance d < eps. Errors:
+  !! RIIS_INVALID_ARGUMENT for an argument out of range, another number of nodes, or a field that the marks lack; the arrays are
+  !! then as they were.
   subroutine marks_add_resistance(this, R, K, K_u_surface, half_thickness, rim, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
@@ -632,7 +635,7 @@ contains
     end if
     if (code == RIIS_OK .and. n < 0) code = refuse('none of K and K_u_surface is given')
     call get_resistance(R, half_thickness, rim, made, code)
-    ! An absent array of rank 2 is not passed on: gfortran would compute its size for a copy, from bounds that nobody set.
+    ! An absent array of rank 2 is not passed on, because gfortran would use its undefined bounds to compute the size of a copy.
     if (code == RIIS_OK) then
       if (present(K_u_surface)) then
         code = add_resistance_to(this%handle, made, n, K, K_u_surface)
@@ -643,15 +646,15 @@ contains
     call finish(code, status)
   end subroutine marks_add_resistance
 
-  !> Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface). Ranks add theirs by a reduction.
-  !! u_surface counts where the marking had RIIS_FIELD_VELOCITY, and is 0 otherwise. Errors: as of %add_resistance.
+  !> Adds the force of the flow on the surface: the sum of weight * K * (velocity - u_surface). Ranks sum their forces by a
+  !! reduction. u_surface is used if the marking had RIIS_FIELD_VELOCITY, and is 0 otherwise. Errors: as for %add_resistance.
   subroutine marks_add_reaction(this, R, velocity, weight, force, half_thickness, rim, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
-    real(c_double), intent(in) :: velocity(:, :) !< (3, n_nodes), of the flow.
-    real(c_double), intent(in) :: weight(:)     !< (n_nodes), the volume that a node stands for; 0 for the nodes of
+    real(c_double), intent(in) :: velocity(:, :) !< (3, n_nodes), the flow's velocity.
+    real(c_double), intent(in) :: weight(:)     !< (n_nodes), the volume that belongs to a node; 0 for nodes of
                                                             !! other ranks.
-    real(c_double), intent(inout) :: force(:)               !< (3): added to.
+    real(c_double), intent(inout) :: force(:)               !< (3): the force is added.
     real(c_double), intent(in), optional :: half_thickness  !< eps, at most the distance limit of the marking. Default
                                                             !! RIIS_AUTO: the half thickness of the marking.
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
@@ -675,17 +678,17 @@ contains
     call finish(code, status)
   end subroutine marks_add_reaction
 
-  !> Sums a value, such as the pressure, over the nodes at a distance from inner to outer, by side. Nodes whose closest point
-  !! is on the rim, or that are on neither side, are left out. With an open valve the two sides have no meaning. Errors:
-  !! RIIS_INVALID_ARGUMENT for a distance out of range, another number of nodes, or a field that the marks lack.
+  !> Sums a value, such as the pressure, over the nodes at a distance from inner to outer, separately for each side. Nodes whose
+  !! closest point is on the rim, or that are on neither side, are left out. If the valve is open, the two sides have no meaning.
+  !! Errors: RIIS_INVALID_ARGUMENT for a distance out of range, another number of nodes, or a field that the marks lack.
   subroutine marks_band_sums(this, inner, outer, value, weight, sums, status)
-    class(riis_marks), intent(in) :: this                   !< Of a call of riis_mark_nodes with RIIS_FIELD_SIDE + RIIS_FIELD_RIM.
+    class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes with RIIS_FIELD_SIDE + RIIS_FIELD_RIM.
     real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
     real(c_double), intent(in) :: outer                     !< Mesh units, at most the distance limit of the marking.
     real(c_double), intent(in) :: value(:)      !< (n_nodes).
-    real(c_double), intent(in) :: weight(:)     !< (n_nodes), the volume that a node stands for; 0 for the nodes of
+    real(c_double), intent(in) :: weight(:)     !< (n_nodes), the volume that belongs to a node; 0 for nodes of
                                                             !! other ranks.
-    type(riis_band_sums), intent(inout) :: sums             !< Entry 1 is upstream, 2 downstream. Left alone on an error.
+    type(riis_band_sums), intent(inout) :: sums             !< Entry 1 is upstream, 2 downstream. Unchanged on an error.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int64) :: n
     integer(riis_status) :: code
@@ -697,10 +700,10 @@ contains
     call finish(code, status)
   end subroutine marks_band_sums
 
-  !> Tells how the last marking went.
+  !> Gives the statistics of the last marking.
   subroutine marks_get_stats(this, stats, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
-    type(riis_mark_stats), intent(inout) :: stats           !< Left alone on an error.
+    type(riis_mark_stats), intent(inout) :: stats           !< Unchanged on an error.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = check_created(this%handle, 'the object marks')
@@ -708,30 +711,30 @@ contains
     call finish(code, status)
   end subroutine marks_get_stats
 
-  !> Tells whether the marks were made by a marking and not destroyed.
+  !> Returns whether the marks were made by a marking and not destroyed.
   pure function marks_is_created(this) result(is_created)
-    class(riis_marks), intent(in) :: this                   !< Any.
+    class(riis_marks), intent(in) :: this                   !< May be empty.
     logical :: is_created                                   !< .false. for an empty one.
     is_created = c_associated(this%handle)
   end function marks_is_created
 
   !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
   function marks_c_handle(this) result(handle)
-    class(riis_marks), intent(in) :: this                   !< Any.
+    class(riis_marks), intent(in) :: this                   !< May be empty.
     type(c_ptr) :: handle                                   !< c_null_ptr for an empty one.
     handle = this%handle
   end function marks_c_handle
 
   !> Frees the memory of the marks, which are then empty and can be used again. Nothing happens to an empty one.
   subroutine marks_destroy(this)
-    class(riis_marks), intent(inout) :: this                !< Any.
+    class(riis_marks), intent(inout) :: this                !< May be empty.
     call riis_marks_destroy(this%handle)
   end subroutine marks_destroy
 
   !> Stops the program unless both are empty.
   impure elemental subroutine marks_assign(left, right)
-    class(riis_marks), intent(inout) :: left                !< Empty.
-    class(riis_marks), intent(in) :: right                  !< Empty.
+    class(riis_marks), intent(inout) :: left                !< Must be empty.
+    class(riis_marks), intent(in) :: right                  !< Must be empty.
     call refuse_copy(left%handle, right%handle, 'riis_marks')
   end subroutine marks_assign
 end module riis_marking

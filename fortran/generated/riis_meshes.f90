@@ -12,19 +12,20 @@ module riis_meshes
   public :: riis_mesh
 
   !> The caller's nodes. The coordinates and the rows of an adjacency are borrowed: they must stay in place until the mesh is
-  !! destroyed or given others. Pass variables that outlive it, whole or as sections by subscript triplets, of any positive
-  !! stride; TARGET is not needed. A copy that the compiler makes for the call is gone after it, and the mesh reads other
-  !! data in its place. The compiler copies
+  !! destroyed or gets other arrays. Pass variables that outlive the mesh, as whole arrays or as sections with subscript triplets
+  !! and any positive stride. TARGET is not needed. If the compiler makes a copy for the call, the copy is lost after the call,
+  !! and the mesh would read other data. The compiler copies
   !!
-  !! - expressions, such as 2 * xyz, transpose(xyz) or (xyz) in parentheses; sections by vector subscripts;
-  !! - with gfortran also components of arrays of a derived type, such as nodes%x, and pointers to them: pass the first node
-  !!   by nodes(1)%x, nodes(1)%y, nodes(1)%z and a stride instead;
-  !! - sections on their way through an argument of yours that is CONTIGUOUS or of explicit shape.
+  !! - expressions, such as 2 * xyz, transpose(xyz) or (xyz) in parentheses;
+  !! - sections with vector subscripts;
+  !! - with gfortran, components of arrays of a derived type, such as nodes%x, and pointers to them: pass the first node
+  !!   as nodes(1)%x, nodes(1)%y, nodes(1)%z and a stride instead;
+  !! - sections that pass through an argument of your own procedure that is CONTIGUOUS or of explicit shape.
   !!
-  !! gfortran shows these copies with -Warray-temporaries and, when the program runs, with -fcheck=array-temps. Local
-  !! variables that end, and allocatables that are reallocated, are equally bad.
+  !! gfortran shows these copies with -Warray-temporaries and, when the program runs, with -fcheck=array-temps. Local variables
+  !! that end, and allocatable arrays that are reallocated, have the same effect.
   !!
-  !! A mesh is empty until %create and after %destroy, which must be called. Any number of threads may read it at once. One
+  !! A mesh is empty before %create and after %destroy, which must be called. Any number of threads may read it at once. One
   !! thread may write it while no other reads it.
   type :: riis_mesh
     private
@@ -32,19 +33,19 @@ module riis_meshes
     integer(int64) :: n = 0
   contains
     generic :: create => create_xyz, create_x_y_z, create_first_int32, create_first_int64
-                                                                        !< Borrows coordinates.
+                                                                        !< Makes a mesh that borrows coordinates.
     generic :: update => update_xyz, update_x_y_z, update_first_int32, update_first_int64
-                                                                        !< Tells that the coordinates moved.
+                                                                        !< Tells the mesh that coordinates changed.
     generic :: create_copy => create_copy_xyz_real32, create_copy_xyz_real64, create_copy_x_y_z_real32, create_copy_x_y_z_real64
-                                                                        !< Copies coordinates.
+                                                                        !< Makes a mesh that copies coordinates.
     generic :: update_copy => update_copy_xyz_real32, update_copy_xyz_real64, update_copy_x_y_z_real32, update_copy_x_y_z_real64
-                                                                        !< Copies coordinates that moved.
+                                                                        !< Copies new coordinates.
     generic :: set_adjacency => adjacency_int32_int32, adjacency_int32_int64, adjacency_int64_int32, adjacency_int64_int64, &
-      adjacency_handle                                         !< Gives the adjacency for the neighbour search.
-    procedure, non_overridable :: clear_adjacency => mesh_clear_adjacency !< Takes the adjacency away.
+      adjacency_handle                                         !< Sets the adjacency for the neighbour search.
+    procedure, non_overridable :: clear_adjacency => mesh_clear_adjacency !< Removes the adjacency.
     procedure, non_overridable :: prepare => mesh_prepare               !< Makes the clusters of RIIS_SEARCH_CLUSTERS now.
     procedure, non_overridable :: n_nodes => mesh_n_nodes               !< Returns the number of nodes.
-    procedure, non_overridable :: is_created => mesh_is_created         !< Tells whether it was created.
+    procedure, non_overridable :: is_created => mesh_is_created         !< Returns whether it was created.
     procedure, non_overridable :: c_handle => mesh_c_handle             !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => mesh_destroy               !< Frees its memory, not the coordinates.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -74,8 +75,8 @@ module riis_meshes
 
 contains
 
-  !> Borrows node coordinates and checks them once. The columns of xyz may be any multiple of a real (8 bytes) apart, its
-  !! rows any distance. Errors: RIIS_INVALID_MESH naming the node, counted from 0, and the value.
+  !> Makes a mesh that borrows node coordinates, and checks them once. The columns of xyz may be any multiple of a real (8 bytes)
+  !! apart, and its rows any distance. Errors: RIIS_INVALID_MESH naming the node, counted from 0, and the value.
   subroutine mesh_create_xyz(this, xyz, status)
     class(riis_mesh), intent(inout) :: this                 !< Must be empty.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_nodes), any positive stride; finite; borrowed.
@@ -87,7 +88,7 @@ contains
     call finish(code, status)
   end subroutine mesh_create_xyz
 
-  !> Does the same for separate coordinates, all of the same stride.
+  !> Does the same for separate arrays x, y, z, all with the same stride.
   subroutine mesh_create_x_y_z(this, x, y, z, status)
     class(riis_mesh), intent(inout) :: this                 !< Must be empty.
     real(c_double), intent(in), target :: x(:)              !< (n_nodes), any positive stride; finite; borrowed.
@@ -103,14 +104,14 @@ contains
 
   !> Does the same for coordinates at equal distances, as in an array of a derived type:
   !! call mesh%create(size(nodes), nodes(1)%x, nodes(1)%y, nodes(1)%z, storage_size(nodes) / storage_size(nodes(1)%x)). No
-  !! compiler can check that there are so many.
+  !! compiler can check the number of nodes.
   subroutine mesh_create_first_int32(this, n_nodes, x, y, z, stride, status)
     class(riis_mesh), intent(inout) :: this                 !< Must be empty.
     integer(int32), intent(in) :: n_nodes                   !< >= 0.
-    real(c_double), intent(in), target :: x                 !< The first node's, an element of an array; borrowed.
-    real(c_double), intent(in), target :: y                 !< Of the first node.
-    real(c_double), intent(in), target :: z                 !< Of the first node.
-    integer(int32), intent(in) :: stride                    !< From one node to the next, in reals, >= 1.
+    real(c_double), intent(in), target :: x                 !< The first node's x, an element of an array; borrowed.
+    real(c_double), intent(in), target :: y                 !< The first node's y.
+    real(c_double), intent(in), target :: z                 !< The first node's z.
+    integer(int32), intent(in) :: stride                    !< The distance from one node to the next, in reals, >= 1.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = RIIS_OK
@@ -122,10 +123,10 @@ contains
   subroutine mesh_create_first_int64(this, n_nodes, x, y, z, stride, status)
     class(riis_mesh), intent(inout) :: this                 !< Must be empty.
     integer(int64), intent(in) :: n_nodes                   !< >= 0.
-    real(c_double), intent(in), target :: x                 !< The first node's, an element of an array; borrowed.
-    real(c_double), intent(in), target :: y                 !< Of the first node.
-    real(c_double), intent(in), target :: z                 !< Of the first node.
-    integer(int64), intent(in) :: stride                    !< From one node to the next, in reals, >= 1.
+    real(c_double), intent(in), target :: x                 !< The first node's x, an element of an array; borrowed.
+    real(c_double), intent(in), target :: y                 !< The first node's y.
+    real(c_double), intent(in), target :: z                 !< The first node's z.
+    integer(int64), intent(in) :: stride                    !< The distance from one node to the next, in reals, >= 1.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = RIIS_OK
@@ -133,10 +134,10 @@ contains
     call finish(code, status)
   end subroutine mesh_create_first_int64
 
-  !> Tells the mesh that the coordinates moved, in place or to another array, and checks them again. Call it after every
-  !! change of coordinates. The adjacency stays if the number of nodes does. The errors are those of %create.
+  !> Tells the mesh that the coordinates changed, in place or to another array, and checks them again. Call it after every change
+  !! of coordinates. The adjacency stays if the number of nodes stays. The errors are those of %create.
   subroutine mesh_update_xyz(this, xyz, status)
-    class(riis_mesh), intent(inout) :: this                 !< Created.
+    class(riis_mesh), intent(inout) :: this                 !< Must be created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_nodes), any positive stride; finite; borrowed.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(strided_points) :: points
@@ -146,9 +147,9 @@ contains
     call finish(code, status)
   end subroutine mesh_update_xyz
 
-  !> Does the same for separate coordinates, all of the same stride.
+  !> Does the same for separate arrays x, y, z, all with the same stride.
   subroutine mesh_update_x_y_z(this, x, y, z, status)
-    class(riis_mesh), intent(inout) :: this                 !< Created.
+    class(riis_mesh), intent(inout) :: this                 !< Must be created.
     real(c_double), intent(in), target :: x(:)              !< (n_nodes), any positive stride; finite; borrowed.
     real(c_double), intent(in), target :: y(:)              !< (n_nodes), any positive stride; finite; borrowed.
     real(c_double), intent(in), target :: z(:)              !< (n_nodes), any positive stride; finite; borrowed.
@@ -162,12 +163,12 @@ contains
 
   !> Does the same for coordinates in an array of a derived type.
   subroutine mesh_update_first_int32(this, n_nodes, x, y, z, stride, status)
-    class(riis_mesh), intent(inout) :: this                 !< Created.
+    class(riis_mesh), intent(inout) :: this                 !< Must be created.
     integer(int32), intent(in) :: n_nodes                   !< >= 0.
-    real(c_double), intent(in), target :: x                 !< The first node's, an element of an array; borrowed.
-    real(c_double), intent(in), target :: y                 !< Of the first node.
-    real(c_double), intent(in), target :: z                 !< Of the first node.
-    integer(int32), intent(in) :: stride                    !< From one node to the next, in reals, >= 1.
+    real(c_double), intent(in), target :: x                 !< The first node's x, an element of an array; borrowed.
+    real(c_double), intent(in), target :: y                 !< The first node's y.
+    real(c_double), intent(in), target :: z                 !< The first node's z.
+    integer(int32), intent(in) :: stride                    !< The distance from one node to the next, in reals, >= 1.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = RIIS_OK
@@ -177,12 +178,12 @@ contains
 
   !> Does the same for integer(int64).
   subroutine mesh_update_first_int64(this, n_nodes, x, y, z, stride, status)
-    class(riis_mesh), intent(inout) :: this                 !< Created.
+    class(riis_mesh), intent(inout) :: this                 !< Must be created.
     integer(int64), intent(in) :: n_nodes                   !< >= 0.
-    real(c_double), intent(in), target :: x                 !< The first node's, an element of an array; borrowed.
-    real(c_double), intent(in), target :: y                 !< Of the first node.
-    real(c_double), intent(in), target :: z                 !< Of the first node.
-    integer(int64), intent(in) :: stride                    !< From one node to the next, in reals, >= 1.
+    real(c_double), intent(in), target :: x                 !< The first node's x, an element of an array; borrowed.
+    real(c_double), intent(in), target :: y                 !< The first node's y.
+    real(c_double), intent(in), target :: z                 !< The first node's z.
+    integer(int64), intent(in) :: stride                    !< The distance from one node to the next, in reals, >= 1.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = RIIS_OK
@@ -190,8 +191,9 @@ contains
     call finish(code, status)
   end subroutine mesh_update_first_int64
 
-  !> Copies node coordinates, in single or double precision, and checks them. Any expression may be passed. Single precision
-  !! becomes double once, exactly. Errors: RIIS_INVALID_MESH naming the node, counted from 0, and the value.
+  !> Makes a mesh that copies node coordinates, in single or double precision, and checks them. Any expression may be passed.
+  !! Single precision is converted to double once, exactly. Errors: RIIS_INVALID_MESH naming the node, counted from 0, and the
+  !! value.
   subroutine mesh_create_copy_xyz_real32(this, xyz, status)
     class(riis_mesh), intent(inout) :: this                 !< Must be empty.
     real(real32), intent(in), contiguous, target :: xyz(:, :) !< (3, n_nodes), finite.
@@ -289,10 +291,9 @@ contains
     call finish(code, status)
   end subroutine mesh_create_copy_x_y_z_real64
 
-  !> Copies coordinates that moved. A mesh may change between borrowed and copied coordinates. The errors are those of
-  !! %create_copy.
+  !> Copies new coordinates. A mesh may change between borrowed and copied coordinates. The errors are those of %create_copy.
   subroutine mesh_update_copy_xyz_real32(this, xyz, status)
-    class(riis_mesh), intent(inout) :: this                 !< Created.
+    class(riis_mesh), intent(inout) :: this                 !< Must be created.
     real(real32), intent(in), contiguous, target :: xyz(:, :) !< (3, n_nodes), finite.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_points) :: nodes
@@ -316,7 +317,7 @@ contains
 
   !> Does the same.
   subroutine mesh_update_copy_xyz_real64(this, xyz, status)
-    class(riis_mesh), intent(inout) :: this                 !< Created.
+    class(riis_mesh), intent(inout) :: this                 !< Must be created.
     real(real64), intent(in), contiguous, target :: xyz(:, :) !< (3, n_nodes), finite.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_points) :: nodes
@@ -340,7 +341,7 @@ contains
 
   !> Does the same.
   subroutine mesh_update_copy_x_y_z_real32(this, x, y, z, status)
-    class(riis_mesh), intent(inout) :: this                 !< Created.
+    class(riis_mesh), intent(inout) :: this                 !< Must be created.
     real(real32), intent(in), contiguous, target :: x(:) !< (n_nodes), finite.
     real(real32), intent(in), contiguous, target :: y(:) !< (n_nodes), finite.
     real(real32), intent(in), contiguous, target :: z(:) !< (n_nodes), finite.
@@ -365,7 +366,7 @@ contains
 
   !> Does the same.
   subroutine mesh_update_copy_x_y_z_real64(this, x, y, z, status)
-    class(riis_mesh), intent(inout) :: this                 !< Created.
+    class(riis_mesh), intent(inout) :: this                 !< Must be created.
     real(real64), intent(in), contiguous, target :: x(:) !< (n_nodes), finite.
     real(real64), intent(in), contiguous, target :: y(:) !< (n_nodes), finite.
     real(real64), intent(in), contiguous, target :: z(:) !< (n_nodes), finite.
@@ -388,7 +389,7 @@ contains
     call finish(code, status)
   end subroutine mesh_update_copy_x_y_z_real64
 
-  ! This is the common part of all specifics of create. It does nothing after an error.
+  ! The common part of all specific procedures of create. It does nothing after an error.
   subroutine create_mesh(this, points, code)
     class(riis_mesh), intent(inout) :: this
     type(strided_points), intent(in) :: points
@@ -398,7 +399,7 @@ contains
     if (code == RIIS_OK) this%n = points%n
   end subroutine create_mesh
 
-  ! This is the common part of all specifics of update. It does nothing after an error.
+  ! The common part of all specific procedures of update. It does nothing after an error.
   subroutine update_mesh(this, points, code)
     class(riis_mesh), intent(inout) :: this
     type(strided_points), intent(in) :: points
@@ -408,20 +409,20 @@ contains
     if (code == RIIS_OK) this%n = points%n
   end subroutine update_mesh
 
-  !> Gives the mesh its adjacency as compressed sparse rows and checks them once. The rows are borrowed: they must be
-  !! contiguous and stay in place, unchanged, until the mesh is destroyed or given others. With the default base, the
-  !! neighbours of node i are columns(offsets(i) : offsets(i + 1) - 1), in any order. Errors: RIIS_INVALID_ARGUMENT for sizes
-  !! that do not go together and for sections that are not contiguous, RIIS_INVALID_MESH naming the row, counted from 0, and
-  !! its value. The mesh then keeps the rows that it had.
+  !> Gives the mesh its adjacency as compressed sparse rows and checks them once. The rows are borrowed: they must be contiguous
+  !! and stay in place, unchanged, until the mesh is destroyed or gets other rows. With the default base, the neighbours of node i
+  !! are columns(offsets(i) : offsets(i + 1) - 1), in any order. Errors: RIIS_INVALID_ARGUMENT for sizes that do not match and for
+  !! sections that are not contiguous, RIIS_INVALID_MESH naming the row, counted from 0, and its value. The mesh then keeps its
+  !! earlier rows.
   subroutine mesh_adjacency_int32_int32(this, offsets, columns, index_base, n_all, status)
-    class(riis_mesh), intent(inout) :: this                 !< Created.
+    class(riis_mesh), intent(inout) :: this                 !< Must be created.
     integer(int32), intent(in), target :: offsets(:)        !< (n_nodes + 1), ascending from index_base; borrowed.
     integer(int32), intent(in), target :: columns(:)        !< (>= offsets(n_nodes + 1) - index_base), from index_base;
                                                             !! borrowed.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number and the first offset.
                                                             !! Default 1.
-    class(*), intent(in), optional :: n_all                 !< integer: n_nodes plus the ghosts, which columns may name and which
-                                                            !! are ignored. Default: n_nodes.
+    class(*), intent(in), optional :: n_all                 !< integer: n_nodes plus the ghost nodes, which columns may name and
+                                                            !! which are ignored. Default: n_nodes.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_csr) :: csr
     integer(int64) :: n_offsets, n_columns
@@ -440,16 +441,16 @@ contains
     call finish(code, status)
   end subroutine mesh_adjacency_int32_int32
 
-  !> Does the same for other kinds.
+  !> Does the same for other integer kinds.
   subroutine mesh_adjacency_int32_int64(this, offsets, columns, index_base, n_all, status)
-    class(riis_mesh), intent(inout) :: this                 !< Created.
+    class(riis_mesh), intent(inout) :: this                 !< Must be created.
     integer(int32), intent(in), target :: offsets(:)        !< (n_nodes + 1), ascending from index_base; borrowed.
     integer(int64), intent(in), target :: columns(:)        !< (>= offsets(n_nodes + 1) - index_base), from index_base;
                                                             !! borrowed.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number and the first offset.
                                                             !! Default 1.
-    class(*), intent(in), optional :: n_all                 !< integer: n_nodes plus the ghosts, which columns may name and which
-                                                            !! are ignored. Default: n_nodes.
+    class(*), intent(in), optional :: n_all                 !< integer: n_nodes plus the ghost nodes, which columns may name and
+                                                            !! which are ignored. Default: n_nodes.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_csr) :: csr
     integer(int64) :: n_offsets, n_columns
@@ -468,16 +469,16 @@ contains
     call finish(code, status)
   end subroutine mesh_adjacency_int32_int64
 
-  !> Does the same for other kinds.
+  !> Does the same for other integer kinds.
   subroutine mesh_adjacency_int64_int32(this, offsets, columns, index_base, n_all, status)
-    class(riis_mesh), intent(inout) :: this                 !< Created.
+    class(riis_mesh), intent(inout) :: this                 !< Must be created.
     integer(int64), intent(in), target :: offsets(:)        !< (n_nodes + 1), ascending from index_base; borrowed.
     integer(int32), intent(in), target :: columns(:)        !< (>= offsets(n_nodes + 1) - index_base), from index_base;
                                                             !! borrowed.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number and the first offset.
                                                             !! Default 1.
-    class(*), intent(in), optional :: n_all                 !< integer: n_nodes plus the ghosts, which columns may name and which
-                                                            !! are ignored. Default: n_nodes.
+    class(*), intent(in), optional :: n_all                 !< integer: n_nodes plus the ghost nodes, which columns may name and
+                                                            !! which are ignored. Default: n_nodes.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_csr) :: csr
     integer(int64) :: n_offsets, n_columns
@@ -496,16 +497,16 @@ contains
     call finish(code, status)
   end subroutine mesh_adjacency_int64_int32
 
-  !> Does the same for other kinds.
+  !> Does the same for other integer kinds.
   subroutine mesh_adjacency_int64_int64(this, offsets, columns, index_base, n_all, status)
-    class(riis_mesh), intent(inout) :: this                 !< Created.
+    class(riis_mesh), intent(inout) :: this                 !< Must be created.
     integer(int64), intent(in), target :: offsets(:)        !< (n_nodes + 1), ascending from index_base; borrowed.
     integer(int64), intent(in), target :: columns(:)        !< (>= offsets(n_nodes + 1) - index_base), from index_base;
                                                             !! borrowed.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first node's number and the first offset.
                                                             !! Default 1.
-    class(*), intent(in), optional :: n_all                 !< integer: n_nodes plus the ghosts, which columns may name and which
-                                                            !! are ignored. Default: n_nodes.
+    class(*), intent(in), optional :: n_all                 !< integer: n_nodes plus the ghost nodes, which columns may name and
+                                                            !! which are ignored. Default: n_nodes.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_csr) :: csr
     integer(int64) :: n_offsets, n_columns
@@ -524,7 +525,7 @@ contains
     call finish(code, status)
   end subroutine mesh_adjacency_int64_int64
 
-  ! Checks that the rows can be borrowed and are as many as the nodes.
+  ! Checks that the rows can be borrowed and that there are as many as nodes.
   function check_rows(this, n_offsets, contiguous_offsets, n_columns, contiguous_columns) result(code)
     class(riis_mesh), intent(in) :: this
     integer(int64), intent(in) :: n_offsets, n_columns
@@ -542,7 +543,7 @@ contains
     end if
   end function check_rows
 
-  ! This is the common part for all kinds of rows.
+  ! The common part for all kinds of rows.
   function set_rows(this, csr, last_offset, n_columns, index_base, n_all) result(code)
     class(riis_mesh), intent(inout) :: this
     type(riis_csr), intent(inout) :: csr
@@ -560,11 +561,11 @@ contains
     if (code == RIIS_OK) code = riis_mesh_set_adjacency(this%handle, csr)
   end function set_rows
 
-  !> Does the same with rows of the library, which belong to the adjacency. It must live until the mesh is destroyed or given
-  !! other rows. Errors: RIIS_INVALID_ARGUMENT for an adjacency of another number of nodes.
+  !> Does the same with rows of the library, which belong to the adjacency. The adjacency must live until the mesh is destroyed or
+  !! gets other rows. Errors: RIIS_INVALID_ARGUMENT for an adjacency of another number of nodes.
   subroutine mesh_adjacency_handle(this, adjacency, status)
-    class(riis_mesh), intent(inout) :: this                 !< Created.
-    class(riis_adjacency), intent(in) :: adjacency          !< Created. Destroy it after the mesh.
+    class(riis_mesh), intent(inout) :: this                 !< Must be created.
+    class(riis_adjacency), intent(in) :: adjacency          !< Must be created. Destroy it after the mesh.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_csr) :: csr
     integer(riis_status) :: code
@@ -575,9 +576,9 @@ contains
     call finish(code, status)
   end subroutine mesh_adjacency_handle
 
-  !> Takes the adjacency away. Its rows are not borrowed any more.
+  !> Removes the mesh's adjacency. Its rows are not borrowed any more.
   subroutine mesh_clear_adjacency(this, status)
-    class(riis_mesh), intent(inout) :: this                 !< Created.
+    class(riis_mesh), intent(inout) :: this                 !< Must be created.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = check_created(this%handle, 'the mesh')
@@ -585,11 +586,11 @@ contains
     call finish(code, status)
   end subroutine mesh_clear_adjacency
 
-  !> Makes the clusters of RIIS_SEARCH_CLUSTERS now, rather than in the first marking that uses them. They take 41 bytes a
-  !! node while the mesh lives. After an update with as many nodes the order stays, and only places are made again.
+  !> Makes the clusters of RIIS_SEARCH_CLUSTERS now, not in the first marking that uses them. They take 41 bytes per node as long
+  !! as the mesh lives. After an update with the same number of nodes, their order stays, and only positions are updated.
   subroutine mesh_prepare(this, n_threads, status)
-    class(riis_mesh), intent(inout) :: this                 !< Created.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(riis_mesh), intent(inout) :: this                 !< Must be created.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int32) :: threads
     integer(riis_status) :: code
@@ -602,37 +603,37 @@ contains
 
   !> Returns the number of nodes of the mesh.
   pure function mesh_n_nodes(this) result(n)
-    class(riis_mesh), intent(in) :: this                    !< Any.
+    class(riis_mesh), intent(in) :: this                    !< May be empty.
     integer(int64) :: n                                     !< 0 for an empty one.
     n = this%n
   end function mesh_n_nodes
 
-  !> Tells whether the mesh was created and not destroyed.
+  !> Returns whether the mesh was created and not destroyed.
   pure function mesh_is_created(this) result(is_created)
-    class(riis_mesh), intent(in) :: this                     !< Any.
+    class(riis_mesh), intent(in) :: this                     !< May be empty.
     logical :: is_created                                   !< .false. for an empty one.
     is_created = c_associated(this%handle)
   end function mesh_is_created
 
   !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
   function mesh_c_handle(this) result(handle)
-    class(riis_mesh), intent(in) :: this                     !< Any.
+    class(riis_mesh), intent(in) :: this                     !< May be empty.
     type(c_ptr) :: handle                                   !< c_null_ptr for an empty one.
     handle = this%handle
   end function mesh_c_handle
 
-  !> Frees the memory of the mesh, not the coordinates, and borrows nothing any more. The mesh is then empty and can be
-  !! created again. Nothing happens to an empty one.
+  !> Frees the memory of the mesh, not the coordinates, which are not borrowed any more. The mesh is then empty and can be created
+  !! again. Nothing happens to an empty one.
   subroutine mesh_destroy(this)
-    class(riis_mesh), intent(inout) :: this                  !< Any.
+    class(riis_mesh), intent(inout) :: this                  !< May be empty.
     call riis_mesh_destroy(this%handle)
     this%n = 0
   end subroutine mesh_destroy
 
   !> Stops the program unless both are empty.
   impure elemental subroutine mesh_assign(left, right)
-    class(riis_mesh), intent(inout) :: left                  !< Empty.
-    class(riis_mesh), intent(in) :: right                    !< Empty.
+    class(riis_mesh), intent(inout) :: left                  !< Must be empty.
+    class(riis_mesh), intent(in) :: right                    !< Must be empty.
     call refuse_copy(left%handle, right%handle, 'riis_mesh')
   end subroutine mesh_assign
 end module riis_meshes

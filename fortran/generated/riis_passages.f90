@@ -14,7 +14,7 @@ module riis_passages
   private
   public :: riis_label_open_regions, riis_find_passage
 
-  !> Labels the open regions: the connected components of the nodes that a marking left unmarked.
+  !> Labels the open regions, the connected components of the nodes that a marking left unmarked.
   interface riis_label_open_regions
     module procedure label_open_regions_logical
     module procedure label_open_regions_int8
@@ -30,18 +30,18 @@ module riis_passages
 
 contains
 
-  !> Labels the open regions: the connected components of the nodes that a marking left unmarked, along the edges of the
-  !! mesh's adjacency. Edges to ghosts are not looked at. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or if
-  !! the result was never marked with, or was marked with another mesh. The array is then as it was.
+  !> Labels the open regions. They are the connected components of unmarked nodes along the edges of the mesh's adjacency. Edges
+  !! to ghost nodes are ignored. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or if the marks do not come from a
+  !! marking with this mesh. The array is then as it was.
   subroutine label_open_regions_logical(mesh, marks, region_num, n_regions, node_mask, n_threads, status)
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
     class(riis_marks), intent(in) :: marks           !< From riis_mark_nodes.
     integer(int64), intent(inout), contiguous :: region_num(:) !< (n_nodes): the lowest node of the node's region, counted
                                                             !! from 1; 0 for nodes in no region.
-    integer(int64), intent(inout), optional :: n_regions    !< How many there are.
+    integer(int64), intent(inout), optional :: n_regions    !< The number of regions.
     logical, intent(in), optional :: node_mask(:)           !< (n_nodes), as in the marking: nodes with .false. are left out;
                                                             !! copied. Default: all nodes.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
@@ -57,9 +57,9 @@ contains
     class(riis_marks), intent(in) :: marks           !< From riis_mark_nodes.
     integer(int64), intent(inout), contiguous :: region_num(:) !< (n_nodes): the lowest node of the node's region, counted
                                                             !! from 1; 0 for nodes in no region.
-    integer(int64), intent(inout), optional :: n_regions    !< How many there are.
+    integer(int64), intent(inout), optional :: n_regions    !< The number of regions.
     integer(int8), intent(in), contiguous :: node_mask(:)   !< (n_nodes): nodes with 0 are left out.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = RIIS_OK
@@ -73,9 +73,9 @@ contains
     class(riis_marks), intent(in) :: marks           !< From riis_mark_nodes.
     integer(int64), intent(inout), contiguous :: region_num(:) !< (n_nodes): the lowest node of the node's region, counted
                                                             !! from 1; 0 for nodes in no region.
-    integer(int64), intent(inout), optional :: n_regions    !< How many there are.
+    integer(int64), intent(inout), optional :: n_regions    !< The number of regions.
     integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): nodes with 0 are left out.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
@@ -85,19 +85,18 @@ contains
     call finish(code, status)
   end subroutine label_open_regions_int32
 
-  !> Finds the widest passage from one set of nodes to another: the path along the edges of the mesh's adjacency whose
-  !! smallest distance to the surface is largest. Ends count as well. Errors: RIIS_INVALID_ARGUMENT if the mesh has no
-  !! adjacency, or for a node that the mesh lacks, that node_mask leaves out, or that is within the half thickness.
+  !> Finds the widest passage from one set of nodes to another. It is the path, along the edges of the mesh's adjacency, whose
+  !! smallest distance to the surface is largest. The ends count too. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency,
+  !! or for a node that the mesh lacks, that node_mask leaves out, or that is within the half thickness.
   subroutine find_passage_logical_int32(surface, mesh, from_num, to_num, passage, node_mask, n_threads, status)
-    class(riis_surface), intent(in) :: surface              !< Created.
-    class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. It need not have been marked.
+    class(riis_surface), intent(in) :: surface              !< Must be created.
+    class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. A marking is not needed.
     integer(int32), intent(in) :: from_num(:)               !< Nodes where paths begin, counted from 1, in any order; copied.
-    integer(int32), intent(in) :: to_num(:)                 !< Nodes where they end; copied.
-    type(riis_passage), intent(inout) :: passage            !< The passage, whose node_id counts from 0; left alone on an
-                                                            !! error.
+    integer(int32), intent(in) :: to_num(:)                 !< Nodes where paths end; copied.
+    type(riis_passage), intent(inout) :: passage            !< The passage, whose node_id counts from 0; unchanged on an error.
     logical, intent(in), optional :: node_mask(:)           !< (n_nodes), as in the marking: nodes with .false. are left out;
                                                             !! copied. Default: all nodes.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
@@ -112,15 +111,14 @@ contains
 
   !> Does the same with node numbers of another kind.
   subroutine find_passage_logical_int64(surface, mesh, from_num, to_num, passage, node_mask, n_threads, status)
-    class(riis_surface), intent(in) :: surface              !< Created.
-    class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. It need not have been marked.
+    class(riis_surface), intent(in) :: surface              !< Must be created.
+    class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. A marking is not needed.
     integer(int64), intent(in) :: from_num(:)               !< Nodes where paths begin, counted from 1, in any order; copied.
-    integer(int64), intent(in) :: to_num(:)                 !< Nodes where they end; copied.
-    type(riis_passage), intent(inout) :: passage            !< The passage, whose node_id counts from 0; left alone on an
-                                                            !! error.
+    integer(int64), intent(in) :: to_num(:)                 !< Nodes where paths end; copied.
+    type(riis_passage), intent(inout) :: passage            !< The passage, whose node_id counts from 0; unchanged on an error.
     logical, intent(in), optional :: node_mask(:)           !< (n_nodes), as in the marking: nodes with .false. are left out;
                                                             !! copied. Default: all nodes.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
@@ -135,14 +133,13 @@ contains
 
   !> Does the same with a mask of bytes. Only a section that is not contiguous is copied.
   subroutine find_passage_int8_int32(surface, mesh, from_num, to_num, passage, node_mask, n_threads, status)
-    class(riis_surface), intent(in) :: surface              !< Created.
-    class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. It need not have been marked.
+    class(riis_surface), intent(in) :: surface              !< Must be created.
+    class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. A marking is not needed.
     integer(int32), intent(in) :: from_num(:)               !< Nodes where paths begin, counted from 1, in any order; copied.
-    integer(int32), intent(in) :: to_num(:)                 !< Nodes where they end; copied.
-    type(riis_passage), intent(inout) :: passage            !< The passage, whose node_id counts from 0; left alone on an
-                                                            !! error.
+    integer(int32), intent(in) :: to_num(:)                 !< Nodes where paths end; copied.
+    type(riis_passage), intent(inout) :: passage            !< The passage, whose node_id counts from 0; unchanged on an error.
     integer(int8), intent(in), contiguous :: node_mask(:)   !< (n_nodes): nodes with 0 are left out.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     integer(int64), allocatable :: from(:), to(:)
@@ -155,14 +152,13 @@ contains
 
   !> Does the same with a mask of bytes. Only a section that is not contiguous is copied.
   subroutine find_passage_int8_int64(surface, mesh, from_num, to_num, passage, node_mask, n_threads, status)
-    class(riis_surface), intent(in) :: surface              !< Created.
-    class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. It need not have been marked.
+    class(riis_surface), intent(in) :: surface              !< Must be created.
+    class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. A marking is not needed.
     integer(int64), intent(in) :: from_num(:)               !< Nodes where paths begin, counted from 1, in any order; copied.
-    integer(int64), intent(in) :: to_num(:)                 !< Nodes where they end; copied.
-    type(riis_passage), intent(inout) :: passage            !< The passage, whose node_id counts from 0; left alone on an
-                                                            !! error.
+    integer(int64), intent(in) :: to_num(:)                 !< Nodes where paths end; copied.
+    type(riis_passage), intent(inout) :: passage            !< The passage, whose node_id counts from 0; unchanged on an error.
     integer(int8), intent(in), contiguous :: node_mask(:)   !< (n_nodes): nodes with 0 are left out.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     integer(int64), allocatable :: from(:), to(:)
@@ -175,14 +171,13 @@ contains
 
   !> Does the same with a mask of integers, which is copied.
   subroutine find_passage_int32_int32(surface, mesh, from_num, to_num, passage, node_mask, n_threads, status)
-    class(riis_surface), intent(in) :: surface              !< Created.
-    class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. It need not have been marked.
+    class(riis_surface), intent(in) :: surface              !< Must be created.
+    class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. A marking is not needed.
     integer(int32), intent(in) :: from_num(:)               !< Nodes where paths begin, counted from 1, in any order; copied.
-    integer(int32), intent(in) :: to_num(:)                 !< Nodes where they end; copied.
-    type(riis_passage), intent(inout) :: passage            !< The passage, whose node_id counts from 0; left alone on an
-                                                            !! error.
+    integer(int32), intent(in) :: to_num(:)                 !< Nodes where paths end; copied.
+    type(riis_passage), intent(inout) :: passage            !< The passage, whose node_id counts from 0; unchanged on an error.
     integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): nodes with 0 are left out.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
@@ -197,14 +192,13 @@ contains
 
   !> Does the same with a mask of integers, which is copied.
   subroutine find_passage_int32_int64(surface, mesh, from_num, to_num, passage, node_mask, n_threads, status)
-    class(riis_surface), intent(in) :: surface              !< Created.
-    class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. It need not have been marked.
+    class(riis_surface), intent(in) :: surface              !< Must be created.
+    class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. A marking is not needed.
     integer(int64), intent(in) :: from_num(:)               !< Nodes where paths begin, counted from 1, in any order; copied.
-    integer(int64), intent(in) :: to_num(:)                 !< Nodes where they end; copied.
-    type(riis_passage), intent(inout) :: passage            !< The passage, whose node_id counts from 0; left alone on an
-                                                            !! error.
+    integer(int64), intent(in) :: to_num(:)                 !< Nodes where paths end; copied.
+    type(riis_passage), intent(inout) :: passage            !< The passage, whose node_id counts from 0; unchanged on an error.
     integer(int32), intent(in) :: node_mask(:)              !< (n_nodes): nodes with 0 are left out.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int8), allocatable :: bytes(:)
     integer(riis_status) :: code
@@ -217,7 +211,7 @@ contains
     call finish(code, status)
   end subroutine find_passage_int32_int64
 
-  ! Makes ids of numbers, which is the only copy. Does nothing after an error.
+  ! Makes ids from node numbers, which is the only copy. Does nothing after an error.
   subroutine get_ids_int32(numbers, ids, code)
     integer(int32), intent(in) :: numbers(:)
     integer(int64), allocatable, intent(out) :: ids(:)
@@ -229,7 +223,7 @@ contains
     if (code == RIIS_OK) ids = int(numbers, int64) - 1
   end subroutine get_ids_int32
 
-  ! Makes ids of numbers, which is the only copy. Does nothing after an error.
+  ! Makes ids from node numbers, which is the only copy. Does nothing after an error.
   subroutine get_ids_int64(numbers, ids, code)
     integer(int64), intent(in) :: numbers(:)
     integer(int64), allocatable, intent(out) :: ids(:)
@@ -241,7 +235,7 @@ contains
     if (code == RIIS_OK) ids = int(numbers, int64) - 1
   end subroutine get_ids_int64
 
-  ! Makes the options of both calls. Does nothing after an error.
+  ! Makes the options for both calls. Does nothing after an error.
   subroutine get_options(mesh, mask, n_threads, options, code)
     class(riis_mesh), intent(in) :: mesh
     integer(int8), intent(in), contiguous, optional, target :: mask(:)
@@ -256,7 +250,7 @@ contains
     if (size(mask, kind=int64) > 0) options%node_mask = c_loc(mask)
   end subroutine get_options
 
-  ! This is the common part of all specifics. It does nothing after an error.
+  ! The common part of all specific procedures. It does nothing after an error.
   subroutine label(mesh, marks, region_num, n_regions, mask, n_threads, code)
     class(riis_mesh), intent(in) :: mesh
     class(riis_marks), intent(in) :: marks
@@ -274,7 +268,7 @@ contains
     if (code == RIIS_OK) region_num = region_num + 1
   end subroutine label
 
-  ! This is the common part of all specifics. It does nothing after an error.
+  ! The common part of all specific procedures. It does nothing after an error.
   subroutine find(surface, mesh, from, to, passage, mask, n_threads, code)
     class(riis_surface), intent(in) :: surface
     class(riis_mesh), intent(in) :: mesh

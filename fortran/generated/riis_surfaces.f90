@@ -12,45 +12,48 @@ module riis_surfaces
   private
   public :: riis_surface, riis_triangles
 
-  !> Pointers to the triangles of a surface, after placement, by %get_triangles. The surface owns the arrays, which count from 1.
+  !> Pointers to the triangles of a surface, after placement, from %get_triangles. The surface owns the arrays, which count from
+  !! 1.
   type :: riis_triangles
     real(c_double), pointer :: xyz(:, :) => null()          !< (3, n_vertices): the vertices.
-    real(c_double), pointer :: uv(:, :) => null()           !< (2, n_vertices): their places on patches, in [0, 1]; (2, 0) for a
-                                                            !! surface from arrays.
-    real(c_double), pointer :: velocity(:, :) => null()     !< (3, n_vertices): their velocities; (3, 0) unless the last update
-                                                            !! gave velocities.
+    real(c_double), pointer :: uv(:, :) => null()           !< (2, n_vertices): the vertices' u and v on patches, in [0, 1]; (2,
+                                                            !! 0) for a surface from arrays.
+    real(c_double), pointer :: velocity(:, :) => null()     !< (3, n_vertices): the vertices' velocities; (3, 0) unless the last
+                                                            !! update gave velocities.
     integer(int64), pointer :: vertex_id(:, :) => null()    !< (3, n_triangles), from 0: vertex_id + 1 is the column of xyz.
-    integer(int64), pointer :: triangle_id(:) => null()     !< (n_triangles), ascending, from 0: as queries report.
+    integer(int64), pointer :: triangle_id(:) => null()     !< (n_triangles), ascending, from 0: the ids that queries report.
     integer(int32), pointer :: leaflet_id(:) => null()      !< (n_triangles): RIIS_LEAFLET_*, or the caller's.
     integer(int32), pointer :: patch_id(:) => null()        !< (n_triangles), from 0, as in riis.h.
   end type riis_triangles
 
-  !> Triangles in space with a half thickness, which answer closest-point queries. It borrows nothing from the caller. It is
-  !! empty until %create or %create_from_arrays and after %destroy, which must be called. Any number of threads may read it
-  !! at once. One thread may write it while no other reads it.
+  !> A surface of triangles with a half thickness, which answers closest-point queries. It borrows nothing from the caller. It is
+  !! empty before %create or %create_from_arrays and after %destroy, which must be called. Any number of threads may read it at
+  !! once. One thread may write it while no other reads it.
   !!
-  !! The placement, x -> scale * rotation * x + translation, is applied last, to valves and to arrays. Options that an update
-  !! is given replace those of the surface; the others stay as they were.
+  !! The placement, x -> scale * rotation * x + translation, is applied last, to valves and to arrays. Options that are passed to
+  !! an update replace those of the surface. Other options stay as they were.
   type :: riis_surface
     private
     type(c_ptr) :: handle = c_null_ptr
-    type(riis_surface_options) :: options ! those in use; defined while there is a handle
+    type(riis_surface_options) :: options ! the options in use; defined if there is a handle
   contains
-    procedure, non_overridable :: create => surface_create              !< Makes it from a valve.
+    procedure, non_overridable :: create => surface_create              !< Makes the surface of a valve.
     generic :: create_from_arrays => create_xyz_int32, create_xyz_int64, create_x_y_z_int32, create_x_y_z_int64
-                                                               !< Makes it from the caller's triangles or quads.
-    procedure, non_overridable :: update => surface_update              !< Replaces it for a valve that moved.
-    procedure, non_overridable :: update_moving => surface_update_moving !< The same, with the velocity of every vertex.
+                                                               !< Makes a surface from the caller's triangles or quads.
+    procedure, non_overridable :: update => surface_update              !< Replaces the surface when the valve has moved.
+    procedure, non_overridable :: update_moving => surface_update_moving !< Does the same, with the velocity of every vertex.
     generic :: update_from_arrays => update_xyz_int32, update_xyz_int64, update_x_y_z_int32, update_x_y_z_int64
-                                                               !< Replaces it for triangles or quads that moved.
-    procedure, non_overridable :: create_from_keyframes => surface_create_from_keyframes !< Makes it from frames, at a time.
-    procedure, non_overridable :: update_from_keyframes => surface_update_from_keyframes !< Replaces it for another time.
+                                                               !< Replaces it when the triangles or quads have moved.
+    procedure, non_overridable :: create_from_keyframes => surface_create_from_keyframes !< Makes a surface from frames, at a
+                                                                                         !! time.
+    procedure, non_overridable :: update_from_keyframes => surface_update_from_keyframes !< Replaces it by the surface at another
+                                                                                         !! time.
     procedure, non_overridable :: get_info => surface_get_info          !< Gives counts, bounds, area and times.
     procedure, non_overridable :: get_triangles => surface_get_triangles !< Points to the vertices and triangles.
     procedure, non_overridable :: closest_point => surface_closest_point !< Finds the closest point to one point.
     generic :: closest_points => closest_xyz_logical, closest_xyz_int8, closest_x_y_z_logical, closest_x_y_z_int8
-                                                               !< Finds those to many points, in parallel.
-    procedure, non_overridable :: is_created => surface_is_created      !< Tells whether it was created.
+                                                               !< Finds the closest points to many points, in parallel.
+    procedure, non_overridable :: is_created => surface_is_created      !< Returns whether it was created.
     procedure, non_overridable :: c_handle => surface_c_handle          !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => surface_destroy            !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -77,31 +80,31 @@ module riis_surfaces
 contains
 
   !> Makes the surface of a valve: curves, Coons patches, triangles, Embree scene. Normals point downstream. Errors:
-  !! RIIS_INVALID_ARGUMENT for an option out of range; RIIS_INVALID_PARAMETER for parameters that do not go together;
-  !! RIIS_LIMIT_EXCEEDED where the tolerance needs more than 16,777,216 triangles, or does not hold on fixed triangles.
+  !! RIIS_INVALID_ARGUMENT for an option out of range; RIIS_INVALID_PARAMETER for parameters that do not fit together;
+  !! RIIS_LIMIT_EXCEEDED if the tolerance needs more than 16,777,216 triangles, or does not hold for a fixed triangulation.
   subroutine surface_create(this, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
       flip_normals, status, measure, measure_tolerance, n_threads, triangulation)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
-    class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
+    class(riis_valve), intent(in) :: valve                  !< Must be created; read during the call only.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units, 1e-50 to 1e50: nodes within it are marked.
                                                             !! Default RIIS_AUTO: 0.1 * scale.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1, default 0.05. The error of distances is at most
-                                                            !! tolerance * half_thickness. Surfaces from arrays do not use it.
+                                                            !! tolerance * half_thickness. Not used by surfaces from arrays.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12. Default 1.
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), at least 1e-50 long. Default (0, 0, 1).
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees, counter-clockwise seen against the axis. Default 0.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units. Default 0.
-    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over. Default .false.
+    logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle. Default .false.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int32), intent(in), optional :: measure         !< RIIS_MEASURE_*: how distances are measured, from then on.
-                                                            !! Default RIIS_MEASURE_TRIANGLES.
-    real(c_double), intent(in), optional :: measure_tolerance !< Of the other distances: a share of half_thickness, 1e-6 to
+    integer(int32), intent(in), optional :: measure         !< RIIS_MEASURE_*: how distances are measured from now on. Default
+                                                            !! RIIS_MEASURE_TRIANGLES.
+    real(c_double), intent(in), optional :: measure_tolerance !< For the other methods: a fraction of half_thickness, 1e-6 to
                                                             !! 1. Default RIIS_AUTO: tolerance.
-    integer(int32), intent(in), optional :: n_threads       !< Threads that make the surface, from then on: 1 to 1024. Default 0:
-                                                            !! as many as pay.
-    integer(int32), intent(in), optional :: triangulation   !< RIIS_TRIANGULATION_*, from then on. With RIIS_TRIANGULATION_FIXED
-                                                            !! triangles keep their ids, vertices and neighbours at every
-                                                            !! opening, and only opening and placement may move. Default
+    integer(int32), intent(in), optional :: n_threads       !< The number of threads that make the surface from now on: 1 to 1024.
+                                                            !! Default 0: as many as make it faster.
+    integer(int32), intent(in), optional :: triangulation   !< RIIS_TRIANGULATION_*, from now on. With RIIS_TRIANGULATION_FIXED,
+                                                            !! triangles keep their ids, vertices and neighbours at every opening,
+                                                            !! and only opening and placement may change. Default
                                                             !! RIIS_TRIANGULATION_ADAPTED.
     type(riis_surface_options) :: options
     integer(riis_status) :: code
@@ -115,20 +118,21 @@ contains
     call finish(code, status)
   end subroutine surface_create
 
-  !> Replaces the surface by that of a valve that moved. Options that are left out stay as they were. A half_thickness of
-  !! RIIS_AUTO, the default, follows the scale. Pointers got from the surface before end. The errors are those of %create,
-  !! and RIIS_INVALID_PARAMETER naming a parameter that moved on fixed triangles; the surface is then as it was.
+  !> Replaces the surface by the surface of a valve that moved. Options that are left out stay as they were. If half_thickness is
+  !! RIIS_AUTO, the default, it follows the scale. Earlier pointers to the surface's arrays become invalid. The errors are those
+  !! of %create, and RIIS_INVALID_PARAMETER naming a parameter that changed despite a fixed triangulation. After an error the
+  !! surface is as it was.
   subroutine surface_update(this, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
       flip_normals, status, measure, measure_tolerance, n_threads, triangulation)
-    class(riis_surface), intent(inout) :: this              !< Created.
-    class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
+    class(riis_surface), intent(inout) :: this              !< Must be created.
+    class(riis_valve), intent(in) :: valve                  !< Must be created; read during the call only.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(int32), intent(in), optional :: measure         !< RIIS_MEASURE_*.
     real(c_double), intent(in), optional :: measure_tolerance !< 1e-6 to 1, or RIIS_AUTO.
@@ -146,31 +150,31 @@ contains
     call finish(code, status)
   end subroutine surface_update
 
-  !> Replaces the surface as %update does, with the same triangles to the last bit, and gives every vertex a velocity: from the
-  !! point with the same patch, u and v of an earlier state to the vertex, over the time between. Nothing is remembered from
-  !! call to call. A valve at rest is its own state before. Errors: as of %update; RIIS_INVALID_ARGUMENT for dt out of
-  !! range; RIIS_INVALID_PARAMETER for a valve_before of another kind or build.
+  !> Replaces the surface as %update does, with the same triangles to the last bit, and also gives every vertex a velocity. The
+  !! velocity is the displacement from the point with the same patch, u and v in an earlier state, divided by dt. Nothing is
+  !! stored between calls. For a valve at rest, pass the valve itself as valve_before. Errors: as for %update;
+  !! RIIS_INVALID_ARGUMENT for dt out of range; RIIS_INVALID_PARAMETER for a valve_before of another kind or with other patches.
   subroutine surface_update_moving(this, valve, valve_before, dt, half_thickness, tolerance, scale, rotation_axis, &
       rotation_angle, translation, flip_normals, measure, measure_tolerance, n_threads, scale_before, &
       rotation_axis_before, rotation_angle_before, translation_before, status, triangulation)
-    class(riis_surface), intent(inout) :: this              !< Created.
-    class(riis_valve), intent(in) :: valve                  !< Created; read during the call only.
-    class(riis_valve), intent(in) :: valve_before           !< The state before: of the same kind; a valve from patches has the
-                                                            !! same curves and sides. Read during the call only.
-    real(c_double), intent(in) :: dt                        !< From valve_before to valve, 1e-30 to 1e30, or negative as time
-                                                            !! goes back.
+    class(riis_surface), intent(inout) :: this              !< Must be created.
+    class(riis_valve), intent(in) :: valve                  !< Must be created; read during the call only.
+    class(riis_valve), intent(in) :: valve_before           !< The earlier state, of the same kind. A valve from patches must have
+                                                            !! the same curves and sides. Read during the call only.
+    real(c_double), intent(in) :: dt                        !< From valve_before to valve, 1e-30 to 1e30, or negative if time goes
+                                                            !! backwards.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12.
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle.
     integer(int32), intent(in), optional :: measure         !< RIIS_MEASURE_*.
     real(c_double), intent(in), optional :: measure_tolerance !< 1e-6 to 1, or RIIS_AUTO.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     integer(int32), intent(in), optional :: triangulation   !< RIIS_TRIANGULATION_*.
-    real(c_double), intent(in), optional :: scale_before    !< At the state before. Default: as now; so the next three.
+    real(c_double), intent(in), optional :: scale_before    !< Of the earlier state, as are the next three. Default: as now.
     real(c_double), intent(in), optional :: rotation_axis_before(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle_before !< Degrees.
     real(c_double), intent(in), optional :: translation_before(:) !< (3), mesh units.
@@ -197,10 +201,10 @@ contains
   end subroutine surface_update_moving
 
   !> Makes a surface from the caller's triangles or quads, which are read during the call only. Sections of vertex_ids and
-  !! leaflet_id that are not contiguous are copied for it. The caller's winding stays and makes the normal by the right-hand
-  !! rule. A quad 1 2 3 4 becomes the triangles 1 2 3 and 1 3 4. The options are those of %create. Errors:
-  !! RIIS_INVALID_SURFACE naming the face or vertex and its value, RIIS_INVALID_ARGUMENT for an option out of range,
-  !! RIIS_LIMIT_EXCEEDED for more than 16,777,216 triangles.
+  !! leaflet_id that are not contiguous are copied. The normal follows from the order of the corners by the right-hand rule. A
+  !! quad 1 2 3 4 becomes the triangles 1 2 3 and 1 3 4. The options are those of %create. Errors: RIIS_INVALID_SURFACE naming the
+  !! face or vertex and its value, RIIS_INVALID_ARGUMENT for an option out of range, RIIS_LIMIT_EXCEEDED for more than 16,777,216
+  !! triangles.
   subroutine surface_create_from_arrays_xyz_int32(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
       velocity, n_threads)
@@ -209,7 +213,7 @@ contains
     integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex's number. Default 1.
-    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
+    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles without area, .false. refuses them. Default
                                                             !! .false..
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
@@ -217,10 +221,11 @@ contains
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    real(c_double), intent(in), optional, target :: velocity(:, :) !< (3, n_vertices), any positive stride: of the vertices.
-                                                            !! The placement turns and scales it, and does not move it.
+    real(c_double), intent(in), optional, target :: velocity(:, :) !< (3, n_vertices), any positive stride: the velocities of the
+                                                                   !! vertices.
+                                                            !! The placement rotates and scales them, but does not translate them.
                                                             !! Default: none.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     type(riis_surface_arrays) :: arrays
@@ -249,7 +254,7 @@ contains
     integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex's number. Default 1.
-    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
+    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles without area, .false. refuses them. Default
                                                             !! .false..
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
@@ -257,10 +262,11 @@ contains
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    real(c_double), intent(in), optional, target :: velocity(:, :) !< (3, n_vertices), any positive stride: of the vertices.
-                                                            !! The placement turns and scales it, and does not move it.
+    real(c_double), intent(in), optional, target :: velocity(:, :) !< (3, n_vertices), any positive stride: the velocities of the
+                                                                   !! vertices.
+                                                            !! The placement rotates and scales them, but does not translate them.
                                                             !! Default: none.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     type(riis_surface_arrays) :: arrays
@@ -280,7 +286,7 @@ contains
     call finish(code, status)
   end subroutine surface_create_from_arrays_xyz_int64
 
-  !> Does the same for separate coordinates.
+  !> Does the same for separate arrays x, y, z.
   subroutine surface_create_from_arrays_x_y_z_int32(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
       vx, vy, vz, n_threads)
@@ -291,7 +297,7 @@ contains
     integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex's number. Default 1.
-    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
+    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles without area, .false. refuses them. Default
                                                             !! .false..
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
@@ -299,12 +305,12 @@ contains
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     real(c_double), intent(in), optional, target :: vx(:)   !< (n_vertices), any positive stride: the velocities of the
                                                             !! vertices. Default: none.
-    real(c_double), intent(in), optional, target :: vy(:)   !< (n_vertices), as vx.
-    real(c_double), intent(in), optional, target :: vz(:)   !< (n_vertices), as vx.
+    real(c_double), intent(in), optional, target :: vy(:)   !< (n_vertices), like vx.
+    real(c_double), intent(in), optional, target :: vz(:)   !< (n_vertices), like vx.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
@@ -325,7 +331,7 @@ contains
     call finish(code, status)
   end subroutine surface_create_from_arrays_x_y_z_int32
 
-  !> Does the same for both.
+  !> Does the same for integer(int64) and separate arrays x, y, z.
   subroutine surface_create_from_arrays_x_y_z_int64(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
       vx, vy, vz, n_threads)
@@ -336,7 +342,7 @@ contains
     integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex's number. Default 1.
-    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
+    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles without area, .false. refuses them. Default
                                                             !! .false..
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
@@ -344,12 +350,12 @@ contains
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     real(c_double), intent(in), optional, target :: vx(:)   !< (n_vertices), any positive stride: the velocities of the
                                                             !! vertices. Default: none.
-    real(c_double), intent(in), optional, target :: vy(:)   !< (n_vertices), as vx.
-    real(c_double), intent(in), optional, target :: vz(:)   !< (n_vertices), as vx.
+    real(c_double), intent(in), optional, target :: vy(:)   !< (n_vertices), like vx.
+    real(c_double), intent(in), optional, target :: vz(:)   !< (n_vertices), like vx.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
@@ -374,12 +380,12 @@ contains
   subroutine surface_update_from_arrays_xyz_int32(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
       velocity, n_threads)
-    class(riis_surface), intent(inout) :: this              !< Created.
+    class(riis_surface), intent(inout) :: this              !< Must be created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex's number. Default 1.
-    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
+    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles without area, .false. refuses them. Default
                                                             !! as before.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
@@ -387,10 +393,11 @@ contains
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    real(c_double), intent(in), optional, target :: velocity(:, :) !< (3, n_vertices), any positive stride: of the vertices.
-                                                            !! The placement turns and scales it, and does not move it.
+    real(c_double), intent(in), optional, target :: velocity(:, :) !< (3, n_vertices), any positive stride: the velocities of the
+                                                                   !! vertices.
+                                                            !! The placement rotates and scales them, but does not translate them.
                                                             !! Default: none.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     type(riis_surface_arrays) :: arrays
@@ -414,12 +421,12 @@ contains
   subroutine surface_update_from_arrays_xyz_int64(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
       velocity, n_threads)
-    class(riis_surface), intent(inout) :: this              !< Created.
+    class(riis_surface), intent(inout) :: this              !< Must be created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_vertices), any positive stride, never copied.
     integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex's number. Default 1.
-    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
+    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles without area, .false. refuses them. Default
                                                             !! as before.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
@@ -427,10 +434,11 @@ contains
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    real(c_double), intent(in), optional, target :: velocity(:, :) !< (3, n_vertices), any positive stride: of the vertices.
-                                                            !! The placement turns and scales it, and does not move it.
+    real(c_double), intent(in), optional, target :: velocity(:, :) !< (3, n_vertices), any positive stride: the velocities of the
+                                                                   !! vertices.
+                                                            !! The placement rotates and scales them, but does not translate them.
                                                             !! Default: none.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     type(riis_surface_arrays) :: arrays
@@ -450,18 +458,18 @@ contains
     call finish(code, status)
   end subroutine surface_update_from_arrays_xyz_int64
 
-  !> Does the same for separate coordinates.
+  !> Does the same for separate arrays x, y, z.
   subroutine surface_update_from_arrays_x_y_z_int32(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
       vx, vy, vz, n_threads)
-    class(riis_surface), intent(inout) :: this              !< Created.
+    class(riis_surface), intent(inout) :: this              !< Must be created.
     real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: z(:)              !< (n_vertices), any positive stride, never copied.
     integer(int32), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex's number. Default 1.
-    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
+    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles without area, .false. refuses them. Default
                                                             !! as before.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
@@ -469,12 +477,12 @@ contains
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     real(c_double), intent(in), optional, target :: vx(:)   !< (n_vertices), any positive stride: the velocities of the
                                                             !! vertices. Default: none.
-    real(c_double), intent(in), optional, target :: vy(:)   !< (n_vertices), as vx.
-    real(c_double), intent(in), optional, target :: vz(:)   !< (n_vertices), as vx.
+    real(c_double), intent(in), optional, target :: vy(:)   !< (n_vertices), like vx.
+    real(c_double), intent(in), optional, target :: vz(:)   !< (n_vertices), like vx.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
@@ -495,18 +503,18 @@ contains
     call finish(code, status)
   end subroutine surface_update_from_arrays_x_y_z_int32
 
-  !> Does the same for both.
+  !> Does the same for integer(int64) and separate arrays x, y, z.
   subroutine surface_update_from_arrays_x_y_z_int64(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
       vx, vy, vz, n_threads)
-    class(riis_surface), intent(inout) :: this              !< Created.
+    class(riis_surface), intent(inout) :: this              !< Must be created.
     real(c_double), intent(in), target :: x(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: y(:)              !< (n_vertices), any positive stride, never copied.
     real(c_double), intent(in), target :: z(:)              !< (n_vertices), any positive stride, never copied.
     integer(int64), intent(in), contiguous, target :: vertex_ids(:, :) !< (3 or 4, n_faces), counted from index_base.
     integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:) !< (n_faces), >= 0. Default 0.
     class(*), intent(in), optional :: index_base            !< integer, 0 or 1: the first vertex's number. Default 1.
-    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
+    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles without area, .false. refuses them. Default
                                                             !! as before.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
@@ -514,12 +522,12 @@ contains
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     real(c_double), intent(in), optional, target :: vx(:)   !< (n_vertices), any positive stride: the velocities of the
                                                             !! vertices. Default: none.
-    real(c_double), intent(in), optional, target :: vy(:)   !< (n_vertices), as vx.
-    real(c_double), intent(in), optional, target :: vz(:)   !< (n_vertices), as vx.
+    real(c_double), intent(in), optional, target :: vy(:)   !< (n_vertices), like vx.
+    real(c_double), intent(in), optional, target :: vz(:)   !< (n_vertices), like vx.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     type(riis_surface_arrays) :: arrays
     type(strided_points) :: points, velocities
@@ -540,7 +548,7 @@ contains
     call finish(code, status)
   end subroutine surface_update_from_arrays_x_y_z_int64
 
-  ! Sets the vertices of the caller's arrays, and their velocities if there are any.
+  ! Sets the vertices of the caller's arrays, and the velocities if they are present.
   subroutine set_points(points, velocities, arrays)
     type(strided_points), intent(in) :: points, velocities
     type(riis_surface_arrays), intent(inout) :: arrays
@@ -554,7 +562,7 @@ contains
     arrays%velocity_stride = velocities%stride
   end subroutine set_points
 
-  ! This is the common part of all specifics of create_from_arrays. It does nothing after an error.
+  ! The common part of all specific procedures of create_from_arrays. It does nothing after an error.
   subroutine create_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, &
       rotation_angle, translation, flip_normals, n_threads, code)
     class(riis_surface), intent(inout) :: this
@@ -572,7 +580,7 @@ contains
     if (code == RIIS_OK) this%options = options
   end subroutine create_from_arrays
 
-  ! This is the common part of all specifics of update_from_arrays. It does nothing after an error.
+  ! The common part of all specific procedures of update_from_arrays. It does nothing after an error.
   subroutine update_from_arrays(this, arrays, skip_zero_area, half_thickness, tolerance, scale, rotation_axis, &
       rotation_angle, translation, flip_normals, n_threads, code)
     class(riis_surface), intent(inout) :: this
@@ -595,11 +603,11 @@ contains
   subroutine surface_create_from_keyframes(this, keyframes, time, dt, skip_zero_area, half_thickness, tolerance, scale, &
       rotation_axis, rotation_angle, translation, flip_normals, n_threads, status)
     class(riis_surface), intent(inout) :: this              !< Must be empty.
-    class(riis_keyframes), intent(in) :: keyframes          !< Created; read during the call only.
+    class(riis_keyframes), intent(in) :: keyframes          !< Must be created; read during the call only.
     real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
-    real(c_double), intent(in), optional :: dt              !< The velocity is the mean from time - dt to time. Default 0: the
-                                                            !! derivative of the interpolation.
-    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
+    real(c_double), intent(in), optional :: dt              !< The velocity is the mean from time - dt to time. Default 0: it is
+                                                            !! the derivative of the interpolation.
+    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles without area, .false. refuses them. Default
                                                             !! .false..
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
@@ -607,7 +615,7 @@ contains
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_surface_options) :: options
@@ -625,15 +633,15 @@ contains
     call finish(code, status)
   end subroutine surface_create_from_keyframes
 
-  !> Replaces the surface as %update does, by that of another time, as in %create_from_keyframes.
+  !> Replaces the surface as %update does, by the surface at another time, as in %create_from_keyframes.
   subroutine surface_update_from_keyframes(this, keyframes, time, dt, skip_zero_area, half_thickness, tolerance, scale, &
       rotation_axis, rotation_angle, translation, flip_normals, n_threads, status)
-    class(riis_surface), intent(inout) :: this              !< Created.
-    class(riis_keyframes), intent(in) :: keyframes          !< Created; read during the call only.
+    class(riis_surface), intent(inout) :: this              !< Must be created.
+    class(riis_keyframes), intent(in) :: keyframes          !< Must be created; read during the call only.
     real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
-    real(c_double), intent(in), optional :: dt              !< The velocity is the mean from time - dt to time. Default 0: the
-                                                            !! derivative of the interpolation.
-    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles of zero area, .false. refuses them. Default
+    real(c_double), intent(in), optional :: dt              !< The velocity is the mean from time - dt to time. Default 0: it is
+                                                            !! the derivative of the interpolation.
+    logical, intent(in), optional :: skip_zero_area         !< .true. skips triangles without area, .false. refuses them. Default
                                                             !! as before.
     real(c_double), intent(in), optional :: half_thickness  !< Mesh units.
     real(c_double), intent(in), optional :: tolerance       !< 1e-6 to 1.
@@ -641,7 +649,7 @@ contains
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees.
     real(c_double), intent(in), optional :: translation(:)  !< (3), mesh units.
-    logical, intent(in), optional :: flip_normals           !< .true. turns every triangle over.
+    logical, intent(in), optional :: flip_normals           !< .true. reverses every triangle.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_surface_options) :: options
@@ -659,7 +667,7 @@ contains
     call finish(code, status)
   end subroutine surface_update_from_keyframes
 
-  ! Makes the options that a new surface begins with. Does nothing after an error.
+  ! Makes the options with which a new surface begins. Does nothing after an error.
   subroutine create_options(this, options, code)
     class(riis_surface), intent(in) :: this
     type(riis_surface_options), intent(out) :: options
@@ -668,7 +676,7 @@ contains
     if (code == RIIS_OK) code = riis_surface_options_init(options, c_sizeof(options))
   end subroutine create_options
 
-  ! Returns the options that a surface has. Does nothing after an error.
+  ! Returns the present options of a surface. Does nothing after an error.
   subroutine update_options(this, options, code)
     class(riis_surface), intent(in) :: this
     type(riis_surface_options), intent(out) :: options
@@ -718,8 +726,8 @@ contains
 
   !> Gives the surface's counts, half thickness, area and bounds, and the wall times of the last create or update.
   subroutine surface_get_info(this, info, status)
-    class(riis_surface), intent(in) :: this                 !< Created.
-    type(riis_surface_info), intent(inout) :: info          !< Left alone on an error.
+    class(riis_surface), intent(in) :: this                 !< Must be created.
+    type(riis_surface_info), intent(inout) :: info          !< Unchanged on an error.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = check_created(this%handle, 'the surface')
@@ -727,10 +735,10 @@ contains
     call finish(code, status)
   end subroutine surface_get_info
 
-  !> Points to the surface's own vertices and triangles, after placement, without a copy. They are valid until its next update
-  !! or its destruction. Do not write to them. Sizes are 0 on an error.
+  !> Points to the surface's own vertices and triangles, after placement, without a copy. They are valid until its next update or
+  !! its destruction. Do not write to them. On an error all sizes are 0.
   subroutine surface_get_triangles(this, triangles, status)
-    class(riis_surface), intent(in) :: this                 !< Created.
+    class(riis_surface), intent(in) :: this                 !< Must be created.
     type(riis_triangles), intent(inout) :: triangles        !< Every component is set.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(c_triangles) :: made
@@ -751,9 +759,9 @@ contains
 
   !> Finds the closest point of the surface to one point. Errors: RIIS_INVALID_ARGUMENT for a point that is not finite.
   subroutine surface_closest_point(this, point, closest, status)
-    class(riis_surface), intent(in) :: this                 !< Created.
+    class(riis_surface), intent(in) :: this                 !< Must be created.
     real(c_double), intent(in) :: point(:)                  !< (3), magnitude at most 1e60.
-    type(riis_closest), intent(inout) :: closest            !< Left alone on an error.
+    type(riis_closest), intent(inout) :: closest            !< Unchanged on an error.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     real(c_double) :: the_point(3)
     integer(riis_status) :: code
@@ -767,34 +775,34 @@ contains
     call finish(code, status)
   end subroutine surface_closest_point
 
-  !> Finds the closest points of the surface to many points, in parallel. It writes the arrays that are given. The compiler
-  !! copies sections of them that are not contiguous there and back. No array may overlap another or the coordinates, which
-  !! are never copied. Errors: RIIS_INVALID_ARGUMENT naming the first bad point, or for barycentric or side if distances are
+  !> Finds the closest points of the surface to many points, in parallel. It writes the arrays that are present. For sections of
+  !! them that are not contiguous, the compiler makes copies in both directions. No array may overlap another or the coordinates,
+  !! which are never copied. Errors: RIIS_INVALID_ARGUMENT naming the first bad point, or for barycentric or side if distances are
   !! by sampling or minimisation. Nothing is then written.
   subroutine surface_closest_points_xyz_logical(this, xyz, distance_limit, far_distance, n_threads, &
       distance, point, barycentric, normal, triangle_id, leaflet_id, side, status, point_mask, point_id)
-    class(riis_surface), intent(in) :: this                 !< Created.
+    class(riis_surface), intent(in) :: this                 !< Must be created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_points), finite, any positive stride.
-    real(c_double), intent(in), optional :: distance_limit  !< >= 0: farther points get far_distance, ids -1, side 0, zeros.
+    real(c_double), intent(in), optional :: distance_limit  !< >= 0. Farther points get far_distance, ids -1, side 0 and zeros.
                                                             !! Default: no limit.
     real(c_double), intent(in), optional :: far_distance    !< Outside [0, distance_limit]. Default RIIS_FAR_DISTANCE.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     real(c_double), intent(inout), contiguous, optional, target :: distance(:) !< (n_points), >= 0.
     real(c_double), intent(inout), contiguous, optional, target :: point(:, :) !< (3, n_points): the closest points.
-    real(c_double), intent(inout), contiguous, optional, target :: barycentric(:, :) !< (3, n_points): their weights of the
-                                                            !! triangle's vertices.
+    real(c_double), intent(inout), contiguous, optional, target :: barycentric(:, :) !< (3, n_points): the points' barycentric
+                                                            !! coordinates.
     real(c_double), intent(inout), contiguous, optional, target :: normal(:, :) !< (3, n_points): the triangle's unit normal.
     integer(int64), intent(inout), contiguous, optional, target :: triangle_id(:) !< (n_points), from 0.
     integer(int32), intent(inout), contiguous, optional, target :: leaflet_id(:) !< (n_points).
     integer(int32), intent(inout), contiguous, optional, target :: side(:) !< (n_points): 1 downstream, -1 upstream, 0 on the
                                                             !! surface or level with its rim.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    logical, intent(in), optional :: point_mask(:)          !< (n_points): points with .false. are not written, but still
-                                                            !! finite; copied. Default: all points.
-    integer(int64), intent(in), optional, target :: point_id(:) !< Strictly ascending, from 0, as node_id of %marked: only
-                                                            !! these points are read, and only their entries written, in
-                                                            !! their places. Only a section that is not contiguous is copied.
-                                                            !! Default: all points. Not with point_mask.
+    logical, intent(in), optional :: point_mask(:)          !< (n_points): points with .false. get no result, but must be finite;
+                                                            !! copied. Default: all points.
+    integer(int64), intent(in), optional, target :: point_id(:) !< Strictly ascending, from 0, like node_id of %marked: only
+                                                            !! these points are read, and only their entries are written. Only a
+                                                            !! section that is not contiguous is copied. Default: all points. Not
+                                                            !! with point_mask.
     integer(int8), allocatable :: bytes(:)
     type(strided_points) :: points
     integer(riis_status) :: code
@@ -808,23 +816,23 @@ contains
   !> Does the same with a mask of bytes. Only a section that is not contiguous is copied.
   subroutine surface_closest_points_xyz_int8(this, xyz, distance_limit, far_distance, n_threads, &
       distance, point, barycentric, normal, triangle_id, leaflet_id, side, status, point_mask)
-    class(riis_surface), intent(in) :: this                 !< Created.
+    class(riis_surface), intent(in) :: this                 !< Must be created.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_points), finite, any positive stride.
-    real(c_double), intent(in), optional :: distance_limit  !< >= 0: farther points get far_distance, ids -1, side 0, zeros.
+    real(c_double), intent(in), optional :: distance_limit  !< >= 0. Farther points get far_distance, ids -1, side 0 and zeros.
                                                             !! Default: no limit.
     real(c_double), intent(in), optional :: far_distance    !< Outside [0, distance_limit]. Default RIIS_FAR_DISTANCE.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     real(c_double), intent(inout), contiguous, optional, target :: distance(:) !< (n_points), >= 0.
     real(c_double), intent(inout), contiguous, optional, target :: point(:, :) !< (3, n_points): the closest points.
-    real(c_double), intent(inout), contiguous, optional, target :: barycentric(:, :) !< (3, n_points): their weights of the
-                                                            !! triangle's vertices.
+    real(c_double), intent(inout), contiguous, optional, target :: barycentric(:, :) !< (3, n_points): the points' barycentric
+                                                            !! coordinates.
     real(c_double), intent(inout), contiguous, optional, target :: normal(:, :) !< (3, n_points): the triangle's unit normal.
     integer(int64), intent(inout), contiguous, optional, target :: triangle_id(:) !< (n_points), from 0.
     integer(int32), intent(inout), contiguous, optional, target :: leaflet_id(:) !< (n_points).
     integer(int32), intent(inout), contiguous, optional, target :: side(:) !< (n_points): 1 downstream, -1 upstream, 0 on the
                                                             !! surface or level with its rim.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int8), intent(in), contiguous :: point_mask(:)  !< (n_points): points with 0 are not written, but still finite.
+    integer(int8), intent(in), contiguous :: point_mask(:)  !< (n_points): points with 0 get no result, but must be finite.
     type(strided_points) :: points
     integer(riis_status) :: code
     call points_of(xyz, 'xyz', points, code)
@@ -833,33 +841,33 @@ contains
     call finish(code, status)
   end subroutine surface_closest_points_xyz_int8
 
-  !> Does the same for separate coordinates.
+  !> Does the same for separate arrays x, y, z.
   subroutine surface_closest_points_x_y_z_logical(this, x, y, z, distance_limit, far_distance, n_threads, &
       distance, point, barycentric, normal, triangle_id, leaflet_id, side, status, point_mask, point_id)
-    class(riis_surface), intent(in) :: this                 !< Created.
+    class(riis_surface), intent(in) :: this                 !< Must be created.
     real(c_double), intent(in), target :: x(:)              !< (n_points), finite, any positive stride.
     real(c_double), intent(in), target :: y(:)              !< (n_points), finite, any positive stride.
     real(c_double), intent(in), target :: z(:)              !< (n_points), finite, any positive stride.
-    real(c_double), intent(in), optional :: distance_limit  !< >= 0: farther points get far_distance, ids -1, side 0, zeros.
+    real(c_double), intent(in), optional :: distance_limit  !< >= 0. Farther points get far_distance, ids -1, side 0 and zeros.
                                                             !! Default: no limit.
     real(c_double), intent(in), optional :: far_distance    !< Outside [0, distance_limit]. Default RIIS_FAR_DISTANCE.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     real(c_double), intent(inout), contiguous, optional, target :: distance(:) !< (n_points), >= 0.
     real(c_double), intent(inout), contiguous, optional, target :: point(:, :) !< (3, n_points): the closest points.
-    real(c_double), intent(inout), contiguous, optional, target :: barycentric(:, :) !< (3, n_points): their weights of the
-                                                            !! triangle's vertices.
+    real(c_double), intent(inout), contiguous, optional, target :: barycentric(:, :) !< (3, n_points): the points' barycentric
+                                                            !! coordinates.
     real(c_double), intent(inout), contiguous, optional, target :: normal(:, :) !< (3, n_points): the triangle's unit normal.
     integer(int64), intent(inout), contiguous, optional, target :: triangle_id(:) !< (n_points), from 0.
     integer(int32), intent(inout), contiguous, optional, target :: leaflet_id(:) !< (n_points).
     integer(int32), intent(inout), contiguous, optional, target :: side(:) !< (n_points): 1 downstream, -1 upstream, 0 on the
                                                             !! surface or level with its rim.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    logical, intent(in), optional :: point_mask(:)          !< (n_points): points with .false. are not written, but still
-                                                            !! finite; copied. Default: all points.
-    integer(int64), intent(in), optional, target :: point_id(:) !< Strictly ascending, from 0, as node_id of %marked: only
-                                                            !! these points are read, and only their entries written, in
-                                                            !! their places. Only a section that is not contiguous is copied.
-                                                            !! Default: all points. Not with point_mask.
+    logical, intent(in), optional :: point_mask(:)          !< (n_points): points with .false. get no result, but must be finite;
+                                                            !! copied. Default: all points.
+    integer(int64), intent(in), optional, target :: point_id(:) !< Strictly ascending, from 0, like node_id of %marked: only
+                                                            !! these points are read, and only their entries are written. Only a
+                                                            !! section that is not contiguous is copied. Default: all points. Not
+                                                            !! with point_mask.
     integer(int8), allocatable :: bytes(:)
     type(strided_points) :: points
     integer(riis_status) :: code
@@ -870,28 +878,28 @@ contains
     call finish(code, status)
   end subroutine surface_closest_points_x_y_z_logical
 
-  !> Does the same for both.
+  !> Does the same for separate arrays x, y, z and a mask of bytes.
   subroutine surface_closest_points_x_y_z_int8(this, x, y, z, distance_limit, far_distance, n_threads, &
       distance, point, barycentric, normal, triangle_id, leaflet_id, side, status, point_mask)
-    class(riis_surface), intent(in) :: this                 !< Created.
+    class(riis_surface), intent(in) :: this                 !< Must be created.
     real(c_double), intent(in), target :: x(:)              !< (n_points), finite, any positive stride.
     real(c_double), intent(in), target :: y(:)              !< (n_points), finite, any positive stride.
     real(c_double), intent(in), target :: z(:)              !< (n_points), finite, any positive stride.
-    real(c_double), intent(in), optional :: distance_limit  !< >= 0: farther points get far_distance, ids -1, side 0, zeros.
+    real(c_double), intent(in), optional :: distance_limit  !< >= 0. Farther points get far_distance, ids -1, side 0 and zeros.
                                                             !! Default: no limit.
     real(c_double), intent(in), optional :: far_distance    !< Outside [0, distance_limit]. Default RIIS_FAR_DISTANCE.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     real(c_double), intent(inout), contiguous, optional, target :: distance(:) !< (n_points), >= 0.
     real(c_double), intent(inout), contiguous, optional, target :: point(:, :) !< (3, n_points): the closest points.
-    real(c_double), intent(inout), contiguous, optional, target :: barycentric(:, :) !< (3, n_points): their weights of the
-                                                            !! triangle's vertices.
+    real(c_double), intent(inout), contiguous, optional, target :: barycentric(:, :) !< (3, n_points): the points' barycentric
+                                                            !! coordinates.
     real(c_double), intent(inout), contiguous, optional, target :: normal(:, :) !< (3, n_points): the triangle's unit normal.
     integer(int64), intent(inout), contiguous, optional, target :: triangle_id(:) !< (n_points), from 0.
     integer(int32), intent(inout), contiguous, optional, target :: leaflet_id(:) !< (n_points).
     integer(int32), intent(inout), contiguous, optional, target :: side(:) !< (n_points): 1 downstream, -1 upstream, 0 on the
                                                             !! surface or level with its rim.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    integer(int8), intent(in), contiguous :: point_mask(:)  !< (n_points): points with 0 are not written, but still finite.
+    integer(int8), intent(in), contiguous :: point_mask(:)  !< (n_points): points with 0 get no result, but must be finite.
     type(strided_points) :: points
     integer(riis_status) :: code
     call points_of(x, y, z, points, code)
@@ -900,7 +908,7 @@ contains
     call finish(code, status)
   end subroutine surface_closest_points_x_y_z_int8
 
-  ! This is the common part of all specifics of closest_points.
+  ! The common part of all specific procedures of closest_points.
   subroutine closest_points(this, points, distance_limit, far_distance, n_threads, distance, point, barycentric, normal, &
       triangle_id, leaflet_id, side, code, mask, point_id)
     class(riis_surface), intent(in) :: this
@@ -912,7 +920,8 @@ contains
     integer(int32), intent(inout), contiguous, optional, target :: leaflet_id(:), side(:)
     integer(riis_status), intent(inout) :: code
     integer(int8), intent(in), contiguous, optional, target :: mask(:)
-    integer(int64), intent(in), optional, target :: point_id(:) ! gfortran would copy a pointer's target for CONTIGUOUS
+    ! Without CONTIGUOUS, since gfortran would then copy a pointer's target.
+    integer(int64), intent(in), optional, target :: point_id(:)
     type(riis_closest_options) :: options
     type(riis_closest_arrays) :: arrays
     type(riis_points) :: given
@@ -966,7 +975,7 @@ contains
       integer :: stat
       options%n_point_ids = size(point_id, kind=int64)
       if (options%n_point_ids == 0) then
-        options%point_ids = c_loc(no_id) ! a list of no points is a list
+        options%point_ids = c_loc(no_id) ! an empty list still needs an address
       else if (is_contiguous(point_id)) then
         options%point_ids = c_loc(point_id(1))
       else if (code == RIIS_OK) then
@@ -992,30 +1001,30 @@ contains
     end subroutine get_vectors
   end subroutine closest_points
 
-  !> Tells whether the surface was created and not destroyed.
+  !> Returns whether the surface was created and not destroyed.
   pure function surface_is_created(this) result(is_created)
-    class(riis_surface), intent(in) :: this                 !< Any.
+    class(riis_surface), intent(in) :: this                 !< May be empty.
     logical :: is_created                                   !< .false. for an empty one.
     is_created = c_associated(this%handle)
   end function surface_is_created
 
   !> Returns the C handle, for calls of module riis_c. It belongs to this variable: do not destroy it.
   function surface_c_handle(this) result(handle)
-    class(riis_surface), intent(in) :: this                 !< Any.
+    class(riis_surface), intent(in) :: this                 !< May be empty.
     type(c_ptr) :: handle                                   !< c_null_ptr for an empty one.
     handle = this%handle
   end function surface_c_handle
 
   !> Frees the memory of the surface, which is then empty and can be created again. Nothing happens to an empty one.
   subroutine surface_destroy(this)
-    class(riis_surface), intent(inout) :: this              !< Any.
+    class(riis_surface), intent(inout) :: this              !< May be empty.
     call riis_surface_destroy(this%handle)
   end subroutine surface_destroy
 
   !> Stops the program unless both are empty.
   impure elemental subroutine surface_assign(left, right)
-    class(riis_surface), intent(inout) :: left              !< Empty.
-    class(riis_surface), intent(in) :: right                !< Empty.
+    class(riis_surface), intent(inout) :: left              !< Must be empty.
+    class(riis_surface), intent(in) :: right                !< Must be empty.
     call refuse_copy(left%handle, right%handle, 'riis_surface')
   end subroutine surface_assign
 end module riis_surfaces

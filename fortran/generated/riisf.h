@@ -3,8 +3,8 @@
 !
 ! riisf.h - the constants of riis for codes that cannot use modules:
 ! INCLUDE 'riisf.h' in fixed or in free form, after IMPLICIT and
-! before DATA and executable statements. The subroutines, riisf_*, are
-! external ones; riis_f77.f90 beside this file describes them.
+! before DATA and executable statements. The subroutines riisf_* are
+! external; riis_f77.f90 beside this file describes them.
 !
       INTEGER(SELECTED_INT_KIND(9)) RIIS_OK
       PARAMETER (RIIS_OK = 0)

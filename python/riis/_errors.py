@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The exceptions of riis: one class for each status of the C library. Its messages get Python's names here."""
+"""The exceptions of riis, one class for each status of the C library. This module also replaces C names in messages by Python
+names."""
 
 import re
 from collections.abc import Callable
@@ -8,7 +9,7 @@ from collections.abc import Callable
 class Error(Exception):
     """The base of all exceptions of riis. The message names the argument and its value.
 
-    ``status`` is the status of the C library, and ``status_name`` its name there.
+    ``status`` is the status of the C library, and ``status_name`` the status's name in C.
     """
 
     status: int = 0
@@ -23,7 +24,7 @@ class InvalidArgumentError(Error, ValueError):
 
 
 class InvalidParameterError(Error, ValueError):
-    """A valve refuses a kind, the name or value of a parameter, or values that clash."""
+    """A valve refuses a kind, the name or value of a parameter, or values that do not fit together."""
 
     status = 3
     status_name = "RIIS_INVALID_PARAMETER"
@@ -32,7 +33,7 @@ class InvalidParameterError(Error, ValueError):
 class UnknownParameterError(InvalidParameterError, KeyError):
     """The valve has no parameter of this name."""
 
-    __str__ = Exception.__str__  # KeyError's shows the message in quotes
+    __str__ = Exception.__str__  # KeyError's own __str__ shows the message in quotes
 
 
 class InvalidSurfaceError(Error, ValueError):
@@ -50,7 +51,7 @@ class InvalidMeshError(Error, ValueError):
 
 
 class LimitExceededError(Error, ValueError):
-    """The request is sound, but larger than the library takes on."""
+    """The request is valid, but larger than the library allows."""
 
     status = 6
     status_name = "RIIS_LIMIT_EXCEEDED"
@@ -64,7 +65,8 @@ class OutOfMemoryError(Error, MemoryError):
 
 
 class UnavailableError(Error, RuntimeError):
-    """The processor lacks the instructions, or the process may not do this: a child of ``fork``, or another thread's object."""
+    """The processor lacks the instructions, or the process must not make this call: in a child of ``fork``, or for another
+    thread's object."""
 
     status = 9
     status_name = "RIIS_UNAVAILABLE"
@@ -95,11 +97,11 @@ for _class in (Error, UnknownParameterError, *_classes.values()):
 
 
 def class_of(status: int) -> type[Error]:
-    """Returns the class of a status. A status without a class cannot come from the calls of this package."""
+    """Returns the class for a status. A status without a class cannot come from the calls of this package."""
     return _classes.get(status, InternalError)
 
 
-# The functions and structs of riis.h that messages name.
+# The functions and structs of riis.h that messages name, and their Python names.
 _NAMES = {
     "riis_find_crossings": "riis.find_crossings",
     "riis_mark_nodes": "riis.mark",
@@ -110,7 +112,7 @@ _NAMES = {
     "riis_valve_get_parameter": "Valve.parameters",
     "riis_valve_set_open_state": "Valve.set_open_state",
 }
-# Fields of C's structs whose argument has another name in Python. Each other field has the name of its argument.
+# Fields of C structs whose argument has another name in Python. Other fields have the same name as their argument.
 _ARGUMENTS = {
     "arrays.vertex_ids": "faces",
     "csr.n_rows": "the number of rows",
@@ -123,7 +125,7 @@ _ARGUMENTS = {
     "options.point_ids": "ids",
     "options.point_mask": "mask",
 }
-# Python's words for C's numbers, for each argument.
+# Python's words for C's constants, for each argument.
 WORDS = {
     "measure": ("triangles", "sampling", "minimization"),
     "instructions": ("auto", "baseline", "avx2", "avx512"),
@@ -162,7 +164,7 @@ _CHANGES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
 
 
 def in_python(message: str) -> str:
-    """Returns a message of the C library with Python's names."""
+    """Returns a message of the C library with Python names."""
     for pattern, change in _CHANGES:
         message = re.sub(pattern, change, message)
     return message

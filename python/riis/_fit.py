@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fits a valve to points, such as those of a segmented image, by scipy's least squares over closest points."""
+"""Fits a valve to points, such as those of a segmented image. It uses scipy's least squares on distances to closest points."""
 
 from __future__ import annotations
 
@@ -33,36 +33,37 @@ from riis._riis import Surface, Valve
 
 Reals = NDArray[numpy.float64]
 
-# An unknown is undetermined if its standard error exceeds this share of a reference. The reference is the width of its
-# bounds, a radian, the valve's size or the scale.
+# An unknown is undetermined if its standard error exceeds this fraction of a reference: the width of its bounds, a radian, the
+# valve's size, or the scale.
 _UNDETERMINED = 0.1
 _MOVES = ("rotation", "translation", "scale")
 # The rough search uses this number of points.
 _N_ROUGH = 400
-# This number of the search's ends is refined, with a width from the scatter of the points.
+# This many results of the rough search are refined, with a width from the scatter of the points.
 _N_ENDS = 3
-# Each further start chooses among this number of rotations.
+# Each further start chooses among this many rotations.
 _N_ROTATIONS = 150
 
 
 @dataclass(frozen=True)
 class FitResult:
-    """A fitted valve: Surface(result.valve, **result.placement) is its surface."""
+    """A fitted valve. Its surface is Surface(result.valve, **result.placement)."""
 
     valve: Valve
     placement: dict[str, Any]  #: scale, rotation_axis, rotation_angle (degrees) and translation
     parameters: dict[str, float]  #: the free parameters
-    standard_errors: dict[str, float]  #: for the free parameters, from the data's scatter; infinite without information
+    standard_errors: dict[str, float]  #: of the free parameters, from the data's scatter; infinite if the data say nothing about
+                                       #: a parameter
     undetermined: tuple[str, ...]  #: free parameters and parts of the placement that the data do not determine
     at_bounds: tuple[str, ...]  #: free parameters that ended at a bound
-    singular_values: Reals  #: of the Jacobian (row: point, column: unknown), descending, in sizes of the valve
-    rms: float  #: root mean square of the distances with the weights below, a length
-    percentile95: float  #: 95 % of all points have at most this distance, a length
+    singular_values: Reals  #: of the Jacobian (rows: points, columns: unknowns), descending, in units of the valve's size
+    rms: float  #: root mean square of the distances, with the weights below
+    percentile95: float  #: 95 % of all points have at most this distance
     distances: Reals = field(repr=False)  #: (n_points,), of all points
-    weights: Reals = field(repr=False)  #: (n_points,), the caller's weights times 0 to 1; small for outliers
+    weights: Reals = field(repr=False)  #: (n_points,), the caller's weights times a factor from 0 to 1, small for outliers
 
     def report(self) -> str:
-        """Returns a table of the parameters with their standard errors, and the measures of the fit below it."""
+        """Returns a table of the parameters with their standard errors, followed by the measures of the fit."""
         table = self.valve.parameters
         lines = [f"{'parameter':32} {'value':>10} {'std. error':>10}  unit"]
         for name, value in self.parameters.items():
@@ -83,7 +84,7 @@ class FitResult:
         return "\n".join(lines)
 
     def write(self, path: str | os.PathLike[str]) -> str:
-        """Writes the parameters to a file for riis mark --params, and returns the options with the file and the placement."""
+        """Writes the parameters to a file for riis mark --params. Returns the options that name the file and the placement."""
         if not _is_its_parameters(self.valve):
             raise InvalidArgumentError(
                 "valve: has patches or an open state of its own, which a file of parameters does not hold; write those with "
@@ -102,7 +103,7 @@ class FitResult:
 
 
 def _is_its_parameters(valve: Valve) -> bool:
-    """Tells whether the parameters alone define the valve: it has no patches, and the caller gave no open state."""
+    """Returns whether the parameters alone define the valve: it has no patches, and the caller gave no open state."""
     if valve.kind == "patches":
         return False
     alone = Valve(valve.kind)
@@ -114,7 +115,7 @@ def _is_its_parameters(valve: Valve) -> bool:
 
 
 def _reals(data: Any, name: str, or_else: str = "") -> Reals:
-    """Returns an array of float64, and refuses other values as the calls in C++ do."""
+    """Returns an array of float64. Refuses other values as the calls in C++ do."""
     if isinstance(data, numpy.ma.MaskedArray):
         raise TypeError(
             f"{name}: is a masked array, and its mask would be lost; pass {name}.filled(...), or {name}.data if the mask "
@@ -177,7 +178,8 @@ def _names_of(names: Any, argument: str) -> list[str]:
 
 
 def _default_bounds(parameter: Parameter, value: float, size: float) -> tuple[float, float]:
-    """Returns the bounds of the table. The bounds of lengths span many powers of ten, so they are narrowed around the value."""
+    """Returns the bounds from the table of parameters. The bounds of lengths span many powers of ten, so they are narrowed
+    around the value."""
     if parameter.unit != "length":
         return parameter.minimum, parameter.maximum
     low, high = sorted((0.5 * value, 2.0 * value)) if value != 0.0 else (-0.25 * size, 0.25 * size)
@@ -199,7 +201,8 @@ def _bounds_of(valve: Valve, free: list[str], given: Any, size: float) -> Reals:
     bounds = []
     for name in free:
         if name not in table:
-            raise InvalidArgumentError(f"free: '{name}' is no parameter of a {valve.kind} valve; they are {', '.join(table)}")
+            raise InvalidArgumentError(
+                f"free: '{name}' is not a parameter of a {valve.kind} valve; the parameters are {', '.join(table)}")
         if table[name].n_values != 1:
             raise InvalidArgumentError(f"free: '{name}' has three values; only parameters with one can be free")
         low, high = _pair(given[name], name) if name in given else _default_bounds(table[name], valve[name], size)
@@ -221,7 +224,7 @@ def _placed(start: Any) -> dict[str, Any]:
     place = {"scale": 1.0, "rotation_axis": (0.0, 0.0, 1.0), "rotation_angle": 0.0, "translation": (0.0, 0.0, 0.0)}
     for name, value in start.items():
         if name not in place:
-            raise InvalidArgumentError(f"start: '{name}' is none of {', '.join(place)}")
+            raise InvalidArgumentError(f"start: '{name}' is not one of {', '.join(place)}")
         place[name] = value
     return place
 
@@ -239,25 +242,27 @@ def fit(
     n_starts: int = 8,
     seed: int = 0,
 ) -> FitResult:
-    """Finds parameters and a placement with which a valve lies closest to points.
+    """Finds the parameters and the placement that bring a valve closest to points.
 
     points     (n, 3) float64; or a Surface or a pyvista.PolyData, whose vertices are taken
-    valve      a kind, or a Valve with the values to start from, which stays as it is
-    free       names of parameters with one value that are fitted; the others stay
-    placement  which of rotation, translation and scale are fitted
-    start      a dict of scale, rotation_axis, rotation_angle and translation to start from. Without a translation the
-               middle of the valve starts at that of the points; without a scale, a free one starts from their extents
-    bounds     a dict from names in free to (low, high). Others have those of valve.parameters, lengths half to twice
-               the value to start from
-    weights    (n,) float64 >= 0, of the squares of distances. Vertices of a surface have the areas around them if None,
-               other points have 1
-    whole      True: the points lie over the whole valve, as evenly as may be, so a surface that reaches beyond them costs.
-               False: they lie on a part of it, and nothing pulls an edge back that reaches beyond them
-    n_starts   1 starts from the given values. More starts, by seed, have random values within the bounds and, if start
-               has no rotation, any rotation. The closest fit counts
-    seed       of the random starts
+    valve      a kind, or a Valve with the start values, which is not changed
+    free       names of the parameters to fit, each with one value; the others stay
+    placement  which of rotation, translation and scale to fit
+    start      a dict of the start values of scale, rotation_axis, rotation_angle and translation. Without a
+               translation, the middle of the valve starts at the middle of the points. Without a scale, a free scale
+               starts from their extents
+    bounds     a dict from names in free to (low, high). The others have the bounds of valve.parameters, and lengths
+               half to twice the start value
+    weights    (n,) float64 >= 0, of the squares of distances. If None: the area around each vertex of a
+               surface, or 1 for other points
+    whole      True: the points cover the whole valve, about evenly, so a surface that reaches beyond them is penalized.
+               False: they cover a part of it, and nothing pulls back an edge that reaches beyond them
+    n_starts   the first start has the given values. Others, chosen by seed, have random values within the bounds and,
+               if start has no rotation, any rotation. The closest fit is returned
+    seed       the seed of the random starts
 
-    Distances are from the points to the surface. Outliers lose weight (Cauchy's loss, by the scatter of the points).
+    Distances are from the points to the surface. Outliers lose weight (Cauchy's loss, with a width from the scatter of the
+    points).
     """
     points, areas = _points_of(points)
     _check_points(points)
@@ -270,7 +275,7 @@ def fit(
     names, moves = _names_of(free, "free"), _names_of(placement, "placement")
     for move in moves:
         if move not in _MOVES:
-            raise InvalidArgumentError(f"placement: '{move}' is none of {', '.join(_MOVES)}")
+            raise InvalidArgumentError(f"placement: '{move}' is not one of {', '.join(_MOVES)}")
     if not names and not moves:
         raise InvalidArgumentError("free: and placement are empty, so there is nothing to fit")
     if weights is not None:
@@ -282,7 +287,7 @@ def fit(
         raise TypeError(f"whole: must be True or False, not {whole!r}")
     given = {} if start is None else start
     place = _placed(given)
-    first = Surface(valve, **place)  # this call refuses a bad placement, and values that clash
+    first = Surface(valve, **place)  # this call refuses a bad placement, and values that do not fit together
     pose = start_pose(place)
     used = points[weights > 0.0]
     n_unknowns = len(names) + sum({"rotation": 3, "translation": 3, "scale": 1}[move] for move in moves)
@@ -320,7 +325,7 @@ def _extent_of(surface: Surface) -> float:
 
 def _search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any_rotation: bool, n_starts: int,
             random: numpy.random.Generator) -> tuple[Pose, Reals]:
-    """Minimizes roughly from every start. Returns the base and the unknowns of the best end."""
+    """Minimizes roughly from every start. Returns the base and the unknowns of the best result."""
     n_names = len(problem.names)
     width = 0.05 * problem.size
     ends: list[tuple[float, Pose, Reals]] = []
@@ -339,12 +344,12 @@ def _search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, an
                 rotations = random_rotations(random, _N_ROTATIONS)
         problem.begin(pose)
         base = problem.best_rotation(x, rotations, middle)
-        if base is not None:  # None if the values clash
+        if base is not None:  # None if the values do not fit together
             go_down(base, x)
     if not ends:
         raise InvalidArgumentError("valve: no start has a surface; its values clash")
     if any_rotation and n_starts > 1:
-        # A valve looks similar if it is turned by one cusp, or if back and front change places. So these turns are tried.
+        # A valve looks similar if it is turned by one cusp, or if front and back are swapped. So these rotations are tried.
         _, found, x = ends[0]
         for angle in numpy.radians((120.0, 240.0, 180.0)):
             turn = matrix_of(numpy.array([0.0, 0.0, angle]))
@@ -370,12 +375,12 @@ def _result(problem: Problem, x: Reals) -> FitResult:
     distances = numpy.abs(seen.distance)
     robust = 1.0 / (1.0 + weights * (distances / width) ** 2)
     jacobian = problem.jacobian(x) * numpy.sqrt(numpy.append(robust, 1.0))[:, None]
-    surface, pose = problem.set_valve(x), problem.pose(x)  # the last derivative changed the valve
+    surface, pose = problem.set_valve(x), problem.pose(x)  # the last derivative changed the valve, so this restores it
     assert surface is not None
     total = weights * robust
     n_free = total.sum() ** 2 / (total**2).sum() - problem.n
     variance = float(total @ distances**2) / total.sum() * (1.0 + problem.n / max(1.0, n_free))
-    variance = max(variance, (pose.scale * surface.info.error_bound) ** 2)  # the triangles are no more accurate
+    variance = max(variance, (pose.scale * surface.info.error_bound) ** 2)  # the fit cannot be more accurate than the triangles
     _, s, v = numpy.linalg.svd(jacobian, full_matrices=False)
     kept = s > max(1e-6 * s.max(), 1e-12 * problem.size)
     covariance = (v[kept].T / s[kept] ** 2) @ v[kept] * variance

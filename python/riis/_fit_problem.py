@@ -14,21 +14,22 @@ from riis._riis import Surface, Valve
 
 Reals = NDArray[numpy.float64]
 
-# Triangles lie within this distance of the smooth valve, as a share of the valve's size.
+# Triangles lie within this distance of the smooth valve, as a fraction of the valve's size.
 FINE, ROUGH = 5e-4, 2e-3
-# The step of differences, as a share of a parameter's bounds. With a smaller step, changes of the triangles would disturb
-# the difference.
+# The step of finite differences, as a fraction of a parameter's bounds. With a smaller step, changes of the triangulation would
+# disturb the difference.
 _STEP = 2e-3
-# Residuals of values that clash, in sizes of the valve: far more than any distance to a valve that lies near the points.
+# The residuals of values that do not fit together, in units of the valve's size. They are far larger than any distance to a valve
+# near the points.
 _CLASH = 10.0
-# Threads are used above this number of points. A fit makes many small surfaces, each in a few milliseconds, for which
-# threads cost more than they gain.
+# Threads are used for more points than this. A fit makes many small surfaces, each in a few milliseconds. For these, threads cost
+# more than they gain.
 _MANY = 20_000
 _N_UNKNOWNS = {"rotation": 3, "translation": 3, "scale": 1}
 
 
 def matrix_of(vector: Reals) -> Reals:
-    """Returns the rotation by a vector: its direction is the axis, its length the angle in radians (Rodrigues)."""
+    """Returns the rotation for a vector, whose direction is the axis and whose length is the angle in radians (Rodrigues)."""
     angle = float(numpy.linalg.norm(vector))
     if angle == 0.0:
         return numpy.eye(3)
@@ -51,7 +52,7 @@ def axis_and_angle(rotation: Reals) -> tuple[tuple[float, float, float], float]:
 
 
 def random_rotations(random: numpy.random.Generator, n: int) -> Reals:
-    """Returns (n, 3, 3) uniformly random rotations (quaternions of four normal numbers)."""
+    """Returns n uniformly random rotations, (n, 3, 3), from quaternions of four normal numbers."""
     quaternions = random.normal(size=(4, n))
     w, x, y, z = quaternions / numpy.linalg.norm(quaternions, axis=0)
     rows = [
@@ -78,7 +79,7 @@ def vertex_areas(vertices: Reals, triangles: NDArray[numpy.int64]) -> Reals:
 
 @dataclass(frozen=True)
 class Pose:
-    """x -> scale * rotation @ x + move"""
+    """The placement x -> scale * rotation @ x + move."""
 
     rotation: Reals
     move: Reals
@@ -86,19 +87,20 @@ class Pose:
 
 
 class Seen(NamedTuple):
-    """The points' places relative to a valve. The directions keep signed distances smooth if points change sides."""
+    """The points' positions relative to a valve. The directions keep signed distances smooth if points change sides."""
 
-    difference: Reals  # (n, 3), from the closest point
-    direction: Reals  # (n, 3), unit, on the side of the normal
-    distance: Reals  # (n,), along the direction, with a sign
+    difference: Reals  # (n, 3), from the closest points
+    direction: Reals  # (n, 3), unit vectors on the side of the normals
+    distance: Reals  # (n,), signed, along the directions
     local: Reals  # (n, 3), the closest points in the valve's frame
     log_area: float
 
 
 class Problem:
-    """Unknowns x: parameters in shares of their bounds, then a rotation vector, a translation in sizes, the scale's logarithm.
+    """The unknowns x are the parameters as fractions of their bounds, then a rotation vector, a translation in units of the
+    valve's size, and the scale's logarithm.
 
-    The last three start at 0, on top of the pose that a search begins with.
+    The last three start at 0 and are relative to the pose with which a search begins.
     """
 
     def __init__(self, points: Reals, weights: Reals, valve: Valve, names: list[str], bounds: Reals, moves: list[str],
@@ -117,7 +119,7 @@ class Problem:
         self.last: tuple[bytes, Seen | None] | None = None
 
     def begin(self, base: Pose) -> None:
-        """Sets the pose from which placements start."""
+        """Sets the pose to which placements are relative."""
         self.base, self.last = base, None
 
     def values(self, x: Reals) -> Reals:
@@ -139,7 +141,7 @@ class Problem:
         return Pose(matrix_of(vector) @ self.base.rotation, self.base.move + move, factor * self.base.scale)
 
     def set_valve(self, x: Reals) -> Surface | None:
-        """Gives the valve and its surface the parameters of x; None if these clash."""
+        """Gives the valve and its surface the parameters of x. Returns None if these do not fit together."""
         try:
             self.valve.update(**dict(zip(self.names, self.values(x).tolist())))
             if self.surface is None:
@@ -152,7 +154,7 @@ class Problem:
         return self.surface
 
     def look(self, x: Reals) -> tuple[Reals, Reals, Reals, float] | None:
-        """Returns points minus closest points, normals, closest points in the valve's frame, and the area's logarithm."""
+        """Returns points minus closest points, normals, closest points in the valve's frame, and the logarithm of the area."""
         surface, pose = self.set_valve(x), self.pose(x)
         if surface is None:
             return None
@@ -164,7 +166,7 @@ class Problem:
         return pose.scale * (local - found.point) @ pose.rotation.T, found.normal @ pose.rotation.T, found.point, area
 
     def at(self, x: Reals) -> Seen | None:
-        """Returns the points' places relative to the valve at x, computed once."""
+        """Returns the points' positions relative to the valve at x, computed only once."""
         key = x.tobytes()
         if self.last is None or self.last[0] != key:
             found, seen = self.look(x), None
@@ -178,11 +180,11 @@ class Problem:
             self.last = key, seen
         return self.last[1]
 
-    # The last residual is that of the area. Where points lie evenly over the whole valve, each has the probability density
-    # 1 / area, so the logarithm of their likelihood has the term -n log(area). Half the sum of squares, which is the rest of the
-    # likelihood times noise^2, is not quite right near an edge: noise carries points beyond it, and these pull it outwards by
-    # n noise^2 / (4 area) per length. A quarter of the term pulls it inwards by the same, so edges stay where they are. Half the
-    # square of this residual is n noise^2 / 4 (log(area) + constant). The constant keeps the root real.
+    # The last residual concerns the area. If points lie evenly over the whole valve, each has the probability density 1 / area.
+    # So the logarithm of their likelihood contains the term -n log(area). Half the sum of squares is the rest of the likelihood,
+    # times noise^2. It is biased near an edge: noise moves points beyond the edge, and these pull it outwards by n noise^2 / (4
+    # area) per length. A quarter of the area's term pulls the edge inwards by the same amount, so edges stay where they are. Half
+    # the square of this residual is n noise^2 / 4 (log(area) + constant). The constant keeps the root real.
     _CONSTANT = 4.0
 
     def _area_factor(self) -> float:
@@ -192,7 +194,7 @@ class Problem:
         return float(numpy.sqrt(max(self._CONSTANT + log_area - self.log_area, 1e-3)))
 
     def residuals(self, x: Reals) -> Reals:
-        """Returns the residuals of the points, and that of the area."""
+        """Returns the residuals of the points and the residual of the area."""
         seen = self.at(x)
         if seen is None:
             return numpy.full(len(self.points) + 1, _CLASH * self.size)
@@ -210,7 +212,7 @@ class Problem:
                 moved = x.copy()
                 moved[i] += step
                 other = self.look(moved)
-                if other is not None:  # otherwise try the other side
+                if other is not None:  # if this side is not possible, tries the other side
                     along = numpy.einsum("ij,ij->i", other[0], seen.direction)
                     result[:-1, i] = self.root_weights * (along - seen.distance) / step
                     result[-1, i] = area * (other[3] - seen.log_area) / step
@@ -233,13 +235,14 @@ class Problem:
         return result
 
     def scatter(self, x: Reals) -> float:
-        """Returns the standard deviation of normal noise with the median of the distances, which outliers hardly change."""
+        """Returns the standard deviation of the normal noise that would have the same median of distances. Outliers hardly
+        change the median."""
         seen = self.at(x)
         assert seen is not None
         return max(1.4826 * weighted_median(numpy.abs(seen.distance), self.weights), 1e-4 * self.size)
 
     def loss(self, x: Reals, width: float) -> float:
-        """Returns the loss of the points' residuals for a width."""
+        """Returns the loss of the points' residuals for a given width."""
         return float(numpy.log1p((self.residuals(x)[:-1] / width) ** 2).sum())
 
     def merit(self, x: Reals, noise: float) -> float:
@@ -250,7 +253,7 @@ class Problem:
         return width**2 * self.loss(x, width) + 0.5 * float(self.weights.sum()) * noise**2 * seen.log_area
 
     def solve(self, x: Reals, width: float, n_steps: int, change: float) -> Reals:
-        """Minimizes from x until x or the cost changes by less. Residuals of points beyond the width lose weight."""
+        """Minimizes from x until x or the cost changes by less than `change`. Residuals beyond the width lose weight."""
         from scipy.optimize import least_squares
 
         seen = self.at(x)
@@ -281,9 +284,10 @@ class Problem:
         return x
 
     def best_rotation(self, x: Reals, rotations: Reals, middle: Reals | None) -> Pose | None:
-        """Returns the pose, of the base and the base turned by rotations, with which the points lie closest; None for a clash.
+        """Turns the base by each rotation, and returns the pose with which the points are closest, or None if the values do not
+        fit together.
 
-        middle  where the middle of the surface comes to lie; None leaves the translation
+        middle  the position for the middle of the surface; None keeps the translation
         """
         surface = self.set_valve(x)
         if surface is None:

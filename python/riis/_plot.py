@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures by PyVista, which is imported when the first picture is made."""
+"""Pictures by PyVista, which is imported for the first picture."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def _pyvista() -> Any:
 
 
 def surface_to_pyvista(surface: Surface) -> Any:
-    """Copies a surface to pyvista.PolyData; Surface.to_pyvista says more."""
+    """Copies a surface to pyvista.PolyData, as described for Surface.to_pyvista."""
     pyvista = _pyvista()
     triangles, velocities = surface.triangles, surface.velocities
     corners = numpy.full((len(triangles.vertex_id), 4), 3, numpy.int64)
@@ -44,7 +44,7 @@ _BAR = {
 
 
 def _look(plotter: Any, zoom: float) -> None:
-    """Aims the camera obliquely from above at everything drawn."""
+    """Aims the camera at everything drawn, obliquely from above."""
     plotter.view_vector((1.0, -1.6, 1.5), viewup=(0.0, 0.0, 1.0))
     plotter.camera.zoom(zoom)
 
@@ -84,15 +84,15 @@ def plot(
 ) -> Any:
     """Draws a surface, coloured by leaflet, and the marked nodes, coloured by distance.
 
-    mesh, marks  those of the marking, both or none; other nodes than those that were marked are refused
-    screenshot   a .png file to write; no window opens then
-    plotter      a pyvista.Plotter to draw into; None: a new one, which is shown if there is no screenshot
+    mesh, marks  of a marking, both or neither. The mesh must still have the nodes of the marking
+    screenshot   a .png file to write; then no window opens
+    plotter      a pyvista.Plotter to draw into. If None, a new one is used, and shown unless there is a screenshot
 
     Returns the plotter.
     """
     pyvista = _pyvista()
     if (mesh is None) != (marks is None):
-        raise InvalidArgumentError("marks: goes together with mesh; one of them is None")
+        raise InvalidArgumentError("marks: must be given together with mesh; one of them is None")
     _check_of_mesh(marks, mesh)
     given = plotter is not None
     if not given:
@@ -137,14 +137,14 @@ def animate(
     """Makes a movie of a valve that moves, and returns the number of frames.
 
     path        a file .gif or .mp4 to write
-    frames      an iterable, such as a generator that is a time loop. Each item is a Surface, (Surface, marks) or
-                (Surface, marks, caption), and is drawn as it comes, so all may be the same objects with new content
-    mesh        that of the marks
-    frame_rate  frames a second
-    plotter     a pyvista.Plotter(off_screen=True) with a camera and things of your own; it is closed
+    frames      an iterable, such as a generator with a time loop. Each item is a Surface, (Surface, marks) or
+                (Surface, marks, caption), and is drawn immediately, so all may be the same objects with new content
+    mesh        the mesh of the marks
+    frame_rate  frames per second
+    plotter     a pyvista.Plotter(off_screen=True) with your own camera and objects; it is closed afterwards
 
-    Without plotter, the camera looks at the first frame obliquely from above. If a frame raises an
-    exception, no file is left. A movie needs imageio besides PyVista, .mp4 also imageio-ffmpeg: pip install riis[plot].
+    Without plotter, the camera looks at the first frame obliquely from above. If a frame raises an exception, no file is left. A
+    movie needs imageio besides PyVista, .mp4 also imageio-ffmpeg: pip install riis[plot].
     """
     pyvista = _pyvista()
     name = os.fspath(path)
@@ -157,7 +157,7 @@ def animate(
         raise InvalidArgumentError(f"frame_rate: is {frame_rate}; it must be above 0 and at most 1000")
     given = plotter is not None
     if not given:
-        plotter = pyvista.Plotter(off_screen=True, window_size=(768, 576))  # multiples of 16, as .mp4 has them
+        plotter = pyvista.Plotter(off_screen=True, window_size=(768, 576))  # multiples of 16, as .mp4 needs
     number, complete = 0, False
     try:
         for item in frames:

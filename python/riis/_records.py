@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the calls of riis return besides arrays: named tuples."""
+"""Named tuples that the calls of riis return."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ class Parameter(NamedTuple):
 
 
 class SurfaceInfo(NamedTuple):
-    """The size of a surface, and the seconds that its last create or update took."""
+    """The size of a surface, and the seconds that its last creation or update took."""
 
     n_vertices: int
     n_triangles: int
     n_zero_area: int  #: triangles that were skipped because they have no area
-    half_thickness: float  #: mesh units, as all lengths here
+    half_thickness: float  #: mesh units, like all lengths here
     area: float
     lower: Reals  #: (3,), bounds of the triangles
-    upper: Reals  #: (3,)
+    upper: Reals  #: (3,), bounds of the triangles
     seconds_triangles: float
     seconds_scene: float
-    error_bound: float  #: distances to the triangles and to the smooth valve differ by at most this
+    error_bound: float  #: distances to the triangles and to the smooth valve differ by at most this length
     #: velocities of the triangles and of the smooth valve, at the same patch, u and v, differ by at most this
     velocity_error_bound: float
 
@@ -46,7 +46,7 @@ class Triangles(NamedTuple):
     """The triangles of a surface."""
 
     vertex_id: Ids  #: (n, 3)
-    triangle_id: Ids  #: (n,), ascending: the id that queries report
+    triangle_id: Ids  #: (n,), ascending: the ids that queries report
     leaflet_id: Integers  #: (n,), see Leaflet
     patch_id: Integers  #: (n,)
 
@@ -56,15 +56,15 @@ class ClosestPoint(NamedTuple):
 
     distance: float  #: mesh units
     point: Reals  #: (3,), on the triangle
-    barycentric: Reals  #: (3,), its weights of the triangle's vertices
+    barycentric: Reals  #: (3,), the point's barycentric coordinates
     normal: Reals  #: (3,), unit normal of the triangle
     triangle_id: int
     leaflet_id: int
-    side: int  #: +1 where normals point to (downstream), -1 on the other side, 0 on the surface or level with its rim
+    side: int  #: +1 on the side of the normals (downstream), -1 on the other side, 0 on the surface or level with its rim
 
 
 class ClosestPoints(NamedTuple):
-    """The closest points to many points; None for what was not requested. See ClosestPoint."""
+    """The closest points to many points, as in ClosestPoint. An array that was not requested is None."""
 
     distance: Reals | None  #: (n,)
     point: Reals | None  #: (n, 3)
@@ -78,20 +78,20 @@ class ClosestPoints(NamedTuple):
 class MarkStats(NamedTuple):
     """The statistics of a marking."""
 
-    n_nodes: int  #: of the mesh
+    n_nodes: int  #: number of the mesh's nodes
     n_marked: int
     n_within_limit: int
-    n_queries: int  #: closest-point queries
+    n_queries: int  #: number of closest-point queries
     seconds: float
     search: str  #: the search that ran
-    n_threads: int  #: the largest number that ran in any part
-    complete: bool  #: every node within the limit was certainly found
+    n_threads: int  #: the largest number of threads in any part
+    complete: bool  #: whether every node within the limit was certainly found
     instructions: str  #: the instructions that were used
-    n_unreached: int  #: nodes that the neighbour search's proof found, not its walk
+    n_unreached: int  #: nodes that the neighbour search found only by its final check
 
 
 class Dense(NamedTuple):
-    """Arrays with an entry for every node of the mesh; None for what was not requested."""
+    """Arrays with an entry for every node of the mesh. An array that was not requested is None."""
 
     mark: NDArray[numpy.bool_] | None
     distance: Reals | None
@@ -100,18 +100,18 @@ class Dense(NamedTuple):
 
 
 class BandSums(NamedTuple):
-    """Sums on either side of the surface: entry 0 is upstream, entry 1 downstream. The mean is sum / weight."""
+    """Sums on each side of the surface: entry 0 is upstream, entry 1 downstream. The mean is sum / weight."""
 
     sum: Reals  #: (2,), the sum of weight * value
-    weight: Reals  #: (2,)
-    n_nodes: Ids  #: (2,), nodes in the band
+    weight: Reals  #: (2,), the sum of weight
+    n_nodes: Ids  #: (2,), number of nodes in the band
 
 
 class Leaks(NamedTuple):
     """Mesh edges that cross the surface between two unmarked nodes, ascending. Lengths are in mesh units."""
 
     n_edges: int
-    node_id: Ids  #: (n, 2), the lower one first
+    node_id: Ids  #: (n, 2), the lower id first
     length: Reals  #: (n,)
     distance: Reals  #: (n,): the half thickness that closes the edge
     half_thickness: float  #: the smallest half thickness that gives each edge a marked node
@@ -124,8 +124,8 @@ class Leaks(NamedTuple):
 class Passage(NamedTuple):
     """The widest passage from one set of nodes to another."""
 
-    state: Literal["closed", "open", "none"]  #: "none": the mesh itself has no path
-    node_id: int  #: the node at the passage's narrowest place, -1 without a path
+    state: Literal["closed", "open", "none"]  #: "none": the mesh has no path at all
+    node_id: int  #: the node at the passage's narrowest point, -1 without a path
     distance: float  #: the smallest half thickness that closes the passage
     point: Reals  #: (3,), the node's coordinates
     seconds: float
@@ -135,10 +135,10 @@ class Crossings(NamedTuple):
     """Pairs of triangles that go through each other, ascending. Lengths are in mesh units."""
 
     n_pairs: int
-    triangle_id: Ids  #: (n, 2), the lower one first
+    triangle_id: Ids  #: (n, 2), the lower id first
     point: Reals  #: (n, 3), the middle of the pair's intersection
     depth: Reals  #: (n,)
-    length: Reals  #: (n,), of the pair's intersection
+    length: Reals  #: (n,), the length of the pair's intersection
     total_length: float
     deepest_depth: float
     deepest_point: Reals  #: (3,)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Laws of opening: a valve's opening from the time, the pressure difference and the flow.
 
-The same arguments give the same bits, and nothing is kept. Times, pressures and flows have the solver's units. The
-pressure difference is upstream less downstream, and flow is positive downstream, so both open a valve. ``rate`` is the
-derivative of the opening by time. States are plain values: keep them in a restart file, and a step that is taken again
-starts from the state before.
+The same arguments give the same bits, and nothing is kept between calls. Times, pressures and flows have the solver's units. The
+pressure difference is upstream minus downstream pressure, and flow is positive downstream, so both open a valve. ``rate`` is the
+derivative of the opening by time. States are plain values, which can be kept in a restart file. To repeat a step, start from the
+earlier state.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from riis import _riis
 
 
 class _Timed:
-    """A law of the time alone."""
+    """A law that depends on the time alone."""
 
     def opening_and_rate(self, time: Any) -> tuple[Any, Any]:
         """Returns the opening and its rate at a time, or arrays (n,) of both at times (n,) float64."""
@@ -36,10 +36,10 @@ class _Timed:
 
 @dataclass(frozen=True)
 class OpeningTable(_Timed):
-    """An opening by keys.
+    """An opening from a table of keys.
 
     ``time`` and ``opening`` are (n_keys,) float64; times ascend strictly, and openings are 0 to 1.
-    With a ``period`` the table repeats. Without one, the first opening counts before its key and the last one after it.
+    With a ``period`` the table repeats. Without a period, the opening is constant before the first key and after the last.
     """
 
     time: NDArray[Any]
@@ -53,7 +53,7 @@ class OpeningTable(_Timed):
 
 @dataclass(frozen=True)
 class OpeningTimes(_Timed):
-    """An opening by times: OpeningTimes(0.45, 0.05, 0.95, 0.05, period=1.0) opens at 0.45 in 0.05, closes at 0.95 in 0.05.
+    """An opening from times. OpeningTimes(0.45, 0.05, 0.95, 0.05, period=1.0) opens at 0.45 in 0.05 and closes at 0.95 in 0.05.
 
     The ramps are of fifth degree: neither the rate nor its derivative jumps.
     """
@@ -86,7 +86,7 @@ class OpeningSwitchState:
     time: float = 0.0
     opening: float = 0.0
     rate: float = 0.0
-    progress: float = 0.0  #: share of the way from closed to open
+    progress: float = 0.0  #: fraction of the way from closed to open
     pressure_difference: float = nan  #: filtered; NaN: none yet
     flow: float = nan  #: filtered; NaN: none yet
     turn_time: float = nan  #: the time of the last turn; NaN: none yet
@@ -95,13 +95,13 @@ class OpeningSwitchState:
 
 @dataclass(frozen=True)
 class OpeningSwitch:
-    """A valve that opens when the pressure difference exceeds a value, and closes when the flow falls below one."""
+    """A valve that opens when the pressure difference exceeds open_above, and closes when the flow falls below close_below."""
 
-    opening_duration: float  #: from closed to open
-    closing_duration: float  #: from open to closed
-    open_above: float = 0.0  #: pressure difference
-    close_below: float = 0.0  #: flow
-    filter_time: float = 0.0  #: time constant of a filter on both; 0: none
+    opening_duration: float  #: time from closed to open
+    closing_duration: float  #: time from open to closed
+    open_above: float = 0.0  #: a pressure difference
+    close_below: float = 0.0  #: a flow
+    filter_time: float = 0.0  #: time constant of a filter of both; 0: no filter
     dwell_time: float = 0.0  #: the least time from one turn to the next
 
     def advance(
@@ -113,7 +113,7 @@ class OpeningSwitch:
 
 @dataclass(frozen=True)
 class OpeningAngleState:
-    """The state of the angle law. The default is a closed valve at rest, at time 0: its angle 0 stands for angle_min."""
+    """The state of the angle law. The default is a closed valve at rest, at time 0. Its angle 0 means angle_min."""
 
     time: float = 0.0
     opening: float = 0.0
@@ -128,7 +128,7 @@ class OpeningAngleState:
 class OpeningAngle:
     """The angle law of Korakianitis and Shi (2006).
 
-    Its values for mmHg, ml and s: pressure_gain 5500, flow_gain 2, friction 50, vortex_gain 7 for the aortic and 3.5 for
+    The paper's values for mmHg, ml and s: pressure_gain 5500, flow_gain 2, friction 50, vortex_gain 7 for the aortic and 3.5 for
     the mitral valve.
     """
 
@@ -136,8 +136,8 @@ class OpeningAngle:
     flow_gain: float
     friction: float
     vortex_gain: float
-    angle_min: float = 0.0  #: degrees: closed
-    angle_max: float = 75.0  #: degrees: open
+    angle_min: float = 0.0  #: degrees: the closed angle
+    angle_max: float = 75.0  #: degrees: the open angle
 
     def advance(
         self, before: OpeningAngleState, time: float, pressure_difference: float, flow: float

@@ -14,7 +14,8 @@ bool is_text(nb::handle value) { return PyUnicode_Check(value.ptr()) || PyBytes_
 }  // namespace
 
 void refuse_mask(nb::handle value, const char *name) {
-  if (nb::hasattr(value, "mask") && nb::hasattr(value, "filled"))  // pandas has a function mask
+  // Pandas has a method mask, so this also checks `filled`.
+  if (nb::hasattr(value, "mask") && nb::hasattr(value, "filled"))
     refuse_type(name, "is a masked array, and its mask would be lost; pass ", name, ".filled(...), or ", name,
                 ".data if the mask does not matter");
 }
@@ -48,7 +49,7 @@ std::int64_t integer(nb::handle value, const char *name) {
       const long long found = PyLong_AsLongLong(index.ptr());
       if (found != -1 || !PyErr_Occurred()) return found;
       PyErr_Clear();
-      refuse_value(name, "is ", nb::cast<std::string>(nb::str(index)), ", which is no integer of 64 bits");
+      refuse_value(name, "is ", nb::cast<std::string>(nb::str(index)), ", which is not a 64-bit integer");
     }
     PyErr_Clear();
   }
@@ -59,7 +60,7 @@ std::int32_t integer32(nb::handle value, const char *name) {
   const std::int64_t found = integer(value, name);
   using Limits = std::numeric_limits<std::int32_t>;
   if (found < Limits::min() || found > Limits::max())
-    refuse_value(name, "is ", found, ", which is no integer of 32 bits");
+    refuse_value(name, "is ", found, ", which is not a 32-bit integer");
   return static_cast<std::int32_t>(found);
 }
 

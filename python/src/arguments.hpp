@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arguments that are no arrays. Each function names the argument that it refuses.
+// Arguments that are not arrays. If a function refuses an argument, its message names the argument.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace riis_python {
 
-// Refuses a masked array, such as numpy.ma's: its buffer has values where the mask hides them.
+// Refuses a masked array, such as numpy.ma's, because its buffer contains values for hidden entries.
 void refuse_mask(nb::handle value, const char *name);
 
-// Tells whether a value has entries. An array without dimensions has none: it is a number.
+// Returns whether a value has entries. An array without dimensions has none, because it is a number.
 bool has_entries(nb::handle value);
 
-// Returns a number. bool and text are none.
+// Returns a number. bool and text are refused.
 double number(nb::handle value, const char *name);
 
 // Returns a number, or the default for None.
@@ -30,10 +30,10 @@ std::int32_t integer32(nb::handle value, const char *name);
 // Returns a bool.
 bool flag(nb::handle value, const char *name);
 
-// Returns a text.
+// Returns a string.
 std::string text(nb::handle value, const char *name);
 
-// Returns the value of a word, such as "neighbor".
+// A word, such as "neighbor", and its value.
 struct Word {
   const char *word;
   std::int32_t value;

@@ -9,7 +9,7 @@ namespace {
 constexpr bool is_little_endian = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
 static_assert(is_little_endian, "formats of buffers are compared for little-endian machines");
 
-// Returns the letter of a format of single entries, such as 'd', or 0 for other formats.
+// Returns the letter of a format for single entries, such as 'd', or 0 for other formats.
 char letter_of(const char *format) {
   if (!format) return 'B';
   if (std::strchr("@=<", *format) && *format) ++format;
@@ -46,7 +46,7 @@ std::vector<std::int64_t> shape_of(const Array &array) {
   return shape;
 }
 
-// Tells whether a pointer or a stride of an array counts whole doubles.
+// Returns whether an address or a stride of an array is a whole number of doubles.
 bool is_whole(std::int64_t n_bytes) { return n_bytes % static_cast<std::int64_t>(sizeof(double)) == 0; }
 
 // Returns the stride, in doubles, from point to point.
@@ -57,7 +57,7 @@ std::int64_t stride_of_points(const Array &array) {
   const std::int64_t n_bytes = array.stride(0);
   if (!is_whole(n_bytes) || n_bytes < 8)
     refuse_value(array.name(), "its points are ", n_bytes,
-                 " bytes apart; they must go forwards by whole numbers of 8 bytes, so copy the array");
+                 " bytes apart, which is not a positive multiple of 8; copy the array");
   return n_bytes / 8;
 }
 
@@ -71,14 +71,14 @@ nb::tuple python_shape(std::initializer_list<std::int64_t> shape) {
   return nb::tuple(sizes);
 }
 
-// Returns numpy's argument dtype for entries of the wanted type.
+// Returns numpy's argument dtype for the wanted type of entries.
 const char *dtype_for(const std::string &wanted) {
   if (wanted == "float64") return "float";
   if (wanted == "int32") return "numpy.int32";
   return wanted == "bool or uint8" ? "bool" : "numpy.int64";
 }
 
-// Tells whether numpy can make real numbers of an object.
+// Returns whether numpy can convert an object to real numbers.
 bool is_convertible(nb::handle object) {
   if (nb::hasattr(object, "dtype") && nb::hasattr(object.attr("dtype"), "kind"))
     return std::strchr("biuf", nb::cast<std::string>(object.attr("dtype").attr("kind"))[0]);
@@ -109,7 +109,7 @@ Array::Array(nb::handle object, const char *name, Access access, const char *wan
     refuse_entries(object, wanted, "must be a numpy array of ", wanted, ", not ",
                    dtype_of(object, name_of_type(object).c_str()));
   }
-  // The destructor does not run for a constructor that throws.
+  // If a constructor throws, the destructor does not run.
   try {
     if (view_.suboffsets) refuse_type(name, "must be a numpy array, not a buffer with suboffsets");
     if (!is_of(view_, wanted))
@@ -165,7 +165,7 @@ Points points_of(nb::handle xyz, const char *name) {
   points.stride = stride_of_points(array);
   const std::int64_t step = array.stride(1);
   if (!is_whole(step))
-    refuse_value(name, "its coordinates are ", step, " bytes apart, which are no whole doubles; copy the array");
+    refuse_value(name, "its coordinates are ", step, " bytes apart, which is not a multiple of 8; copy the array");
   points.x = array.data<double>();
   points.y = moved(points.x, step);
   points.z = moved(points.x, 2 * step);

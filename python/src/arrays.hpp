@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arrays of Python by the buffer protocol, which numpy has: the caller's arrays, new ones, and views of the library's memory.
+// Python's arrays through the buffer protocol, which numpy supports: the caller's arrays, new ones, and views of the library's
+// memory.
 #pragma once
 
 #include <nanobind/ndarray.h>
@@ -17,13 +18,14 @@ namespace riis_python {
 
 enum class Access { read, write };
 
-// The caller's array, borrowed while this lives. A wrong type of the entries is a TypeError, all else an InvalidArgumentError.
+// The caller's array, borrowed during this object's lifetime. A wrong type of entries raises TypeError, any other fault
+// InvalidArgumentError.
 class Array {
  public:
   // T is double, std::int32_t, std::int64_t or std::uint8_t, which also stands for bool.
   template <class T>
   static Array of(nb::handle object, const char *name, Access access = Access::read);
-  // An array of 32 or 64 bit integers.
+  // Makes an array of 32-bit or 64-bit integers.
   static Array of_integers(nb::handle object, const char *name);
 
   Array(Array &&other) noexcept : name_(other.name_), access_(other.access_), view_(other.view_) {
@@ -50,16 +52,16 @@ class Array {
   }
   nb::object object() const { return nb::borrow(view_.obj); }
 
-  // Refuses another shape or order; -1 stands for any size. The entries must lie in C order without gaps.
+  // Refuses another shape. -1 stands for any size. The entries must be in C order without gaps.
   const Array &expect(std::initializer_list<std::int64_t> shape) const;
-  // Refuses another shape in any order.
+  // Refuses another shape. The entries may have any strides.
   const Array &expect_shape(std::initializer_list<std::int64_t> shape) const;
 
  private:
   Array(nb::handle object, const char *name, Access access, const char *wanted);
 
-  // Refuses an object, and says how to convert it. For an array that the call writes it
-  // proposes no conversion, since the call would write the converted copy.
+  // Refuses an object, and explains how to convert it. For an array that the call writes, the message proposes no conversion,
+  // since the call would write the converted copy.
   template <class... Parts>
   [[noreturn]] void refuse_entries(nb::handle object, const char *wanted, const Parts &...parts) const;
 
@@ -68,36 +70,36 @@ class Array {
   Py_buffer view_;
 };
 
-// Three coordinates of points in the caller's arrays, as riis.h takes them.
+// Three coordinates of points in the caller's arrays, in the form of riis.h.
 struct Points {
   std::vector<Array> arrays;
   std::int64_t n = 0;
   const double *x = nullptr, *y = nullptr, *z = nullptr;
   std::int64_t stride = 1;
 };
-// Points of an array (n, 3) with any strides that go forwards by whole doubles.
+// Returns the points of an array (n, 3). Its strides may be any positive whole numbers of doubles.
 Points points_of(nb::handle xyz, const char *name);
-// Points of one array (n, 3), or of three arrays (n) with equal strides.
+// Returns the points of one array (n, 3), or of three arrays (n) with equal strides.
 Points points_of(nb::handle xyz, nb::handle y, nb::handle z);
 
-// Returns a new numpy array with entries of no particular value.
+// Returns a new numpy array with undefined entries.
 nb::object new_array(const char *type, std::initializer_list<std::int64_t> shape);
 // Returns a new numpy array of equal entries.
 nb::object new_filled_array(const char *type, std::initializer_list<std::int64_t> shape, nb::handle value);
 
-// Returns a read-only numpy array that shows memory without a copy, and keeps the memory's owner alive.
+// Returns a read-only numpy array that shows memory without a copy. It keeps the memory's owner alive.
 template <class T>
 nb::object view_of(const T *data, std::initializer_list<std::size_t> shape, nb::handle owner) {
   static const T empty[1] = {};
   return nb::cast(nb::ndarray<nb::numpy, const T>(data ? data : empty, shape.size(), shape.begin(), owner));
 }
 
-// Returns a read-only numpy array with a copy of memory that a later call may write.
+// Returns a read-only numpy array with a copy of memory, because a later call may write that memory.
 template <class T>
 nb::object copy_of(const T *data, std::initializer_list<std::size_t> shape) {
   const std::size_t n = std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
   std::vector<T> copy(data, data + (data ? n : 0));
-  const T *const copied = copy.data();  // stays as the vector moves
+  const T *const copied = copy.data();  // this address stays valid if the vector moves
   return view_of(copied, shape, keeper_of(std::move(copy)));
 }
 
@@ -110,7 +112,7 @@ nb::object array_of(const T (&numbers)[n], const char *type) {
   return array;
 }
 
-// An array that a call writes: a new one, the caller's, or none.
+// An array that a call writes: a new array, the caller's array, or none.
 struct Output {
   nb::object array = nb::none();
   std::optional<Array> memory;
@@ -119,7 +121,7 @@ struct Output {
     return memory ? memory->data<T>() : nullptr;
   }
 };
-// Makes the output that an argument requests: True, False, or an array to write.
+// Makes the output that an argument requests. The argument is True, False, or an array to write.
 template <class T>
 Output output_of(nb::handle wanted, const char *name, const char *type, std::initializer_list<std::int64_t> shape,
                  nb::handle fill = nb::none()) {

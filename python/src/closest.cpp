@@ -36,7 +36,7 @@ nb::object closest_points(Surface &surface, nb::handle points_, nb::handle dista
     options.n_point_ids = ids->size(0);
     options.point_ids = ids->data<std::int64_t>();
   }
-  // Entries that the call leaves out have the values of far points in new arrays.
+  // In new arrays, entries that the call leaves out get the values of far points.
   const bool is_partial = mask || ids;
   const auto fill = [&](nb::object value) { return is_partial ? value : nb::object(nb::none()); };
   const nb::object none = fill(nb::int_(-1)), zero = fill(nb::int_(0));
@@ -102,18 +102,18 @@ void add_closest(nb::class_<Surface> &surface) {
           R"(Finds the closest points of many points, in parallel.
 
 points          (n, 3) float64 of any forward strides, mesh units
-distance        (n,) float64         each of these is True for a new array, False for none, or an array that is
-point           (n, 3) float64       written; see riis.ClosestPoint for what they hold
+distance        (n,) float64         each of these is True for a new array, False for none, or an array to write;
+point           (n, 3) float64       riis.ClosestPoint describes their content
 barycentric     (n, 3) float64
 normal          (n, 3) float64
 triangle_id     (n,) int64
 leaflet_id      (n,) int32
 side            (n,) int32
 distance_limit  points farther away get far_distance, ids -1, side 0 and zeros; None: no limit
-mask            (n,) bool or uint8: other points are not written
+mask            (n,) bool or uint8: the results of other points are not written
 ids             strictly ascending int64: only these points are read and written
 
-New arrays hold the values of far points where nothing is written.)");
+In new arrays, points without a result get the values of far points.)");
 }
 
 }  // namespace riis_python

@@ -12,7 +12,7 @@ void raise_status(riis_status status, const std::string &message) {
 }
 
 std::string in_python(const char *text) {
-  // The library may have cut a long name within a letter.
+  // The library may have truncated a long name within a character.
   const nb::object letters =
       nb::steal(PyUnicode_DecodeUTF8(text, static_cast<Py_ssize_t>(std::strlen(text)), "replace"));
   if (!letters.is_valid()) throw nb::python_error();

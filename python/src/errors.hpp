@@ -16,7 +16,7 @@ namespace nb = nanobind;
 // Throws the Python exception of a status.
 [[noreturn]] void raise_status(riis_status status, const std::string &message);
 
-// Returns a text of the library with Python's names for C's.
+// Returns a text of the library with Python names instead of C names.
 std::string in_python(const char *text);
 
 template <class... Parts>

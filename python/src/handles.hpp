@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all objects share: a handle of riis.h, who uses it, and calls without the interpreter's lock.
+// The common part of all objects: a handle of riis.h, a record of its users, and calls without the interpreter's lock.
 #pragma once
 
 #include <memory>
@@ -9,28 +9,28 @@
 
 namespace riis_python {
 
-// Tells whether this process is a child of fork(), and whether another thread was inside the library at the fork.
+// Returns whether this process is a child of fork(). Also returns whether another thread was inside the library at the fork.
 bool is_forked() noexcept;
 bool was_inside_at_fork() noexcept;
-// Counts the forks that led to this process.
+// Returns how many forks led to this process.
 int fork_number() noexcept;
 
-// Refuses to make a surface in a child whose parent had another thread inside the library: TBB would wait for threads that the
-// child lacks.
+// Refuses to make a surface in a child process if another thread of the parent was inside the library at the fork. TBB would wait
+// for threads that the child lacks.
 void check_surfaces_allowed(const char *name);
 
-// Tells who uses an object. All of it is read and written under the interpreter's lock.
+// Records which threads use an object. All fields are read and written under the interpreter's lock.
 struct Usage {
   int n_readers = 0;
   bool is_written = false;
   bool is_closed = false;
   int fork = fork_number();
 
-  // Refuses an object that is closed, or that a thread of the parent was using at the fork.
+  // Refuses an object that is closed, or that another thread of the parent was using at the fork.
   void check(const char *name);
 };
 
-// The object is read while this lives.
+// Marks the object as being read during this object's lifetime.
 class Reading {
  public:
   Reading(Usage &usage, const char *name) : usage_(usage) {
@@ -48,7 +48,7 @@ class Reading {
   Usage &usage_;
 };
 
-// The object is written while this lives.
+// Marks the object as being written during this object's lifetime.
 class Writing {
  public:
   Writing(Usage &usage, const char *name) : usage_(usage) {
@@ -64,7 +64,7 @@ class Writing {
   Usage &usage_;
 };
 
-// Returns an object of Python that keeps another alive.
+// Returns a Python object that keeps another alive.
 template <class T>
 nb::object keeper_of(T kept) {
   auto own = std::make_unique<T>(std::move(kept));
@@ -73,7 +73,7 @@ nb::object keeper_of(T kept) {
   return made;
 }
 
-// Counts the calls inside the library, for forks.
+// Counts the threads inside the library, for forks.
 class Inside {
  public:
   Inside() noexcept;
@@ -82,11 +82,11 @@ class Inside {
   Inside &operator=(const Inside &) = delete;
 };
 
-// Refuses calls from the log function.
+// Refuses calls from inside the log function.
 void check_not_logging();
 
-// Calls the library without the interpreter's lock, so that other threads of Python run meanwhile. Returns its status, and the
-// message if it failed.
+// Calls the library without the interpreter's lock, so that other Python threads can run meanwhile. Returns the call's status,
+// and the message if it failed.
 template <class Call>
 std::pair<riis_status, std::string> status_of(const Call &call) {
   check_not_logging();
@@ -98,14 +98,14 @@ std::pair<riis_status, std::string> status_of(const Call &call) {
   return answer;
 }
 
-// Calls the library without the lock, and throws what it refuses.
+// Calls the library without the lock, and throws an exception if the call fails.
 template <class Call>
 void call_library(const Call &call) {
   const auto answer = status_of(call);
   if (answer.first) raise_status(answer.first, in_python(answer.second.c_str()));
 }
 
-// Does the same for a call that writes an object. After an internal error the object is closed.
+// Does the same for a call that writes an object. After an internal error, the object is closed.
 template <class Call>
 void call_to_write(Usage &usage, const Call &call) {
   const auto answer = status_of(call);
@@ -113,12 +113,12 @@ void call_to_write(Usage &usage, const Call &call) {
   if (answer.first) raise_status(answer.first, in_python(answer.second.c_str()));
 }
 
-// Calls the library with the lock: the call takes less time than giving the lock away.
+// Calls the library with the lock held, for calls that take less time than releasing the lock.
 inline void call_shortly(riis_status status) {
   if (status) raise_status(status, in_python(riis_last_error()));
 }
 
-// A handle of riis.h, destroyed with this object or, if arrays show its memory, with the last of these.
+// A handle of riis.h. It is destroyed with this object or, if arrays show its memory, with the last of these arrays.
 template <class C, void (*destroy)(C **)>
 struct Handle {
   Handle() = default;
@@ -126,7 +126,7 @@ struct Handle {
   Handle(const Handle &) = delete;
   Handle &operator=(const Handle &) = delete;
 
-  // Frees the memory now, or with the last array that shows it.
+  // Frees the memory now, or together with the last array that shows it.
   void close(const char *name) {
     if (!usage.is_closed) {
       const Writing writing(usage, name);
@@ -135,7 +135,7 @@ struct Handle {
     release();
   }
 
-  // Returns an object of Python that keeps the memory alive: the owner of arrays without a copy.
+  // Returns a Python object that keeps the memory alive, for use as the owner of arrays without a copy.
   nb::object share() {
     if (!owner) {
       owner = std::make_shared<Owner>();
@@ -144,10 +144,10 @@ struct Handle {
     return keeper_of(owner);
   }
 
-  // Tells whether anything besides this object uses the memory. It must not be written then.
+  // Returns whether anything besides this object uses the memory. In that case the memory must not be written.
   bool is_shared() const { return owner.use_count() > 1; }
 
-  // Takes the memory of another, and leaves its own to the arrays that show it.
+  // Takes the memory of another handle. This handle's own memory is left to the arrays that show it.
   void take(Handle &other) {
     release();
     handle = std::exchange(other.handle, nullptr);
@@ -171,10 +171,10 @@ struct Handle {
     owner.reset();
   }
 
-  std::shared_ptr<Owner> owner;  // of the handle, once it is shared
+  std::shared_ptr<Owner> owner;  // the owner of the handle, once arrays share it
 };
 
-// Refuses pickle and copy for a class, and says what to keep in its place.
+// Refuses pickle and copy for a class. The message says what to store instead.
 template <class Type>
 void refuse_pickle(nb::class_<Type> &type, const char *instead) {
   type.def(
@@ -183,12 +183,13 @@ void refuse_pickle(nb::class_<Type> &type, const char *instead) {
       nb::sig("def __reduce__(self) -> typing.NoReturn"));
 }
 
-// Adds close(), closed and the with statement to a class.
+// Adds close(), closed and the context-manager methods to a class.
 template <class Type>
 void add_closing(nb::class_<Type> &type) {
   type.def(
           "close", [](Type &self) { self.close(Type::python_name); },
-          "Frees the memory now, or with the last array that shows it. Any later use of the object raises an error.")
+          "Frees the memory now, or together with the last array that shows it. Any later use of the object raises an "
+          "error.")
       .def_prop_ro(
           "closed", [](const Type &self) { return self.usage.is_closed; }, "True after close().")
       .def(

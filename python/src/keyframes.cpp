@@ -38,14 +38,14 @@ std::int32_t interpolation_of(nb::handle value) {
 
 void add_keyframes(nb::module_ &module) {
   nb::class_<Keyframes> keyframes(module, "Keyframes",
-                                  R"(A surface that moves by frames: the same faces, other places of the vertices.
+                                  R"(A surface that moves by frames. All frames have the same faces.
 
 time           (n_keys,) float64, strictly ascending
-vertices       (n_keys, n_vertices, 3) float64: frame after frame
+vertices       (n_keys, n_vertices, 3) float64: the positions in one frame after the other
 faces          (n_faces, 3 or 4) int32 or int64: vertex numbers from index_base
 leaflet_id     (n_faces,) int32, >= 0; default 0
-period         > 0: the motion repeats. 0: the first frame counts before its time, the last one after it
-interpolation  'linear' or 'cubic', of each coordinate
+period         > 0: the motion repeats. 0: the surface rests before the first frame and after the last
+interpolation  'linear' or 'cubic', for each coordinate
 
 Arrays are copied.)");
   keyframes.def(

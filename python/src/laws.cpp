@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Laws of opening. riis/laws.py has the classes; these functions take their values one by one.
+// Laws of opening. riis/laws.py has the classes. The functions here take the classes' values one by one.
 #include "module.hpp"
 #include "surface.hpp"
 
@@ -9,7 +9,7 @@
 namespace riis_python {
 namespace {
 
-// Calls at(time, opening, rate) for a number or for an array of times. Returns (opening, rate).
+// Calls at(time, opening, rate) for a number or for an array of times. Returns the pair (opening, rate).
 template <class At>
 nb::object at_times(nb::handle time, const At &at) {
   if (!has_entries(time)) {
@@ -60,7 +60,7 @@ nb::object from_times(nb::handle opening_start, nb::handle opening_duration, nb:
       time, [&](double t, double *opening, double *rate) { return riis_opening_from_times(&times, t, opening, rate); });
 }
 
-// A struct's doubles, by the names that its class in riis.laws gives them.
+// The doubles of a struct, by their names in the class of riis.laws.
 template <class Struct>
 using Doubles = std::vector<std::pair<const char *, double Struct::*>>;
 
@@ -100,7 +100,7 @@ Struct read(nb::handle object, riis_status (*init)(Struct *, std::int64_t), cons
   return values;
 }
 
-// Returns the values by their names.
+// Returns the struct's values by name.
 template <class Struct>
 nb::dict written(const Struct &values, const Doubles<Struct> &doubles) {
   nb::dict dict;

@@ -106,7 +106,7 @@ void add_leaks(nb::module_ &module) {
                      ", n_threads: int = 0) -> riis._records.Leaks"),
              R"(Finds every edge of the mesh's adjacency that crosses the surface between two unmarked nodes.
 
-surface, mesh and mask are those of the marking.)");
+surface, mesh and mask must be those of the marking.)");
   module.def(
       "label_open_regions", &label_open_regions, nb::arg("mesh").none(), nb::arg("marks").none(), nb::kw_only(),
       nb::arg("mask").none() = nb::none(), nb::arg("n_threads").none() = 0, nb::arg("label").none() = nb::none(),
@@ -114,7 +114,7 @@ surface, mesh and mask are those of the marking.)");
               ", n_threads: int = 0, label: " RIIS_NODES " | None = None) -> tuple[" RIIS_NODES ", int]"),
       R"(Labels the connected components of the unmarked nodes, along the mesh's adjacency. Returns (label, n_regions).
 
-label  (n_nodes,) int64: the lowest node of the node's region, -1 for nodes in no region; None: a new array)");
+label  (n_nodes,) int64: the lowest node of the node's region, -1 for nodes in no region; if None, a new array)");
   module.def("find_passage", &find_passage, nb::arg("surface").none(), nb::arg("mesh").none(),
              nb::arg("from_ids").none(), nb::arg("to_ids").none(), nb::kw_only(), nb::arg("mask").none() = nb::none(),
              nb::arg("n_threads").none() = 0,
@@ -129,7 +129,7 @@ from_ids, to_ids  (n,) int64, at least one node each, farther from the surface t
                      "riis._records.Crossings"),
              R"(Finds every pair of the surface's triangles that go through each other.
 
-depth  half thicknesses, 0 to 1: a pair at most so deep touches.)");
+depth  in half thicknesses, 0 to 1: pairs of at most this depth only touch, and are left out.)");
 }
 
 }  // namespace riis_python

@@ -6,7 +6,8 @@ namespace {
 
 thread_local bool in_log_function = false;
 
-// The function in use. Leaked references stay valid for messages under way. It is replaced under the interpreter's lock.
+// The present log function. References to earlier functions are leaked, so that messages being sent stay valid. This pointer is
+// replaced under the interpreter's lock.
 PyObject *log_function = nullptr;
 
 void forward(void *, std::int32_t level, const char *message) {
@@ -19,7 +20,7 @@ void forward(void *, std::int32_t level, const char *message) {
     function(level, in_python(message));
   } catch (nb::python_error &error) {
     error.discard_as_unraisable(function);
-  } catch (...) {  // no exception may leave through the library
+  } catch (...) {  // no exception may pass through the library
   }
   in_log_function = false;
 }
@@ -42,11 +43,11 @@ void add_log(nb::module_ &module) {
   module.attr("LOG_WARNING") = static_cast<int>(RIIS_LOG_WARNING);
   module.def("set_log", &set_log, nb::arg("function").none(),
              nb::sig("def set_log(function: collections.abc.Callable[[int, str], object] | None) -> None"),
-             R"(Sets the function that receives the library's messages, for the whole process. None is silence.
+             R"(Sets the function that receives the library's messages, for the whole process. None stops the messages.
 
 function(level, message) is called on any thread that calls riis; level is LOG_INFO or LOG_WARNING. It must not
 call riis. Its exceptions go to sys.unraisablehook.)");
-  // No message may reach Python after the interpreter has ended.
+  // After the interpreter has ended, no message may reach Python.
   nb::module_::import_("atexit").attr("register")(nb::cpp_function([] { set_log(nb::none()); }));
 }
 

@@ -5,7 +5,7 @@
 
 namespace riis_python {
 
-// Tells whether the calling thread is in the log function.
+// Returns whether the calling thread is inside the log function.
 bool is_in_log_function() noexcept;
 
 void add_log(nb::module_ &module);

@@ -5,7 +5,7 @@
 namespace riis_python {
 namespace {
 
-// The fields by their names: the attribute, the bit, and where the library points to them.
+// The fields by name: the attribute, the bit, and the pointer in the library's list.
 struct Field {
   const char *name;
   std::int32_t bit;
@@ -23,17 +23,17 @@ const Field fields[] = {
     {"point", RIIS_FIELD_POINT, &riis_mark_list::point, nullptr, 3, RIIS_REALS("point"),
      "(n, 3): the closest points of the surface, mesh units. Needs fields='point'. A view."},
     {"normal", RIIS_FIELD_NORMAL, &riis_mark_list::normal, nullptr, 3, RIIS_REALS("normal"),
-     "(n, 3): the unit normals there. Needs fields='normal'. A view."},
+     "(n, 3): the unit normals at these points. Needs fields='normal'. A view."},
     {"barycentric", RIIS_FIELD_BARYCENTRIC, &riis_mark_list::barycentric, nullptr, 3, RIIS_REALS("barycentric"),
-     "(n, 3): the points' weights of their triangles' vertices. Needs fields='barycentric'. A view."},
+     "(n, 3): the closest points' barycentric coordinates. Needs fields='barycentric'. A view."},
     {"side", RIIS_FIELD_SIDE, nullptr, &riis_mark_list::side, 1, RIIS_INTEGERS("side"),
      "(n,): +1 downstream of the surface, -1 upstream, 0 on neither side. Needs fields='side'. A view."},
     {"rim", RIIS_FIELD_RIM, nullptr, &riis_mark_list::rim, 1, RIIS_INTEGERS("rim"),
      "(n,): 1 if the closest point lies on the rim of the surface, else 0. Needs fields='rim'. A view."},
     {"uv", RIIS_FIELD_UV, &riis_mark_list::uv, nullptr, 2, RIIS_REALS("uv"),
-     "(n, 2): the points' places on their patches, 0 to 1. Needs fields='uv'. A view."},
+     "(n, 2): the closest points' u and v on their patches, 0 to 1. Needs fields='uv'. A view."},
     {"velocity", RIIS_FIELD_VELOCITY, &riis_mark_list::velocity, nullptr, 3, RIIS_REALS("velocity"),
-     "(n, 3): the surface's velocities there, by its last update. Needs fields='velocity'. A view."},
+     "(n, 3): the surface's velocities at the closest points, from its last update. Needs fields='velocity'. A view."},
     {"patch_id", RIIS_FIELD_PATCH, nullptr, &riis_mark_list::patch_id, 1, RIIS_INTEGERS("patch_id"),
      "(n,): the patches of the closest points. Needs fields='patch_id'. A view."},
     {"K", 0, &riis_mark_list::K, nullptr, 1, RIIS_REALS("K"), "(n,): K of the nodes. Needs R=. A view."},
@@ -48,10 +48,10 @@ std::int32_t field_of(const std::string &name) {
     if (name == field.name) return field.bit;
     all += text_of(all.empty() ? "" : ", ", "'", field.name, "'");
   }
-  refuse_value("fields", "'", name, "' is none; they are ", all);
+  refuse_value("fields", "'", name, "' is not a field; the fields are ", all);
 }
 
-// Returns the sum of the fields of a text, separated by commas or blanks, or of a sequence of names.
+// Returns the sum of the named fields. The argument is a text, with names separated by commas or blanks, or a sequence of names.
 std::int32_t fields_of(nb::handle wanted) {
   if (wanted.is_none()) return 0;
   std::int32_t sum = 0;
@@ -101,7 +101,7 @@ nb::object mark(nb::handle surface_, nb::handle mesh_, nb::handle into, nb::hand
   const auto mark_into = [&](Marks &to) {
     call_to_write(to.usage, [&] { return riis_mark_nodes(surface.handle, mesh.handle, &options, to.handle); });
   };
-  if (result.is_shared()) {  // arrays show the last marking
+  if (result.is_shared()) {  // arrays still show the last marking
     Marks fresh;
     call_shortly(riis_marks_create(&fresh.handle));
     mark_into(fresh);
@@ -116,13 +116,13 @@ nb::object mark(nb::handle surface_, nb::handle mesh_, nb::handle into, nb::hand
   return result_object;
 }
 
-// The nodes of a result within the distance limit.
+// The nodes of a marking within the distance limit.
 struct WithinLimit {
   static constexpr const char *python_name = "WithinLimit";
   nb::object result;
 };
 
-// Reads the list of Marks or of a WithinLimit.
+// Reads a list of Marks or of WithinLimit.
 struct ListReader {
   explicit ListReader(nb::handle self) {
     is_limit = nb::isinstance<WithinLimit>(self);
@@ -182,10 +182,10 @@ void add_lists(nb::class_<Type> &type) {
   type.def_prop_ro("ids", &list_view<&riis_mark_list::node_id>,
                    nb::sig("def ids(self) -> numpy.typing.NDArray[numpy.int64]"), "(n,): the nodes, ascending. A view.")
       .def_prop_ro("distance", &list_view<&riis_mark_list::distance>, nb::sig(RIIS_REALS("distance")),
-                   "(n,): their distances to the surface, mesh units. A view.")
+                   "(n,): the nodes' distances to the surface, mesh units. A view.")
       .def_prop_ro("triangle_id", &list_view<&riis_mark_list::triangle_id>,
                    nb::sig("def triangle_id(self) -> numpy.typing.NDArray[numpy.int64]"),
-                   "(n,): their closest triangles. A view.")
+                   "(n,): the nodes' closest triangles. A view.")
       .def_prop_ro("leaflet_id", &list_view<&riis_mark_list::leaflet_id>, nb::sig(RIIS_INTEGERS("leaflet_id")),
                    "(n,): the leaflets of these triangles. A view.")
       .def(
@@ -256,7 +256,8 @@ void add_marking(nb::module_ &module) {
   nb::class_<Marks> result(module, "Marks", R"(The nodes that riis.mark found, ascending by their ids.
 
 Marks() is empty; riis.mark(..., into=result) fills it and reuses its memory. Arrays are views of that memory:
-read-only, without a copy, and kept alive. While any is alive, the next marking takes new memory, so they stay as they are.)");
+read-only, without a copy, and kept alive. While any of them is alive, the next marking uses new memory,
+so they do not change.)");
   result.def("__init__", [](Marks *self) {
     new (self) Marks();
     call_shortly(riis_marks_create(&self->handle));
@@ -268,9 +269,10 @@ read-only, without a copy, and kept alive. While any is alive, the next marking 
   result
       .def_prop_ro(
           "within_limit", [](nb::handle self) { return WithinLimit{nb::borrow(self)}; },
-          nb::sig("def within_limit(self) -> WithinLimit"), "The same lists for the nodes within the distance limit.")
+          nb::sig("def within_limit(self) -> WithinLimit"), "The same arrays for all nodes within the distance limit.")
       .def_prop_ro("_places", [](const Marks &self) { return self.places; })
-      .def_prop_ro("stats", &stats, nb::sig("def stats(self) -> riis._records.MarkStats"), "How the last marking went.")
+      .def_prop_ro("stats", &stats, nb::sig("def stats(self) -> riis._records.MarkStats"),
+                   "The statistics of the last marking.")
       .def("dense", &dense, nb::kw_only(), nb::arg("mark").none() = true, nb::arg("distance").none() = true,
            nb::arg("triangle_id").none() = false, nb::arg("leaflet_id").none() = false,
            nb::arg("far_distance").none() = RIIS_FAR_DISTANCE,
@@ -283,10 +285,10 @@ read-only, without a copy, and kept alive. While any is alive, the next marking 
            R"(Returns arrays with an entry for every node of the mesh.
 
 mark         (n_nodes,) bool: the marked nodes     each of these is True for a new array, False for none, or
-distance     (n_nodes,) float64                    an array that is written, every entry
+distance     (n_nodes,) float64                    an array to write, in which every entry is written
 triangle_id  (n_nodes,) int64, -1 for far nodes
 leaflet_id   (n_nodes,) int32, -1 for far nodes
-far_distance  distance of nodes beyond the limit: any value outside [0, distance limit], NaN also)")
+far_distance  distance of nodes beyond the limit: any value outside [0, distance limit], including NaN)")
       .def("__repr__", &description);
   add_resistance(result);
   refuse_pickle(result, "keep the arrays, such as marks.ids");
@@ -308,16 +310,16 @@ far_distance  distance of nodes beyond the limit: any value outside [0, distance
               "half_thickness: float | None = None, rim: typing.Literal['round', 'cut'] | None = None) -> Marks"),
       R"(Finds every node whose distance to the surface is at most the half thickness.
 
-into            a Marks to fill, whose memory is reused; None: a new one
+into            a Marks to fill, whose memory is reused; if None, a new one
 fields          'normal, velocity' or ['normal', 'velocity']: fields that the result keeps, of 'point', 'normal',
                 'barycentric', 'side', 'rim', 'uv', 'velocity' and 'patch_id'
-distance_limit  nodes get their distance up to here, mesh units; None: the half thickness
+distance_limit  nodes get their distance up to this limit, mesh units; None: the half thickness
 mask            (n_nodes,) bool or uint8: other nodes are left out
 search          all but 'paper' find the same nodes; 'neighbor' and 'paper' need an adjacency
-n_threads       1 to 1024; 0: as many as the work feeds
-instructions    for tests and measurements; all give the same bits
+n_threads       1 to 1024; 0: as many as there is work for
+instructions    the instruction set, for tests and measurements; all give the same bits
 R               mass / (length time): the marks get K, and K_u_surface if the surface has velocities
-half_thickness  eps of K, at most the distance limit; None: that of the surface
+half_thickness  eps of K, at most the distance limit; None: the surface's half thickness
 rim             as in add_resistance; None: 'round')");
 }
 

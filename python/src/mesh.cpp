@@ -23,7 +23,7 @@ void drop_adjacency(Mesh &mesh) {
   mesh.adjacency = nb::object();
 }
 
-// Without arguments the coordinates moved in place.
+// Without arguments, the coordinates changed in place.
 void update(Mesh &self, nb::handle xyz, nb::handle y, nb::handle z) {
   const Writing writing(self.usage, "mesh");
   const bool in_place = xyz.is_none() && y.is_none() && z.is_none();
@@ -54,7 +54,7 @@ void set_adjacency(Mesh &self, nb::handle adjacency, nb::handle offsets_, nb::ha
   const Writing writing(self.usage, "mesh");
   nb::object offsets = nb::borrow(offsets_), columns = nb::borrow(columns_);
   if (!adjacency.is_none() && (!offsets.is_none() || !columns.is_none()))
-    refuse_value("adjacency", "does not go together with offsets and columns");
+    refuse_value("adjacency", "cannot be combined with offsets and columns");
   riis_csr csr = empty_rows();
   std::vector<Array> rows;
   nb::object kept;
@@ -71,7 +71,8 @@ void set_adjacency(Mesh &self, nb::handle adjacency, nb::handle offsets_, nb::ha
       offsets = adjacency.attr("indptr");
       columns = adjacency.attr("indices");
     }
-    if (offsets.is_none() != columns.is_none()) refuse_value("offsets", "and columns go together; one of them is None");
+    if (offsets.is_none() != columns.is_none())
+      refuse_value("offsets", "and columns must both be given; one of them is None");
     if (!offsets.is_none()) {
       rows.push_back(Array::of_integers(offsets, "offsets"));
       rows.push_back(Array::of_integers(columns, "columns"));
@@ -97,7 +98,7 @@ void set_adjacency(Mesh &self, nb::handle adjacency, nb::handle offsets_, nb::ha
   self.adjacency = std::move(kept);
 }
 
-// The keys that say which arrays an adjacency is made of.
+// Makes an adjacency. make(&handle) calls the library.
 template <class Make>
 Adjacency *new_adjacency(const Make &make) {
   auto made = std::make_unique<Adjacency>();
@@ -121,13 +122,13 @@ Adjacency *from_cells(nb::handle nodes, nb::handle n_nodes, nb::handle offsets_,
     cells.n_cells = ids.size(0);
     cells.nodes_per_cell = static_cast<std::int32_t>(ids.size(1));
     if (ids.size(1) < 4 || ids.size(1) == 7 || ids.size(1) > 8)
-      refuse_value("cells", "has ", ids.size(1), " nodes a cell; it must be 4, 5, 6 or 8");
+      refuse_value("cells", "has ", ids.size(1), " nodes per cell; it must be 4, 5, 6 or 8");
   } else {
     ids.expect({-1});
     offsets.emplace(cells.id_bits == 64 ? Array::of<std::int64_t>(offsets_, "offsets")
                                         : Array::of<std::int32_t>(offsets_, "offsets"));
     offsets->expect({-1});
-    if (offsets->size(0) < 1) refuse_value("offsets", "is empty; it must have an entry more than there are cells");
+    if (offsets->size(0) < 1) refuse_value("offsets", "is empty; it must have one entry more than there are cells");
     cells.n_cells = offsets->size(0) - 1;
     cells.offsets = offsets->data<void>();
     const auto entry = [&](std::int64_t i) {
@@ -191,7 +192,7 @@ nb::object columns(nb::handle self) {
   return view_of(static_cast<const std::int64_t *>(csr.columns), {n}, adjacency.share());
 }
 
-// Returns the caller's array, or a new one of the caller's three.
+// Returns the caller's array, or a new array made from the caller's three.
 nb::object coordinates(Mesh &mesh) {
   const Reading reading(mesh.usage, "mesh");
   const std::vector<Array> &arrays = mesh.points.arrays;
@@ -220,29 +221,29 @@ from_cells, from_faces and from_grid make one. Columns ascend without repetition
                   nb::arg("n_threads").none() = 0,
                   nb::sig("def from_cells(cells: " RIIS_IDS ", n_nodes: int, *, offsets: " RIIS_IDS
                           " | None = None, index_base: int = 0, n_threads: int = 0) -> Adjacency"),
-                  R"(Makes the adjacency of nodes that an edge of a cell joins.
+                  R"(Makes an adjacency from cells. Nodes that an edge of a cell joins are neighbours.
 
 cells    (n_cells, 4, 5, 6 or 8) int32 or int64: tetrahedra, pyramids, prisms or hexahedra in the order of VTK; or, with
-         offsets, (n,): the nodes of cell after cell
-n_nodes  of the mesh
-offsets  (n_cells + 1,) of the type of cells: where each cell begins in cells, and the last ends)")
-      .def_static("from_faces", &from_faces, nb::arg("owner").none(), nb::arg("neighbor").none(),
-                  nb::arg("n_cells").none(), nb::kw_only(), nb::arg("index_base").none() = 0,
-                  nb::arg("n_threads").none() = 0,
-                  nb::sig("def from_faces(owner: " RIIS_IDS ", neighbor: " RIIS_IDS
-                          ", n_cells: int, *, index_base: int = 0, n_threads: int = 0) -> Adjacency"),
-                  R"(Makes the adjacency of cells with a common face, for codes that mark cell centres.
+         offsets, (n,): the nodes of all cells, one cell after the other
+n_nodes  the mesh's number of nodes
+offsets  (n_cells + 1,) of the same type as cells: where each cell begins in cells, and where the last one ends)")
+      .def_static(
+          "from_faces", &from_faces, nb::arg("owner").none(), nb::arg("neighbor").none(), nb::arg("n_cells").none(),
+          nb::kw_only(), nb::arg("index_base").none() = 0, nb::arg("n_threads").none() = 0,
+          nb::sig("def from_faces(owner: " RIIS_IDS ", neighbor: " RIIS_IDS
+                  ", n_cells: int, *, index_base: int = 0, n_threads: int = 0) -> Adjacency"),
+          R"(Makes an adjacency from faces, for codes that mark cell centres. Cells that share a face are neighbours.
 
 owner, neighbor  (n_faces,) int32 or int64, both of one type: the cells that a face joins; neighbor is index_base - 1 at
                  the boundary)")
       .def_static("from_grid", &from_grid, nb::arg("ni").none(), nb::arg("nj").none(), nb::arg("nk").none(),
                   nb::kw_only(), nb::arg("n_threads").none() = 0,
                   nb::sig("def from_grid(ni: int, nj: int, nk: int, *, n_threads: int = 0) -> Adjacency"),
-                  "Makes the adjacency of a structured grid; node (i, j, k) has the number i + ni (j + nj k).")
+                  "Makes the adjacency of a structured grid. Node (i, j, k) has the number i + ni (j + nj k).")
       .def_prop_ro("offsets", &offsets, nb::sig("def offsets(self) -> numpy.typing.NDArray[numpy.int64]"),
-                   "(n_rows + 1,): where each row begins in columns, and the last ends. A view.")
+                   "(n_rows + 1,): where each row begins in columns, and where the last one ends. A view.")
       .def_prop_ro("columns", &columns, nb::sig("def columns(self) -> " RIIS_IDS),
-                   "The neighbours, row after row: int32 for fewer than 2**31 nodes, else int64. A view.")
+                   "The neighbours, one row after the other: int32 for fewer than 2**31 nodes, else int64. A view.")
       .def("__len__", [](Adjacency &self) { return static_cast<std::size_t>(rows_of(self).n_rows); })
       .def("__repr__", [](Adjacency &self) {
         return self.usage.is_closed ? std::string("<riis.Adjacency, closed>")
@@ -255,7 +256,7 @@ owner, neighbor  (n_faces,) int32 or int64, both of one type: the cells that a f
 }  // namespace
 
 std::int64_t Mesh::new_places() {
-  static std::int64_t n = 0;  // under the interpreter's lock
+  static std::int64_t n = 0;  // accessed only under the interpreter's lock
   return ++n;
 }
 
@@ -279,26 +280,26 @@ equal strides. The mesh keeps the arrays alive. Call update() after every change
            nb::arg("z").none() = nb::none(),
            nb::sig("def update(self, xyz: " RIIS_COORDINATES " | None = None, y: " RIIS_COORDINATES
                    " | None = None, z: " RIIS_COORDINATES " | None = None) -> None"),
-           R"(Tells the mesh that its nodes moved, in place (no argument) or to other arrays, and checks them.
+           R"(Tells the mesh that coordinates changed, in place (no argument) or to other arrays, and checks them.
 
-The adjacency stays if the number of nodes does.)")
+The adjacency stays if the number of nodes stays.)")
       .def("prepare", &prepare, nb::arg("n_threads").none() = 0,
            nb::sig("def prepare(self, n_threads: int = 0) -> None"),
-           "Makes the clusters of search='clusters' now, rather than in the second marking: 41 bytes a node.")
+           "Makes the clusters of search='clusters' now, not in the second marking. They take 41 bytes per node.")
       .def(
           "set_adjacency", &set_adjacency, nb::arg("adjacency").none() = nb::none(), nb::kw_only(),
           nb::arg("offsets").none() = nb::none(), nb::arg("columns").none() = nb::none(), nb::arg("n_all").none() = 0,
           nb::arg("index_base").none() = 0,
           nb::sig("def set_adjacency(self, adjacency: typing.Any = None, *, offsets: " RIIS_IDS
                   " | None = None, columns: " RIIS_IDS " | None = None, n_all: int = 0, index_base: int = 0) -> None"),
-          R"(Gives the mesh the neighbours of its nodes, which are borrowed and kept alive. No argument takes them away.
+          R"(Gives the mesh the neighbours of its nodes, which are borrowed and kept alive. Without arguments, removes them.
 
 adjacency         an Adjacency, or scipy's sparse rows (indptr, indices)
-offsets, columns  (n_nodes + 1,) and (n,), int32 or int64: the same as arrays. They must not change meanwhile
-n_all             columns are below this; from n_nodes on they are ghosts. 0: n_nodes
-index_base        of offsets and columns)")
+offsets, columns  (n_nodes + 1,) and (n,), int32 or int64: the same rows as arrays, which must not change while in use
+n_all             n_nodes plus the number of ghost nodes, which columns may name. 0: n_nodes
+index_base        the first number in offsets and columns, 0 or 1)")
       .def_prop_ro("xyz", &coordinates, nb::sig("def xyz(self) -> " RIIS_COORDINATES),
-                   "(n, 3): the coordinates, the array that was given; a new array if there were three.")
+                   "(n, 3): the coordinates. This is the caller's array, or a new array if the caller gave three.")
       .def_prop_ro(
           "n_nodes",
           [](Mesh &self) {

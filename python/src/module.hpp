@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of the module, and the objects that parts share.
+// The parts of the module, and the objects that several parts use.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -12,8 +12,7 @@ namespace riis_python {
 struct Valve : Handle<riis_valve, riis_valve_destroy> {
   static constexpr const char *python_name = "Valve";
   std::string kind;
-  // What the library does not give back: the arguments of from_patches, and a copy of the valve whose state it
-  // opens to.
+  // Values that the library does not return: the arguments of from_patches, and a copy of the valve that gave the open state.
   nb::object patches = nb::none(), open = nb::none();
 };
 
@@ -23,8 +22,8 @@ struct Keyframes : Handle<riis_keyframes, riis_keyframes_destroy> {
 
 struct Surface : Handle<riis_surface, riis_surface_destroy> {
   static constexpr const char *python_name = "Surface";
-  riis_surface_options options{};  // those in use
-  // Copies of the content's arrays that were requested: an update writes the memory where they were.
+  riis_surface_options options{};  // the options in use
+  // Copies of arrays that the user requested. They are copies, because an update overwrites the library's memory.
   nb::object vertices, uv, velocities, triangles;
 
   void close(const char *name);
@@ -37,43 +36,43 @@ struct Adjacency : Handle<riis_adjacency, riis_adjacency_destroy> {
 
 struct Mesh : Handle<riis_mesh, riis_mesh_destroy> {
   static constexpr const char *python_name = "Mesh";
-  Points points;            // the caller's arrays, kept alive
-  std::vector<Array> rows;  // those of an adjacency
-  nb::object adjacency;     // keeps the rows of an Adjacency
+  Points points;            // the caller's coordinates, kept alive
+  std::vector<Array> rows;  // the caller's arrays of rows
+  nb::object adjacency;     // an Adjacency whose rows are used, kept alive
   std::int64_t places = new_places();
 
-  // Returns a number for the nodes in their present places. No other mesh gets the same, nor does this one after an update.
+  // Returns a unique number for the nodes' present positions. It differs for every mesh and after every update.
   static std::int64_t new_places();
 
-  ~Mesh() { riis_mesh_destroy(&handle); }  // before what it borrows
+  ~Mesh() { riis_mesh_destroy(&handle); }  // destroys the handle before the borrowed arrays
   void close(const char *name);
 };
 
 struct Marks : Handle<riis_marks, riis_marks_destroy> {
   static constexpr const char *python_name = "Marks";
-  std::int64_t n_nodes = -1;   // of the last marking, -1 before the first
-  std::int32_t n_threads = 0;  // that it requested
+  std::int64_t n_nodes = -1;   // number of nodes in the last marking, -1 before the first
+  std::int32_t n_threads = 0;  // the number of threads that the marking requested
   int marking_fork = 0;        // fork_number() at the marking
-  std::int64_t places = 0;     // those of the mesh at the marking
+  std::int64_t places = 0;     // the mesh's number `places` at the marking
 
-  // Refuses calls on several threads that a child of fork() lacks.
+  // Refuses calls that would need several threads, which a child of fork() lacks.
   void check_threads(const char *name) const;
 };
 
-// Calls of a class of riis._records make its objects.
+// Returns a class of riis._records, which makes a record when called.
 nb::object record(const char *name);
 
-// The options of a marking that several calls share.
+// The options of a marking, which several calls share.
 struct MarkOptions {
-  // Refuses a mask that does not fit the mesh.
+  // Refuses a mask that does not match the mesh.
   MarkOptions(const Mesh &mesh, nb::handle mask, nb::handle n_threads);
   riis_mark_options options;
   std::optional<Array> mask;
 };
 
-// Changes the options that the keywords name; keywords that are None stay as they are.
+// Changes the options that the keywords name. If a keyword is None, its option does not change.
 void set_surface_options(riis_surface_options &options, nb::handle keywords, const char *name);
-// Changes scale, rotation and translation only.
+// Changes only scale, rotation and translation.
 void set_placement(riis_surface_options &options, nb::handle placement, const char *name);
 
 void add_valve(nb::module_ &module);

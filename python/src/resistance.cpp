@@ -14,7 +14,7 @@ riis_resistance resistance_of(nb::handle R, nb::handle half_thickness, nb::handl
 
 namespace {
 
-// Refuses empty marks.
+// Returns the number of nodes. Refuses empty marks.
 std::int64_t n_nodes_of(const Marks &result) {
   if (result.n_nodes < 0) refuse_value("marks", "is empty; riis.mark fills it");
   return result.n_nodes;
@@ -99,25 +99,26 @@ void add_resistance(nb::class_<Marks> &result) {
 K               (n_nodes,) float64: K = (R / eps) delta(d) is added
 K_u_surface     (n_nodes, 3) float64: K u_surface is added; the marking needs fields='velocity'
 R               mass / (length time), such as kg/(m s)
-half_thickness  eps, mesh units, at most the distance limit of the marking; None: that of the marking
-rim             'round': every node within eps resists; 'cut': not those whose closest point is on the rim, which needs
-                fields='rim')")
+half_thickness  eps, mesh units, at most the distance limit of the marking; None: the marking's half thickness
+rim             'round': every node within eps gets K; 'cut': nodes whose closest point is on the rim get none, which
+                needs fields='rim')")
       .def(
           "add_reaction", &add_reaction, nb::arg("velocity").none(), nb::arg("weight").none(),
           nb::arg("force").none() = nb::none(), nb::kw_only(), nb::arg("R").none(),
           nb::arg("half_thickness").none() = nb::none(), nb::arg("rim").none() = "round",
           nb::sig("def add_reaction(self, velocity: " RIIS_REALS ", weight: " RIIS_REALS ", force: " RIIS_REALS
                   " | None = None, *, " RIIS_MODEL ") -> " RIIS_REALS),
-          R"(Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force, and returns it.
+          R"(Adds the force of the flow on the surface, the sum of weight * K * (velocity - u_surface), to force, and returns it.
 
-velocity  (n_nodes, 3) float64: of the flow
-weight    (n_nodes,) float64: the volume that a node stands for, 0 for nodes of other ranks
+velocity  (n_nodes, 3) float64: the flow's velocity
+weight    (n_nodes,) float64: the volume that belongs to a node, 0 for nodes of other ranks
 force     (3,) float64; None: a new array)")
-      .def("band_sums", &band_sums, nb::arg("value").none(), nb::arg("weight").none(), nb::arg("inner").none(),
-           nb::arg("outer").none(),
-           nb::sig("def band_sums(self, value: " RIIS_REALS ", weight: " RIIS_REALS
-                   ", inner: float, outer: float) -> riis._records.BandSums"),
-           R"(Sums a value, such as the pressure, over the nodes at a distance from inner to outer, by side.
+      .def(
+          "band_sums", &band_sums, nb::arg("value").none(), nb::arg("weight").none(), nb::arg("inner").none(),
+          nb::arg("outer").none(),
+          nb::sig("def band_sums(self, value: " RIIS_REALS ", weight: " RIIS_REALS
+                  ", inner: float, outer: float) -> riis._records.BandSums"),
+          R"(Sums a value, such as the pressure, over the nodes at a distance from inner to outer, separately for each side.
 
 value, weight  (n_nodes,) float64
 inner, outer   mesh units, 0 <= inner <= outer <= distance limit of the marking, which needs fields='side, rim')");

@@ -4,7 +4,7 @@
 namespace riis_python {
 namespace {
 
-// The options in the annotations of signatures.
+// The types of options in the annotations of signatures.
 #define RIIS_VECTOR "collections.abc.Sequence[float] | numpy.typing.NDArray[numpy.float64] | None = None"
 #define RIIS_SURFACE_OPTIONS                                                                                      \
   "half_thickness: float | typing.Literal['auto'] | None = None, tolerance: float | None = None, scale: float "   \
@@ -22,13 +22,13 @@ riis_surface_options default_options() {
   return options;
 }
 
-// Returns the options for a call. A child of fork() has one thread, also if the options are those of its parent.
+// Returns the options for a call in this process. A child of fork() has one thread, even if the options come from its parent.
 riis_surface_options for_this_process(riis_surface_options options) {
   if (is_forked()) options.n_threads = 1;
   return options;
 }
 
-// Makes the content of a surface. make(handle or null, options) calls the library.
+// Makes the content of a surface. make(handle, options) calls the library; the handle is null for a new surface.
 template <class Make>
 void make_content(Surface &surface, riis_surface_options options, const Make &make) {
   check_surfaces_allowed("surface");
@@ -150,7 +150,7 @@ riis_triangles triangles_of(const Surface &surface) {
   return found;
 }
 
-// Returns an array of the vertices, None if there is none.
+// Returns an array of the vertices, or None if the surface has no such array.
 nb::object vertex_array(Surface &surface, const double *riis_triangles::*member, std::size_t n_components,
                         nb::object Surface::*copy) {
   const Reading reading(surface.usage, "surface");
@@ -219,10 +219,10 @@ void Surface::close(const char *name) {
 }
 
 void add_surface(nb::module_ &module) {
-  nb::class_<Surface> surface(module, "Surface", R"(Triangles that answer closest-point queries, with a half thickness.
+  nb::class_<Surface> surface(module, "Surface", R"(Triangles with a half thickness, which answer closest-point queries.
 
-Surface(valve, **options) makes the surface of a valve. from_arrays and from_keyframes make others. Normals point
-downstream. Options:
+Surface(valve, **options) makes the surface of a valve. from_arrays and from_keyframes make surfaces from other data.
+Normals point downstream. Options:
 
 half_thickness      the half width of the band that is marked, mesh units; 'auto', the default, is 0.1 * scale
 tolerance           0.05: distances to the triangles and to the smooth valve differ by at most tolerance * half_thickness
@@ -232,12 +232,12 @@ rotation_angle      0, degrees
 translation         (0, 0, 0), mesh units
 flip_normals        False
 measure             'triangles'; the paper's 'sampling' and 'minimization' serve for comparison
-measure_tolerance  'auto': tolerance; for these two, in half thicknesses
+measure_tolerance  for 'sampling' and 'minimization', in half thicknesses; 'auto': tolerance
 triangulation       'adapted', or 'fixed': the same triangles at every opening
-zero_area           'refuse' or 'skip' triangles without area, in from_arrays
-n_threads           0: 1 for 4096 triangles, at most 1 a processor
+zero_area           whether from_arrays should 'refuse' or 'skip' triangles without area
+n_threads           0: 1 per 4096 triangles, at most 1 per processor
 
-Updates keep the options that they do not name. Arrays of a surface are copies, made once after each update.)");
+An update keeps the options that it does not name. Arrays of a surface are copies, made once after each update.)");
   surface
       .def("__init__", &create, nb::arg("valve").none(), nb::arg("options"),
            nb::sig("def __init__(self, valve: Valve, *, " RIIS_SURFACE_OPTIONS ") -> None"))
@@ -250,9 +250,9 @@ Updates keep the options that they do not name. Arrays of a surface are copies, 
                   R"(Makes a surface from triangles or quads, which are copied.
 
 vertices    (n_vertices, 3) float64 of any forward strides, before placement
-faces       (n_faces, 3 or 4) int32 or int64: vertex numbers from index_base; the right-hand rule makes the normal
+faces       (n_faces, 3 or 4) int32 or int64: vertex numbers from index_base; the normal follows the right-hand rule
 leaflet_id  (n_faces,) int32, >= 0; default 0
-velocities  (n_vertices, 3) float64, lengths over the caller's time)")
+velocities  (n_vertices, 3) float64, lengths divided by the caller's unit of time)")
       .def_static(
           "from_keyframes", &from_keyframes, nb::arg("keyframes").none(), nb::arg("time").none(),
           nb::arg("dt").none() = nb::none(), nb::arg("options"),
@@ -261,10 +261,10 @@ velocities  (n_vertices, 3) float64, lengths over the caller's time)")
               ") -> Surface"),
           R"(Makes a surface from the frames around a time, with velocities.
 
-The velocity is the mean from time - dt to time. None: the derivative of the interpolation.)")
+The velocity is the mean from time - dt to time. If dt is None, it is the derivative of the interpolation.)")
       .def("update", &update, nb::arg("valve").none(), nb::arg("options"),
            nb::sig("def update(self, valve: Valve, *, " RIIS_SURFACE_OPTIONS ") -> None"),
-           "Replaces the content by that of a valve, such as one that moved.")
+           "Replaces the content by the surface of a valve, such as one that moved.")
       .def("update_moving", &update_moving, nb::arg("valve").none(), nb::arg("valve_before").none(),
            nb::arg("dt").none(), nb::kw_only(), nb::arg("placement_before").none() = nb::none(), nb::arg("options"),
            nb::sig(
@@ -272,12 +272,12 @@ The velocity is the mean from time - dt to time. None: the derivative of the int
                "typing.Any] | None = None, " RIIS_SURFACE_OPTIONS ") -> None"),
            R"(Replaces the content as update does, and gives every vertex a velocity.
 
-valve_before      the state before, of the same kind
-dt                from valve_before to valve; negative as time goes back
-placement_before  a dict of scale, rotation_axis, rotation_angle and translation before; entries that it lacks are
-                  the present ones
+valve_before      the earlier state, of the same kind
+dt                time from valve_before to valve; negative if time goes backwards
+placement_before  a dict of scale, rotation_axis, rotation_angle and translation of the earlier state; missing
+                  entries are as now
 
-The velocity, in mesh units over the unit of dt, is the mean of the step.)")
+The velocity, in mesh units over the unit of dt, is the mean over the step.)")
       .def(
           "update_from_arrays", &update_from_arrays, nb::arg("vertices").none(), nb::arg("faces").none() = nb::none(),
           nb::kw_only(), nb::arg("leaflet_id").none() = nb::none(), nb::arg("velocities").none() = nb::none(),
@@ -286,14 +286,14 @@ The velocity, in mesh units over the unit of dt, is the mean of the step.)")
               "def update_from_arrays(self, vertices: " RIIS_POINTS ", faces: " RIIS_FACES
               " | None = None, *, leaflet_id: numpy.typing.NDArray[numpy.int32] | None = None, velocities: " RIIS_POINTS
               " | None = None, index_base: int = 0, " RIIS_SURFACE_OPTIONS ") -> None"),
-          "Replaces the content from arrays, as from_arrays takes them. Without faces the vertices alone move.")
+          "Replaces the content from arrays as in from_arrays. Without faces, only the vertices move.")
       .def("update_from_keyframes", &update_from_keyframes, nb::arg("keyframes").none(), nb::arg("time").none(),
            nb::arg("dt").none() = nb::none(), nb::arg("options"),
            nb::sig("def update_from_keyframes(self, keyframes: Keyframes, time: float, dt: float | None = None, "
                    "*, " RIIS_SURFACE_OPTIONS ") -> None"),
            "Replaces the content by the frames around a time, as from_keyframes does.")
       .def_prop_ro("info", &info, nb::sig("def info(self) -> riis._records.SurfaceInfo"),
-                   "Counts, bounds, area, and the seconds of the last create or update.")
+                   "Counts, bounds, area, and the seconds of the last creation or update.")
       .def_prop_ro(
           "half_thickness", [](Surface &self) { return info_of(self).half_thickness; },
           "The half thickness, mesh units.")
@@ -304,7 +304,7 @@ The velocity, in mesh units over the unit of dt, is the mean of the step.)")
       .def_prop_ro(
           "uv", [](Surface &self) { return vertex_array(self, &riis_triangles::uv, 2, &Surface::uv); },
           nb::sig("def uv(self) -> numpy.typing.NDArray[numpy.float64] | None"),
-          "(n_vertices, 2): each vertex's place on its patch, 0 to 1. None for a surface from arrays.")
+          "(n_vertices, 2): each vertex's u and v on its patch, 0 to 1. None for a surface from arrays.")
       .def_prop_ro(
           "velocities",
           [](Surface &self) { return vertex_array(self, &riis_triangles::velocity, 3, &Surface::velocities); },

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// What surfaces from arrays and keyframes share.
+// The common part of surfaces from arrays and of keyframes.
 #pragma once
 
 #include "module.hpp"
 
 namespace riis_python {
 
-// Faces of the caller, and vertices if there are any.
+// The caller's faces, and the vertices if they are given.
 struct FaceArrays {
-  // faces may be None: the vertices alone move.
+  // If faces is None, only the vertices move.
   FaceArrays(nb::handle faces, nb::handle leaflet_id, nb::handle index_base);
   void set_vertices(nb::handle vertices, nb::handle velocities);
 

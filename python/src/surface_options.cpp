@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keywords that say how a surface is made and placed.
+// The keywords for how a surface is made and placed.
 #include <cstring>
 
 #include "module.hpp"
@@ -15,7 +15,7 @@ struct Keyword {
   bool is_placement;
 };
 
-// The value "auto" requests the default that depends on other values.
+// Returns the number. "auto" stands for a default that depends on other values.
 double number_or_auto(nb::handle value, const char *name) {
   return PyUnicode_Check(value.ptr()) ? choice(value, name, {{"auto", -1}}) * -RIIS_AUTO : number(value, name);
 }
@@ -78,7 +78,7 @@ void set_options(riis_surface_options &options, nb::handle given, const char *ar
       if (name == keyword.name) found = &keyword;
       all += text_of(all.empty() ? "" : ", ", keyword.name);
     }
-    if (!found) refuse_type(argument, "'", name, "' is no option; the options are ", all);
+    if (!found) refuse_type(argument, "'", name, "' is not an option; the options are ", all);
     if (!value.is_none()) found->set(options, value, found->name);
   }
 }

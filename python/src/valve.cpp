@@ -17,7 +17,7 @@ riis_parameter parameter(const Valve &valve, std::int64_t id) {
   return found;
 }
 
-// Returns the number of values of a parameter, or 0 if no parameter has the name.
+// Returns the number of values of a parameter, or 0 if there is no parameter with this name.
 std::int64_t n_values(const Valve &valve, const std::string &name) {
   for (std::int64_t id = 0, n = n_parameters(valve); id < n; ++id) {
     const riis_parameter found = parameter(valve, id);
@@ -26,7 +26,7 @@ std::int64_t n_values(const Valve &valve, const std::string &name) {
   return 0;
 }
 
-// Throws the KeyError that a mapping has, with the library's message.
+// Throws the KeyError of a mapping, with the library's message.
 [[noreturn]] void refuse_unknown(const Valve &valve, const std::string &name) {
   double value = 0;
   riis_valve_get(valve.handle, name.c_str(), 1, &value);
@@ -62,7 +62,7 @@ void set_all(Valve &valve, const nb::dict &parameters) {
   for (const auto [name, value] : parameters) set(valve, name, value);
 }
 
-// Takes what dict.update takes.
+// Takes the same arguments as dict.update.
 void update(Valve &valve, nb::handle other, const nb::kwargs &parameters) {
   nb::dict all;
   if (!other.is_none()) {
@@ -183,7 +183,7 @@ nb::object get_or(Valve &valve, nb::handle name, nb::handle otherwise) {
   return contains(valve, name) ? get(valve, name) : nb::borrow(otherwise);
 }
 
-// Returns a view of a mapping that collections.abc has.
+// Returns a view of a mapping from collections.abc.
 nb::object mapping_view(const char *view, nb::handle self) {
   object<Valve>(self, "valve").usage.check("valve");
   return nb::module_::import_("collections.abc").attr(view)(self);
@@ -195,7 +195,7 @@ nb::dict values_of(Valve &valve) {
   return all;
 }
 
-// Returns what pickle makes the valve from.
+// Returns the values from which pickle makes the valve.
 nb::tuple state_of(Valve &valve) { return nb::make_tuple(valve.kind, values_of(valve), valve.open, valve.patches); }
 
 void make_from_state(Valve *self, const nb::tuple &state) {
@@ -208,7 +208,8 @@ void make_from_state(Valve *self, const nb::tuple &state) {
                                       nb::arg("leaflet_id") = patches[4], nb::arg("index_base") = patches[5]);
   Valve &valve = object<Valve>(made, "valve");
   if (!open.is_none()) {
-    // With the open state's values, the valve accepts that state. The valve's own values follow: only surfaces refuse a clash.
+    // The valve accepts the open state only with that state's values. The valve's own values are set afterwards, because only
+    // surfaces check whether values fit together.
     set_all(valve, values_of(object<Valve>(open, "open")));
     set_open_state(valve, open);
   }
@@ -233,13 +234,13 @@ void add_valve(nb::module_ &module) {
   nb::class_<Valve> valve(module, "Valve", nb::sig("class Valve(collections.abc.Mapping[str, typing.Any])"),
                           R"(A parametric valve: its kind and the values of its parameters.
 
-kind is 'aortic', the paper's three cusps, 'mitral', 'trileaflet', three equal cusps that close, or 'bileaflet',
-a mechanical prosthesis. Keywords set parameters: Valve('mitral', opening=0.3).
+kind is 'aortic' (the paper's three cusps), 'mitral', 'trileaflet' (three equal cusps that close) or 'bileaflet'
+(a mechanical prosthesis). Keywords set parameters: Valve('mitral', opening=0.3).
 
 A valve is a mapping from names to values: valve['AP_diameter'] = 3.1 sets a parameter, valve['opening'] reads it,
-dict(valve) has all. Its names are fixed, and pickle takes it with all that it has. Lengths are in centimetres by
+dict(valve) has all values. Names cannot be added or removed. A valve can be pickled. Lengths are in centimetres by
 default, angles in degrees. A name such as 'leaflet_angle' of an aortic valve stands for all three cusps and can only
-be set; 'right.leaflet_angle' is one cusp's. Rotation, translation, t0_* and t3_* have three values.)");
+be set; 'right.leaflet_angle' belongs to one cusp. Rotation, translation, t0_* and t3_* have three values.)");
   valve
       .def("__init__", &create, nb::arg("kind").none() = "aortic", nb::arg("parameters"),
            nb::sig("def __init__(self, kind: str = 'aortic', **parameters: float | collections.abc.Sequence[float] | "
@@ -256,16 +257,16 @@ be set; 'right.leaflet_angle' is one cusp's. Rotation, translation, t0_* and t3_
           R"(Makes a valve from Coons patches between Bézier curves.
 
 degree       (n_curves,) int32: 1, 2 or 3
-control      (sum of degree + 1, 3) float64: the control points, curve after curve
+control      (sum of degree + 1, 3) float64: the control points, one curve after the other
 curve_id     (n_patches, 4) int32: the curves at v = 0, v = 1, u = 0, u = 1, counted from index_base
-reversed     (n_patches, 4) int32: 1 where the side runs against its curve
+reversed     (n_patches, 4) int32: 1 if the side runs opposite to its curve
 leaflet_id   (n_patches,) int32, >= 0; default 0
 
 The valve's only parameter is 'opening'. Arrays are copied.)")
       .def("__setitem__", &set, nb::arg("name").none(), nb::arg("value").none(),
            nb::sig("def __setitem__(self, name: str, value: float | collections.abc.Sequence[float] | "
                    "numpy.typing.NDArray[numpy.float64]) -> None"),
-           "Sets a parameter, to one value or three.")
+           "Sets a parameter to one value or to three values.")
       .def("__getitem__", &get, nb::arg("name").none(), nb::sig("def __getitem__(self, name: str) -> typing.Any"),
            "Returns a parameter: a float, or an array (3,) for a parameter with three values.")
       .def("__contains__", &contains, nb::arg("name").none(), nb::sig("def __contains__(self, name: object) -> bool"))
@@ -286,12 +287,12 @@ The valve's only parameter is 'opening'. Arrays are copied.)")
           "Returns a view of the pairs of name and value.")
       .def("get", &get_or, nb::arg("name").none(), nb::arg("default").none() = nb::none(),
            nb::sig("def get(self, name: str, default: typing.Any = None, /) -> typing.Any"),
-           "Returns a parameter as valve[name] does, or default if there is none of the name.")
+           "Returns a parameter as valve[name] does, or default if there is no parameter of this name.")
       .def("update", &update, nb::arg("other").none() = nb::none(), nb::arg("parameters"),
            nb::sig("def update(self, other: collections.abc.Mapping[str, typing.Any] | "
                    "collections.abc.Iterable[tuple[str, typing.Any]] | None = None, /, **parameters: float | "
                    "collections.abc.Sequence[float] | numpy.typing.NDArray[numpy.float64]) -> None"),
-           "Sets several parameters, as dict.update: valve.update(opening=0.3), valve.update({'right.leaflet_angle': "
+           "Sets several parameters, like dict.update: valve.update(opening=0.3), valve.update({'right.leaflet_angle': "
            "20}).")
       .def("__getstate__", &state_of, nb::sig("def __getstate__(self) -> tuple[typing.Any, ...]"))
       .def("__setstate__", &make_from_state, nb::arg("state"),
@@ -304,9 +305,9 @@ The valve's only parameter is 'opening'. Arrays are copied.)")
           nb::sig("def __deepcopy__(self, memo: object) -> Valve"))
       .def("set_open_state", &set_open_state, nb::arg("open").none(),
            nb::sig("def set_open_state(self, open: Valve) -> None"),
-           R"(Gives the valve a second state to open to: its own is at opening 0, that of open at opening 1.
+           R"(Gives the valve an open state: its own state is at opening 0, the state of open at opening 1.
 
-open is copied. It is of the same kind; from patches, it has the same curves, degrees and sides.)")
+open is copied. It must be of the same kind. A valve from patches must have the same curves, degrees and sides.)")
       .def_prop_ro("parameters", &parameters, nb::sig("def parameters(self) -> dict[str, riis._records.Parameter]"),
                    "Descriptions of the parameters by name: unit, text, default, minimum, maximum.")
       .def_prop_ro(

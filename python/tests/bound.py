@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""bound.py ROOT: every function of riis.h is bound by the Python package, or left out for a reason that stands here.
+"""bound.py ROOT: every function of riis.h must be bound by the Python package, or be left out for a reason that is given here.
 
-Every message of the library that names something of riis.h has a name of Python for it. The check reads sources only, so it
-needs neither the package nor numpy.
+Every message of the library that names a part of riis.h must have a Python name for it. The check only reads sources, so it needs
+neither the package nor numpy.
 """
 
 import pathlib
@@ -10,7 +10,7 @@ import re
 import runpy
 import sys
 
-# Functions of riis.h, and the names in the package through which they are called.
+# Functions of riis.h, and the names through which the package calls them.
 BOUND = {
     "riis_status_name": "status_name",
     "riis_get_version": "version",
@@ -75,7 +75,7 @@ BOUND = {
     "riis_opening_switch_advance": "OpeningSwitch.advance",
     "riis_opening_angle_advance": "OpeningAngle.advance",
 }
-# A struct of options is a call's keyword arguments, or a class with defaults.
+# Functions that are left out, with reasons. A struct of options becomes keyword arguments, or a class with defaults.
 LEFT_OUT = {
     name: "keyword arguments have defaults, so nobody initialises a struct"
     for name in (
@@ -111,7 +111,7 @@ LEFT_OUT = {
 
 
 def texts_of_the_library(root: pathlib.Path) -> list[str]:
-    """Returns the texts of the library's sources that name something of riis.h. Statuses have their C names in Python too."""
+    """Returns the texts in the library's sources that name a part of riis.h. Statuses have their C names in Python too."""
     folders = [folder for folder in (root / "src" / "riis").iterdir() if folder.is_dir()]
     paths = sorted(path for folder in folders for path in folder.rglob("*.[ch]pp") if path.name != "library_api.cpp")
     lines = [line for path in paths for line in path.read_text(encoding="utf-8").splitlines()]
@@ -120,7 +120,7 @@ def texts_of_the_library(root: pathlib.Path) -> list[str]:
 
 
 def check(root: pathlib.Path) -> list[str]:
-    """Returns what is wrong, a line each."""
+    """Returns the faults, one per line."""
     header = (root / "include/riis/riis.h").read_text(encoding="utf-8")
     sources = "".join(path.read_text(encoding="utf-8") for path in sorted((root / "python/src").glob("*.[ch]pp")))
     functions = set(re.findall(r"^RIIS_API [^(]*?\b(riis_\w+)\(", header, re.MULTILINE))

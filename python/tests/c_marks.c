@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * c_marks COORDINATES OUTPUT: what a C program finds, for the tests of the Python package.
- * Reads xyz as doubles. Marks the mitral valve that moves from opening 0.3 to 0.4 in 0.05 s. Writes the marks as raw arrays: the
- * number of marked nodes, ids, distances, triangles, leaflets, normals, velocities, K and K u of all nodes. */
+ * c_marks COORDINATES OUTPUT: marks nodes in C, for comparison in the tests of the Python package.
+ * Reads xyz as doubles. Marks nodes around the mitral valve, which moves from opening 0.3 to 0.4 in 0.05 s. Writes the marks
+ * as raw arrays: the number of marked nodes, ids, distances, triangles, leaflets, normals and velocities, then K and K u of
+ * all nodes. */
 #include <riis/riis.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Objects that the tests share. ./run python and CTest say where the C program c_marks is, by RIIS_C_MARKS."""
+"""Objects that the tests share. The variable RIIS_C_MARKS, set by ./run python and CTest, is the path of the C program
+c_marks."""
 
 import os
 
@@ -11,7 +12,7 @@ import riis
 
 @pytest.fixture(scope="session")
 def xyz():
-    """Nodes around the valves, in cm, and so many that marking starts threads."""
+    """Returns nodes around the valves, in cm. There are so many that marking starts threads."""
     return numpy.random.default_rng(2025).uniform(-2.0, 2.0, (60_000, 3))
 
 
@@ -37,7 +38,7 @@ def marks(surface, mesh):
 
 @pytest.fixture
 def grid():
-    """A structured mesh with its adjacency: 41 x 41 x 41 nodes from -2 to 2."""
+    """Returns a structured mesh with its adjacency: 41 x 41 x 41 nodes from -2 to 2."""
     n = 41
     k, j, i = numpy.meshgrid(*3 * [numpy.linspace(-2.0, 2.0, n)], indexing="ij")
     mesh = riis.Mesh(numpy.ascontiguousarray(numpy.stack([i.ravel(), j.ravel(), k.ravel()], axis=1)))

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Prints what the Python layer adds to riis_mark_nodes, at a million nodes with a prepared mesh.
+"""Prints the time that the Python layer adds to riis_mark_nodes, for a million nodes and a prepared mesh.
 
-The library measures its own time within each call (stats.seconds), so every step compares the same run: the time of the call
-in Python, with views of ids and distances, less the time of the C function. Times are medians of the steps.
+The library measures its own time within each call (stats.seconds). So every step compares times of the same run: the time of the
+call in Python, with views of ids and distances, minus the time of the C function. The printed times are medians over the steps.
 """
 
 import statistics
@@ -17,7 +17,7 @@ BAR = 1.05
 
 
 def measure(surface, mesh, n_threads, reuse, n_steps=50):
-    """Returns the medians of the C function and of the Python layer, in seconds."""
+    """Returns the median times of the C function and of the Python layer, in seconds."""
     own = riis.Marks()
     inside, layer = [], []
     for _ in range(n_steps):
@@ -34,7 +34,7 @@ def measure(surface, mesh, n_threads, reuse, n_steps=50):
 
 
 def main():
-    # A box around each valve whose band holds about 5 % of the nodes, as in ./run bench costs.
+    # A box around each valve whose band contains about 5 % of the nodes, as in ./run bench costs.
     nodes = numpy.random.default_rng(6).uniform(-1.6, 1.6, (1_000_000, 3))
     mesh = riis.Mesh(nodes)
     mesh.prepare()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Prints how well riis.fit finds known valves again, from points with noise, gaps and outliers, in any placement."""
+"""Prints how accurately riis.fit recovers known valves from points with noise, gaps and outliers, in any placement."""
 
 import sys
 
@@ -14,12 +14,13 @@ VALVES = {
     "trileaflet": {"root_radius": 1.2, "leaflet_height": 1.25, "opening": 0.35},
     "bileaflet": {"radius": 1.2, "opening": 0.3},
 }
-# Noise, number of gaps, share of outliers.
+# Noise, number of gaps, fraction of outliers.
 CASES = ((0.0, 0, 0.0), (0.01, 0, 0.0), (0.02, 0, 0.0), (0.05, 0, 0.0), (0.02, 2, 0.05))
 
 
 def cloud(kind, n_points, noise, n_gaps=0, outliers=0.0, seed=0, placement=None):
-    """Returns points of a known valve: evenly over its area, with normal noise, without balls of radius 0.5, and outliers."""
+    """Returns points of a known valve, evenly distributed over its area. They have normal noise, gaps (balls of radius 0.5
+    without points) and outliers."""
     random = numpy.random.default_rng(seed)
     surface = riis.Surface(riis.Valve(kind, **VALVES[kind]), half_thickness=0.05, tolerance=0.02, **(placement or PLACEMENT))
     a, b, c = (surface.vertices[surface.triangles.vertex_id[:, i]] for i in range(3))
@@ -46,7 +47,8 @@ def any_placement(seed):
 
 
 def main(n_seeds):
-    """Prints a row per parameter and a column per case: the errors' root mean square, and the standard error that fits state."""
+    """Prints a row per parameter and a column per case: the root mean square of the errors, and the standard error that the
+    fits report."""
     cases = [f"{noise}" + (f", {n_gaps} gaps, {outliers:.0%} outliers" if n_gaps else "") for noise, n_gaps, outliers in CASES]
     print(f"| valve | parameter | true | {' | '.join(cases)} |")
     print("|---" * (3 + len(CASES)) + "|")

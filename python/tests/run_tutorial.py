@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs examples/python/tutorial.ipynb in a folder, which then has its pictures, its movie, and tutorial.html with all outputs."""
+"""Runs examples/python/tutorial.ipynb in a folder. The folder then contains its pictures, its movie, and tutorial.html with
+all outputs."""
 
 import json
 import pathlib
@@ -23,7 +24,7 @@ def main(folder):
     for cell in notebook.cells:
         for output in cell.get("outputs", []):
             gif = output.get("data", {}).get("image/gif")
-            if gif:  # nbconvert's page leaves these out
+            if gif:  # nbconvert does not put movies into its page
                 output.data["text/html"] = f'<img width="600" src="data:image/gif;base64,{gif}">'
     page, _ = nbconvert.HTMLExporter().from_notebook_node(notebook)
     (folder / "tutorial.html").write_text(page, encoding="utf-8")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Every function of riis.h is bound, or left out for a reason (bound.py). All that is public has a text."""
+"""Every function of riis.h is bound, or left out for a reason (bound.py). All public names have a docstring."""
 
 import ast
 import inspect
@@ -99,7 +99,7 @@ def public_objects():
 def test_everything_public_has_a_text():
     names = dict(public_objects())
     assert len(names) > 90
-    inherited = {"opening_and_rate"}  # the laws of time have the text of their base
+    inherited = {"opening_and_rate"}  # the laws of time inherit the docstring of their base class
     missing = [n for n, value in names.items() if not value.__doc__ and n.split(".")[-1] not in inherited]
     assert not missing
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The programs of docs/python.md run as they stand there, README has the first, and the notebook is as it should be."""
+"""The programs in docs/python.md run unchanged, README contains the first of them, and the notebook is consistent."""
 
 import ast
 import json
@@ -16,19 +16,19 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 def test_the_programs_of_the_document_run(xyz):
     text = (ROOT / "docs/python.md").read_text(encoding="utf-8")
     programs = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-    assert len(programs) == 4  # test_plot.py and test_fit.py do what the last two do
+    assert len(programs) == 4  # test_plot.py and test_fit.py cover the last two programs
     assert programs[0] in (ROOT / "README.md").read_text(encoding="utf-8")
     names = {"xyz": xyz, "n_steps": 6, "dt": 0.125}
     exec(programs[0], names)
     marks = riis.mark(names["surface"], riis.Mesh(xyz))
     assert numpy.array_equal(names["marks"].ids, marks.ids) and numpy.count_nonzero(names["K"]) > 100
     exec(programs[1], names)
-    # The last step goes from 0.625 s to 0.75 s, when the valve is open and at rest.
+    # The last step goes from 0.625 s to 0.75 s, where the valve is open and at rest.
     assert names["valve"]["opening"] == 1.0 and not names["K_u"].any() and names["K"].any()
 
 
 def test_the_notebook_is_committed_without_outputs():
-    """./run python runs it; outputs would be results that nobody checks."""
+    """./run python runs the notebook. Committed outputs would be results that nobody checks."""
     notebook = json.loads((ROOT / "examples/python/tutorial.ipynb").read_text(encoding="utf-8"))
     assert notebook["cells"][0]["source"][0].startswith("<!-- SPDX-License-Identifier: Apache-2.0 -->")
     cells = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]

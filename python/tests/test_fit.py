@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Known valves are found again from points, and bad input is refused."""
+"""Known valves are recovered from points, and bad input is refused."""
 
 import json
 import os
@@ -29,12 +29,12 @@ def test_known_valves_are_found_again(kind):
     for name, value in true.items():
         assert abs(found.parameters[name] - value) < 5.0 * found.standard_errors[name] < 0.15, name
         assert found.valve[name] == found.parameters[name]
-    assert 0.005 < found.rms < 0.02  # noise along the normal has 0.01
-    # The fitted surface is the known one: distances of points without noise are small.
+    assert 0.005 < found.rms < 0.02  # the noise along the normal is 0.01
+    # The fitted surface is the known one: points without noise have small distances from it.
     clean = fit_table.cloud(kind, 500, 0.0, seed=1)
     surface = riis.Surface(found.valve, **found.placement)
     assert numpy.percentile(surface.closest_points(clean).distance, 90) < 0.02
-    # The distances of the result are those to the surface, and its measures are theirs.
+    # The distances in the result are distances to the surface, and the measures are computed from them.
     assert numpy.allclose(found.distances, surface.closest_points(points).distance, atol=0.01)
     assert found.weights[:10].max() < 0.5 < numpy.median(found.weights)  # the first twelve are outliers
     assert numpy.isclose(found.percentile95, numpy.percentile(found.distances, 95.0))
@@ -43,13 +43,13 @@ def test_known_valves_are_found_again(kind):
 
 
 def test_a_valve_is_found_wherever_it_lies():
-    """No start is given: the points are turned by more than a quarter, and lie far from the origin."""
+    """No start is given. The points are turned by more than a quarter, and are far from the origin."""
     placement = {"rotation_axis": (1.0, -2.0, 0.5), "rotation_angle": 140.0, "translation": (120.0, -40.0, 300.0)}
     true = fit_table.VALVES["aortic"]
     found = riis.fit(fit_table.cloud("aortic", 800, 0.02, placement=placement), "aortic", free=list(true))
     for name, value in true.items():
         assert abs(found.parameters[name] - value) < 5.0 * found.standard_errors[name], name
-    # The whole valve lies where the known one does, each cusp on its own.
+    # The whole valve lies where the known valve lies, each cusp at its own place.
     known = riis.Surface(riis.Valve("aortic", **true), **placement).closest_points(numpy.zeros((1, 3))).point
     surface = riis.Surface(found.valve, **found.placement)
     assert surface.closest_points(known).distance[0] < 0.02
@@ -57,7 +57,7 @@ def test_a_valve_is_found_wherever_it_lies():
 
 
 def test_edges_are_where_the_points_end():
-    """A disk that is too large fits as well as the right one, unless area costs."""
+    """Without a cost of the area, a disk that is too large would fit as well as the right one."""
     points = fit_table.cloud("bileaflet", 1000, 0.02)
     start = riis.Valve("bileaflet", radius=1.6, opening=0.3)
     arguments = {"free": ["radius"], "n_starts": 1, "start": fit_table.PLACEMENT}
@@ -86,13 +86,13 @@ def test_vertices_of_surfaces_count_by_their_area():
     data = surface.to_pyvista()
     again = riis.fit(data, "trileaflet", **arguments)
     assert again.parameters == found.parameters  # the same points and weights
-    single = pyvista.PolyData(numpy.array(surface.vertices, numpy.float32))  # points alone, all of weight 1
+    single = pyvista.PolyData(numpy.array(surface.vertices, numpy.float32))  # only the points, all with weight 1
     alike = riis.fit(single, "trileaflet", **arguments)
     assert abs(alike.parameters["leaflet_height"] - 1.3) < 0.01 and numpy.ptp(alike.weights) < numpy.ptp(found.weights)
 
 
 def test_weights_count():
-    """Points without a weight change nothing."""
+    """Points with weight 0 change nothing."""
     points = fit_table.cloud("trileaflet", 400, 0.01)
     arguments = {"free": ["opening"], "n_starts": 1}
     found = riis.fit(points, "trileaflet", **arguments)
@@ -119,7 +119,7 @@ def test_bounds_hold_and_are_told():
 
 
 def test_what_the_data_do_not_say_is_told():
-    """A closed valve is the same whatever its open radius will be."""
+    """A closed valve is the same for any open radius, so the data do not determine it."""
     valve = riis.Valve("trileaflet", opening=0.0)
     points = numpy.array(riis.Surface(valve).vertices[::5])
     free = ["leaflet_height", "open_radius_ratio"]
@@ -131,7 +131,7 @@ def test_what_the_data_do_not_say_is_told():
 
 
 def test_the_placement_may_be_undetermined():
-    """A flat patch of points on a disk says nothing of shifts along it."""
+    """Points on a flat patch of a disk do not determine shifts along the disk."""
     valve = riis.Valve("bileaflet", opening=1.0, open_angle=90.0)
     y, z = numpy.meshgrid(numpy.linspace(-0.2, 0.2, 12), numpy.linspace(0.2, 0.5, 12))
     points = numpy.column_stack([numpy.full(144, valve["hinge_offset"]), y.ravel(), z.ravel()])
@@ -163,7 +163,7 @@ CELL_TYPES 1
 
 @pytest.mark.parametrize("kind", ["mitral", "aortic"])
 def test_riis_mark_makes_the_fitted_surface(kind, tmp_path):
-    """The file and the options give the program the same surface, to the last digits."""
+    """With the file and the options, the program makes the same surface, up to the last digits."""
     pyvista = pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
     program = program_riis()
     placement = {**fit_table.PLACEMENT, "scale": 1.1}
@@ -201,7 +201,7 @@ def test_a_valve_that_is_more_than_its_parameters_is_not_written(tmp_path):
 
 
 def test_rotations_go_to_axis_and_angle_and_back():
-    """The oracle is the library: it places a surface by an axis and an angle."""
+    """The library is the reference: it places a surface by an axis and an angle."""
     valve = riis.Valve("bileaflet")
     surface = riis.Surface(valve)
     known = numpy.array(surface.vertices)
@@ -216,7 +216,7 @@ def test_rotations_go_to_axis_and_angle_and_back():
         surface.update(valve, rotation_axis=axis, rotation_angle=angle)
         assert numpy.allclose(surface.vertices, known @ rotation.T, atol=1e-8)
     mean = numpy.mean(rotations[:200], axis=0)
-    assert abs(mean).max() < 0.25  # they go everywhere
+    assert abs(mean).max() < 0.25  # the rotations cover all directions
 
 
 def test_half_of_the_weight_lies_below_the_median():
@@ -245,7 +245,7 @@ POINTS = numpy.zeros((50, 3))
         (riis.InvalidParameterError, "'tricuspid' is not a kind", POINTS, {"valve": "tricuspid"}),
         (TypeError, "free: must be a list of names, not 'opening'", POINTS, {"free": "opening"}),
         (TypeError, r"free: must be a list of names, not \[3\]", POINTS, {"free": [3]}),
-        (riis.InvalidArgumentError, "free: 'height' is no parameter", POINTS, {"free": ["height"]}),
+        (riis.InvalidArgumentError, "free: 'height' is not a parameter", POINTS, {"free": ["height"]}),
         (riis.InvalidArgumentError, "free: 'translation' has three", POINTS, {"free": ["translation"]}),
         (riis.InvalidArgumentError, "free: and placement are empty", POINTS, {"free": [], "placement": []}),
         (TypeError, "bounds: must be a dict", POINTS, {"bounds": [(0.0, 1.0)]}),
@@ -259,10 +259,10 @@ POINTS = numpy.zeros((50, 3))
         (riis.InvalidArgumentError, r"weights: its shape is \(3,\); there are 50 points", POINTS, {"weights": numpy.ones(3)}),
         (riis.InvalidArgumentError, "weights: entry 0 is -1.0", POINTS, {"weights": -numpy.ones(50)}),
         (riis.InvalidArgumentError, "weights: entry 0 is inf", POINTS, {"weights": numpy.full(50, numpy.inf)}),
-        (riis.InvalidArgumentError, "placement: 'shear' is none", POINTS, {"placement": ["shear"]}),
+        (riis.InvalidArgumentError, "placement: 'shear' is not one of", POINTS, {"placement": ["shear"]}),
         (TypeError, "placement: must be a list of names, not 'rotation'", POINTS, {"placement": "rotation"}),
         (TypeError, "start: must be a dict", POINTS, {"start": 3.0}),
-        (riis.InvalidArgumentError, "start: 'angle' is none", POINTS, {"start": {"angle": 1.0}}),
+        (riis.InvalidArgumentError, "start: 'angle' is not one of", POINTS, {"start": {"angle": 1.0}}),
         (riis.InvalidArgumentError, "scale is 0", POINTS, {"start": {"scale": 0.0}}),
         (TypeError, "rotation_axis: must be three numbers", POINTS, {"start": {"rotation_axis": "z"}}),
         (riis.InvalidArgumentError, "translation is inf", POINTS, {"start": {"translation": (0.0, 0.0, numpy.inf)}}),
@@ -286,7 +286,7 @@ def test_values_that_clash_are_refused():
 
 
 def test_values_that_clash_are_passed_over():
-    """Half of the bounds has no valve: the triangles must fit beside the anterior leaflet."""
+    """For half of the bounds there is no valve: the triangles must fit beside the anterior leaflet."""
     points = fit_table.cloud("mitral", 400, 0.01)
     start = riis.Valve("mitral", **fit_table.VALVES["mitral"])
     start["triangle_size_ratio"] = 0.19

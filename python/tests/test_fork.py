@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A child of fork() marks or raises. It never hangs: an alarm would end it."""
+"""A child of fork() marks or raises an exception. It never hangs; if it did, an alarm would end it."""
 
 import multiprocessing
 import os
@@ -16,7 +16,7 @@ SECONDS = 60
 
 
 def status_of_child(work, leave=os._exit):
-    """Forks, and runs work in the child. Returns the child's exit status: 0, or 1 after an exception."""
+    """Forks, and runs `work` in the child. Returns the child's exit status: 0, or 1 after an exception."""
     child = os.fork()
     if child == 0:
         signal.alarm(SECONDS)
@@ -31,13 +31,13 @@ def status_of_child(work, leave=os._exit):
 
 
 def in_child(work, leave=os._exit):
-    """Returns whether work ended by itself and without an exception in a child."""
+    """Returns whether `work` ended by itself and without an exception in a child."""
     return status_of_child(work, leave) == 0
 
 
 @pytest.fixture
 def busy_parent(surface, mesh, valve):
-    """The parent has used all threads of OpenMP and TBB before it forks."""
+    """Makes a parent that has used all threads of OpenMP and TBB before it forks."""
     riis.mark(surface, mesh, search="exhaustive", n_threads=4)
     surface.update(valve, n_threads=4)
     return surface
@@ -103,7 +103,7 @@ def test_a_child_refuses_marks_that_several_threads_made(busy_parent, mesh, mark
             marks.add_resistance(coefficient, R=1.0)
         with pytest.raises(riis.UnavailableError, match="marks: the marking was made before the fork"):
             marks.dense()
-        assert len(marks.ids) == len(alone)  # reading is no work
+        assert len(marks.ids) == len(alone)  # reading needs no threads
         alone.add_resistance(coefficient, R=1.0)
         assert coefficient.any()
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Laws of opening: their formulas, and states that are plain values."""
+"""Laws of opening: their formulas, and their states, which are plain values."""
 
 import dataclasses
 import pickle
@@ -35,7 +35,7 @@ def test_a_switch_opens_by_pressure_and_closes_by_flow():
     openings = [s.opening for s in states]
     assert max(openings) == 1.0 and openings[-1] == 0.0
     assert states[12].phase == "opening" and states[-1].phase == "closing"
-    assert law.advance(state, 0.01, 1.0, 1.0) == states[1]  # nothing is kept
+    assert law.advance(state, 0.01, 1.0, 1.0) == states[1]  # nothing is kept between calls
     assert pickle.loads(pickle.dumps(states[5])) == states[5]
 
 

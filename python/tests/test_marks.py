@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Marks equal those of a C program to the last bit, however the arrays lie and whatever search runs."""
+"""Marks equal those of a C program to the last bit, for any layout of the arrays and any search."""
 
 import subprocess
 
@@ -10,7 +10,7 @@ import riis
 
 
 def same(a, b):
-    """Tells whether two arrays have the same shape and bits."""
+    """Returns whether two arrays have the same shape and bits."""
     return a.dtype == b.dtype and a.shape == b.shape and a.tobytes() == b.tobytes()
 
 
@@ -102,7 +102,8 @@ def test_a_result_is_reused(surface, mesh, valve):
 def test_fields_equal_those_of_closest_points(grid):
     valve = riis.Valve("trileaflet", opening=0.5)
     before = riis.Valve("trileaflet", opening=0.4)
-    # Away from the planes of symmetry no two leaflets are equally near, which would give the mean of their velocities.
+    # The valve is shifted, so that no node lies in a plane of symmetry. There two leaflets would be equally near, and the
+    # velocity would be their mean.
     surface = riis.Surface(valve, translation=(0.0123, 0.0217, 0.0))
     surface.update_moving(valve, before, 0.01)
     names = ["point", "normal", "barycentric", "side", "rim", "uv", "velocity", "patch_id"]
@@ -121,7 +122,7 @@ def test_fields_equal_those_of_closest_points(grid):
     assert marks.uv.shape == (n, 2) and marks.uv.min() >= 0.0 and marks.uv.max() <= 1.0
     assert same(marks.patch_id, surface.triangles.patch_id[marks.triangle_id])
     assert set(numpy.unique(marks.rim)) == {0, 1}
-    # The velocity is that of the triangle's vertices, by the barycentric weights.
+    # The velocity is interpolated from the triangle's vertices by the barycentric weights.
     corners = surface.velocities[surface.triangles.vertex_id[marks.triangle_id]]
     assert numpy.allclose(marks.velocity, numpy.einsum("ij,ijk->ik", marks.barycentric, corners), rtol=1e-12, atol=1e-12)
     assert numpy.abs(marks.velocity).max() > 1.0

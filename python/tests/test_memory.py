@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ten thousand steps of a moving valve leave the process as large as it was."""
+"""After ten thousand steps of a moving valve, the process uses as much memory as before."""
 
 import numpy
 
@@ -42,4 +42,4 @@ def test_ten_thousand_steps_take_no_memory():
         step(i)
     grown = resident_kib() - start
     print(f"10,000 steps: the process grew by {grown} KiB from {start} KiB")
-    assert grown < 2000  # 0.2 KiB a step; one array of a step has 16 KiB
+    assert grown < 2000  # 0.2 KiB per step; one array of a step has 16 KiB

@@ -26,7 +26,7 @@ def test_adjacencies_of_cells_faces_and_grids(dtype):
 
 
 class Rows:
-    """Sparse rows with the attributes of scipy's."""
+    """Sparse rows with the same attributes as scipy's."""
 
     def __init__(self, adjacency, dtype):
         self.indptr, self.indices = adjacency.offsets.astype(dtype), adjacency.columns.astype(dtype)
@@ -55,7 +55,7 @@ def test_an_adjacency_goes_with_the_number_of_nodes(surface, grid):
 
 
 def plate(half_thickness):
-    """A square plate at z = 0.03 that parts a grid of spacing 0.1."""
+    """Makes a square plate at z = 0.03 that divides a grid of spacing 0.1."""
     corners = numpy.array([[-3, -3, 0.03], [3, -3, 0.03], [3, 3, 0.03], [-3, 3, 0.03]])
     return riis.Surface.from_arrays(corners, numpy.array([[0, 1, 2, 3]]), half_thickness=half_thickness)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""riis beside another run-time of OpenMP in the same process: scikit-learn's wheel carries its own libgomp."""
+"""riis beside another OpenMP run-time in the same process: scikit-learn's wheel contains its own libgomp."""
 
 import pathlib
 import subprocess
@@ -11,7 +11,7 @@ import riis
 
 pytest.importorskip("sklearn", reason="scikit-learn is missing; ./run python installs it")
 
-# Marks and clusters points, in the order that the arguments say, and prints both results.
+# This program marks nodes and clusters points, in the order of its arguments, and prints both results.
 PROGRAM = """
 import ctypes, pathlib, sys
 import numpy
@@ -60,7 +60,7 @@ def test_both_results_are_those_of_each_alone(order, monkeypatch):
 
 
 def test_the_module_needs_few_names_of_openmp():
-    """Any libgomp since gcc 4.9 has these names, and the module binds all of them as it is loaded: one run-time serves it."""
+    """Any libgomp since gcc 4.9 has these functions. The module binds all of them when it is loaded, so it uses one run-time."""
     module = pathlib.Path(riis._riis.__file__)
     answer = subprocess.run(["nm", "-D", "--undefined-only", module], capture_output=True, text=True, check=True)
     names = {line.split()[-1].split("@")[0] for line in answer.stdout.splitlines()}

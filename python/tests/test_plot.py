@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures by PyVista, where it is installed."""
+"""Pictures by PyVista, if it is installed."""
 
 import numpy
 import pytest
@@ -20,7 +20,7 @@ def test_a_surface_goes_to_pyvista():
     assert numpy.isclose(data.area, surface.info.area)
     assert numpy.array_equal(data.cell_data["leaflet_id"], surface.triangles.leaflet_id)
     assert numpy.array_equal(data.point_data["velocity"], surface.velocities)
-    surface.update(valve)  # the copy is not in the way
+    surface.update(valve)  # the copy does not prevent an update
 
 
 def test_a_picture_shows_the_leaflets_and_the_marks(surface, mesh, marks, tmp_path):
@@ -33,7 +33,7 @@ def test_a_picture_shows_the_leaflets_and_the_marks(surface, mesh, marks, tmp_pa
     background = pictures[0][0]
     drawn = [numpy.count_nonzero((picture != background).any(axis=1)) for picture in pictures]
     assert drawn[0] > 10_000 and drawn[1] > 1.1 * drawn[0]  # the band is wider than the leaflets
-    with pytest.raises(riis.InvalidArgumentError, match="marks: goes together with mesh"):
+    with pytest.raises(riis.InvalidArgumentError, match="marks: must be given together with mesh"):
         riis.plot(surface, mesh)
 
 
@@ -70,7 +70,7 @@ def test_a_new_picture_looks_at_the_whole_valve(surface, tmp_path):
 
 
 def beat(n_frames):
-    """Yields a valve that opens, always the same objects."""
+    """Yields a valve that opens, always as the same objects."""
     valve = riis.Valve("mitral")
     surface, marks = riis.Surface(valve), riis.Marks()
     mesh = riis.Mesh(numpy.random.default_rng(1).uniform(-2.0, 2.0, (20_000, 3)))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Bad input is refused with an exception of a class per kind, whose text names the argument."""
+"""Bad input is refused with an exception whose class tells the kind of fault, and whose text names the argument."""
 
 import math
 import re
@@ -13,7 +13,7 @@ Argument = riis.InvalidArgumentError
 
 
 class Objects:
-    """Good arguments."""
+    """Valid arguments."""
 
     def __init__(self):
         self.valve = riis.Valve("mitral", opening=0.3)
@@ -52,9 +52,9 @@ def with_nan(array):
     return array
 
 
-# Each line: what is refused, the class, the text, the call.
+# For each case: a name, the class, the text, and the call.
 REFUSED = {
-    # Arrays of points
+    # Refused arrays of points
     "list": (TypeError, "xyz: must be a numpy array of float64, not list", lambda o: riis.Mesh([[0.0, 0.0, 0.0]])),
     "None": (TypeError, "xyz: must be a numpy array of float64, not NoneType", lambda o: riis.Mesh(None)),
     "float32": (TypeError, "xyz: its dtype is float32; it must be float64", lambda o: riis.Mesh(o.xyz.astype("f4"))),
@@ -112,7 +112,7 @@ REFUSED = {
     "valve": (TypeError, "valve: must be a riis.Valve, not str", lambda o: riis.Surface("mitral")),
     "no valve": (TypeError, "valve: must be a riis.Valve, not NoneType", lambda o: riis.Surface(None)),
     "no argument": (TypeError, "valve", lambda o: riis.Surface()),
-    "option": (TypeError, "'thickness' is no option; the options are half_thickness",
+    "option": (TypeError, "'thickness' is not an option; the options are half_thickness",
                lambda o: riis.Surface(o.valve, thickness=1.0)),
     "half_thickness": (Argument, "half_thickness", lambda o: riis.Surface(o.valve, half_thickness=-2.0)),
     "type of half_thickness": (TypeError, "half_thickness: must be a number",
@@ -130,8 +130,8 @@ REFUSED = {
     "n_threads": (Argument, "n_threads", lambda o: riis.Surface(o.valve, n_threads=-1)),
     "float n_threads": (TypeError, "n_threads: must be an integer, not float", lambda o: riis.Surface(o.valve, n_threads=1.0)),
     "too many threads": (Argument, "n_threads: is 4294967296", lambda o: riis.Surface(o.valve, n_threads=2**32)),
-    "many bits": (Argument, "n_threads: is .* no integer of 64 bits", lambda o: riis.Surface(o.valve, n_threads=2**70)),
-    "placement_before": (TypeError, "placement_before: 'tolerance' is no option; the options are scale",
+    "many bits": (Argument, "n_threads: is .* not a 64-bit integer", lambda o: riis.Surface(o.valve, n_threads=2**70)),
+    "placement_before": (TypeError, "placement_before: 'tolerance' is not an option; the options are scale",
                          lambda o: riis.Surface(o.valve).update_moving(o.valve, o.valve, 1.0, placement_before={"tolerance": 1})),
     "type of placement_before": (TypeError, "placement_before: must be a dict, not float",
                                  lambda o: riis.Surface(o.valve).update_moving(o.valve, o.valve, 1.0, placement_before=1.0)),
@@ -180,8 +180,9 @@ REFUSED = {
     "distance_limit of points": (Argument, "distance_limit", lambda o: o.surface.closest_points(o.xyz, distance_limit=math.nan)),
     # Adjacency
     "adjacency": (TypeError, "adjacency: must be a riis.Adjacency", lambda o: o.mesh.set_adjacency(3)),
-    "columns": (Argument, "offsets: and columns go together", lambda o: o.mesh.set_adjacency(offsets=numpy.zeros(61, int))),
-    "both": (Argument, "adjacency: does not go together",
+    "columns": (Argument, "offsets: and columns must both be given",
+                lambda o: o.mesh.set_adjacency(offsets=numpy.zeros(61, int))),
+    "both": (Argument, "adjacency: cannot be combined with",
              lambda o: o.mesh.set_adjacency(riis.Adjacency.from_grid(3, 4, 5), offsets=numpy.zeros(61, int))),
     "offsets": (Argument, r"offsets: its shape is \(3,\); it must be \(61,\)",
                 lambda o: o.mesh.set_adjacency(offsets=numpy.zeros(3, int), columns=numpy.zeros(1, int))),
@@ -192,7 +193,7 @@ REFUSED = {
                lambda o: o.mesh.set_adjacency(offsets=numpy.append(numpy.zeros(60, int), 1), columns=numpy.array([60]))),
     "other size": (riis.Error, "^the number of rows is 8; the mesh has 60 nodes",
                    lambda o: o.mesh.set_adjacency(riis.Adjacency.from_grid(2, 2, 2))),
-    "cells": (Argument, "cells: has 3 nodes a cell", lambda o: riis.Adjacency.from_cells(o.faces, 3)),
+    "cells": (Argument, "cells: has 3 nodes per cell", lambda o: riis.Adjacency.from_cells(o.faces, 3)),
     "node of a cell": (riis.InvalidMeshError, "3", lambda o: riis.Adjacency.from_cells(o.tetrahedron, 3)),
     "type of cells": (TypeError, "cells: its dtype is float64", lambda o: riis.Adjacency.from_cells(o.vectors, 3)),
     "offsets of cells": (Argument, "offsets: span 5 nodes; cells has 4",
@@ -210,7 +211,8 @@ REFUSED = {
     "into": (TypeError, "into: must be a riis.Marks, not dict", lambda o: riis.mark(o.surface, o.mesh, into={})),
     "search": (Argument, "search: is 'fast'; it must be one of 'auto'", lambda o: riis.mark(o.surface, o.mesh, search="fast")),
     "instructions": (Argument, "instructions: is 'avx'", lambda o: riis.mark(o.surface, o.mesh, instructions="avx")),
-    "field": (Argument, "fields: 'speed' is none; they are 'point'", lambda o: riis.mark(o.surface, o.mesh, fields="speed")),
+    "field": (Argument, "fields: 'speed' is not a field; the fields are 'point'",
+              lambda o: riis.mark(o.surface, o.mesh, fields="speed")),
     "type of fields": (TypeError, "fields: must be a str or a sequence", lambda o: riis.mark(o.surface, o.mesh, fields=3)),
     "type of a field": (TypeError, "fields: must be a str, not int", lambda o: riis.mark(o.surface, o.mesh, fields=[3])),
     "velocity": (Argument, "(?i)velocit", lambda o: riis.mark(o.surface, o.mesh, fields="velocity")),
@@ -346,7 +348,7 @@ def with_sides(o):
     return riis.mark(o.surface, o.mesh, fields="side, rim")
 
 
-# Each array argument that a call reads: its name, a good value, the call.
+# Each array argument that a call reads: its name, a valid value, the call.
 READ = [
     ("xyz", lambda o: o.xyz, lambda o, a: riis.Mesh(a)),
     ("xyz", lambda o: o.xyz, lambda o, a: riis.Mesh(o.xyz).update(a)),
@@ -434,7 +436,7 @@ def test_a_masked_array_is_refused(o, name, good, call):
 
 
 class Frame:
-    """Has a function mask and gives an array, as pandas' frames."""
+    """Has a method `mask` and can be converted to an array, like data frames of pandas."""
 
     def __init__(self, array):
         self.array = array
@@ -477,7 +479,7 @@ def test_an_array_without_dimensions_is_a_number(o):
         riis.Valve("mitral", AP_diameter=numpy.array([3.0]))
 
 
-# What names something of C that Python lacks.
+# Matches names of C that Python lacks.
 OF_C = re.compile(r"riis_|RIIS_|\bNULL\b|\b(arrays|cells|csr|faces|frames|law|options|patches|resistance|table|times)\.[a-z]")
 
 
@@ -526,7 +528,7 @@ def test_classes_of_errors_are_those_of_statuses():
             assert error.status_name == riis.status_name(error.status)
             assert error.__doc__ and error.__module__ == "riis"
             statuses[error.status] = error
-    # A wrong size of a struct cannot come from here. riis_vtk.h alone has errors of files.
+    # The package itself always passes the right struct sizes, and only riis_vtk.h has errors of files.
     assert set(statuses) == {1, 3, 4, 5, 6, 7, 9, -1}
     for status, base in {1: ValueError, 3: ValueError, 4: ValueError, 5: ValueError, 7: MemoryError, 9: RuntimeError}.items():
         assert issubclass(statuses[status], base)

@@ -6,7 +6,7 @@ import pytest
 
 import riis
 
-# A tetrahedron's faces, outwards.
+# A tetrahedron. The normals of its faces point outwards.
 CORNERS = numpy.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
 FACES = numpy.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
 
@@ -64,7 +64,7 @@ def test_velocities_are_differences_over_the_step():
     surface = riis.Surface(before, triangulation="fixed")
     earlier = surface.vertices.copy()
     surface.update_moving(valve, before, 0.1)
-    # The fixed triangles keep arc lengths, the velocity keeps u and v: close, but not the same.
+    # Fixed triangles keep fractions of arc length, and the velocity keeps u and v. So the two are close, but not equal.
     assert numpy.allclose(surface.velocities, (surface.vertices - earlier) / 0.1, atol=0.05)
     assert numpy.abs(surface.velocities).max() > 1.0
     surface.update_moving(valve, valve, 0.1, placement_before={"translation": (0, 0, -1)})
@@ -86,7 +86,7 @@ def test_a_surface_comes_from_arrays(dtype):
     assert numpy.allclose(found.point, 1.0 / 3.0) and numpy.allclose(found.barycentric, 1.0 / 3.0)
     one = riis.Surface.from_arrays(CORNERS, FACES.astype(dtype) + 1, index_base=1)
     assert numpy.array_equal(one.triangles.vertex_id, FACES)
-    surface.update_from_arrays(CORNERS + 1.0)  # the vertices alone
+    surface.update_from_arrays(CORNERS + 1.0)  # moves only the vertices
     assert numpy.array_equal(surface.info.lower, [1, 1, 1]) and surface.half_thickness == 0.1
     assert surface.triangles.leaflet_id.tolist() == [3, 4, 5, 6]
     surface.update_from_arrays(CORNERS, FACES[:1].astype(dtype))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Threads mark at the same time; one thread writes an object while no other uses it; the log reaches Python."""
+"""Threads mark at the same time. One thread writes an object while no other uses it. The log reaches Python."""
 
 import threading
 import time
@@ -11,14 +11,14 @@ import riis
 
 
 def in_threads(n, work):
-    """Runs work(i) in n threads at once, and returns what they return or raise."""
+    """Runs work(i) in n threads at the same time. Returns the results or exceptions."""
     found, barrier = [None] * n, threading.Barrier(n)
 
     def run(i):
         barrier.wait()
         try:
             found[i] = work(i)
-        except Exception as error:  # the test looks at it
+        except Exception as error:  # the test examines the exception
             found[i] = error
 
     threads = [threading.Thread(target=run, args=(i,)) for i in range(n)]
@@ -55,7 +55,8 @@ def test_the_lock_is_released(surface, xyz):
     end = time.perf_counter()
     is_over.set()
     thread.join()
-    # Python goes on in the middle of the call. With the lock it could not, however long the call takes.
+    # Python code runs in the middle of the call. If the call held the lock, this would be impossible, however long the call
+    # takes.
     middle = [t for t in ticks if begin + 0.25 * (end - begin) < t < begin + 0.75 * (end - begin)]
     assert middle
 
@@ -64,7 +65,7 @@ def test_one_object_is_written_by_one_thread(surface, xyz):
     mesh, own = riis.Mesh(numpy.tile(xyz, (4, 1))), riis.Marks()
     found = in_threads(4, lambda i: [riis.mark(surface, mesh, into=own, n_threads=1) for _ in range(10)])
     refused = [error for error in found if isinstance(error, Exception)]
-    assert refused  # four threads that mark 10 times into one result meet
+    assert refused  # four threads that each mark 10 times into one result do collide
     for error in refused:
         assert isinstance(error, riis.UnavailableError) and "into: another thread is using it" in str(error)
     assert len(riis.mark(surface, mesh, into=own)) > 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Valves are mappings of their parameters, and open."""
+"""Valves are mappings of their parameters, and can open."""
 
 import collections.abc
 import copy
@@ -36,7 +36,7 @@ def test_a_valve_does_what_a_mapping_does():
     assert list(valve.values()) == list(same.values()) and len(valve.items()) == len(valve)
     assert ("opening", 0.3) in valve.items() and {**valve} == same
     assert valve.get("opening") == 0.3 and valve.get("height") is None and valve.get("height", 5) == valve.get(3, 5) == 5
-    # A name of all cusps can only be set.
+    # A name that stands for all cusps can only be set.
     assert "leaflet_angle" not in riis.Valve("aortic") and riis.Valve("aortic").get("leaflet_angle", 7.0) == 7.0
     with pytest.raises(KeyError) as missing:
         valve["height"]
@@ -63,7 +63,7 @@ def test_a_valve_is_updated_as_a_dict():
 
 
 def same_surfaces(one, other):
-    """Tells whether two valves have the same surfaces, to the bit, at several openings."""
+    """Returns whether two valves have the same surfaces, to the last bit, at several openings."""
     one, other = one.copy(), other.copy()
     for opening in (0.0, 0.3, 1.0):
         one["opening"] = other["opening"] = opening
@@ -160,7 +160,7 @@ def test_an_open_state_is_opened_to():
 
 
 def square(z):
-    """The curves of a square's sides, as straight lines: v = 0, v = 1, u = 0, u = 1."""
+    """Returns the curves of a square's sides as straight lines: v = 0, v = 1, u = 0, u = 1."""
     a, b, c, d = [(x, y, z) for x, y in ((-1, -1), (1, -1), (-1, 1), (1, 1))]
     return numpy.array([a, b, c, d, a, c, b, d], float)
 
@@ -178,7 +178,7 @@ def test_a_valve_comes_from_patches():
     valve["opening"] = 0.5
     assert riis.Surface(valve).closest_point((0, 0, 1)).distance == 0.75
     points = square(0.0)
-    points[:2] = points[1::-1]  # the first side backwards
+    points[:2] = points[1::-1]  # the first side runs backwards
     reversals = numpy.array([[1, 0, 0, 0]], "i4")
     again = riis.Surface(riis.Valve.from_patches(degree, points, curves, reversed=reversals))
     assert numpy.isclose(again.info.area, 4.0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Arrays are read-only, keep their memory alive, and stay as they are whatever is called later."""
+"""Arrays are read-only, keep their memory alive, and do not change, whatever is called later."""
 
 import gc
 import os
@@ -45,7 +45,7 @@ def test_views_keep_the_memory(surface, mesh):
     expected = ids.copy(), part.copy(), vertices.copy()
     del surface
     gc.collect()
-    riis.mark(riis.Surface(riis.Valve("aortic")), mesh)  # takes memory that was freed
+    riis.mark(riis.Surface(riis.Valve("aortic")), mesh)  # would reuse memory that was freed
     assert all(numpy.array_equal(a, b) for a, b in zip((ids, part, vertices), expected))
 
 
@@ -69,7 +69,7 @@ def test_a_mesh_keeps_its_coordinates(xyz):
 
 
 def test_views_outlive_the_markings_that_follow(surface, mesh, valve):
-    """What an array showed it goes on showing, and the marks that follow are right."""
+    """An array keeps its content after later markings, and those markings are right."""
     marks, kept = riis.Marks(), []
     for opening in 0.0, 0.3, 0.6, 0.9:
         valve["opening"] = opening
@@ -82,7 +82,7 @@ def test_views_outlive_the_markings_that_follow(surface, mesh, valve):
     marks.close()
     del marks, expected
     gc.collect()
-    riis.mark(riis.Surface(riis.Valve("aortic")), mesh, distance_limit=1.0)  # takes memory that was freed
+    riis.mark(riis.Surface(riis.Valve("aortic")), mesh, distance_limit=1.0)  # would reuse memory that was freed
     assert all(numpy.array_equal(array, copy) for array, copy in kept)
     assert len({len(array) for array, _ in kept[::4]}) == 4
 
@@ -151,7 +151,7 @@ def test_an_adjacency_that_is_borrowed_stays(surface, grid):
     grid.set_adjacency(adjacency)
     adjacency.close()
     gc.collect()
-    riis.Adjacency.from_grid(40, 41, 42)  # takes memory that was freed
+    riis.Adjacency.from_grid(40, 41, 42)  # would reuse memory that was freed
     assert numpy.array_equal(columns, copy)
     assert numpy.array_equal(riis.mark(surface, grid, search="neighbor").ids, expected)
     with pytest.raises(riis.InvalidArgumentError, match="adjacency: is closed"):
@@ -178,7 +178,7 @@ assert sorted(shell.user_ns["Out"]) == [3, 4, 7, 8]
 
 
 def test_what_a_notebook_shows_is_not_in_the_way(tmp_path):
-    """IPython keeps what a cell shows, in Out and _, for good."""
+    """IPython keeps every displayed object, in Out and _. This must not prevent later calls."""
     pytest.importorskip("IPython", reason="IPython is missing; ./run python installs it")
     environment = {**os.environ, "IPYTHONDIR": str(tmp_path)}
     answer = subprocess.run([sys.executable, "-B", "-c", NOTEBOOK], env=environment, capture_output=True, text=True, check=False)
@@ -189,7 +189,7 @@ def test_closed_objects_are_refused(surface, mesh, marks, valve):
     with surface as same:
         assert same is surface and not surface.closed
     assert surface.closed
-    surface.close()  # again: nothing happens
+    surface.close()  # closing again does nothing
     for use in (
         lambda: riis.mark(surface, mesh),
         lambda: surface.update(valve),

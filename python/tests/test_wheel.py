@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The installed wheel has the licence of every library that it brings."""
+"""The installed wheel has the licence of every library that it contains."""
 
 import importlib.metadata
 import pathlib

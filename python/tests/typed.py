@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A program whose types ./run python checks with mypy --strict, so that the stubs say what the calls take and return."""
+"""./run python checks this program with mypy --strict, so that the stubs must describe what the calls accept and return."""
 
 from collections.abc import Mapping
 

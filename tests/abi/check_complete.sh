@@ -1,11 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_complete.sh TEST_SOURCE HEADER...
-# Every function, enum constant, struct and field of the headers is pinned by the test, so appended ones must be pinned too.
+# Every function, enum constant, struct and field of the headers must appear in the test, appended ones too.
 set -euo pipefail
 test_source=$1
 shift
-# One line for each signature, however it is wrapped.
+# Joins each signature into one line.
 signatures=$(tr '\n' ' ' <"$test_source" | sed 's/SIGNATURE( */\nSIGNATURE(/g')
 missing=0 n=0
 for header in "$@"; do
@@ -26,7 +26,7 @@ for header in "$@"; do
       missing=1
     }
   done
-  # "struct" or "struct, field"; comments may stand in several lines.
+  # Prints "struct" or "struct, field". A comment may span several lines.
   layouts=$(sed -z -E 's,/\*([^*]|\*+[^*/])*\*+/,,g' "$header" | awk '
     /^typedef struct riis_[a-z_]* \{/ { struct = $3; print struct; next }
     /^\}/ { struct = "" }

@@ -5,7 +5,7 @@
 #   difference that abidiff finds is an error, except new functions and fields appended to structs. LIBRARY is the library without
 #   debug information. If it is given, DESCRIBED must export the same functions.
 # check_layouts.sh write DUMP DESCRIBED
-#   Makes the dump: the exported functions and the public types, no path of the machine.
+#   Writes the dump: the exported functions and the public types, without paths of this machine.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 verb=$1 dump=$2 described=$3 library=${4:-}
@@ -13,16 +13,14 @@ headers=${RIIS_HEADERS:-$here/../../include/riis}
 
 exported() { nm -D --defined-only "$1" | awk '$2 != "A" { print $3 }' | sort; }
 
-# describe LIBRARY
 describe() {
   abidw --headers-dir "$headers" --drop-private-types --exported-interfaces-only --drop-undefined-syms \
     --no-corpus-path --no-comp-dir-path --no-show-locs --no-elf-needed "$1"
 }
 
-# without_appended_fields DUMP: prints the newer dump on the standard input, without the fields that follow those of the older
-# dump's structs. Callers tell the size of the struct that they were compiled with, so later fields do not concern them.
-# (abidiff's suppressions cannot do this: has_data_member_inserted_at = end also keeps silent about fields that changed their
-# type.)
+# without_appended_fields DUMP: prints the newer dump on the standard input, without the fields that were appended to the older
+# dump's structs. Callers pass the size of the struct that they were compiled with, so later fields do not concern them.
+# (abidiff's own suppression, has_data_member_inserted_at = end, does not serve: it also hides fields whose type changed.)
 without_appended_fields() {
   awk '
     function value_of(attribute) {
@@ -68,8 +66,8 @@ case $verb in
     status=0
     new=$(mktemp)
     trap 'rm -f "$new"' EXIT
-    # Two dumps are compared. If a library with --headers-dir were compared with a dump without locations, all its types would
-    # count as private.
+    # Two dumps are compared, not two libraries. abidiff would count all types as private if it compared a library with
+    # --headers-dir with a dump without locations.
     describe "$described" | without_appended_fields "$dump" >"$new"
     report=$(abidiff --no-added-syms "$dump" "$new" 2>&1) || status=$?
     printf '%s\n' "$report"

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_layouts_judged.sh CC SCRATCH
-# Runs check_layouts.sh on a library of a few lines and its next releases. It must accept changes that callers do not notice,
-# and refuse others.
+# Runs check_layouts.sh on a tiny library and on changed copies of it. The check must accept changes that compiled callers do not
+# notice, and refuse all others.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 cc=$1 scratch=$2
@@ -39,7 +39,7 @@ if grep -q -F "$scratch" <(sed 's/path=.[^ ]*//' "$scratch/small.xml"); then
   exit 1
 fi
 
-# release accepted|refused TEXT EDIT: edits both files by sed; TEXT must be in the report.
+# release accepted|refused TEXT EDIT: applies the sed script EDIT to both files. The check's report must contain TEXT.
 release() {
   local expected=$1 text=$2 edit=$3 found=accepted report
   cp "$scratch"/first/*.[ch] "$scratch/next"

@@ -1,9 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# check_symbols.sh LIST HEADER LIBRARY
-# The list has a line for every function that a release exported, "NAME VERSION", and for every constant, "NAME = VALUE
-# VERSION". It is the version that the name came with. Compiled callers contain these names and values. So everything in the list
-# must be in the library and the header, and the other way round.
+# The list has a line "NAME VERSION" for every released function, and a line "NAME = VALUE VERSION" for every constant. VERSION is
+# the release that introduced the name. Compiled callers contain these names and values. So the list must equal the names of the
+# library and the header.
 set -euo pipefail
 list=$1 header=$2 library=$3
 version=$(sed -n -E 's/^#define RIIS_VERSION_[A-Z]+ ([0-9]+).*/\1/p' "$(dirname "$header")/riis.h" | paste -s -d .)
@@ -17,7 +16,7 @@ if [ "$(printf '%s\n' "$newest" "$version" | sort -V | tail -n 1)" != "$version"
   failed=1
 fi
 
-# Each symbol has its version's name, RIIS_1: under another version it would be another symbol.
+# Each symbol carries the symbol version RIIS_1. With another version it would be another symbol to the loader.
 soname=$(readelf -d "$library" | sed -n -E 's/.*soname: \[lib(riis|riis_vtk)\.so\.([0-9]+)\].*/\1_\2/p')
 others=$(nm -D --defined-only "$library" | awk -v node="${soname^^}" '$2 != "A" && $3 !~ "@@" node "$" { print $3 }')
 if [ -n "$others" ]; then

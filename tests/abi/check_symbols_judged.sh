@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_symbols_judged.sh LIBRARY SCRATCH
-# check_symbols.sh must refuse a function or constant that is gone or has another name or value, in the library and in the
+# check_symbols.sh must refuse a function or constant that was removed, renamed or given another value, in the library or in the
 # header. It must also refuse a name that the list lacks.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -23,7 +23,7 @@ refused() {
 }
 list=$root/abi/riis.symbols header=$root/include/riis/riis.h
 "$here/check_symbols.sh" "$list" "$header" "$library"
-# If a later library dropped a function, the list has it and the library lacks it.
+# A listed function that the library lacks, as if a later library had dropped it.
 (cat "$list" && echo 'riis_gone 0.1.0') >"$scratch/gone.symbols"
 refused 'gone or changed: riis_gone' "$scratch/gone.symbols" "$header"
 grep -v '^riis_mesh_create ' "$list" >"$scratch/new.symbols"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests what bench/report/compare.py calls slower, on files made up here."""
+"""Tests which times bench/report/compare.py calls slower, on invented files."""
 
 import contextlib
 import io
@@ -33,7 +33,8 @@ class Compare(unittest.TestCase):
         return path
 
     def judge(self, now, base=None, *words):
-        """Returns the exit status and the output. now and base are times by name, or whole files."""
+        """Returns the exit status and the output. `now` and `base` are dictionaries of times by name, or the text of whole
+        files."""
         paths = []
         for name, times in (("base.json", base or BASE), ("now.json", now)):
             whole = isinstance(times, str) or "benchmarks" in times

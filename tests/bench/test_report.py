@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests that the pages of bench/report/report.py agree with the JSON, on files made up here."""
+"""Tests that the pages of bench/report/report.py agree with the JSON files, on invented files."""
 
 import contextlib
 import io
@@ -22,7 +22,7 @@ SEARCHES = {
 
 
 def searches(threads, speed):
-    """Runs with 1000 thousand nodes round the aortic valve. The plain exhaustive search takes 8 s."""
+    """Returns runs with one million nodes around the aortic valve. The plain exhaustive search takes 8 s."""
     runs = []
     for name, ms in SEARCHES.items():
         runs.append(
@@ -94,7 +94,7 @@ FILES = {
 
 
 def stages():
-    """Every row of the tables on stages and queries."""
+    """Returns every row of the tables on stages and queries."""
     names = ("patches", "curves", "quads", "triangles", "scene", "scene_again", "surface", "surface_again")
     times = [f"pipeline_{name}/{valve}" for name in names for valve in report.VALVES]
     times += [
@@ -108,7 +108,7 @@ def stages():
 
 
 def accuracy():
-    """One leaflet, every method."""
+    """Returns one leaflet's results by every method."""
     result = {
         "median": 0.0002, "p95": 0.0005, "max": 0.0044, "n_over_tolerance": 0, "n_points": 20000, "share_over_tolerance": 0.0007,
         "microseconds": {"mean": 1.2, "median": 1.0, "p95": 1.7},
@@ -210,7 +210,8 @@ class Page(unittest.TestCase):
 
     def test_rooflines(self):
         text = self.details()
-        # 40,000 operations at 20 a nanosecond take longer than 1000 bytes at 5; decisions are compared with double precision.
+        # Filter: 40,000 operations at 20 a nanosecond take longer than 1000 bytes at 5 a nanosecond. Decisions are compared with
+        # the double-precision limit.
         self.assertEqual(text.count("| filter | 40.0 | 400 | 10.0 | 20.0 | 50 % |"), 2)
         self.assertIn("| decision | 10.0 | 50.0 | 10.0 | 5.00 | 50 % |", text)
         # 500 bytes take longer than 100 operations.
@@ -231,7 +232,7 @@ class Page(unittest.TestCase):
         self.assertIn("Left out: VTK (built without VTK).", text)
 
     def test_the_whole_templates_have_values(self):
-        """With every part measured no place is left and every name has a value."""
+        """If every part was measured, no placeholder is left in the templates."""
         whole = {**FILES, "stages": {"benchmarks": stages()}, "accuracy": accuracy(), "peers_python": FILES["peers"]}
         with unittest.mock.patch.dict(FILES, whole):
             text = self.details(tuple(whole)) + self.page(tuple(whole))
@@ -245,7 +246,8 @@ class Page(unittest.TestCase):
             self.assertIn(part, " ".join(text.split()))
 
     def test_figures_of_the_plots(self):
-        """Drawings and texts for the page of figures. The drawing function is replaced, since matplotlib may be missing."""
+        """Tests the drawings and texts for the page of figures. The drawing function is replaced, since matplotlib may be
+        missing."""
         self.page()
         drawn, limits = {}, []
 
@@ -277,12 +279,12 @@ class Page(unittest.TestCase):
         self.assertEqual(times["plain exhaustive"], [(1, 1), (2, 1.6)])
         self.assertEqual(times["paper, neighbour"][-1], (12, 11.95 / 2.035))
         self.assertEqual(drawn["peers.png"][1][1][0], ("CGAL", 30))
-        ((processors, text),) = limits  # beyond these threads share a processor
+        ((processors, text),) = limits  # threads beyond this number share processors
         self.assertEqual(processors, 1)
         self.assertIn("oversubscribed", text)
 
     def test_what_is_oversubscribed_is_shaded(self):
-        """The plot itself: grey right of the processors, white left of them."""
+        """Tests the plot itself: the background is grey beyond the number of processors and white below it."""
         pyplot = report_text.figure._pyplot()
         if not pyplot:
             self.skipTest("no matplotlib")
@@ -321,7 +323,8 @@ class Page(unittest.TestCase):
                     times = [row[column] for row in block["rows"]]
                     self.assertEqual(times, sorted(times, reverse=True))
                 _, exhaustive, neighbor = block["rows"][0]
-                self.assertTrue(18 <= exhaustive / neighbor <= 28)  # "18 to 24 times faster" (4.2.3), the last row more
+                # The paper says "18 to 24 times faster" (4.2.3); the last row exceeds this.
+                self.assertTrue(18 <= exhaustive / neighbor <= 28)
 
     def test_prose_is_wrapped(self):
         for line in (self.page() + self.details()).splitlines():
@@ -330,7 +333,7 @@ class Page(unittest.TestCase):
 
 
 class Study(unittest.TestCase):
-    """The measurements of bench/report/study.py for the figures. The programs are replaced."""
+    """Tests how bench/report/study.py measures for the figures. The programs are replaced by fakes."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

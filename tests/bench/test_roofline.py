@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests that the counts of ./run bench roofline fit together. Times are not judged.
+"""Tests that the counts of ./run bench roofline are consistent. Times are not checked.
 
 usage: test_roofline.py PROGRAM"""
 
@@ -31,7 +31,7 @@ class Roofline(unittest.TestCase):
             self.assertGreaterEqual(case["filtered_pairs"], case["decided_pairs"])
             self.assertGreaterEqual(case["near_groups"], case["leaves"])
             self.assertGreaterEqual(case["leaves"] * 32, case["marked"])
-            # A filtered pair takes a difference and three products of vectors, a decided pair three clamped segments.
+            # A filtered pair costs a difference and three products of vectors; a decided pair costs three clamped segments.
             self.assertGreater(case["operations"]["filter"], 12 * case["filtered_pairs"])
             self.assertGreater(case["operations"]["decide"], 50 * case["decided_pairs"])
             self.assertEqual(set(case["bytes"]), STAGES)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The program's measurement of the orifice, for tests in C. */
+ * C wrappers of the program's measurement of the orifice. */
 #ifndef RIIS_TESTS_ORIFICE_SHIM_H
 #define RIIS_TESTS_ORIFICE_SHIM_H
 
@@ -10,13 +10,14 @@
 extern "C" {
 #endif
 
-/* Gives the area of a circle, and the part that triangles leave uncovered.
+/* Return the area of a circle, and the part of it that no triangle covers.
  *   corners  (2, 3, n_triangles) */
 double shim_circle_area(double radius, const double centre[2], int64_t n_lines);
 double shim_uncovered_circle(double radius, const double centre[2], int64_t n_triangles, const double *corners,
                              int64_t n_lines);
 
-/* The same inside closed lines of two points each. -1 if they are not closed.
+/* Returns the part of the area inside closed lines, of two points each, that no triangle covers. Returns -1 if the lines are
+ * not closed.
  *   points  (3, 2, n_segments) */
 double shim_uncovered_inside(int64_t n_segments, const double *points, int64_t n_triangles, const double *corners,
                              int64_t n_lines);

@@ -16,7 +16,7 @@ int program_exit_code;
 char program_out[longest_output], program_err[longest_output], program_leaks[longest_output],
     program_crossings[longest_output];
 const char *program_stdout;
-static int out, err; /* process of the run in progress */
+static int out, err; /* streams of the running process */
 
 static void give_up(const char *what) {
   perror(what);
@@ -39,8 +39,8 @@ static void take_text(int file, char text[longest_output]) {
   close(file);
 }
 
-/* Moves warnings of leaks and of crossings to buffers of their own. Most meshes of the tests are so coarse that the valve
- * leaks, and leaflets of many sizes cross. */
+/* Moves the warnings about leaks and crossings from program_err to buffers of their own. Most meshes of the tests are so
+ * coarse that the valve leaks, and leaflets of unusual sizes cross. */
 static void take_common_warnings(void) {
   program_leaks[0] = program_crossings[0] = 0;
   for (char *line = program_err; *line;) {
@@ -71,7 +71,7 @@ static pid_t start(const char *argument, va_list rest) {
     dup2(err, STDERR_FILENO);
     if (program_stdout) close(STDOUT_FILENO);
     if (program_stdout && *program_stdout)
-      open(program_stdout, O_WRONLY); /* takes the lowest free number, which is stdout's */
+      open(program_stdout, O_WRONLY); /* open returns the lowest free number, which is stdout's */
     execv(RIIS_PROGRAM, (char *const *)(uintptr_t)arguments);
     _exit(127);
   }

@@ -18,20 +18,20 @@ enum { longest_output = 65536 };
 extern int program_exit_code; /* 128 + N if signal N ended the program */
 extern char program_out[longest_output], program_err[longest_output];
 extern char program_leaks[longest_output];     /* the warning about leaks, not in program_err; "" if there was none */
-extern char program_crossings[longest_output]; /* the warning about crossings, likewise */
+extern char program_crossings[longest_output]; /* the warning about crossings, also kept apart */
 
 /* The path of a file for the program's stdout, or "" for a closed stdout. NULL, the default, keeps stdout in program_out. */
 extern const char *program_stdout;
 
 /* Runs the program with these arguments; the last one is NULL. */
 void run_program(const char *argument, ...);
-/* Start the program and wait for it, for one run at a time. */
+/* Start the program and wait for it. Only one run may be in progress at a time. */
 pid_t start_program(const char *argument, ...);
 void finish_program(pid_t process);
 
 /* Runs the program, and fails the test unless it succeeds with nothing on stderr. */
 #define RUN_FINE(...) (run_program(__VA_ARGS__, NULL), expect_run_fine(__FILE__, __LINE__))
-/* Does the same for a mesh without volume cells, whose leaks the run reports as unknown. */
+/* Does the same for a mesh without volume cells. There the run must report leaks as unknown. */
 #define RUN_WITHOUT_CELLS(...) (run_program(__VA_ARGS__, NULL), expect_run_without_cells(__FILE__, __LINE__))
 /* Runs the program, and fails the test unless it ends with this exit code, nothing on stdout, and one line on stderr with this
  * text. */
@@ -42,12 +42,12 @@ void expect_run_fine(const char *file, int line);
 void expect_run_without_cells(const char *file, int line);
 void expect_run_refused(int exit_code, const char *part_of_text, const char *file, int line);
 
-/* Returns the number behind "key": in JSON text. Fails the test if there is none. */
+/* Returns the number that follows "key": in a JSON text. Fails the test if there is none. */
 double json_number(const char *json, const char *key);
 int json_has_text(const char *json, const char *key, const char *value);
 
-/* Fails unless the text begins with this place and continues with `follows`. The place may be off by a tenth of an edge, and
- * must have no digits below a hundredth of an edge. */
+/* Fails unless the text begins with this point's coordinates and continues with `follows`. The coordinates may be off by a
+ * tenth of an edge, and must have no digits below a hundredth of an edge. */
 void expect_place(const char *text, const double point[3], double edge, const char *follows);
 
 /* Writes in.vtu, a box around the valve with n_box nodes, into the scratch folder. CMocka group set-up. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --case: valves from a file. The example has the same arrays as single runs with the same options, and the sums over the
- * valves. */
+ * --case reads several valves from a file. The example's output has the arrays of single runs with the same options, and their
+ * sums over the valves. */
 #include <math.h>
 #include <riis/riis.h>
 #include <stdio.h>
@@ -39,7 +39,8 @@ static void expect_same_array(const char *part, const char *single, const char *
                         (size_t)n_components * sizeof *values);
 }
 
-/* The example at 0.44: the mitral valve opens while the aortic valve is closed; at 0.3 the aortic valve closes. */
+/* Tests the example at the times 0.44 and 0.3. At 0.44 the mitral valve opens and the aortic valve is closed. At 0.3 the
+ * aortic valve closes. */
 static void test_example(void **state) {
   (void)state;
   static double K[n_nodes], of_mitral[n_nodes], of_aortic[n_nodes], ids[n_nodes], momentum[3 * n_nodes];
@@ -89,7 +90,7 @@ static void test_example(void **state) {
   int n_resisting = 0, n_moving = 0;
   for (int64_t i = 0; i < n; ++i) {
     const int64_t node = (int64_t)ids[i];
-    /* The cubic table gives 0.5 up to rounding. */
+    /* The cubic table gives 0.5 only up to rounding. */
     assert_true(fabs(K[i] - (of_mitral[node] + of_aortic[node])) <= 1e-9 * K[i]);
     n_resisting += K[i] > 0;
     for (int k = 0; k < 3; ++k) {
@@ -133,7 +134,7 @@ static void write_case(const char *valves, const char *rest) {
   scratch_write_text("case.json", text);
 }
 
-/* Without times: one mesh with the arrays of all valves, found beside the case. */
+/* Without times, the output is one mesh with the arrays of all valves. The mesh is found in the case's folder. */
 static void test_one_time(void **state) {
   (void)state;
   static double K[n_nodes], one[n_nodes], two[n_nodes];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Files of other formats: the refusal names a command that contains the user's own file names. If the command's program is
- * installed, the test runs the command and reads the file that it makes. */
+ * A mesh file of an unsupported format is refused with a command that converts it, with the user's own file names. If that
+ * command's program is installed, the test runs the command and reads the converted file. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,7 +34,7 @@ static void test_texts(void **state) {
 }
 
 #if defined(RIIS_GMSH) || defined(RIIS_MESHIO)
-/* Runs the command of the last refusal with its program's path, and returns the file that it makes. */
+/* Runs the command that the last refusal suggests, by its program's full path. Returns the file that the command makes. */
 static const char *convert(const char *tool, const char *path) {
   static char command[2048], made[256];
   char marker[64];
@@ -51,7 +51,7 @@ static const char *convert(const char *tool, const char *path) {
 #endif
 
 #ifdef RIIS_GMSH
-/* gmsh makes a cube of tetrahedra, or its skin, in its own formats. */
+/* Lets gmsh make a cube of tetrahedra, or its skin, in one of gmsh's formats. */
 static void make_by_gmsh(int dimension, const char *format, const char *path) {
   char command[1024];
   scratch_write_text(
@@ -87,7 +87,7 @@ static void test_surfaces_by_gmsh(void **state) {
     snprintf(path, sizeof path, "%s", scratch_path(name));
     if (i < 7) {
       make_by_gmsh(2, formats[i], path);
-    } else { /* gmsh reads this format but does not write it */
+    } else { /* gmsh only reads this format */
       scratch_write_text(
           name,
           "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --check-crossing, compared with a known crossing and with the C interface, and tested on the library's own valves. */
+ * `riis check crossings`, compared with a known crossing and with the C interface, and tested on the library's own valves. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +10,8 @@
 #include "program.h"
 #include "scratch.h"
 
-/* A unit square lies at z = 0. Another stands at x = 0.5. Its lower side is at 0.245 when closed and at -0.755 when open. */
+/* A unit square lies at z = 0. A second square stands upright at x = 0.5, with its lower side at z = 0.245 when closed and
+ * -0.755 when open. */
 static const char squares[] =
     "{\"curves\": {\"a\": [[0,0,0],[1,0,0]], \"b\": [[0,1,0],[1,1,0]], \"c\": [[0,0,0],[0,1,0]], \"d\": "
     "[[1,0,0],[1,1,0]],\n"
@@ -46,7 +47,7 @@ static void the_first_opening_is_named(void **state) {
                          "at 0.5 "));
   assert_non_null(strstr(program_out, "crossing  "));
   assert_non_null(strstr(program_out, " at opening 0.25, along a length of 1, up to 0.005 deep\n"));
-  /* Warnings stay. */
+  /* --quiet does not suppress warnings. */
   run_program("check", "crossings", "--valve", file, "--quiet", NULL);
   expect_warning("riis: leaflets 0 and 1 cross at opening 0.25: ");
   assert_string_equal(program_out, "");
@@ -123,7 +124,7 @@ static void the_library_s_valves_do_not_cross(void **state) {
     RUN_FINE("check", "crossings", "--valve", "trileaflet", "--params", parameters[file]);
     assert_non_null(strstr(program_out, all));
   }
-  /* The valve opens between the two states of README.md. */
+  /* The valve opens between the two states that README.md shows. */
   scratch_write_text("open.json", "{\"leaflet_radius_in\": 1, \"bending_radius_in\": 1.1}");
   RUN_FINE("check", "crossings", "--params-open", scratch_path("open.json"));
   assert_non_null(strstr(program_out, all));
@@ -141,7 +142,7 @@ static void expect_tall(const char *begins) {
   assert_non_null(strstr(program_crossings, advice));
 }
 
-/* The numbers equal those of the C interface. They do not depend on the opening at which the valve is marked. */
+/* The numbers equal those of the C interface. They do not depend on the valve's present opening. */
 static void a_chosen_shape_is_looked_at(void **state) {
   (void)state;
   riis_valve *valve = NULL;
@@ -169,13 +170,13 @@ static void a_chosen_shape_is_looked_at(void **state) {
   }
   run_program("mark", scratch_path("in.vtu"), TALL, "--strict", NULL);
   assert_int_equal(program_exit_code, 4);
-  /* --check-crossing does its own check, and its warning does not recommend --check-crossing. */
+  /* This command does its own check, so its warning does not recommend the command. */
   run_program("check", "crossings", TALL, NULL);
   expect_warning(tall_crosses);
   assert_null(strstr(program_crossings, advice));
 }
 
-/* Every way to choose a shape, and every kind of run. */
+/* The warning appears for every way to choose a shape, and for every kind of run. */
 static void every_run_looks(void **state) {
   (void)state;
   const char *in = scratch_path("in.vtu");
@@ -184,7 +185,7 @@ static void every_run_looks(void **state) {
   expect_tall(tall_crosses);
   run_program("surface", "--valve", write_squares(), "--output", scratch_path("half_open.vtp"), NULL);
   expect_tall("riis: leaflets 0 and 1 cross at opening 0.5: ");
-  /* Only the open state has another shape. The closed state is the paper's. */
+  /* Only the open state has a shape of the user's. The closed state is the paper's. */
   scratch_write_text("turned.json", "{\"right.rotation\": [0, 0, 60]}");
   run_program("mark", in, "--valve", "aortic", "--params-open", scratch_path("turned.json"), "--opening", "0", NULL);
   expect_tall("riis: leaflets right and left cross at opening ");
@@ -205,7 +206,7 @@ static void every_run_looks(void **state) {
   expect_tall("riis: a: leaflets right and non-coronary cross at opening 0: ");
 }
 
-/* Placement and opening do not choose a shape. Hinges reach into a housing, and this is no fault. */
+/* Placement and opening do not count as a chosen shape. A bileaflet valve's hinges reach into its housing, which is no fault. */
 static void sound_shapes_are_not_named(void **state) {
   (void)state;
   static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet"};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --leaflets takes a surface file's leaflets from its pieces or from one of its arrays. --prefix and --replace put the marks of
- * a second valve beside those of the first, or in their place. */
+ * --leaflets takes a surface file's leaflets from its connected pieces or from one of its arrays. --prefix and --replace put
+ * the marks of a second valve beside those of the first, or in their place. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdio.h>
@@ -64,7 +64,7 @@ static void test_leaflets(void **state) {
   assert_non_null(strstr(program_out, "squares.stl: 6 triangles, 3 leaflets, area 12\n"));
   RUN_LEAFLETS("squares.stl", "--leaflets", "connected", "--stats", "-");
   assert_true(json_number(program_out, "n_leaflets") == 3);
-  /* The written surface keeps the leaflets. Its array riis_triangle has the triangles' own numbers. */
+  /* The written surface keeps the leaflets. In its array riis_triangle every triangle has a number of its own. */
   RUN_FINE("surface", "--surface", scratch_path("squares.stl"), "--leaflets", "connected", "--output",
            scratch_path("squares.vtp"));
   RUN_LEAFLETS("squares.vtp", "--quiet");

@@ -67,7 +67,7 @@ static riis_leak_list leaks_by_c(const char *name, const riis_surface *surface) 
   return leaks;
 }
 
-/* Checks that the program reports the same leaks as the C interface, and that its advice works when typed as printed. */
+/* Checks that the program reports the same leaks as the C interface, and that the advised command works when typed as printed. */
 static void expect_advice(const char *name, const char *kind) {
   riis_surface *surface = make_surface(kind, 0.1);
   const riis_leak_list leaks = leaks_by_c(name, surface);
@@ -81,8 +81,8 @@ static void expect_advice(const char *name, const char *kind) {
            "riis: the surface leaks: %d edges cross it between two unmarked nodes, the longest (%.3g) at ",
            (int)leaks.n_edges, leaks.longest_length);
   assert_int_equal(strncmp(program_leaks, expected, strlen(expected)), 0);
-  /* In the coarsest meshes the half thickness does not fit the edges at all. The warning about this comes first, and it alone
-   * has advice. */
+  /* In the coarsest meshes the half thickness is far too small for the edges. The warning about this comes first, and only
+   * this warning has advice. */
   const char *const earlier = strstr(program_err, "the median edge of the mesh ");
   expect_place(program_leaks + strlen(expected), leaks.longest_middle, leaks.longest_length,
                earlier ? "\n" : "; --half-thickness ");
@@ -134,7 +134,8 @@ static void test_fine_meshes_do_not(void **state) {
   }
 }
 
-/* Triangles from a file do not depend on the half thickness, so the advice is the library's number to three digits. */
+/* Triangles from a file do not depend on the half thickness, so the program advises the library's number, rounded to three
+ * digits. */
 static void test_surface_from_file(void **state) {
   (void)state;
   riis_surface *surface = make_surface("mitral", 0.1);
@@ -155,7 +156,8 @@ static void test_surface_from_file(void **state) {
   assert_non_null(strstr(program_leaks, " edge"));
 }
 
-/* The table also reports leaks. The paper's search and other distances also check short edges. */
+/* The table of statistics also reports leaks. The first three searches report the same leaks. The paper's search and other
+ * distances report leaks too. */
 static void test_searches_and_distances(void **state) {
   (void)state;
   riis_surface *surface = make_surface("mitral", 0.1);
@@ -175,10 +177,11 @@ static void test_searches_and_distances(void **state) {
   assert_int_equal(program_exit_code, 0);
   assert_non_null(strstr(program_leaks, "--half-thickness"));
   run_program("mark", scratch_path("coarse.vtu"), "--valve", "mitral", "--opening", "0", "--search", "paper", NULL);
-  assert_int_equal(program_exit_code, 3); /* the search's only start node is not marked, so the search finds no node */
+  assert_int_equal(program_exit_code, 3); /* the search's only start node is not marked, so the search finds nothing */
   assert_non_null(strstr(program_err, "may be incomplete"));
   assert_non_null(strstr(program_leaks, " between two unmarked nodes"));
-  assert_null(strstr(program_leaks, "--half-thickness")); /* no half thickness helps if nodes are missed */
+  /* A larger half thickness does not help if the search misses nodes. */
+  assert_null(strstr(program_leaks, "--half-thickness"));
 }
 
 static void test_one_edge(void **state) {
@@ -199,8 +202,8 @@ static void test_one_edge(void **state) {
       strstr(program_out, "leaks     1 edge between unmarked nodes across the surface, length up to 0.75\n"));
 }
 
-/* A small mesh far from the origin, in two units. The digits of a place depend on the edge length, and the unit follows the
- * place. */
+/* Tests the coordinates of a leak in a small mesh far from the origin, in two units. Their digits depend on the edge length,
+ * and the unit follows them. */
 static void test_places(void **state) {
   (void)state;
   const struct {
@@ -233,7 +236,7 @@ static void test_places(void **state) {
   }
 }
 
-/* A box around the closed mitral valve whose edges leak. */
+/* Returns a box around the closed mitral valve, so coarse that its edges leak. */
 static plain_mesh box_of_mitral(int n) {
   riis_surface *surface = make_surface("mitral", 0.1);
   riis_surface_info info;
@@ -251,8 +254,8 @@ static riis_leak_list leaks_of_mitral(const char *name) {
   return leaks;
 }
 
-/* Quadratic cells leak like the linear cells into which their nodes cut them. Inside each quadratic cell these have one more
- * edge. */
+/* Quadratic cells leak like the linear cells into which their nodes cut them. Each quadratic cell has one more inner edge than
+ * those linear cells share. */
 static void test_quadratic_cells(void **state) {
   (void)state;
   plain_mesh hexahedra = box_of_mitral(9), quadratic = plain_quadratic_tetrahedra(&hexahedra),
@@ -277,7 +280,7 @@ static void test_quadratic_cells(void **state) {
   plain_free(&corners);
 }
 
-/* Copies 300 bytes of what the run said about this key, and its warning. */
+/* Copies 300 bytes that begin at this key in the run's output, and the run's warning about leaks. */
 static void keep(const char *key, char said[1000]) {
   const char *const found = strstr(program_out, key);
   assert_non_null(found);
@@ -305,7 +308,7 @@ static void test_polyhedra(void **state) {
   plain_free(&hexahedra);
 }
 
-/* Runs the program on this mesh, far from the valve or around it, and expects that it reports leaks as unknown for this
+/* Runs the program with this mesh, far from the valve or around it. Expects that the program reports leaks as unknown for this
  * reason. */
 static void expect_unknown(const char *name, const char *place, int exit_code, const char *reason) {
   char text[512];
@@ -325,7 +328,7 @@ static void expect_unknown(const char *name, const char *place, int exit_code, c
   assert_non_null(strstr(program_out, text));
 }
 
-/* A cloud of points, triangles, and a cell whose edges riis does not know. */
+/* Leaks are unknown in a cloud of points, in a mesh of triangles, and if riis does not know the edges of a cell. */
 static void test_unknown(void **state) {
   (void)state;
   static const char *const cells[4] = {"CELLS 0 0\nCELL_TYPES 0\n", "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n",
@@ -346,7 +349,8 @@ static void test_unknown(void **state) {
       RUN_REFUSED(2, reasons[i], "check", "leaks", scratch_path("other.vtk"), "--translate", "50,0,0", "--allow-none",
                   "--between", "0.1,0,0.6", "0,0.1,0.6");
   }
-  /* The tetrahedron joins its own nodes, also if other cells join them. It does not join the other nodes. */
+  /* The tetrahedron joins its own nodes, even if the edges of another cell are unknown. It does not join nodes of another
+   * tetrahedron. */
   run_program("check", "leaks", scratch_path("other.vtk"), "--translate", "50,0,0", "--allow-none", "--between",
               "0.1,0,0.6", "0,0.1,0.6", NULL);
   assert_non_null(strstr(program_out, "\npassage   open: at "));
@@ -367,7 +371,7 @@ static void test_unknown(void **state) {
   free(json);
 }
 
-/* The edges of all cells of the zoo are known. */
+/* riis knows the edges of all cells in this zoo of cell types. */
 static void test_other_cells(void **state) {
   (void)state;
   assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
@@ -396,7 +400,7 @@ static void expect_warned(int exit_code) {
     expect_warned(4);                           \
   } while (0)
 
-/* Warnings of every kind, with --quiet and without. The outputs are written in all cases. */
+/* Tests warnings of every kind, with and without --quiet. All outputs are written in every case. */
 static void test_strict(void **state) {
   (void)state;
   char fine[256], coarse[256];
@@ -427,7 +431,7 @@ static void test_strict(void **state) {
     expect_warned(strict ? 4 : 0);
     assert_true(scratch_exists(strict ? "strict/normal.dat" : "lenient/normal.dat"));
   }
-  /* Without a warning the status is 0. A run without marks has its own status also with --strict. */
+  /* Without a warning the status is 0. A run without marks keeps its own status, even with --strict. */
   RUN_FINE("mark", fine, CLOSED, "--strict");
   assert_string_equal(program_leaks, "");
   RUN_FINE("params", "--strict");

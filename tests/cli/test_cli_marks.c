@@ -86,7 +86,7 @@ static void test_stats_on_stdout(void **state) {
   assert_true(json_number(program_out, "n_nodes") == n_box);
 }
 
-/* The surface output, read again by --surface, gives the same marks with triangles and leaflets. */
+/* The written surface, read again by --surface, gives the same marks, triangles and leaflets. */
 static void test_surface_from_file(void **state) {
   (void)state;
   riis_valve *valve = NULL;
@@ -134,7 +134,7 @@ static void test_no_marks(void **state) {
   free(json);
   assert_int_equal(shim_read_array(scratch_path("none.vtu"), 'p', "riis_marked", NULL, NULL, NULL, NULL), 1);
   RUN_FINE("mark", scratch_path("in.vtu"), "--translate", "9,9,9", "--allow-none");
-  /* A search that may miss nodes finds none. The program reports both facts. */
+  /* The paper's search may miss nodes, and here it finds none. The program reports both facts. */
   run_program("mark", scratch_path("in.vtu"), "--translate", "9,9,9", "--search", "paper", NULL);
   assert_int_equal(program_exit_code, 3);
   assert_non_null(strstr(program_err, "riis: the marks may be incomplete"));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --surface FILE.pvd --time T: a surface that moves by frames, at one time. */
+ * --surface FILE.pvd --time T reads a moving surface, given by frames, at one time. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,7 +30,8 @@ static int make_frames(void **state) {
   return 0;
 }
 
-/* Compares the vertices of a file and their velocities with the sheet's at a time, scaled by a factor. */
+/* Compares the vertices and velocities in a file with those of the moving sheet at a time. The sheet's size is multiplied by
+ * `scale`, and its velocity also by `speed`. */
 static void expect_sheet(const char *path, double time, double speed, double scale) {
   double xyz[3 * sheet_n_vertices], velocity[3 * sheet_n_vertices];
   int64_t n = 0;
@@ -65,7 +66,7 @@ static void test_times(void **state) {
   expect_sheet(moved, 0.25, -1, 1);
 }
 
-/* The marks are those of the file that holds the surface at this time. */
+/* The marks equal the marks of a file that holds the surface at this time. */
 static void test_marks(void **state) {
   (void)state;
   static double by_motion[n_box], by_file[n_box];

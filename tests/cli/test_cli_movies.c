@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --movie: as many frames as times, all with one camera. ffmpeg reads the frames back. If it is missing, a small program with
- * the same name takes its place and counts the frames. */
+ * --movie makes one frame for each time, all with one camera. ffmpeg reads the frames back. Other tests use a small program
+ * with the same name, which counts the frames. */
 #include <dirent.h>
 #include <signal.h>
 #include <stdio.h>
@@ -25,7 +25,7 @@ static void run_movie(const char *movie) {
            "--movie-view", "side", "--picture", scratch_path("first.png"), "--view", "side", "--quiet");
 }
 
-/* TMPDIR is the scratch folder, and no frame may be left there. */
+/* Expects that no frame is left in TMPDIR, which is the scratch folder. */
 static void expect_no_frames(void) {
   const char *place = getenv("TMPDIR");
   DIR *folder = opendir(place);
@@ -42,7 +42,7 @@ static void use_scratch_for_frames(void) {
   setenv("TMPDIR", place, 1);
 }
 
-/* Makes a program named ffmpeg that runs these lines. */
+/* Writes a shell script named ffmpeg with these lines. */
 static char *put_program(const char *lines) {
   char path[8192], place[4096];
   mkdir(scratch_path("bin"), 0700);
@@ -67,7 +67,7 @@ static void expect_whole_picture(const char *name) {
   assert_true(n_coloured[0] > 20000 && n_coloured[1] > 20000);
 }
 
-/* A false encoder copies the frames that it gets. */
+/* Uses a fake encoder that copies the frames it gets. */
 static void test_frames(void **state) {
   (void)state;
   static const char *const names[n_frames] = {"f/frame_000000.png", "f/frame_000001.png", "f/frame_000002.png",
@@ -85,7 +85,7 @@ static void test_frames(void **state) {
   free(words);
   expect_no_frames();
   expect_whole_picture("first.png");
-  /* The outline of the mesh and the scale bar stay where they are: the lowest rows of all frames are the same. */
+  /* The outline of the mesh and the scale bar do not move: the lowest rows of all frames are the same. */
   int size[2];
   unsigned char *first = shim_read_pixels(scratch_path(names[0]), &size[0], &size[1]);
   for (int i = 1; i < n_frames; ++i) {
@@ -97,7 +97,7 @@ static void test_frames(void **state) {
   free(first);
 }
 
-/* If the encoder fails, the refusal has its last words, and neither a movie nor frames are left. */
+/* If the encoder fails, the refusal quotes its last lines. Neither a movie nor frames are left. */
 static void test_failing_encoder(void **state) {
   (void)state;
   use_scratch_for_frames();
@@ -146,7 +146,7 @@ static void test_interruption(void **state) {
   assert_true(scratch_exists("cut.pvd") && scratch_exists("cut/cut_0001.vtu"));
 }
 
-/* The real ffmpeg, if it is installed, decodes as many frames as there are times. */
+/* If the real ffmpeg is installed, it decodes as many frames as there are times. */
 static void test_movie(void **state) {
   (void)state;
   char command[1024], words[64] = "";

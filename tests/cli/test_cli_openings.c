@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Valves that open, compared between riis and the C interface: the mitral valve alone, and other valves between two files. */
+ * Valves that open: the program's marks are compared with the C interface's. The mitral valve has an open state of its own;
+ * other valves open between two files. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +13,7 @@
 
 static const char *const opening_texts[] = {"0", "0.5", "1"};
 static const double openings[] = {0, 0.5, 1};
-static const char *half_thickness = "0.25"; /* enough nodes of the coarse box are marked */
+static const char *half_thickness = "0.25"; /* large enough to mark nodes of the coarse box */
 
 static riis_valve *make_valve(const char *kind) {
   riis_valve *valve = NULL;
@@ -54,7 +55,7 @@ static void test_mitral(void **state) {
     assert_non_null(strstr(program_out, title));
   }
   assert_true(n_marked[0] != n_marked[1] && n_marked[1] != n_marked[2]);
-  /* The default is open. --set and a file can also set the opening, and --opening comes last. */
+  /* The mitral valve is open by default. --set and a file can also set the opening, and --opening overrides both. */
   mark_at(valve, 1);
   RUN_ON_BOX("--valve", "mitral");
   expect_outputs();
@@ -80,7 +81,7 @@ static void test_bileaflet(void **state) {
     assert_true(json_has_text(program_out, "valve", "\"bileaflet\""));
     assert_true(json_number(program_out, "opening") == openings[i]);
   }
-  /* The default is closed. The ring is a third leaflet. */
+  /* The bileaflet valve is closed by default. Its ring counts as a third leaflet. */
   mark_at(valve, 0);
   RUN_ON_BOX("--valve", "bileaflet");
   expect_outputs();
@@ -93,7 +94,7 @@ static void test_bileaflet(void **state) {
   riis_valve_destroy(&valve);
 }
 
-/* Kinds that open without a second file. */
+/* Tests the kinds that open without a second file. */
 static void test_own_open_states(void **state) {
   (void)state;
   static const char *const kinds[2] = {"aortic", "trileaflet"};
@@ -108,14 +109,14 @@ static void test_own_open_states(void **state) {
   }
 }
 
-/* Two files of parameters make the states. */
+/* Two parameter files define the closed and the open state. */
 static void test_aortic(void **state) {
   (void)state;
   riis_valve *closed = make_valve("aortic"), *open = make_valve("aortic");
   expect_fine(riis_valve_set_scalar(closed, "leaflet_angle", 68));
   expect_fine(riis_valve_set_scalar(closed, "root_radius", 1.25));
   expect_fine(riis_valve_set_scalar(open, "leaflet_angle", 45));
-  /* An opening in the file of the open state has no effect. */
+  /* An opening in the open state's file has no effect. */
   scratch_write_text("closed.json", "{\"leaflet_angle\": 68}");
   scratch_write_text("open.json", "{\"leaflet_angle\": 45, \"opening\": 0.3}");
   expect_fine(riis_valve_set_open_state(closed, open));
@@ -135,7 +136,7 @@ static void test_aortic(void **state) {
   riis_valve_destroy(&open);
 }
 
-/* Half way between two states, the area is between theirs. */
+/* Half way between two states, the area lies between the states' areas. */
 static void test_between(void **state) {
   (void)state;
   scratch_write_text("open.json", "{\"leaflet_angle\": 50}");
@@ -149,7 +150,7 @@ static void test_between(void **state) {
   assert_true((area[0] < area[1] && area[1] < area[2]) || (area[0] > area[1] && area[1] > area[2]));
 }
 
-/* With two files, the closed curves are the first file's and the open curves the second's. */
+/* With two files, the closed curves come from the first and the open curves from the second. */
 static void test_mitral_states(void **state) {
   (void)state;
   riis_valve *valve = make_valve("mitral"), *open = make_valve("mitral");
@@ -170,7 +171,7 @@ static void test_mitral_states(void **state) {
 
 static void test_refusals(void **state) {
   (void)state;
-  char mesh[256], file[256]; /* scratch_path keeps them for a few calls only */
+  char mesh[256], file[256]; /* copies, since scratch_path keeps its result only for a few calls */
   snprintf(mesh, sizeof mesh, "%s", scratch_path("in.vtu"));
   snprintf(file, sizeof file, "%s", scratch_path("p.json"));
   scratch_write_text("p.json", "{\"root_radius\": 1.3}");
@@ -188,7 +189,7 @@ static void test_refusals(void **state) {
   RUN_REFUSED(1, "missing.json: cannot be read", "mark", mesh, "--params-open", scratch_path("missing.json"),
               "--opening", "0");
   RUN_REFUSED(1, "missing.json: cannot be read", "mark", mesh, "--params-closed", scratch_path("missing.json"));
-  /* A file may only have parameters of the valve. */
+  /* A file may only contain parameters of its valve. */
   RUN_REFUSED(1, "p.json: 'root_radius' is not a parameter of the mitral valve", "mark", mesh, "--valve", "mitral",
               "--params-open", file, "--opening", "0");
   RUN_REFUSED(1, "'left.leaflet_angle' is not a parameter of the mitral valve", "mark", mesh, "--valve", "mitral",
@@ -196,7 +197,7 @@ static void test_refusals(void **state) {
   RUN_REFUSED(
       1, "is not a kind of valve; there are: aortic, bileaflet, mitral, trileaflet, and files of patches, FILE.json",
       "mark", mesh, "--valve", "tricuspid");
-  /* No input is replaced. */
+  /* An output must not replace an input. */
   RUN_REFUSED(2, "is also the file of --params-open", "mark", mesh, "--params-open", file, "--opening", "0", "--stats",
               file);
 }

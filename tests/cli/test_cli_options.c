@@ -29,7 +29,7 @@ static int lines_of(const char *text) {
   return n;
 }
 
-/* Each command has its own options and examples, on a screen or little more. */
+/* Each command has its own options and examples, which fit on about one screen. */
 static void test_help(void **state) {
   (void)state;
   static const struct {
@@ -97,7 +97,7 @@ static void test_no_stdout(void **state) {
   program_stdout = NULL;
 }
 
-/* An option takes one value. The next argument is the mesh. */
+/* An option takes one value. The argument after the value is the mesh. */
 static void test_order(void **state) {
   (void)state;
   RUN_FINE("mark", "--set", "root_radius=1.29", scratch_path("in.vtu"), "--stats", "-");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Valve parameters from JSON and from --set, seen through --print-params and the surface's area. */
+ * Valve parameters from JSON and from --set, checked by `riis params` and by the surface's area. */
 #include <riis/riis.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "program.h"
 #include "scratch.h"
 
-/* Returns the number behind the key within the object of a cusp. */
+/* Returns the number that follows the key inside a cusp's object. */
 static double in_cusp(const char *json, const char *cusp, const char *key) {
   char quoted[64];
   snprintf(quoted, sizeof quoted, "\"%s\": {", cusp);
@@ -17,7 +17,7 @@ static double in_cusp(const char *json, const char *cusp, const char *key) {
   return json_number(object, key);
 }
 
-/* Returns the first number of an array within the object of a cusp. */
+/* Returns the first number of the array that follows the key inside a cusp's object. */
 static double first_in_cusp(const char *json, const char *cusp, const char *key) {
   char quoted[64];
   snprintf(quoted, sizeof quoted, "\"%s\": {", cusp);
@@ -82,7 +82,7 @@ static void test_json_forms(void **state) {
   assert_true(in_cusp(program_out, "non_coronary", "leaflet_angle") == 60.5);
 }
 
-/* A cusp's own value overrides a value for all cusps, in any order of the file. */
+/* A value given for one cusp overrides the value for all cusps, in any order in the file. */
 static void test_json_order(void **state) {
   (void)state;
   const char *files[3] = {"{\"right.translation\": [1, 2, 3], \"translation\": [7, 8, 9]}",
@@ -97,7 +97,7 @@ static void test_json_order(void **state) {
   }
 }
 
-/* --set comes after the file, strictly from left to right. */
+/* --set is applied after the file, strictly from left to right. */
 static void test_set_order(void **state) {
   (void)state;
   scratch_write_text("p.json", "{\"right.translation\": [1, 2, 3]}");
@@ -110,7 +110,7 @@ static void test_set_order(void **state) {
   assert_true(first_in_cusp(program_out, "left", "translation") == 4);
 }
 
-/* The parameters change the surface. */
+/* Changing a parameter changes the surface. */
 static void test_surface_changes(void **state) {
   (void)state;
   RUN_FINE("mark", scratch_path("in.vtu"), "--stats", "-");
@@ -163,7 +163,7 @@ static void test_json_refusals(void **state) {
   RUN_REFUSED(1, ": cannot be read", "mark", scratch_path("in.vtu"), "--params", scratch_path("."));
 }
 
-/* A file that is nested deeply or has long strings is refused with one line. */
+/* A file with deep nesting or very long strings is refused with one line. */
 static void test_json_sizes(void **state) {
   (void)state;
   enum { depth = 1000000, length = 100000 };
@@ -179,7 +179,7 @@ static void test_json_sizes(void **state) {
     scratch_write_text("p.json", text);
     RUN_REFUSED(1, "p.json: is nested deeper", "params", "--params", scratch_path("p.json"));
   }
-  /* A value, a name, and a string that does not end. */
+  /* The long string is a value, a name, or a string that does not end. */
   const char *before[] = {"{\"root_radius\": \"", "{\"", "{\"root_radius\": \""};
   const char *after[] = {"\"}", "\": null}", ""};
   for (int i = 0; i < 3; ++i) {
@@ -192,7 +192,7 @@ static void test_json_sizes(void **state) {
   }
 }
 
-/* Every parameter has a line with its current value, unit, range and description. */
+/* The table has a line for every parameter, with its current value, unit, range and description. */
 static void expect_table(const char *kind) {
   RUN_FINE("params", "--describe", "--valve", kind);
   riis_valve *valve = NULL;

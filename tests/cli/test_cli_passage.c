@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --check-leaks, compared with the C interface. The mesh is a box inside the valve's annulus, so no path goes round the
- * valve. */
+ * `riis check leaks` with two points, compared with the C interface's passage. The mesh is a box inside the valve's annulus,
+ * so no path goes round the valve. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdlib.h>
@@ -34,7 +34,7 @@ static int64_t nearest(int64_t n, const double *xyz, const double *point) {
   return found;
 }
 
-/* The library's passage for the default valve. */
+/* Returns the library's passage for the default valve. */
 static riis_passage passage_by_c(void) {
   riis_vtk_mesh *file = NULL;
   riis_adjacency *adjacency = NULL;
@@ -63,7 +63,7 @@ static riis_passage passage_by_c(void) {
   return passage;
 }
 
-/* The advice works when it is typed as printed. */
+/* The advised command works when it is typed as printed. */
 static void test_open_valve(void **state) {
   (void)state;
   const riis_passage passage = passage_by_c();
@@ -92,7 +92,7 @@ static void test_closed_valve(void **state) {
   assert_null(strstr(program_out, "passage"));
 }
 
-/* An end that is nearer to the surface than the passage is wide. */
+/* An end of the path is nearer to the surface than any other point of the passage. */
 static void test_end_is_the_narrowest_place(void **state) {
   (void)state;
   RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", "0,0,-1.2", "0.5,0,-0.1");
@@ -115,7 +115,7 @@ static void test_what_is_refused(void **state) {
   RUN_REFUSED(2, "MESH is required", "check", "leaks");
 }
 
-/* Two pieces of mesh. A point between them is in the box, but far from every node. */
+/* The mesh has two pieces. A point between them is in the bounding box, but far from every node. */
 static void test_pieces(void **state) {
   (void)state;
   scratch_write_text("pieces.vtk",
@@ -135,7 +135,7 @@ static void test_pieces(void **state) {
               "0,0,8.5");
 }
 
-/* Two valves in a row. Either one alone closes the passage. */
+/* Two valves lie in a row. Either one alone closes the passage. */
 static void test_cases(void **state) {
   (void)state;
   scratch_write_text("one.json",
@@ -166,7 +166,7 @@ static void test_cases(void **state) {
   assert_non_null(strstr(program_err, "the valves must have one half thickness; that of a is 0.2, that of b 0.1"));
 }
 
-/* The check uses the time at which the valve is least open. */
+/* For a series, the check uses the time at which the valve is least open. */
 static void test_series(void **state) {
   (void)state;
   scratch_write_text("beat.csv", "0,0.5\n1,0\n2,1\n");

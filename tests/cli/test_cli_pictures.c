@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --picture: without a display the program prints one line and ends with exit code 1. With a display it writes a file for each
- * option, each with its view. */
+ * --picture without a display ends with one line and exit code 1. With a display, each --picture writes one file with its own
+ * view. */
 #include <riis/riis_vtk.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,7 +26,7 @@ static void test_without_display(void **state) {
   RUN_REFUSED(1, "DISPLAY :7654 cannot be opened", "mark", scratch_path("in.vtu"), "--picture",
               scratch_path("none.png"));
   assert_int_equal(scratch_exists("none.png"), 0);
-  /* The marks are valid, so the other requested files are written. */
+  /* The run has marked nodes before it fails, so the other requested files are written. */
   RUN_REFUSED(1, "DISPLAY :7654 cannot be opened", "mark", scratch_path("in.vtu"), "--picture",
               scratch_path("none.png"), "--output", scratch_path("out.vtu"), "--stats", scratch_path("stats.json"));
   assert_true(scratch_exists("out.vtu"));
@@ -64,13 +64,13 @@ static void test_pictures(void **state) {
   assert_false(scratch_is_same("1.png", "2.png"));
   assert_false(scratch_is_same("1.png", "3.png"));
   assert_false(scratch_is_same("2.png", "3.png"));
-  /* Marks with another name are drawn in the same way. */
+  /* Marks are drawn in the same way if the array has another name. */
   RUN_FINE("mark", "--half-thickness", "0.3", "--picture", scratch_path("5.png"), scratch_path("in.vtu"), "--prefix",
            "left", "--output", scratch_path("left.vtu"));
   assert_true(scratch_is_same("3.png", "5.png"));
 }
 
-/* Compares a picture of the program with one of the C interface that has the expected title. */
+/* Compares a picture of the program with a picture that the C interface draws with the expected title. */
 static void expect_title(const char *title, const char *setting, const char *value) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
@@ -102,7 +102,7 @@ static void test_titles(void **state) {
   expect_title("Aortic valve, opening 0", "--set", "leaflet_angle=60");
 }
 
-/* The unit that the user named stands at the scale bar. */
+/* The scale bar shows the unit that the user named. */
 static void test_unit(void **state) {
   (void)state;
   riis_valve *valve = NULL;
@@ -146,8 +146,7 @@ static int have_same_title(const char *a, const char *b) {
   return is_same;
 }
 
-/* A surface from a file has no opening. Neither the picture's title nor the summary contains one, and movies have the same
- * title. */
+/* A surface from a file has no opening, so neither the picture's title nor the summary shows one. Movies have the same title. */
 static void test_case_titles(void **state) {
   (void)state;
   riis_vtk_surface *file = NULL;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The example of a valve of one's own, as prosthesis.json, .c and .f90. All three are the same valve. Its leaflets never cross
- * each other, and the closed valve has no hole. */
+ * The example of a user-defined valve exists as prosthesis.json, .c and .f90. All three define the same valve. Its leaflets
+ * never cross each other, and the closed valve has no hole. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,7 +23,7 @@
 
 #define EXAMPLE_JSON RIIS_EXAMPLES "/prosthesis.json"
 
-/* The triangles that the program wrote. */
+/* The triangles that the program wrote: their vertices, corners and leaflets. */
 enum { most_vertices = 8192, most_triangles = 16384 };
 static struct {
   int64_t n_triangles;
@@ -68,9 +68,8 @@ static void difference(const double *a, const double *b, long double *c) {
   for (int k = 0; k < 3; ++k) c[k] = (long double)a[k] - b[k];
 }
 
-/* Returns the depth at which the segment from p to q goes through the triangle. The depth is the least of these distances: of
- * each end from the triangle's plane, and of the point in the plane from the triangle's edges. It is at most 0 if the segment
- * does not go through. */
+/* Returns the depth at which the segment from p to q goes through the triangle, or at most 0 if it does not. The depth is the
+ * least of these distances: of each end from the triangle's plane, and of the crossing point from the triangle's edges. */
 static long double depth_of_segment(const double *p, const double *q, double triangle[3][3]) {
   long double ab[3], ac[3], normal[3], ap[3], aq[3];
   difference(triangle[1], triangle[0], ab);
@@ -119,8 +118,8 @@ static double deepest_crossing(void) {
   return (double)deepest;
 }
 
-/* Returns the greatest distance of a vertex from its leaflet's third of the ring. Half planes through the axis and the
- * commissures bound a third. Thirds are convex, so a triangle with all corners inside is inside. */
+/* Returns the greatest distance by which a vertex lies outside its leaflet's third of the ring. A third is bounded by half
+ * planes through the axis and the commissures. Thirds are convex, so a triangle with all corners inside is inside. */
 static double farthest_outside(void) {
   static const double commissure[3][2] = {{0.60, -1.04}, {0.60, 1.04}, {-1.20, 0.00}};
   double farthest = 0;
@@ -135,7 +134,7 @@ static double farthest_outside(void) {
   return farthest;
 }
 
-/* Tells whether the vertical line through (x, y) meets a triangle or passes it within the tolerance. */
+/* Returns whether the vertical line through (x, y) meets a triangle, or passes one within the tolerance. */
 static int is_covered(double x, double y, double tolerance) {
   for (int64_t i = 0; i < shown.n_triangles; ++i) {
     double(*c)[3] = shown.corner[i];
@@ -151,9 +150,9 @@ static int is_covered(double x, double y, double tolerance) {
   return 0;
 }
 
-/* Returns the number of vertical lines through a grid that meet no triangle. The grid covers the disc inside the ring. The ring
- * has radius 1.2, and its polygon is off by at most 0.01. The grid's middle is on the axis. Each line at which leaflets meet
- * has its own row. */
+/* Returns how many vertical lines of a grid meet no triangle. The grid is centred on the axis and covers the disc inside the
+ * ring, whose radius is 1.2 and whose polygon is off by at most 0.01. The grid has extra rows on the lines where leaflets
+ * meet. */
 static int n_uncovered(void) {
   const double radius = 1.19, tolerance = 1e-9;
   int n_missed = 0;
@@ -166,7 +165,7 @@ static int n_uncovered(void) {
   return n_missed;
 }
 
-static const double rounding = 1e-13; /* cm; meeting leaflets may overlap by the rounding of coordinates */
+static const double rounding = 1e-13; /* cm; leaflets that meet may overlap by the rounding of their coordinates */
 
 static void test_no_crossing(void **state) {
   (void)state;
@@ -205,7 +204,7 @@ static void write_with_end(const char *end) {
   free(text);
 }
 
-/* The checks above find the faults that they are made for. */
+/* The checks above must find the faults that they are meant to find. */
 static void test_faults_are_found(void **state) {
   (void)state;
   char file[256];
@@ -247,7 +246,7 @@ static void test_file_is_c(void **state) {
   riis_valve_destroy(&open);
 }
 
-/* Reads the numbers in the lines of arrays of a source. These lines begin with blanks and a number or a brace. */
+/* Reads the numbers of a source's array initializers. Their lines begin with blanks and then a number or a brace. */
 static int numbers_of(const char *path, double *numbers, int n_most) {
   char *text = scratch_read(path, NULL);
   int n_found = 0;

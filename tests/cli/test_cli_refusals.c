@@ -65,7 +65,7 @@ static void test_commands(void **state) {
   RUN_REFUSED(2, "more is one argument too many", "help", "units", "more");
 }
 
-/* Refusals suggest the option that the user may have meant, and come in the order of typing. */
+/* A refusal suggests the option that the user may have meant. Refusals come in the order of the arguments. */
 static void test_unknown_options(void **state) {
   (void)state;
   const char *mesh = scratch_path("in.vtu");
@@ -132,7 +132,7 @@ static void test_empty_values(void **state) {
   RUN_REFUSED(2, "--output: the value is empty", "mark", "--output=", scratch_path("in.vtu"), "--quiet");
 }
 
-/* A value in several words. */
+/* A value that the user split into several arguments gets a hint. */
 static void test_hints(void **state) {
   (void)state;
   const char *mesh = scratch_path("in.vtu");
@@ -145,7 +145,7 @@ static void test_hints(void **state) {
               "0,0,1,90");
 }
 
-/* A refusal is one line, even if a name contains line breaks. */
+/* A refusal is one line, even if a name in it contains line breaks. */
 static void test_control_characters(void **state) {
   (void)state;
   const char *mesh = scratch_path("in.vtu");
@@ -176,7 +176,7 @@ static void test_numbers(void **state) {
   RUN_REFUSED(2, "--distance-limit: -1 is not above 0", "mark", mesh, "--distance-limit", "-1");
 }
 
-/* Values of the right form that the library refuses. */
+/* The library refuses these values, although their form is right. */
 static void test_values(void **state) {
   (void)state;
   const char *mesh = scratch_path("in.vtu");
@@ -189,7 +189,7 @@ static void test_values(void **state) {
   RUN_REFUSED(2, "riis: --tolerance is 0; ", "mark", mesh, "--tolerance", "0");
   RUN_REFUSED(2, "riis: --tolerance is -1; ", "mark", mesh, "--tolerance", "-1");
   RUN_REFUSED(2, "riis: --half-thickness is inf; ", "mark", mesh, "--half-thickness", "inf");
-  /* These refusals come before the mesh is read. The mesh is also missing. */
+  /* These refusals come before the mesh is read: it is missing, but the message does not name it. */
   mesh = scratch_path("missing.vtu");
   RUN_REFUSED(2, "riis: --distance-limit is 0.05; ", "mark", mesh, "--distance-limit", "0.05");
   RUN_REFUSED(2, "riis: --threads is -2; ", "mark", mesh, "--threads", "-2");
@@ -217,7 +217,7 @@ static void test_input_files(void **state) {
   assert_int_equal(scratch_exists("a.vtu"), 0);
 }
 
-/* If only the core can check the data, the refusal also names the file. */
+/* Some faults of the data are found only by the library. The refusal then also names the file. */
 static void test_bad_data(void **state) {
   (void)state;
   scratch_write_text(
@@ -255,7 +255,7 @@ static void test_outputs(void **state) {
   RUN_REFUSED(1, "/dev/full: cannot be written: No space left", "mark", mesh, "--stats", "/dev/full", "--quiet");
 }
 
-/* An impossible output is refused before the mesh is read. The mesh is also missing, but the message does not name it. */
+/* An impossible output is refused before the mesh is read. The mesh is missing, but the message does not name it. */
 static void test_outputs_first(void **state) {
   (void)state;
   RUN_REFUSED(1, "a.vtu: cannot be written", "mark", scratch_path("missing.vtu"), "--output",

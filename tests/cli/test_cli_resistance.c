@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --resistance: K of every node beside its distance, by the formula of docs/theory.md, section 12. */
+ * --resistance writes K of every node beside its distance. The test computes K by the formula of docs/theory.md, section 12. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -42,7 +42,7 @@ static void test_refusals(void **state) {
   RUN_REFUSED(2, "--resistance is nan", "mark", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "nan");
   RUN_REFUSED(2, "--resistance", "mark", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "ten");
   RUN_REFUSED(2, "--resistance is not an option", "surface", "--valve", "aortic", "--resistance", "1");
-  /* The K of another valve is not replaced by accident. */
+  /* The K that another valve wrote is not replaced by accident. */
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--resistance", "1",
            "--prefix", "a", "--output", scratch_path("a.vtu"));
   RUN_REFUSED(2, "a_marked", "mark", scratch_path("a.vtu"), "--valve", "aortic", "--half-thickness", "0.3",

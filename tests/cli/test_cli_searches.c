@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * riis --search: the search that runs, its marks, and the message about a search that may be incomplete. All searches here give
- * the same marks. */
+ * --search chooses the search. The tests check which search runs, its marks, and the message about a search that may be
+ * incomplete. All searches here give the same marks. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +22,7 @@ static void mark_default_valve(double half_thickness, double distance_limit) {
   riis_valve_destroy(&valve);
 }
 
-/* auto is included, and it reports its choice. */
+/* Every search gives the same marks. auto reports which search it chose. */
 static void test_marks_are_equal(void **state) {
   (void)state;
   mark_default_valve(0.2, 0.3);
@@ -46,7 +46,8 @@ static void test_marks_are_equal(void **state) {
   }
 }
 
-/* The distances equal those of C with the same options. They differ from distances to the triangles, and the output says so. */
+/* The distances equal those of the C interface with the same options. They differ from distances to the triangles, and the
+ * output says so. */
 static void test_distances(void **state) {
   (void)state;
   const char *methods[] = {"triangles", "sampling", "minimization"};
@@ -100,7 +101,7 @@ static void expect_warning(void) {
   assert_ptr_equal(strchr(program_err, '\n') + 1, program_err + strlen(program_err));
 }
 
-/* In a connected band the paper's search also finds all nodes. It cannot know this, and says so. */
+/* If the marked nodes are connected, the paper's search also finds all of them. It cannot know this, and says so. */
 static void test_paper(void **state) {
   (void)state;
   mark_default_valve(0.3, RIIS_AUTO);
@@ -122,7 +123,8 @@ static void test_paper(void **state) {
   assert_string_equal(program_out, "");
 }
 
-/* Two triangles are far apart. The paper's search finds the nodes near the first, the neighbour search those near both. */
+/* Two triangles are far apart. The paper's search finds only the nodes near the first triangle, and the neighbour search finds
+ * the nodes near both. */
 static void test_two_pieces(void **state) {
   (void)state;
   scratch_write_text(
@@ -143,7 +145,8 @@ static void test_two_pieces(void **state) {
   assert_true(n_marked[2] > 0 && n_marked[2] < n_marked[0]);
 }
 
-/* A mesh of points has no neighbours, so all marks come from the proof. The table gives their number. */
+/* A mesh of points has no neighbours, so the nodes come from the search's check for missed nodes. The table gives their
+ * number. */
 static void test_no_cells(void **state) {
   (void)state;
   scratch_write_text("points.vtk",
@@ -167,7 +170,7 @@ static void test_no_cells(void **state) {
   assert_true(json_number(program_out, "n_marked") == 1);
 }
 
-/* Options that are refused without an adjacency are also refused with one, before the mesh is read. */
+/* Options that are refused on a mesh without an adjacency are also refused on a mesh with one, before the mesh is read. */
 static void test_refusals(void **state) {
   (void)state;
   const char *searches[] = {"neighbor", "paper"};

@@ -15,7 +15,7 @@
 
 enum { n_times = 5, most_cells = 6 * n_box };
 static const double times[n_times] = {0, 0.1, 0.2, 0.3, 0.4};
-/* Linear between the keys 0 0, 0.2 1, 0.4 0.5. */
+/* Linear between the keys (time 0, opening 0), (0.2, 1) and (0.4, 0.5). */
 static const double openings[n_times] = {0, 0.5, 1, 0.75, 0.5};
 static const char *const opening_texts[n_times] = {"0", "0.5", "1", "0.75", "0.5"};
 static const char *const cycle = "# a beat\ntime, opening\n0, 0\n\n0.2, 1\n0.4, 0.5\n";
@@ -26,7 +26,7 @@ static const char *step_path(const char *folder, int step, const char *ending) {
   return scratch_path(name);
 }
 
-/* The whole text of a .pvd with one file for each of these times. */
+/* Expects the whole text of a .pvd file with one entry for each of these times. */
 static void expect_list(const char *pvd, const char *folder, const char *ending, int n,
                         const char *const time_texts[]) {
   char *found = scratch_read(scratch_path(pvd), NULL), *expected = malloc(4096);
@@ -51,13 +51,13 @@ static int64_t read_array(const char *path, const char *name, double *values) {
   return n_components * n_tuples;
 }
 
-/* A single run at the opening of a step. */
+/* Runs the program once at the opening of a step. */
 static void run_single(int step) {
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--resistance", "7",
            "--opening", opening_texts[step], "--output", scratch_path("single.vtu"), "--quiet");
 }
 
-/* The part has all arrays of a single run, with the same bits at its nodes. */
+/* Expects that the part has all arrays of a single run, with the same bits at its nodes. */
 static void expect_as_single(int step, const char *part) {
   static double whole[3 * n_box], values[3 * n_box], ids[n_box];
   static const char *const names[] = {"riis_marked", "riis_distance", "riis_leaflet", "riis_K", "pressure", "velocity"};
@@ -72,7 +72,7 @@ static void expect_as_single(int step, const char *part) {
   }
 }
 
-/* The nodes of all cells with a node that some step has within the half thickness, in the input's order. */
+/* Returns the nodes of all cells that have, in some step, a node within the half thickness. They are in the input's order. */
 static int64_t nodes_near_sweep(double *ids) {
   static unsigned char is_near[n_box], is_wanted[n_box];
   static double marked[n_box];
@@ -121,7 +121,7 @@ static void test_files(void **state) {
   expect_as_single(4, step_path("beat", 4, "vtu"));
 }
 
-/* Each cell of the part is the input's cell with the same id, with the same data. */
+/* Each cell of the part equals the input's cell with the same id, and has the same data. */
 static void test_cells(void **state) {
   (void)state;
   static double node_ids[n_box], region[most_cells], part_region[most_cells], cell_ids[most_cells];
@@ -144,8 +144,8 @@ static void test_cells(void **state) {
   }
 }
 
-/* The fields of each step, from the C interface. The earlier state is the state at the previous time. Before the first time, it
- * is the state one first step earlier. */
+/* Compares a step's fields with those of the C interface. The velocity is the mean since the previous time, or since one first
+ * step before the first time. */
 static void expect_fields(int step, const char *path) {
   static double xyz[3 * n_box], normal[3 * n_box], velocity[3 * n_box], momentum[3 * n_box], side[n_box], K[n_box];
   riis_valve *now = NULL, *before = NULL;
@@ -235,7 +235,7 @@ static void test_table(void **state) {
   free(text);
 }
 
-/* After its last key a cycle is constant, or it begins again if it has a period. Cubic openings equal the library's. */
+/* After its last key a cycle is constant, or repeats if it has a period. Cubic openings equal the library's. */
 static double opening_at(const char *line_of_time, const char *option, const char *value, const char *more,
                          const char *interpolation) {
   double time = 0, opening = -1;
@@ -269,7 +269,7 @@ static void test_cycles(void **state) {
   assert_true(fabs(expected - 0.25) > 0.01);
 }
 
-/* The velocity at the first time is the mean since one step earlier. There a cycle with a period has another opening. */
+/* The velocity at the first time is the mean since one step before. A cycle with a period has another opening there. */
 static void test_first_velocity(void **state) {
   (void)state;
   double time = -1, opening = -1, n_marked = 0, speed = 0;
@@ -312,7 +312,8 @@ static int64_t read_triangles(const char *path, int64_t *corners) {
   return n;
 }
 
-/* The first series keeps its triangles, except those without area. The second one changes them. */
+/* The first series keeps its triangulation, and leaves out only triangles without area. The second series makes a new
+ * triangulation at each time. */
 static void test_triangulations(void **state) {
   (void)state;
   static const char *const hows[] = {"fixed", "adapted"};
@@ -340,8 +341,8 @@ static void test_triangulations(void **state) {
   }
 }
 
-/* A surface by frames rises by 0.5 in a time of 1. Its marks equal those of a single run at the same time, and its velocity is
- * that of the frames. */
+/* The surface rises by 0.5 in a time of 1, given by frames. Its marks equal those of a single run at the same time, and its
+ * velocity is the frames' velocity. */
 static void test_motion(void **state) {
   (void)state;
   static double marked[n_box], single[n_box], velocity[3 * n_box];
@@ -377,7 +378,7 @@ static void test_motion(void **state) {
     assert_true(fabs(velocity[3 * i]) < 1e-12 && fabs(velocity[3 * i + 2] - 0.5) < 1e-12);
   }
   assert_true(n_marked > 50);
-  /* Before its first time the motion rests, and it has no opening. */
+  /* Before its first frame the surface rests. It has no opening. */
   char *table = scratch_read(scratch_path("mv.csv"), NULL);
   double n = 0, speed = -1;
   assert_int_equal(sscanf(strchr(table, '\n'), "\n0,,%lf,%lf,", &n, &speed), 2);
@@ -385,7 +386,7 @@ static void test_motion(void **state) {
   free(table);
 }
 
-/* This name must be escaped in XML. */
+/* This file name must be escaped in XML. */
 static void test_names(void **state) {
   (void)state;
   run_series("a & <b>.pvd", NULL, NULL);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --times: refusals before any file is written, by status and message; and a series that is interrupted. */
+ * --times: a bad series is refused before any file is written; the tests check status and message. Other tests interrupt a
+ * series. */
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -70,7 +71,7 @@ static void test_cycle_files(void **state) {
   REFUSED_SERIES(1, "cycle.csv: table.time of key 1 is 1, beyond the period of 0.5", "--times", "0:1:0.5", "--period",
                  "0.5");
   REFUSED_SERIES(2, "--period: 0 is not above 0", "--times", "0:1:0.5", "--period", "0");
-  /* Files of other programs: blanks, semicolons, line ends of Windows. */
+  /* Tables from other programs have blanks, semicolons, or Windows line ends. */
   write_cycle("Zeit;Oeffnung\r\n0; 0\r\n+1;\t1\r\n");
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
            scratch_path("cycle.csv"), "--times", "0:1:0.5", "--series-table", scratch_path("t.csv"), "--quiet");
@@ -110,7 +111,7 @@ static void test_options(void **state) {
               cycle);
 }
 
-/* A valve that cannot open that far is refused before the mesh is read. */
+/* A valve that cannot reach the opening is refused before the mesh is read. */
 static void test_valves(void **state) {
   (void)state;
   write_cycle("0,0\n1,0.5\n");
@@ -131,11 +132,11 @@ static void test_places(void **state) {
               "/nowhere/s.pvd");
   RUN_REFUSED(1, "the folder /nowhere does not exist", "mark", mesh, "--cycle", cycle, "--times", "0,1",
               "--series-table", "/nowhere/s.csv");
-  /* A file exists in the place of the folder. */
+  /* A file has the name of the output folder. */
   scratch_write_text("full", "text");
   RUN_REFUSED(1, "full: the folder cannot be made", "mark", mesh, "--valve", "mitral", "--half-thickness", "0.3",
               "--cycle", cycle, "--times", "0,1", "--output", scratch_path("full.pvd"), "--quiet");
-  /* The input would be replaced by a step. */
+  /* A step would replace the input. */
   assert_int_equal(mkdir(scratch_path("in"), 0700), 0);
   assert_int_equal(symlink("../in.vtu", scratch_path("in/in_0000.vtu")), 0);
   RUN_REFUSED(2, "holds the file of MESH", "mark", scratch_path("in/in_0000.vtu"), "--cycle", cycle, "--times", "0,1",
@@ -147,7 +148,7 @@ static void test_places(void **state) {
   assert_false(scratch_exists("s.pvd"));
 }
 
-/* PATH without ffmpeg: the refusal comes before any work, so that the missing mesh is not named. */
+/* Without ffmpeg in PATH, the refusal comes before any work. So the message does not name the missing mesh. */
 static void test_no_ffmpeg(void **state) {
   (void)state;
   char *before = strdup(getenv("PATH"));
@@ -161,7 +162,7 @@ static void test_no_ffmpeg(void **state) {
   assert_false(scratch_exists("a.mp4"));
 }
 
-/* No node near the valve at any time: status 3, a warning, and whole files. */
+/* If no node is near the valve at any time, the status is 3, with a warning and complete files. */
 static void test_none_marked(void **state) {
   (void)state;
   write_cycle("0,0\n1,1\n");
@@ -176,7 +177,7 @@ static void test_none_marked(void **state) {
            "--allow-none");
 }
 
-/* The size is printed before the files are written, but not with --quiet. */
+/* The size of the output is printed before the files are written, but not with --quiet. */
 static void test_announcement(void **state) {
   (void)state;
   struct stat status;
@@ -209,7 +210,7 @@ static int n_listed(const char *pvd) {
   return n;
 }
 
-/* A signal ends the series after a whole step. Every listed file can be read, and there are no other files. */
+/* A signal ends the series after the current step is complete. Every listed file can be read, and there are no other files. */
 static void interrupt_series(int signal_number) {
   static const char *const files[] = {"long/long_0000.vtu", "long/long_0001.vtu"};
   const pid_t process =
@@ -221,8 +222,8 @@ static void interrupt_series(int signal_number) {
   finish_program(process);
 }
 
-/* The main thread is stopped in the middle of a step, as if the step were very long. The list is still written. Then the
- * process is killed. The thread may have stopped between a file and its entry, so the list may lack one file. */
+/* The main thread is stopped in the middle of a step, as if the step took very long. The program must still write the list.
+ * Then the process is killed. The list may lack one file, if the thread stopped between a file and its entry. */
 static void test_killed(void **state) {
   (void)state;
   write_cycle("0,0\n1,1\n");
@@ -244,7 +245,7 @@ static void test_killed(void **state) {
   const int n = n_listed("dead.pvd");
   kill(process, SIGKILL);
   finish_program(process);
-  if (!is_stopped) skip(); /* the system lets no process stop the threads of another */
+  if (!is_stopped) skip(); /* skipped where the system lets no process stop another's threads */
   assert_int_equal(program_exit_code, 128 + SIGKILL);
   assert_true(n_files >= 12 && n_files < 2001);
   assert_true(n == n_files || n == n_files - 1);

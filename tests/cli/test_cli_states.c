@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * riis --states: free edges are compared with the curves of the valves, areas and orifices with the surface's triangles. */
+ * `riis states`: lengths of free edges are compared with the valves' curves. Areas and orifices are compared with the
+ * surface's triangles. */
 /* clang-format off: test_support.h checks statuses if riis.h came before */
 #include <riis/riis.h>
 
@@ -90,7 +91,7 @@ static riis_valve *make_valve(const char *kind) {
   return valve;
 }
 
-/* Computes the orifice by points on a grid, and the area of a leaflet, from the triangles of a separate surface. */
+/* Computes the area of a leaflet from the triangles of a separate surface, and the orifice by counting grid points. */
 typedef struct {
   double orifice, area[3];
 } measured;
@@ -107,7 +108,7 @@ static int is_covered(int64_t n, const int64_t *vertex, const double *xyz, doubl
   return 0;
 }
 
-/* is_inside tells whether a point is in the disc, which lies within `reach` of the axis. */
+/* is_inside returns whether a point is in the disc, which lies within `reach` of the axis. */
 static measured measure(const riis_valve *valve, double reach, int (*is_inside)(double x, double y)) {
   enum { n_side = 120 };
   riis_surface *surface = NULL;
@@ -179,7 +180,7 @@ static void test_mitral(void **state) {
     mitral_oracle_destroy(oracle);
   }
   annulus_of = NULL;
-  /* The summary gives the values that are not physiological. */
+  /* The summary names the values that are not physiological. */
   CHECK_NEAR(cell(0, "anterior_edge"), 3.91, 0.005);
   CHECK_NEAR(cell(4, "anterior_edge"), 4.58, 0.005);
   CHECK_NEAR(cell(4, "posterior_edge"), 7.28, 0.005);
@@ -193,7 +194,7 @@ static void test_mitral(void **state) {
   riis_valve_destroy(&valve);
 }
 
-/* Without --count there are 101 openings. With the table on stdout, the table is the whole output. */
+/* Without --count there are 101 openings. With the table on stdout, the program prints nothing else. */
 static void test_stdout(void **state) {
   (void)state;
   RUN_STATES("--valve", RIIS_EXAMPLES "/prosthesis.json", "--quiet");
@@ -208,7 +209,7 @@ static void test_stdout(void **state) {
 
 /* ---- The aortic valve ---- */
 
-/* Returns the length of a cubic by chords. */
+/* Returns the length of a cubic, approximated by chords. */
 static double cubic_length(double p[4][3]) {
   enum { n = 20000 };
   double length = 0, last[3];
@@ -222,7 +223,7 @@ static double cubic_length(double p[4][3]) {
   return length;
 }
 
-/* Returns half the free edge of a cusp with a power above 1 (docs/theory.md, section 3). */
+/* Returns half the length of a cusp's free edge for a power above 1 (docs/theory.md, section 3). */
 static void free_edge(double r_in, double r_out, double degrees, double power, double t0, double t3, double p[4][3]) {
   const double x = r_out * cos(degrees * pi / 180), y = r_out * sin(degrees * pi / 180);
   const double made[4][3] = {
@@ -268,7 +269,7 @@ static void test_aortic(void **state) {
   riis_valve_destroy(&open);
 }
 
-/* The frame of the table is the valve's own, so a shift changes nothing. Units change lengths and areas. */
+/* The table is measured in the valve's own frame, so a shift changes nothing. Units change lengths and areas. */
 static void test_frame_and_unit(void **state) {
   (void)state;
   scratch_write_text("open.json", "{\"leaflet_radius_in\": 1, \"translation\": [3, -2, 1]}");
@@ -288,7 +289,8 @@ static void test_frame_and_unit(void **state) {
 
 /* ---- Valves from patches ---- */
 
-/* The example's free edges are two cubics each. Its attachment closes in the projection, and so do its leaflets. */
+/* Each free edge of the example consists of two cubics. The projections of its attachment and of its leaflets are closed
+ * curves. */
 static void test_prosthesis(void **state) {
   (void)state;
   double closed[4][3] = {{0.6, -1.04, 1.2}, {0.45, -0.78, 1}, {0.3, -0.52, 0.8}, {0, 0, 0.8}};
@@ -301,8 +303,8 @@ static void test_prosthesis(void **state) {
   CHECK_NEAR(cell(1, "orifice_area"), 3.79, 0.01);
 }
 
-/* One side of this flat triangle is a point. The triangles at the point have no area, so that end of the edge is in no
- * triangle. The sides along the axes have the lengths 1 and 2, the slanted one the length sqrt(5). */
+/* One side of this flat triangular patch is a point. The triangles at the point have no area, so that end of the edge belongs
+ * to no triangle. The sides along the axes have the lengths 1 and 2, and the slanted one sqrt(5). */
 static void run_flat_triangle(const char *sides) {
   char text[512];
   snprintf(text, sizeof text,
@@ -331,8 +333,9 @@ static void test_collapsed_sides(void **state) {
   expect_said("edges     not measured: a leaflet has no side v = 1 on its rim\n");
 }
 
-/* Two patches above each other share a side. It is v = 1 of one patch, but no free edge. Their other curves bend differently,
- * so the patches cut the common side into different parts. One side is straight, one curved. */
+/* Two patches above each other share a side. It is the side v = 1 of one patch, but no free edge. The patches' other curves
+ * bend differently, so each patch would cut the common side into different parts. The test has one straight and one curved
+ * side. */
 static void test_shared_sides(void **state) {
   (void)state;
   static const char *const middles[2] = {"[0, 1, 0], [2, 1, 0]", "[0, 1, 0], [1, 1.5, 0], [2, 1, 0]"};
@@ -353,7 +356,7 @@ static void test_shared_sides(void **state) {
       char name[64];
       snprintf(name, sizeof name, "leaflet_%d_edge", leaflet);
       CHECK_NEAR(cell(0, name), cubic_length(high), 1e-3);
-      /* The side between two leaflets is a free edge of the lower one. */
+      /* If the patches are two leaflets, the common side is a free edge of the lower one. */
       if (leaflet == 1) assert_true(cell(0, "leaflet_0_edge") > 1.999);
     }
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --unit and --surface-unit: the marks are the same in all units. If sizes do not fit each other, the warning names options.
- * The test applies them, and the warning disappears. */
+ * --unit and --surface-unit: the marks are the same in all units. If the sizes of mesh, surface and half thickness do not
+ * match, a warning advises options. The test applies them, and the warning disappears. */
 #include <riis/riis_vtk.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,11 +14,11 @@
 
 enum { n_units = 3 };
 static const char *const units[n_units] = {"m", "cm", "mm"};
-static const double factors[n_units] = {0.01, 1, 10}; /* from centimetres */
+static const double factors[n_units] = {0.01, 1, 10}; /* from centimetres to each unit */
 static char meshes[n_units][256], surfaces[n_units][256];
 static int n_wanted; /* number of marked nodes of the valve in the box */
 
-/* The same box with finer cells than in.vtu, and the same valve, in every unit. */
+/* Writes the box of in.vtu with finer cells, and the valve, in every unit. */
 static int make_files(void **state) {
   scratch_setup(state);
   for (int i = 0; i < n_units; ++i) {
@@ -94,7 +94,7 @@ static void test_patches(void **state) {
   assert_true(n_marked[0] > 30 && n_marked[0] == n_marked[1] && n_marked[1] == n_marked[2]);
 }
 
-/* Checks that there is one line with this text, and this exit code. --quiet does not remove the line. */
+/* Checks for one line with this text and for this exit code. --quiet does not remove the line. */
 static void expect_warning(int exit_code, const char *text) {
   const char *end = strchr(program_err, '\n');
   if (program_exit_code != exit_code || strncmp(program_err, "riis: ", 6) != 0 || !end || end[1] ||
@@ -102,7 +102,7 @@ static void expect_warning(int exit_code, const char *text) {
     fail_msg("exit code %d for %d, wanted \"%s\"\nstderr: %s", program_exit_code, exit_code, text, program_err);
 }
 
-/* Makes arguments of the words between "write " and " in place of". */
+/* Splits the words between "write " and " in place of" into arguments. */
 static int advised(char words[8][64]) {
   static char text[longest_output];
   const char *place = strstr(program_err, ": write ");
@@ -117,7 +117,7 @@ static int advised(char words[8][64]) {
   return n;
 }
 
-/* Runs the program with the last warning's advice, which must end the warnings. surface may be NULL. */
+/* Runs the program with the last warning's advice. Then no warning may be left. surface may be NULL. */
 static void expect_cured(const char *mesh, const char *surface) {
   char words[8][64];
   const int n_words = advised(words);
@@ -150,21 +150,21 @@ static void test_wrong_valve_units(void **state) {
   run_program("mark", meshes[0], "--unit", "mm", NULL);
   expect_warning(3, ": write --unit m in place of --unit mm\n");
   expect_cured(meshes[0], NULL);
-  /* One warning mends both a wrong unit and a wrong half thickness. */
+  /* If both the unit and the half thickness are wrong, one warning corrects both. */
   run_program("mark", meshes[0], "--half-thickness", "0.1", NULL);
   expect_warning(3, ": write --unit m --half-thickness 0.001\n");
   expect_cured(meshes[0], NULL);
 }
 
-/* The warning about leaks that follows gives no advice of its own. */
+/* Checks that only the first warning has advice: the warning about leaks that follows has none. */
 static void expect_one_advice(void) {
   assert_non_null(strstr(program_leaks, " between two unmarked nodes"));
   assert_null(strstr(program_leaks, "--half-thickness"));
   assert_null(strstr(program_leaks, "half thicknesses"));
 }
 
-/* The mesh looks as if it were in millimetres. It may also be a large and coarse mesh in centimetres, so a unit that the user
- * names counts. */
+/* The mesh's edges suggest millimetres. It may also be a large and coarse mesh in centimetres, so a unit that the user names
+ * decides. */
 static void test_coarse_or_other_unit(void **state) {
   (void)state;
   assert_int_equal(
@@ -180,12 +180,12 @@ static void test_coarse_or_other_unit(void **state) {
   expect_one_advice();
   run_program("mark", scratch_path("large.vtu"), "--scale", "1", NULL);
   expect_warning(program_exit_code, ": write --half-thickness 0.6");
-  /* The unit of a file is not known, so its default half thickness gives no hint of the unit. */
+  /* The file's unit is unknown, so the default half thickness says nothing about the unit. */
   run_program("mark", scratch_path("large.vtu"), "--surface", surfaces[2], NULL);
   expect_warning(0, "both look as if they were in millimetres: write --unit mm --surface-unit mm\n");
 }
 
-/* A mesh in another unit that is also too coarse: the unit comes first. */
+/* The mesh is in another unit and also too coarse. The warning is about the unit. */
 static void test_coarse_and_other_unit(void **state) {
   (void)state;
   for (int i = 0; i < n_units; i += 2) {
@@ -200,7 +200,7 @@ static void test_coarse_and_other_unit(void **state) {
   }
 }
 
-/* A surface beside the mesh may have the same unit. Similar sizes show that the unit is the same. */
+/* Even if no node is near the surface, similar sizes show that mesh and surface are in the same unit. */
 static void test_beside_the_mesh(void **state) {
   (void)state;
   for (int named = 0; named < 2; ++named) {
@@ -212,7 +212,8 @@ static void test_beside_the_mesh(void **state) {
   }
 }
 
-/* In a case the likelier cause comes first in any order of the valves. Only this cause has advice. */
+/* In a case of several valves, the more likely cause is reported first, whatever the order of the valves. Only this cause has
+ * advice. */
 static void test_order_of_causes(void **state) {
   (void)state;
   scratch_write_text("two.json",
@@ -249,7 +250,7 @@ static void test_wrong_file_units(void **state) {
   expect_warning(0, "all 10,648 nodes are marked: the half thickness is 0.1, the largest side of the surface 0.02");
   expect_warning(0, "both look as if they were in metres: write --unit m --surface-unit m\n");
   expect_cured(meshes[0], surfaces[0]);
-  /* No two units differ by this factor. */
+  /* This factor is not the ratio of any two units. */
   run_program("mark", meshes[1], "--surface", surfaces[1], "--scale", "0.005", NULL);
   expect_warning(3, "different units");
   expect_warning(3, "write --scale 0.5 in place of --scale 0.005\n");
@@ -270,7 +271,7 @@ static void test_half_thickness(void **state) {
   expect_warning(program_exit_code, "the half thickness is 0.001, the median edge of the mesh 0.1");
   expect_warning(program_exit_code, ": write --half-thickness 0.1\n");
   expect_cured(meshes[1], NULL);
-  /* If no power of ten suits a coarse mesh, the advice is its edge length, unless that is also too coarse. */
+  /* If a mesh is coarse and no power of ten suits it, the advice is its edge length, unless that is also too large. */
   const double far = 1.6;
   assert_int_equal(shim_write_box(scratch_path("coarse.vtu"), SHIM_RAW, 6, (double[3]){-far, -far, -far},
                                   (double[3]){far, far, far}, 0),
@@ -283,12 +284,12 @@ static void test_half_thickness(void **state) {
                    1);
   run_program("mark", scratch_path("coarse.vtu"), "--half-thickness", "0.075", NULL);
   expect_warning(program_exit_code, ": write --half-thickness 0.4");
-  /* In no unit does the surface of this file have the size of a valve. */
+  /* The surface of this file does not have the size of a valve in any unit. */
   run_program("mark", meshes[1], "--surface", surfaces[1], "--half-thickness", "7", NULL);
   expect_warning(0, ": write --half-thickness 0.07\n");
 }
 
-/* If sizes explain nothing, the message gives the places. */
+/* If sizes do not explain why nothing is marked, the message gives the positions of mesh and surface. */
 static void test_places(void **state) {
   (void)state;
   run_program("mark", meshes[1], "--translate", "50,0,0", NULL);
@@ -300,7 +301,7 @@ static void test_places(void **state) {
   expect_warning(0, "only ");
   expect_warning(0, " of 10,648 nodes are marked: the mesh is in x");
   RUN_FINE("mark", meshes[1], "--translate", "50,0,0", "--allow-none", "--quiet", "--stats", scratch_path("s.json"));
-  /* A mesh of few nodes, all near the valve, needs no message. */
+  /* A mesh of few nodes, all near the valve, gets no message. */
   scratch_write_text("few.vtk",
                      "# vtk DataFile Version 3.0\nfew\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
                      "1 0 -.3 1.01 0 -.3 1 .01 -.3 1 0 -.31\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * riis --export-uris: the test reads the files back as svMultiPhysics does. It compares them with the library's vertices at the
- * openings of the frames, and marks by the solver's rule. */
+ * `riis export uris`: the test reads the files back as svMultiPhysics does, and compares their vertices with the library's at
+ * the openings of the frames. It also marks nodes by the solver's rule. */
 /* clang-format off: test_support.h checks statuses if riis.h came before */
 #include <riis/riis.h>
 #include <riis/riis_vtk.h>
@@ -16,7 +16,7 @@
 
 /* ---- The surface by the library's C interface ---- */
 
-/* Options of riis_surface_create and the words of riis that stand for them. */
+/* The same surface twice: as options of riis_surface_create and as arguments of riis. */
 typedef struct {
   const char *words[6];
   double scale, half_thickness, turn[4], shift[3];
@@ -46,7 +46,7 @@ static riis_surface *surface_at(const place *where, riis_valve *valve) {
   return surface;
 }
 
-/* The corners of every triangle of a leaflet, (3, 3, n) in the order of triangles. The caller frees them. */
+/* Returns the corners of every triangle of a leaflet, (3, 3, n), in the order of triangles. The caller frees them. */
 static double *corners_of(const riis_surface *surface, int leaflet, int *n_found) {
   const double *xyz = triangles_of(surface).xyz;
   const int64_t n = triangles_of(surface).n_triangles;
@@ -62,7 +62,7 @@ static double *corners_of(const riis_surface *surface, int leaflet, int *n_found
   return corners;
 }
 
-/* n_more triangles follow those of the library. They only widen the solver's box. */
+/* Compares a frame with the library's triangles. n_more further triangles follow, which only enlarge the solver's box. */
 static void check_frame(const uris_face *face, const double *frame, const riis_surface *surface, int leaflet,
                         int n_more, double scale) {
   int n = 0;
@@ -72,7 +72,7 @@ static void check_frame(const uris_face *face, const double *frame, const riis_s
   free(corners);
 }
 
-/* The ramp of fifth degree from 0 to 1 (theory.md, section 12). */
+/* Returns the ramp of fifth degree from 0 to 1 (theory.md, section 12). */
 static double ramp(double s) { return s * s * s * (10 + s * (-15 + 6 * s)); }
 
 /* ---- Tests of the files ---- */
@@ -87,7 +87,7 @@ static double ramp(double s) { return s * s * s * (10 + s * (-15 + 6 * s)); }
 static uris_valve exported;
 
 static void check_positions(const char *kind, const place *where, riis_valve *valve) {
-  enum { n_open = 6, n_close = 4 }; /* 0.01 s are 2.5 steps, and the last frame is at the end */
+  enum { n_open = 6, n_close = 4 }; /* a frame each 0.01 s, which is 2.5 steps, and a last frame at the end */
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
   riis_surface *surface = surface_at(where, valve);
   for (int k = 0; k < n_open + n_close; ++k) {
@@ -124,7 +124,8 @@ static void turned(const double turn[4], const double from[3], double to[3]) {
   }
 }
 
-/* Blood flows along z, and against z in the mitral valve. The tolerance is 5 degrees, since the closed annulus is a saddle. */
+/* Blood flows along z, and in the mitral valve against z. The tolerance is 5 degrees, since the closed annulus is
+ * saddle-shaped. */
 static void check_normal(const char *kind, const place *where) {
   const double along[3] = {0, 0, strcmp(kind, "mitral") == 0 ? -1 : 1};
   double flow[3], dot = 0, length = 0;
@@ -171,7 +172,7 @@ static void test_positions(void **state) {
   }
 }
 
-/* VTK reads the same nodes in the same order from the .vtu. They are those of the first frame. */
+/* VTK reads the same nodes in the same order from the .vtu. They are the first frame's nodes. */
 static void test_vtk(void **state) {
   (void)state;
   EXPORT("by_vtk", RAMPS, "--valve", "mitral");
@@ -231,7 +232,7 @@ static void test_velocity(void **state) {
   uris_free(&exported);
 }
 
-/* ---- Smaller triangles ---- */
+/* ---- Refined triangles ---- */
 
 static double distance_of(const double *a, const double *b) {
   return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
@@ -256,7 +257,7 @@ static double longest_edge_of(const uris_face *face, const double *xyz) {
   return longest;
 }
 
-/* Edges of only one triangle form the leaflet's outline. Halving must leave no such edge inside. */
+/* The leaflet's outline consists of the edges that belong to only one triangle. Halving must leave no such edge inside. */
 static double outline_of(const uris_face *face, const double *xyz) {
   double outline = 0;
   for (int i = 0; i < 3 * face->n_triangles; ++i) {
@@ -271,7 +272,8 @@ static double outline_of(const uris_face *face, const double *xyz) {
   return outline;
 }
 
-/* No edge is longer in any frame. The leaflets keep their place: area and outline are the same, and no old node is missing. */
+/* In no frame is an edge longer than allowed. Area and outline of the leaflets are unchanged, and every old node is still
+ * there. */
 static void test_largest_edge(void **state) {
   (void)state;
   const char *const valves[] = {"mitral", "bileaflet"};
@@ -339,7 +341,8 @@ static rule_marks marks_of_closed(const char *kind) {
         found.delta += delta(closest.distance, eps);
         found.delta_lost += delta(closest.distance, eps) - delta(d, eps);
         if (closest.distance <= eps) found.largest_excess = fmax(found.largest_excess, d - closest.distance);
-        assert_true(d >= closest.distance - 1e-12); /* the middles of triangles lie on the surface */
+        /* The triangles' middles lie on the surface, so none can be nearer. */
+        assert_true(d >= closest.distance - 1e-12);
         if (closest.distance < 0.3 * eps || closest.distance > eps || closest.side == 0) continue;
         ++found.n_sides;
         found.n_right_side += uris_sign(&exported, &state, nearest, 1, p) == (closest.side > 0 ? 1 : -1);
@@ -368,7 +371,7 @@ static void test_marking_rule(void **state) {
            100 * fine.delta_lost / fine.delta);
     assert_true(coarse.n_marked > 500);
     assert_int_equal(coarse.n_more + fine.n_more, 0);
-    /* Most nodes are marked, and on their own side of the closed valve. Smaller triangles mark nearly all. */
+    /* The solver marks most of these nodes, on their own side of the closed valve. With smaller triangles it marks nearly all. */
     assert_true(coarse.n_lost > 0 && coarse.n_lost < 0.3 * coarse.n_marked);
     assert_true(fine.largest_excess < 0.05 && fine.largest_excess < coarse.largest_excess);
     assert_true(fine.n_lost < 0.02 * fine.n_marked && fine.n_lost < coarse.n_lost);
@@ -379,7 +382,7 @@ static void test_marking_rule(void **state) {
 
 /* ---- The solver's box ---- */
 
-/* The same frame with the face that widens the box, and without it. */
+/* One frame, with and without the face that enlarges the box. */
 typedef struct {
   int is_closing, n_marked, n_marked_outside, n_of_side[2];
   uris_state all, leaflets; /* n_marked_outside: marked nodes outside the box of the leaflets alone */
@@ -387,8 +390,8 @@ typedef struct {
 
 static random_source rng;
 
-/* Checks a point that is marked or in a pressure band. The solver must take its distance from the leaflets' triangles, and the
- * point must lie in the box. */
+/* Checks a point that is marked or in a pressure band: it must lie in the box. The solver must take the point's distance from
+ * the leaflets' triangles. */
 static void look_at(frame *at, const double point[3]) {
   double expected = 0, distance = 0;
   const int leaflet = uris_nearest(&at->leaflets, point, &expected);
@@ -404,7 +407,7 @@ static void look_at(frame *at, const double point[3]) {
   }
 }
 
-/* Points around a triangle's middle, from nearly on it to beyond the bands, along the axes and between them. */
+/* Checks points around a triangle's middle, along the axes and between them, from nearly on the triangle to beyond the bands. */
 static void look_around(frame *at, const double middle[3]) {
   for (int towards = 0; towards < 27; ++towards)
     for (double r = 1e-12; r < 6; r *= 30) {
@@ -415,7 +418,7 @@ static void look_around(frame *at, const double middle[3]) {
     }
 }
 
-/* Returns the share of the marks outside the box of the leaflets alone. */
+/* Returns the fraction of the marks that are outside the box of the leaflets alone. */
 static double check_box_of_frame(int is_closing, int k) {
   const double eps = exported.thickness;
   frame at = {is_closing,
@@ -433,12 +436,12 @@ static double check_box_of_frame(int is_closing, int k) {
   }
   assert_true(at.n_marked > 10);
   const double outside = at.n_marked_outside / (double)at.n_marked;
-  /* Without nodes in a band the solver divides 0 by 0. A closed valve then never opens. An open one, which needs nodes before the
-   * leaflets, never closes. */
+  /* If no node is in a band, the solver divides 0 by 0. Then a closed valve never opens, and an open one, which needs nodes
+   * upstream of the leaflets, never closes. */
   assert_true(at.n_of_side[0] > 10 && (!is_closing || at.n_of_side[1] > 10));
   assert_int_equal(at.all.n - at.leaflets.n, 3);
   for (int i = at.leaflets.n; i < at.all.n; ++i) look_around(&at, at.all.middle + 3 * i);
-  /* A box that is larger than the bands need costs the solver time. */
+  /* A larger box than the bands need would cost the solver time. */
   for (int j = 0; j < 3; ++j)
     CHECK_AT_MOST(at.all.upper[j] - at.all.lower[j], 1.5 * (at.leaflets.upper[j] - at.leaflets.lower[j]) + 10.5 * eps);
   uris_state_free(&at.all);
@@ -462,8 +465,8 @@ static void check_box_of_scaffold(void) {
   uris_state_free(&state);
 }
 
-/* The valves are all kinds, along the axes and oblique, with thick and thin bands; a flat prosthesis; a flat patch, whose box
- * has no thickness; and a patch that opens into a plane of another axis. */
+/* Tests the box for all kinds of valves, along the axes and oblique, with thick and thin bands. Further cases are a flat
+ * prosthesis, a flat patch whose box has no thickness, and a patch that opens into a plane across another axis. */
 static void test_box(void **state) {
   (void)state;
   rng = random_start("test_cli_uris");

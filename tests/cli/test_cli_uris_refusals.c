@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * riis FOLDER: the frames of cycles and of other valves, and refusals. A refusal leaves no file. */
+ * `riis export uris`: refusals, which leave no file, and the frames of cycles and of valves from patches. */
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -135,7 +135,7 @@ static void test_folders(void **state) {
   REFUSED(1, text, "export", scratch_path("no/uris"), "--resistance", "1", "--time-step", "0.01", RAMPS);
   REFUSED(2, "has a blank, and svMultiPhysics cannot read such a path", "export", "my folder", "--resistance", "1",
           "--time-step", "0.01", RAMPS);
-  /* An empty folder is filled, and so is one that ends in a slash. */
+  /* An empty folder is filled. A name that ends in a slash is accepted. */
   const int n_files = scratch_n_files();
   assert_int_equal(mkdir(FOLDER, 0777), 0);
   snprintf(text, sizeof text, "%s/", FOLDER);
@@ -175,7 +175,8 @@ static void expect_openings(const char *text) {
 
 static void test_cycles(void **state) {
   (void)state;
-  /* The valve opens in 0.22:0.29 and closes in 0.29:0.66, from the largest key to the next least key. */
+  /* The valve opens in 0.22:0.29 and closes in 0.29:0.66, from the key with the largest opening to the next key with the
+   * least. */
   scratch_write_text("mitral.csv", "0,0\n0.22,0\n0.29,1\n0.40,0.62\n0.50,0.55\n0.57,0.85\n0.66,0\n");
   uris_valve valve = EXPORTED("--time-step", "0.01", "--valve", "mitral", "--cycle", scratch_path("mitral.csv"));
   assert_int_equal(valve.face[0].n_open, 8);
@@ -183,14 +184,14 @@ static void test_cycles(void **state) {
   expect_openings("opening: 8 frames, from opening 0 to 1\n");
   expect_openings("closing: 38 frames, from opening 1 to 0\n");
   uris_free(&valve);
-  /* With the period, the span crosses the end of the cycle. */
+  /* With the period, the span of opening or closing crosses the end of the cycle. */
   scratch_write_text("over.csv", "0,0.5\n0.25,1\n0.5,0\n");
   valve = EXPORTED("--time-step", "0.125", "--cycle", scratch_path("over.csv"), "--period", "1", "--interpolation",
                    "cubic");
   assert_int_equal(valve.face[0].n_open, 7);
   assert_int_equal(valve.face[0].n_close, 3);
   uris_free(&valve);
-  /* The span is only a part of the closing. So the leaflets jump, and the program says so. */
+  /* The exported span is only a part of the closing. So the leaflets jump where it begins, and the program warns of this. */
   run_program(EXPORT, "--time-step", "0.01", "--valve", "mitral", "--cycle", scratch_path("mitral.csv"),
               "--closing-span", "0.57:0.66", "--quiet", NULL);
   assert_int_equal(program_exit_code, 0);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --valve FILE.json: the marks of such a valve, compared with the C interface's, and every refusal of a file. */
+ * --valve FILE.json: the marks of a valve from a file are compared with the C interface's. Every fault of a file is refused. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,8 +10,8 @@
 #include "program.h"
 #include "scratch.h"
 
-/* A flap of two patches that swings open, with curves of every degree and one collapsed side. The file has the curves in another
- * order, also in "open". */
+/* A flap of two patches that swings open. It has curves of every degree and one collapsed side. The file lists the curves in
+ * another order, also in its "open" state. */
 static const char *const flap =
     "{\"curves\": {\"hinge\": [[-1, 0, 0], [0, 0, 0]], \"rim\": [[0, 1.2, -0.3], [-1, 1, 0]],\n"
     "  \"left\": [[-1, 0, 0], [-1, 0.5, 0.4], [-1, 1, 0]], \"middle\": [[0, 0, 0], [0, 0.4, 0.4], [0, 0.8, 0.4], [0, "
@@ -28,11 +28,11 @@ static const char *const flap_open =
 
 static const int32_t degree[] = {1, 1, 2, 3, 1, 1, 1};
 static const double closed_control[] = {
-    -1, 0,   0, 0,  0,   0,   0,  1.2, -0.3, -1, 1,   0,    /* hinge, rim */
+    -1, 0,   0, 0,  0,   0,   0,  1.2, -0.3, -1, 1,   0,    /* the curves hinge and rim */
     -1, 0,   0, -1, 0.5, 0.4, -1, 1,   0,                   /* left */
     0,  0,   0, 0,  0.4, 0.4, 0,  0.8, 0.4,  0,  1.2, -0.3, /* middle */
     1,  0.5, 0, 1,  0.5, 0,                                 /* tip */
-    0,  0,   0, 1,  0.5, 0,   0,  1.2, -0.3, 1,  0.5, 0     /* low, high */
+    0,  0,   0, 1,  0.5, 0,   0,  1.2, -0.3, 1,  0.5, 0     /* low and high */
 };
 static const double open_control[] = {-1,  0,  0,   0,   0,  0, 0, 1, -1,  -1,  0.8, -1,  -1, 0,  0, -1,  0.5,
                                       0,   -1, 0.8, -1,  0,  0, 0, 0, 0.4, 0,   0,   0.8, 0,  0,  1, -1,  1,
@@ -56,7 +56,7 @@ static riis_valve *flap_by_c(const double *control) {
   return valve;
 }
 
-/* Writes v.json: the flap, with the first place of the text `found` replaced, and with or without an open state. */
+/* Writes v.json: the flap with the first occurrence of `found` replaced, with or without an open state. */
 static void write_flap(int can_open, const char *found, const char *replacement) {
   char text[4096], changed[4096];
   snprintf(text, sizeof text, flap, can_open ? flap_open : "");
@@ -70,7 +70,7 @@ static void write_flap(int can_open, const char *found, const char *replacement)
   scratch_write_text("v.json", changed);
 }
 
-/* The path of v.json, for longer than scratch_path keeps it. */
+/* The path of v.json. scratch_path would keep it only for a few calls. */
 static char file[256];
 static void keep_path(void) { snprintf(file, sizeof file, "%s", scratch_path("v.json")); }
 
@@ -117,7 +117,7 @@ static void test_marks(void **state) {
   riis_valve_destroy(&open);
 }
 
-/* Every option that takes parameters knows the valve's only parameter. */
+/* Every option that takes parameters accepts the valve's only parameter. */
 static void test_parameters(void **state) {
   (void)state;
   keep_path();
@@ -175,7 +175,7 @@ static void test_bad_files(void **state) {
     scratch_write_text("v.json", files[i].json);
     RUN_REFUSED(1, files[i].text, "mark", scratch_path("in.vtu"), "--valve", scratch_path("v.json"));
   }
-  /* This fault appears only when the surface is made. */
+  /* This fault is found only when the surface is made. */
   scratch_write_text("v.json",
                      "{\"curves\": {\"p\": [[0,0,0]]}, \"patches\": [{\"v0\": \"p\", \"v1\": \"p\", \"u0\": \"p\", "
                      "\"u1\": \"-p\"}]}");
@@ -184,7 +184,7 @@ static void test_bad_files(void **state) {
               scratch_path("missing.json"));
 }
 
-/* Each case has one fault in a good file. */
+/* Each case adds one fault to a valid file. */
 static void test_changed_files(void **state) {
   (void)state;
   const struct {
@@ -237,10 +237,10 @@ static void test_changed_files(void **state) {
     write_flap(changes[i].can_open, changes[i].found, changes[i].replacement);
     RUN_REFUSED(1, changes[i].text, "mark", scratch_path("in.vtu"), "--valve", scratch_path("v.json"));
   }
-  /* A curve without length becomes a side with a length, and the reverse. */
+  /* One curve without length gets a length, and the reverse. */
   write_flap(1, "[[1, 0.5, -1]]", "[[1, 0.5, -1], [1, 0.5, -1]]");
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", scratch_path("v.json"), "--opening", "1");
-  /* No input is replaced. */
+  /* An output must not replace an input. */
   RUN_REFUSED(2, "is also the file of --valve", "mark", scratch_path("in.vtu"), "--valve", scratch_path("v.json"),
               "--stats", scratch_path("v.json"));
 }

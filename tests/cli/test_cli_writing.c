@@ -37,7 +37,7 @@ static void test_same_file_twice(void **state) {
   RUN_REFUSED(2, "is also the file of --output", "mark", mesh, "--output", out, "--stats", out);
   RUN_REFUSED(2, "is also the file of --picture", "mark", mesh, "--picture", "a.png", "--picture", "./a.png");
   RUN_REFUSED(2, "is also the file of --surface-output", "mark", mesh, "--surface-output", "a.vtp", "--stats", "a.vtp");
-  /* This is another name of the file. */
+  /* The link is another name of the input. */
   assert_int_equal(symlink("in.vtu", scratch_path("link.vtu")), 0);
   assert_int_equal(link(params, scratch_path("hard.json")), 0);
   RUN_REFUSED(2, "is also the file of MESH", "mark", mesh, "--stats", scratch_path("link.vtu"));
@@ -87,7 +87,8 @@ static void test_in_place(void **state) {
   expect_kept("place.vtp", "kept.vtp");
 }
 
-/* A motion consists of its list and the listed frames. Neither an output nor a step of a series replaces one of these files. */
+/* A motion consists of its .pvd list and the listed frames. Neither an output nor a step of a series may replace one of these
+ * files. */
 static void test_motion_in_place(void **state) {
   (void)state;
   RUN_FINE("surface", "--valve", "mitral", "--output", scratch_path("a.vtp"), "--quiet");
@@ -116,7 +117,7 @@ static void test_motion_in_place(void **state) {
               scratch_path("beat.pvd"));
   RUN_REFUSED(2, "is a frame of --surface", "mark", mesh, MOTION, "--times", "0,1", "--series-table",
               scratch_path("beat/other.vtp"));
-  /* A step is a link to an input, or an input is a link to a step. */
+  /* The step's name is a link to an input, or an input is a link to a step. */
   assert_int_equal(symlink("../beat/other.vtp", scratch_path("out/out_0001.vtp")), 0);
   RUN_REFUSED(2, "holds the file of --surface", "mark", mesh, MOTION, "--times", "0,1", "--surface-output",
               scratch_path("out.pvd"));
@@ -139,7 +140,7 @@ static void test_motion_in_place(void **state) {
   expect_kept("out/out_0000.vtu", "kept.vtu");
 }
 
-/* Waits until the run holds its locks. Then the run waits for a reader of its stats, which go to a pipe. */
+/* Starts a run and waits until it holds its locks. The run then waits for a reader of its stats, which go to a pipe. */
 static pid_t start_held_run(const char *output) {
   const pid_t process = start_program("mark", scratch_path("in.vtu"), "--output", output, "--stats",
                                       scratch_path("pipe"), "--half-thickness", "0.6", "--quiet", NULL);
@@ -148,7 +149,7 @@ static pid_t start_held_run(const char *output) {
   return process;
 }
 
-/* The runner of programs keeps one run's streams, so the second one runs by a shell. */
+/* Runs a second program through a shell, because run_program and start_program handle only one run at a time. */
 static void expect_locked(const char *mesh, const char *option, const char *output) {
   char command[1024];
   snprintf(command, sizeof command, "%s mark %s %s %s --quiet 2>%s", RIIS_PROGRAM, mesh, option, scratch_path(output),
@@ -160,7 +161,7 @@ static void expect_locked(const char *mesh, const char *option, const char *outp
   free(text);
 }
 
-/* A second run with the same output is refused for any option and any name of the file. A run that has ended or was killed
+/* A second run with the same output is refused, whatever the option and the file's name. A run that has ended or was killed
  * blocks no other run. */
 static void test_second_run(void **state) {
   (void)state;
@@ -187,7 +188,7 @@ static void test_second_run(void **state) {
   assert_int_equal(program_exit_code, 128 + SIGINT);
   assert_false(scratch_exists(".riis-held.vtu.lock"));
 }
-/* Stats replace a file, also through a link. They are written into a device. */
+/* Stats replace a file, also if its name is a link. They are written into a device. */
 static void test_stats_places(void **state) {
   (void)state;
   scratch_write_text("s.json", "before");
@@ -204,10 +205,10 @@ static void test_stats_places(void **state) {
   assert_int_equal(scratch_n_files(), n_files);
 }
 
-/* A file is replaced by a new one from the same folder, so a writable file in a closed folder is not enough. */
+/* A new file in the same folder replaces the old one. So the folder must be writable, not only the file. */
 static void test_closed_folder(void **state) {
   (void)state;
-  /* Root may write everywhere, unless the programs that it starts lose that right. */
+  /* Root may write everywhere, so the child programs must lose that right. */
   if (prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE) != 0 && geteuid() == 0) skip();
   const char *mesh = scratch_path("missing.vtu");
   assert_int_equal(mkdir(scratch_path("closed"), 0700), 0);
@@ -243,7 +244,7 @@ static void test_limited_size(void **state) {
   small.rlim_cur = 200;
   assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
   run_program("mark", scratch_path("in.vtu"), "--stats", scratch_path("limit.json"), "--quiet", "--half-thickness",
-              "0.5", NULL); /* nothing leaks here: a warning would go to a stderr with the same limit */
+              "0.5", NULL); /* avoids leaks, because the warning would go to stderr, which has the same limit */
   setrlimit(RLIMIT_FSIZE, &before);
   expect_run_refused(1, "limit.json: cannot be written: File too large", __FILE__, __LINE__);
   expect_text("limit.vtu", "before");
@@ -258,14 +259,14 @@ static void run_and_interrupt(int signal_number) {
   const int n_files = scratch_n_files();
   const pid_t process = start_program("mark", scratch_path("large.vtu"), "--output", scratch_path("marked.vtu"),
                                       "--stats", scratch_path("late.json"), NULL);
-  /* Both outputs have a lock before they are written. */
+  /* Both outputs have a lock file before they are written. */
   for (int n_tries = 0; scratch_n_files() <= n_files + 2 && n_tries < 100000; ++n_tries) usleep(500);
   kill(process, signal_number);
   finish_program(process);
 }
 
-/* A signal waits for the end of the file that is being written, then it ends the process, so --stats is not written. On a busy
- * machine the program may end before this process sees the file. Then the test tries again. */
+/* A signal ends the process only after the current file is complete, so --stats is not written. On a busy machine the program
+ * may end before this process sees the file; then the test tries again. */
 static void test_interruption(void **state) {
   (void)state;
   assert_true(shim_write_box(scratch_path("large.vtu"), SHIM_RAW, 60, (double[3]){-1.7, -1.6, -1.3},

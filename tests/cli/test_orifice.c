@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The orifice of riis --states, compared with closed forms and with counts of points. */
+ * The orifice of `riis states`, compared with closed forms and with counts of points. */
 #include "orifice_shim.h"
 #include "test_support.h"
 
 static const double pi = 3.14159265358979323846;
-enum { n_lines = 2048 }; /* the program's */
+enum { n_lines = 2048 }; /* as in the program */
 
 static void rotated(double x, double y, double angle, const double *centre, double *to) {
   to[0] = centre[0] + cos(angle) * x - sin(angle) * y;
@@ -19,14 +19,14 @@ static void test_circle(void **state) {
   for (int n = 64; n <= n_lines; n *= 2) {
     const double error = fabs(shim_circle_area(radius, centre, n) / area - 1);
     CHECK_AT_MOST(error, pow(n, -1.5));
-    CHECK_AT_MOST(error, last / 2.5); /* 2 to the power of 1.5, nearly */
+    CHECK_AT_MOST(error, last / 2.5); /* a little less than 2 to the power of 1.5 */
     last = error;
     CHECK_NEAR(shim_uncovered_circle(radius, centre, 0, NULL, n), shim_circle_area(radius, centre, n), 1e-13);
   }
   CHECK_AT_MOST(last, 1e-5);
 }
 
-/* A flat ring with a hole of m corners covers the circle all round. */
+/* A flat ring around the circle, with a hole of m corners, leaves only the hole open. */
 static void test_ring(void **state) {
   (void)state;
   enum { m = 90 };
@@ -46,27 +46,28 @@ static void test_ring(void **state) {
       rotated(hole, 0, b, centre, corners[2 * i + 1] + 4);
     }
     const double area = 0.5 * m * hole * hole * sin(step), spacing = 2 * radius / n_lines;
-    /* The first tolerance is for a circle, which all lines cross. Two edges along the lines may be off by half a spacing. */
+    /* The first tolerance is for a circle, where all lines cross the edge. Each of the two edges along the lines may be off by
+     * half a spacing. */
     const double bound = area * pow(2 * hole / spacing, -1.5) + spacing * hole * step;
     CHECK_NEAR(shim_uncovered_circle(radius, centre, 2 * m, corners[0], n_lines), area, bound);
   }
 }
 
-/* A half plane through the centre covers half the circle, in any direction. The program's lines run along x: an edge along them
- * is the worst case. */
+/* A half plane through the centre covers half the circle, in any direction. The program's lines run along x, so an edge along
+ * x is the worst case. */
 static void test_half(void **state) {
   (void)state;
   random_source random = random_start("test_orifice");
   for (int turn = 0; turn < 100; ++turn) {
     const double centre[2] = {random_between(&random, -2, 2), random_between(&random, -2, 2)};
     const double radius = 1.1, angle = turn < 4 ? turn * pi / 2 : random_between(&random, 0, 2 * pi);
-    const double up = turn % 2 ? random_between(&random, -0.5, 0.5) : 0; /* from the centre to the edge */
+    const double up = turn % 2 ? random_between(&random, -0.5, 0.5) : 0; /* distance from the centre to the edge */
     double corners[6];
     rotated(-20, up, angle, centre, corners);
     rotated(20, up, angle, centre, corners + 2);
     rotated(0, 40, angle, centre, corners + 4);
     const double part = radius * radius * acos(-up / radius) + up * sqrt(radius * radius - up * up);
-    const double strip = 2 * radius * radius / n_lines; /* half a spacing, twice the radius long */
+    const double strip = 2 * radius * radius / n_lines; /* half a spacing wide, twice the radius long */
     CHECK_NEAR(shim_uncovered_circle(radius, centre, 1, corners, n_lines), part, strip + 1e-5);
   }
 }
@@ -80,7 +81,7 @@ static int is_in_triangle(const double *c, double x, double y) {
   return n_left == 0 || n_left == 3;
 }
 
-/* Random triangles that overlap, inside a square and inside a circle, against a grid of points. */
+/* Random triangles that overlap, inside a square and inside a circle, compared with a grid of points. */
 static void test_random(void **state) {
   (void)state;
   enum { n_side = 600, n_triangles = 12 };
@@ -98,7 +99,7 @@ static void test_random(void **state) {
       n_in_square += !is_covered;
       n_in_circle += !is_covered && x * x + y * y < 1;
     }
-    const double cell = 4.0 / (n_side * n_side), error = 0.02; /* 40 edges of a length of 2 in cells of 1/300 */
+    const double cell = 4.0 / (n_side * n_side), error = 0.02; /* 40 edges of length 2 in a grid of cells of 1/300 */
     CHECK_NEAR(shim_uncovered_inside(4, square[0], turn + 1, corners[0], n_lines), cell * n_in_square, error);
     CHECK_NEAR(shim_uncovered_circle(1, origin, turn + 1, corners[0], n_lines), cell * n_in_circle, error);
   }
@@ -110,7 +111,7 @@ static void test_open_lines(void **state) {
   CHECK_NEAR(shim_uncovered_inside(3, lines[0], 0, NULL, n_lines), 0.5, 1e-12);
   assert_true(shim_uncovered_inside(2, lines[0], 0, NULL, n_lines) == -1);
   assert_true(shim_uncovered_inside(0, NULL, 0, NULL, n_lines) == -1);
-  /* Triangles that are seen edge on, along x, y and slanted. */
+  /* Triangles that are seen edge on, along x, along y and slanted, cover nothing. */
   for (int i = 0; i < 4; ++i) {
     const double x = i % 2 ? 0.3 : 0, y = i / 2 ? 0.7 : 0;
     const double flat[3][6] = {{0, 0, 0, x, y, 0}, {x, y, 0, 2 * x, 2 * y, 1}, {2 * x, 2 * y, 1, 0, 0, 0}};

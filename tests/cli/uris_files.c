@@ -10,7 +10,7 @@
 #include "scratch.h"
 
 /* Copies the value of the first <element> after `from`, without blanks, as the solver's reader of parameters does. Returns the
- * place behind it, or NULL if there is none before `end`. */
+ * position after it, or NULL if there is none before `end`. */
 static const char *value_of(const char *from, const char *end, const char *element, char *value, size_t size) {
   char tag[80];
   snprintf(tag, sizeof tag, "<%s>", element);
@@ -38,7 +38,7 @@ double uris_number(const char *block, const char *element) {
   return number;
 }
 
-/* The numbers of an array of a .vtu in text, by its name. */
+/* Returns the numbers of a named array in a .vtu file in text form. */
 static double *numbers_of(const char *vtu, const char *name, int n) {
   char key[80];
   snprintf(key, sizeof key, "Name=\"%s\"", name);
@@ -85,7 +85,7 @@ static void read_triangles(const char *path, uris_face *face) {
   free(vtu);
 }
 
-/* Two counts, then positions to the end of the file. */
+/* Reads a motion file: two counts, then positions to the end of the file. */
 static double *read_motion(const char *path, int n_nodes, int *n_frames) {
   FILE *file = fopen(path, "r");
   if (!file) fail_msg("%s: cannot be read", path);
@@ -166,7 +166,7 @@ static void add_to_box(uris_state *state, const double *xyz, int n_nodes) {
   }
 }
 
-/* The solver adds the corners to 0 in their order, then divides. The same bits are needed here, because they decide which of
+/* The solver adds the corners to 0 in their order, then divides. The test needs the same bits, because they decide which of
  * two middles is nearer. */
 static void add_triangles(uris_state *state, const uris_face *face, const double *xyz) {
   const size_t n = (size_t)(state->n + face->n_triangles);

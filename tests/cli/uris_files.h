@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Reads what riis --export-uris wrote as svMultiPhysics reads it, and marks by its rule. Nothing here calls the library.
- * Functions fail the test if a file is not as the solver expects it. */
+ * Reads the files of `riis export uris` as svMultiPhysics does, and marks nodes by the solver's rule. Nothing here calls the
+ * library. Functions fail the test if a file is not as the solver expects it. */
 #ifndef RIIS_TESTS_URIS_FILES_H
 #define RIIS_TESTS_URIS_FILES_H
 
@@ -9,18 +9,19 @@
 
 enum { uris_most_faces = 5 };
 
-/* One face of the solver's input: triangles, and positions (3, n_nodes) frame after frame. */
+/* One face of the solver's input: its triangles, and the positions (3, n_nodes) of each frame in turn. */
 typedef struct {
   char name[64];
   int n_nodes, n_triangles, n_open, n_close;
-  int *corner;                /* (3, n_triangles) */
-  double *xyz, *open, *close; /* of the .vtu, (3, n_nodes), and of the motions */
+  int *corner; /* (3, n_triangles) */
+  /* Xyz: nodes of the .vtu, (3, n_nodes); open, close: nodes of each frame of the two motions. */
+  double *xyz, *open, *close;
 } uris_face;
 
 /* The description of a valve in the solver's input. */
 typedef struct {
   char name[64];
-  int n_faces, n_leaflets, has_scaffold; /* faces: leaflets, then the one that widens the box */
+  int n_faces, n_leaflets, has_scaffold; /* faces: the leaflets, then the face that enlarges the box */
   uris_face face[uris_most_faces];       /* the scaffold comes after the faces; it has no motion */
   double thickness, closed_thickness, resistance, normal[3];
 } uris_valve;
@@ -35,11 +36,11 @@ double uris_number(const char *block, const char *element);
 /* Returns frame k of a motion, (3, n_nodes). */
 const double *uris_frame(const uris_face *face, const double *motion, int k);
 
-/* One frame as the solver uses it: the box, and all triangles of one face after the other. */
+/* One frame as the solver uses it: the box, and the triangles of all faces, face by face. */
 typedef struct {
   int n;
   double lower[3], upper[3];
-  double *middle, *normal; /* (3, n): the mean of the corners, and a vector of any length across */
+  double *middle, *normal; /* (3, n): the mean of the corners, and a normal of any length */
 } uris_state;
 
 /* Frame k of the closing, or of the opening, with the first n_faces faces. The caller frees it. */
@@ -48,9 +49,9 @@ uris_state uris_state_of(const uris_valve *valve, int n_faces, int is_closing, i
 uris_state uris_scaffold_of(const uris_valve *valve);
 void uris_state_free(uris_state *state);
 
-/* The first triangle whose middle is nearest to a point, and its distance. */
+/* Returns the first of the triangles whose middle is nearest to a point, and the distance. */
 int uris_nearest(const uris_state *state, const double point[3], double *distance);
-/* Tells whether the point is in the box in which the solver looks for nodes. */
+/* Returns whether the point is in the box in which the solver looks for nodes. */
 int uris_is_in_box(const uris_state *state, const double point[3]);
 /* Returns the sign that the solver gives to a distance. It depends on the side of the triangle, and in a closing valve also on
  * the flow. */

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# in_root.sh SUITE FOLDER WORD...: runs ./run WORD... on a bare Debian of the given suite (trixie, bookworm). It is in
-# FOLDER/root, which debootstrap makes the first time. Every call copies the working tree's tracked files there. Packages and
+# in_root.sh SUITE FOLDER WORD...: runs ./run WORD... on a bare Debian of the given suite (trixie, bookworm). The system's root is
+# FOLDER/root, which debootstrap makes on the first call. Every call copies the working tree's tracked files there. Packages and
 # build folders stay for the next call.
 #
 # Mounts are in a namespace of their own, which ends with the last process in it. So nothing stays mounted, however this script
@@ -24,8 +24,8 @@ if ((EUID != 0)); then
   command -v sudo >/dev/null || give_up "$suite: making a root and entering it takes root rights, and there is no sudo"
   as_root=(sudo)
 fi
-# in_namespace COMMAND...: no one else sees the command's mounts. The processes that it starts end with it, or with this script,
-# however that ends: the first process waits for the lock that this script holds.
+# in_namespace COMMAND...: runs the command in a namespace, where nobody else sees its mounts. All processes in the namespace end
+# with the command, or with this script, however the script ends: their first process waits for a lock that this script holds.
 in_namespace() {
   # shellcheck disable=SC2016
   "${as_root[@]}" unshare --mount --pid --fork --kill-child bash -c '
@@ -41,7 +41,7 @@ remove() { "${as_root[@]}" rm -rf --one-file-system -- "$@"; }
 write() { "${as_root[@]}" tee -- "$1" >/dev/null; }
 
 # ---------------------------------------------------------------------------------------------------------------------
-# The host's mirror: address, keyring, proxy
+# The host's mirror: address, key and proxy
 # ---------------------------------------------------------------------------------------------------------------------
 
 mirror='' keyring=$debian_keyring proxy=''
@@ -53,9 +53,9 @@ find_mirror() {
   local release uri entry file line host_codename
   # shellcheck source=/dev/null
   host_codename=$(. /etc/os-release && [[ ${ID:-} == debian ]] && echo "${VERSION_CODENAME:-}") || host_codename=
-  # Takes the first of apt's sources that has this suite, or the source that the host itself was installed from.
+  # Uses the first of apt's sources that has this suite, or else the source from which the host itself was installed.
   while read -r release uri entry; do
-    [[ $uri =~ ^https?:// ]] || continue # a disc or a folder cannot be found from inside
+    [[ $uri =~ ^https?:// ]] || continue # a disc or a folder is not visible inside the root
     [[ $release == "$suite" || ($host_codename && $release =~ ^($host_codename|stable|oldstable|testing)$) ]] || continue
     mirror=$uri
     break
@@ -63,7 +63,7 @@ find_mirror() {
   [[ $mirror ]] || return 0
 
   file=${entry%:*} line=${entry##*:}
-  [[ $file == *.sources ]] && line='1,$' # there the number counts stanzas, and all stanzas of a file share their key
+  [[ $file == *.sources ]] && line='1,$' # in these files the number counts stanzas, and all stanzas share the file's key
   local signed_by
   signed_by=$(sed -n "${line}p" -- "$file" | grep -v '^ *#' | grep -ioPm1 'signed-by\s*[:=]\s*\K/[^], ]+' || true)
   keyring=${signed_by:-$keyring}
@@ -109,7 +109,7 @@ install_debootstrap() {
 
 check_keyring() {
   [[ -r $keyring ]] || give_up "no keyring $keyring to check Debian with (package debian-archive-keyring)"
-  # Debian's keyring also comes with each suite's key in a separate file.
+  # Debian's keyring package also has each suite's key as a separate file.
   [[ $keyring != "$debian_keyring" ]] || compgen -G "/usr/share/keyrings/debian-archive-$suite-stable.*" >/dev/null ||
     give_up "the package debian-archive-keyring is too old to know Debian's suite $suite: upgrade it" \
       "(apt-get install --only-upgrade debian-archive-keyring)"
@@ -182,7 +182,7 @@ copy_tree() {
   "${as_root[@]}" mv -- "$fresh" "$root/riis"
 }
 
-# The script that runs in the namespace. /dev is bare, so drawing and computing use the processor only.
+# This script runs inside the namespace. /dev has no graphics or compute devices, so only the processor is used.
 # shellcheck disable=SC2016
 inside='
 set -e
@@ -208,7 +208,7 @@ chroot "$root" "$@"
 mkdir -p "$folder"
 exec 9>"$folder/lock"
 flock -n 9 || give_up "$folder is in use by another call"
-((EUID == 0)) || sudo -v # asks for the password here
+((EUID == 0)) || sudo -v # so that sudo asks for the password now
 find_mirror
 [[ -d $root ]] || make_root
 configure_root
@@ -219,6 +219,6 @@ say "in $root: ./run $*"
 # shellcheck disable=SC2016
 in_namespace bash -c "$inside" bash "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 \
   "TERM=${TERM:-dumb}" "${variables[@]}" bash -c '
-    dpkg --configure -a >/dev/null # finishes what an interrupted call left half done
+    dpkg --configure -a >/dev/null # finishes the work of an interrupted call
     ! command -v update-ca-certificates >/dev/null || update-ca-certificates >/dev/null
     cd /riis && exec ./run "$@"' bash "$@"

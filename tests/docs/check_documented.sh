@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_documented.sh DOXYGEN SOURCE_DIR SCRATCH
-# Every public function, struct, field, value, macro and typedef of the C headers must have a text in Doxygen's output. The
-# names are read from the headers, not from Doxygen, so names that Doxygen overlooks are also found. Then the check runs on
-# headers that lost a comment each, to show that it can fail.
+# Every public function, struct, field, value, macro and typedef of the C headers must have a description in Doxygen's output. The
+# names are read from the headers, not from Doxygen, so names that Doxygen overlooks are also found. Then the check runs on copies
+# of the headers, each without one comment, to show that it can fail.
 set -euo pipefail
 doxygen=$1 source=$2 scratch=$3
 rm -rf "$scratch"
@@ -32,7 +32,7 @@ names() {
   ' | sort -u
 }
 
-# documented DIRECTORY: prints the names that have a text in the XML files there.
+# documented DIRECTORY: prints the names that have a description in that directory's XML files.
 documented() {
   cat "$1"/*.xml | awk '
     function begin(what) { kind[++depth] = what; name[depth] = ""; text[depth] = 0 }
@@ -58,7 +58,7 @@ documented() {
   ' | sort -u
 }
 
-# undocumented DIRECTORY HEADER...: prints the names without a text. Doxygen writes its files into the directory.
+# undocumented DIRECTORY HEADER...: prints the names without a description. Doxygen writes its files into the directory.
 undocumented() {
   local to=$1
   shift
@@ -80,7 +80,7 @@ if [ -n "$missing" ]; then
   exit 1
 fi
 
-# without BEFORE AFTER NAME: checks that the header without the comment between these two is refused for the name.
+# without BEFORE AFTER NAME: removes the comment between BEFORE and AFTER from the header. The check must then report NAME.
 without() {
   local before=$1 after=$2 expected=$3 to=$scratch/mutated found
   rm -rf "$to"

@@ -37,7 +37,7 @@ def problems(folder):
 
 
 def missing_sources(folder):
-    """Yields the source files that the page of walks names and that are not there."""
+    """Yields the source files that docs/walks.md names and that do not exist."""
     if not (folder / "docs/walks.md").exists():
         return
     sources = [path.relative_to(folder).as_posix() for part in ("include", "src") for path in (folder / part).rglob("*")]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks examples/valves: the script writes the file of the bicuspid valve, and the table of the README there is what
-the program measures.
+"""Checks examples/valves: its script must reproduce the file of the bicuspid valve, and the table in its README must equal the
+program's results.
 
     check_valves.py EXAMPLES_VALVES PROGRAM
 """
@@ -19,7 +19,7 @@ VALVES = {
 
 
 def measured(program, folder, arguments):
-    """Returns the least free edge over its closed length, and the last orifice."""
+    """Returns the least ratio of a free edge to its closed length, and the last orifice."""
     run = subprocess.run([program, "states", "-", *arguments], cwd=folder, capture_output=True, text=True, check=True)
     rows = list(csv.DictReader(io.StringIO(run.stdout)))
     assert len(rows) == 101, len(rows)

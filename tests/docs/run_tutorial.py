@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """run_tutorial.py check|write TUTORIAL.md SCRATCH PROGRAM_FOLDER RIIS: runs the tutorial as its reader would.
 
-Every block of ```sh is run in the scratch folder, in order, and must succeed. A block of ```text that follows holds the
-commands' output. check compares it; write puts the new output into the tutorial. Seconds and numbers of threads are not
-compared. Another gmsh than the tutorial's makes other meshes: then only the first two words of each line are compared, without
-their numbers, because even "1 edge crosses" may be "3 edges cross".
+Every block of ```sh is run in the scratch folder, in order, and must succeed. A following block of ```text holds the commands'
+output. `check` compares it; `write` puts the new output into the tutorial. Seconds and numbers of threads are not compared.
+Another version of gmsh makes other meshes. Then only the first two words of each line are compared, without numbers: "1 edge
+crosses" may become "3 edges cross".
 """
 import os
 import pathlib

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests what check_pages.py and check_links.py refuse, on files made up here."""
+"""Tests which faults check_pages.py and check_links.py refuse, on invented files."""
 import os
 import pathlib
 import subprocess

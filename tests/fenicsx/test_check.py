@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests what examples/fenicsx/check.py refuses when it compares two runs, on points made up here."""
+"""Tests which differences examples/fenicsx/check.py refuses when it compares two runs, on invented points."""
 import pathlib
 import sys
 import unittest

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * The page of figures: every figure is there with a caption. Every picture is a PNG of the size that the page gives, with more
- * than one colour. Tables of states hold the numbers of riis. Nothing is fetched from elsewhere. */
+ * than one colour. Tables of states hold the numbers of `riis states`. The page loads nothing from elsewhere. */
 #include <math.h>
 #include <riis/riis.h>
 #include <stdint.h>
@@ -15,7 +15,8 @@
 
 enum { n_of_paper = 11, n_kinds = 3, n_figures = n_of_paper + n_kinds };
 
-/* The kinds with a table of states, and the number of openings in it. The page says that the other kind, aortic, has none. */
+/* The kinds with a table of states, and the number of openings in each. For the fourth kind, aortic, the page says that there
+ * is no table. */
 static const char *const kinds[n_kinds] = {"trileaflet", "mitral", "bileaflet"};
 static const int n_openings[n_kinds] = {5, 2, 5};
 
@@ -33,7 +34,7 @@ static int run(const char *program, const char *arguments) {
 
 static int run_program(const char *arguments) { return run(RIIS_FIGURES_PROGRAM, arguments); }
 
-/* The same with the plots of a JSON file behind the figures. */
+/* Does the same with a JSON file whose plots follow the figures. */
 static int run_with_plots(const char *name, const char *json) {
   char arguments[1024];
   scratch_write("plots.json", json, strlen(json));
@@ -114,7 +115,7 @@ static void write_decoded(const char *text, const char *name) {
   free(bytes);
 }
 
-/* Returns the place of a text in [from, end). */
+/* Returns the position of a text in [from, end). */
 static const char *find(const char *from, const char *end, const char *text) {
   const char *found = strstr(from, text);
   return found && found < end ? found : NULL;
@@ -152,7 +153,7 @@ static void test_every_figure(void **state) {
     if (n_pictures < 4) fail_msg("figure %d has %d pictures", i, n_pictures);
   }
   char beyond[64];
-  snprintf(beyond, sizeof beyond, "<section id=\"figure-%d\">", n_figures + 2); /* one figure is given by the JSON */
+  snprintf(beyond, sizeof beyond, "<section id=\"figure-%d\">", n_figures + 2); /* the JSON file adds one figure */
   assert_null(strstr(page, beyond));
 }
 
@@ -167,7 +168,7 @@ static const char *section_of(int number, const char **end) {
   return section;
 }
 
-/* Reads the column of a table of riis. Returns the number of lines, 0 if there is no such column. */
+/* Reads a column of a table of `riis states`. Returns the number of lines, or 0 if there is no such column. */
 static int read_column(const char *kind, const char *name, double *values) {
   char *csv = scratch_read(table_path(kind), NULL), *rest = NULL;
   int column = -1, n = 0;
@@ -186,7 +187,7 @@ static int read_column(const char *kind, const char *name, double *values) {
   return n;
 }
 
-/* The row's cells are the column's numbers, and their change since the first. */
+/* Expects that the row's cells are the column's numbers and their changes since the first. */
 static void expect_row(const char *kind, int figure, const char *row, const char *column) {
   double values[8];
   const int n = read_column(kind, column, values);
@@ -252,7 +253,7 @@ static void test_pictures_of_states(void **state) {
   }
 }
 
-/* The table of parameters has every parameter of every kind, with what it is. */
+/* The table of parameters has every parameter of every kind, with its description. */
 static void test_parameters_of_all_kinds(void **state) {
   (void)state;
   static const char *const all[] = {"aortic", "trileaflet", "mitral", "bileaflet"};
@@ -293,7 +294,7 @@ static void test_page_stands_alone(void **state) {
   assert_non_null(strstr(page, "</html>"));
 }
 
-/* Figures that are drawn elsewhere follow the others. */
+/* Figures given by the JSON file follow the program's own figures. */
 static void test_given_figures(void **state) {
   (void)state;
   char start[64];
@@ -323,7 +324,7 @@ static void test_left_out(void **state) {
   assert_null(find(section, end, "states of the mitral valve"));
 }
 
-/* Faults of given figures are reported before anything is drawn. */
+/* Faults of the given figures are reported before anything is drawn. */
 static void test_given_figures_refused(void **state) {
   (void)state;
   const struct {
@@ -350,7 +351,7 @@ static void test_given_figures_refused(void **state) {
   }
 }
 
-/* Faults of tables of states, too. */
+/* Faults of the tables of states are reported too. */
 static void test_tables_refused(void **state) {
   (void)state;
   const struct {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The drawings of the parameters' meaning. Every parameter that riis_valve_get_parameter knows is named in its valve's drawing,
- * also in the drawing that the documents show. A drawing that would leave one out or show another value is refused. The test is
+ * The drawings that explain the parameters. Each valve's drawing names all its parameters known to riis_valve_get_parameter.
+ * So does the copy in docs/. The script refuses to draw if a parameter would be missing or have a different value. The test is
  * skipped where Python lacks matplotlib. */
 #include <ctype.h>
 #include <riis/riis.h>
@@ -26,7 +26,7 @@ static int run(const char *command, const char *word, const char *other_word, co
   return WEXITSTATUS(status);
 }
 
-/* kind: "" draws all. */
+/* Draws one kind of valve, or all kinds for "". */
 static int draw(const char *curves, const char *kind) {
   char path[1024];
   snprintf(path, sizeof path, "%s", scratch_path(curves));
@@ -65,7 +65,7 @@ static void for_each_parameter(const char *kind, void (*visit)(const riis_parame
   riis_valve_destroy(&valve);
 }
 
-/* Tells whether a text of the drawing is the name, or begins with it and a blank. */
+/* Returns whether a text in the drawing is the name, or begins with the name and a blank. */
 static int is_written(const char *svg, const char *name) {
   char begin[256];
   const size_t n = (size_t)snprintf(begin, sizeof begin, ">%s", name);
@@ -75,7 +75,7 @@ static int is_written(const char *svg, const char *name) {
 }
 
 static void expect_written(const riis_parameter *parameter, void *svg) {
-  /* Names without a cusp stand for all three. */
+  /* A name without a cusp stands for all three cusps. */
   const char *dot = strchr(parameter->name, '.');
   if (!is_written(svg, parameter->name) && !(dot && is_written(svg, dot + 1)))
     fail_msg("%s is not in the drawing", parameter->name);
@@ -97,7 +97,7 @@ struct picture {
   size_t n_bytes;
 };
 
-/* The drawing has names and defaults as text. */
+/* Expects the parameter's name and default as text in the drawing. */
 static void expect_in_picture(const riis_parameter *parameter, void *what) {
   const struct picture *picture = what;
   char text[512];
@@ -123,7 +123,7 @@ static void test_pictures_of_the_documents(void **state) {
   }
 }
 
-/* Replaces the first `old` after the mark by `text`, and expects that the kind's drawing is refused with the message. */
+/* Replaces the first `old` after `mark` by `text`. Then drawing the kind must be refused with the message. */
 static void expect_refused_drawing(const char *kind, const char *mark, const char *old, const char *text,
                                    const char *message) {
   char *json = scratch_read(scratch_path("curves.json"), NULL);
@@ -149,24 +149,24 @@ static void test_untrue_drawings_are_refused(void **state) {
   expect_refused_drawing("aortic", "\"aortic\"", "\"parameters\": [", more, "aortic valve: not drawn: left.tilt");
   expect_refused_drawing("mitral", "\"mitral\"", "\"parameters\": [", more, "mitral valve: not drawn: left.tilt");
   expect_refused_drawing("mitral", "\"mitral\"", "\"name\": \"surface_angle\"", "\"name\": \"face_angle\"",
-                         "surface_angle is no parameter");
+                         "surface_angle is not a parameter");
   expect_refused_drawing("trileaflet", "\"trileaflet\"", "\"parameters\": [", more,
                          "trileaflet valve: not drawn: left.tilt");
   expect_refused_drawing("bileaflet", "\"bileaflet\"", "\"parameters\": [", more,
                          "bileaflet valve: not drawn: left.tilt");
   expect_refused_drawing("trileaflet", "\"trileaflet\"", "\"name\": \"leaflet_radius_out\"",
-                         "\"name\": \"leaflet_radius\"", "leaflet_radius_out is no parameter");
+                         "\"name\": \"leaflet_radius\"", "leaflet_radius_out is not a parameter");
   expect_refused_drawing("aortic", "\"name\": \"root_radius\"", "1.29", "1.28",
-                         "aortic valve: root_radius is 1.28, but what the drawing shows as it is 1.29");
+                         "aortic valve: root_radius is 1.28, but the drawing shows 1.29");
   expect_refused_drawing("mitral", "\"name\": \"leaflet_arc_angle\"", "120.0", "119.0",
-                         "leaflet_arc_angle is 119.0, but what the drawing shows as it is 120");
+                         "leaflet_arc_angle is 119.0, but the drawing shows 120");
   expect_refused_drawing("mitral", "\"name\": \"anterior_ratio\"", "0.41", "0.42",
-                         "anterior_ratio is 0.42, but what the drawing shows as it is 0.4");
+                         "anterior_ratio is 0.42, but the drawing shows 0.4");
   expect_refused_drawing("aortic", "\"name\": \"left.leaflet_power\"", "2.77", "2.7",
-                         "leaflet_power is 2.7, but what the drawing shows as it is 2.7");
+                         "leaflet_power is 2.7, but the drawing shows 2.7");
 }
 
-/* Returns the place behind a text in the curves of a kind. */
+/* Returns the position after a text in the curves of a kind. */
 static char *after(char *json, const char *kind, const char *text) {
   char *found = strstr(json, kind);
   assert_non_null(found);
@@ -174,7 +174,7 @@ static char *after(char *json, const char *kind, const char *text) {
   return found + strlen(text);
 }
 
-/* The drawing of every parameter with a value other than 0 is refused if the value is another. */
+/* Expects that a drawing is refused if a parameter's value differs. This holds for every parameter whose value is not 0. */
 static void expect_compared(const char *kind, const char *quoted_kind, const char *name) {
   char *json = scratch_read(scratch_path("curves.json"), NULL), text[256];
   snprintf(text, sizeof text, "\"name\": \"%s\"", name);
@@ -190,7 +190,7 @@ static void expect_compared(const char *kind, const char *quoted_kind, const cha
   assert_int_equal(draw("changed.json", kind), 1);
   char *printed = scratch_read(scratch_path("printed"), NULL);
   snprintf(text, sizeof text, "draw.py: %s valve: ", kind);
-  if (!strstr(printed, text) || !strstr(printed, "but what the drawing shows as it is"))
+  if (!strstr(printed, text) || !strstr(printed, "but the drawing shows"))
     fail_msg("%s of the %s valve: '%s'", name, kind, printed);
   free(printed);
 }
@@ -217,11 +217,11 @@ static void test_new_kinds_are_compared(void **state) {
   for (size_t i = 0; i < sizeof bileaflet / sizeof *bileaflet; ++i)
     expect_compared("bileaflet", "\"bileaflet\"", bileaflet[i]);
   expect_refused_drawing("bileaflet", "\"bileaflet\"", "\"gap\": 0.1", "\"gap\": 0.2",
-                         "gap is 0.2, but what the drawing shows as it is 0.1");
+                         "gap is 0.2, but the drawing shows 0.1");
   expect_refused_drawing("bileaflet", "\"bileaflet\"", "\"hinge_height\": 0.14", "\"hinge_height\": 0.2",
-                         "hinge_height is 0.2, but what the drawing shows as it is 0.1");
+                         "hinge_height is 0.2, but the drawing shows 0.1");
   expect_refused_drawing("bileaflet", "\"bileaflet\"", "\"ring_height\": 1.4", "\"ring_height\": 1.5",
-                         "ring_height is 1.5, but what the drawing shows as it is 1.4");
+                         "ring_height is 1.5, but the drawing shows 1.4");
 }
 
 static void test_refused_arguments(void **state) {

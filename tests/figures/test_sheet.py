@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""bench/figures/parameters: labels that overlap or leave the sheet are found, and lengths along curves are right."""
+"""Tests bench/figures/parameters: labels that overlap or leave the sheet are found, and lengths along curves are right."""
 
 import math
 import importlib.util
@@ -8,7 +8,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "bench", "figures", "parameters"))
-if importlib.util.find_spec("matplotlib") is None:  # the only module that may be missing
+if importlib.util.find_spec("matplotlib") is None:  # only this module may be missing
     print("skipped: there is no module matplotlib (Debian: python3-matplotlib)")
     sys.exit(77)
 import bezier

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_floors.sh SOURCE_FOLDER
-# The folders of the library, src/riis, are floors, each built on the earlier ones: no file may include a file of a later floor.
-# src/riis_vtk and src/program stand beside the library, on its public headers. src/common has headers that include no product's.
+# The folders of the library, src/riis, are ordered as floors: no file may include a file of a later floor. src/riis_vtk and
+# src/program use the library only by its public headers. The headers in src/common include no product's headers.
 set -euo pipefail
 cd "$1"
 floors=(base laws parallel geometry kernels valve surface distance marking pipeline api)
@@ -23,7 +23,8 @@ floor_of() {
   return 1
 }
 
-# includes_of FOLDER: prints FILE LINE INCLUDED, where INCLUDED is a header's first folder, or the header if it has none.
+# includes_of FOLDER: prints "FILE LINE INCLUDED" for each include. INCLUDED is the header's first folder, or the header itself if
+# it has none.
 includes_of() {
   grep -rnoE '^ *# *include *"[^"]+"' "$1" | sed -E 's/^([^:]*):([0-9]+):[^"]*"([^"/]+).*$/\1 \2 \3/'
 }

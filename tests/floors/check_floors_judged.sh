@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_floors_judged.sh SOURCE_FOLDER SCRATCH_FOLDER
-# check_floors.sh must accept the library, and refuse an include upwards, a folder that is no floor or product, and a part of the
-# library that the component or the program includes past the public headers.
+# check_floors.sh must accept the library. It must refuse an include of a later floor, a folder that is neither floor nor product,
+# and an include of the library's internals by riis_vtk or the program.
 set -euo pipefail
 check=$(dirname "$0")/check_floors.sh
 sources=$1 scratch=$2

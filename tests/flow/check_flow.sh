@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_flow.sh SOURCE FLOW FLOW_CHECKS WORK
-# The flow solver of examples/flow_fortran on coarse grids: its own checks, a restart with the same bits, plots, and refusals.
+# Runs the flow solver of examples/flow_fortran on coarse grids: its own checks, a restart with the same bits, plots, and
+# refusals.
 set -euo pipefail
 source=$1 flow=$2 checks=$3 work=$4
 failed=0
@@ -9,7 +10,7 @@ rm -rf "$work"
 mkdir -p "$work"
 cd "$work"
 
-# Open MPI runs as root, on a machine without a network, with one rank. OpenMP does not keep a busy processor.
+# Lets Open MPI run as root and without a network, with one rank. Waiting OpenMP threads do not spin.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_plm=isolated OMPI_MCA_btl=self OMPI_MCA_pml=ob1
 export OMP_WAIT_POLICY=passive
 
@@ -18,7 +19,7 @@ problem() {
   failed=1
 }
 
-# run FOLDER WORD...: the solver on a coarse grid, which writes its files to FOLDER.
+# run FOLDER WORD...: runs the solver on a coarse grid, with its files in FOLDER.
 run() {
   local folder=$1
   shift
@@ -26,7 +27,7 @@ run() {
   "$flow" cells=16 out="'$folder'" "$@" >"$folder/log" 2>&1
 }
 
-# refuses TEXT COMMAND...: the command must end with the status 1 and this text.
+# refuses TEXT COMMAND...: the command must end with status 1 and print TEXT.
 refuses() {
   local text=$1 status=0 output
   shift
@@ -38,7 +39,7 @@ refuses() {
 
 "$checks" || problem "a check fails"
 
-# The step at which the valve moves, so that the state of the law counts. Frames are at other steps.
+# The state is saved at the step at which the valve moves, so that the valve's state matters. Frames are written at other steps.
 run whole end_time=0.15 frames=5 steps=150 save=140,150 || problem "the solver failed: $(<whole/log)"
 run again end_time=0.15 frames=5 steps=150 save=150 restart="'whole/restart_140.bin'" || problem "no restart: $(<again/log)"
 awk -F , '$1 == 140 { exit !($4 > 0 && $4 < 1) }' whole/beat.csv || problem "the valve does not move at the restart"
@@ -49,7 +50,7 @@ cmp <(sed -n '/^14[1-9],/p; /^150,/p' whole/beat.csv) <(sed 1d again/beat.csv) |
 awk -F , '$1 == 20 { found = 1; exit !($4 == 0 && $8 < 0 && $8 > -2e-6 && $7 - $6 > 9000) } END { exit !found }' whole/beat.csv ||
   problem "the closed valve leaks: $(sed -n 21p whole/beat.csv)"
 
-# What it refuses, by its texts.
+# Bad input must be refused with these texts.
 at_20='flow: step 0, .000000 s: '
 refuses "$at_20"'the restart file whole/restart_140.bin is of another run: it has "valve trileaflet", here it is "valve aortic"' \
   "$flow" cells=16 kind="'aortic'" restart="'whole/restart_140.bin'"
@@ -68,7 +69,7 @@ refuses "options: cells must be at least 8" "$flow" cells=4
 refuses "options: end_time, longest_step and eps_in_cells must be positive" "$flow" end_time=0
 refuses "beat.csv': No such file or directory" "$flow" cells=16 out="'nowhere'"
 
-# The plots, where matplotlib and ffmpeg are there.
+# Draws the plots, if matplotlib and ffmpeg are installed.
 python=/usr/bin/python3
 plots=$source/examples/flow_fortran/plots.py
 if command -v ffmpeg >/dev/null && "$python" -c 'import matplotlib' 2>/dev/null; then

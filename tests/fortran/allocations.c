@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Counts the allocations that Fortran code makes: those whose caller is the program, which has the Fortran modules inside, or
- * gfortran's run-time library. All allocations of the process come by here, since a program's symbols go before those of
- * the libraries. */
+ * Counts the allocations of Fortran code: their caller is the program, which contains the Fortran modules, or gfortran's
+ * run-time library. All allocations of the process call the functions here, since a program's symbols take precedence over
+ * those of libraries. */
 #ifndef _GNU_SOURCE
-#define _GNU_SOURCE /* dladdr, RTLD_DEFAULT */
+#define _GNU_SOURCE /* for dladdr, RTLD_DEFAULT */
 #endif
 #include <dlfcn.h>
 #include <stdint.h>
@@ -16,7 +16,7 @@ void *__libc_realloc(void *p, size_t size);
 void allocations_begin(void);
 int64_t allocations_end(void);
 
-static const void *program, *run_time; /* NULL: nothing is counted */
+static const void *program, *run_time; /* base addresses of the counted callers; NULL: nothing is counted */
 static int64_t n_counted;
 
 static void *counted(void *p, const void *caller_address) {
@@ -43,7 +43,7 @@ void allocations_begin(void) {
   __atomic_store_n(&program, object_of((const void *)(uintptr_t)here), __ATOMIC_RELEASE);
 }
 
-/* -1 if gfortran's library was not found. */
+/* Returns the number of allocations, or -1 if gfortran's library was not found. */
 int64_t allocations_end(void) {
   __atomic_store_n(&program, NULL, __ATOMIC_RELEASE);
   return run_time ? n_counted : -1;

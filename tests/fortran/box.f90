@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! What the tests of module riis mark: a box of nodes around the aortic valve, and what riis_c marks of it.
+! The mesh that tests of module riis mark, a box of nodes around the aortic valve, and the marks that riis_c gives.
 module box
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_loc, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -14,7 +14,7 @@ module box
   integer, parameter :: per_side = 21, n_nodes = per_side**3
   real(c_double), allocatable :: xyz(:, :)             ! 2.8 cm wide, a node every 1.4 mm
   integer(int64), allocatable :: expected(:)           ! the nodes that riis_c marks, from 0
-  real(c_double), allocatable :: expected_distance(:)  ! and how far they are
+  real(c_double), allocatable :: expected_distance(:)  ! and their distances
   type(riis_valve) :: valve
   type(riis_surface) :: surface
 
@@ -36,7 +36,7 @@ contains
     call valve%destroy()
   end subroutine free_box
 
-  ! The reference, without module riis where it can be.
+  ! Computes the reference, if possible without module riis.
   subroutine mark_from_c()
     type(c_mark_list) :: list
     type(c_ptr) :: mesh, result
@@ -64,7 +64,7 @@ contains
     deallocate (target_xyz)
   end subroutine mark_from_c
 
-  ! Whether marking a mesh gives what riis_c gave.
+  ! Checks that marking a mesh gives the same as riis_c.
   subroutine check_marking(mesh, what, search)
     type(riis_mesh), intent(in) :: mesh
     character(len=*), intent(in) :: what
@@ -81,7 +81,7 @@ contains
     call result%destroy()
   end subroutine check_marking
 
-  ! The rows of the box, counted from 1.
+  ! Gives the rows of the box's adjacency, counted from 1.
   subroutine get_rows(offsets, columns)
     integer(int64), allocatable, intent(out) :: offsets(:), columns(:)
     integer :: ijk(3), node, axis, step, n

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The calls of test_calls.f90 made from C, and the layout of the structs in C. */
+ * Makes the calls of test_calls.f90 from C, and gives the layout of the structs in C. */
 #include "c_twin.h"
 
 #include "calls.h"
@@ -70,7 +70,7 @@ static riis_status make_surface(twin_numbers *numbers) {
   return list_surface(surface, &numbers->aortic);
 }
 
-/* Makes the surface of a valve, which is not needed afterwards. */
+/* Makes the surface of a valve and destroys the valve, which is not needed afterwards. */
 static riis_status make_other_surface(riis_valve **of, riis_surface **made, twin_surface *list) {
   TRY(riis_surface_create(*of, NULL, made));
   riis_valve_destroy(of);
@@ -96,7 +96,7 @@ static riis_status make_opening(twin_numbers *numbers) {
 }
 
 static riis_status make_patches(twin_numbers *numbers) {
-  /* Two patches side by side share a curve. The last curve runs backwards. */
+  /* Two patches side by side share a curve. The last curve runs in the opposite direction. */
   const int32_t degree[7] = {2, 1, 1, 3, 2, 1, 1};
   const double control[3 * 18] = {-8, -8, 0, -4, -8, 4, 0, -8, 2, -8, 8, 0, 0, 8, 2, -8, -8, 0,
                                   -8, 8,  0, 0,  -8, 2, 1, -3, 1, -1, 3, 1, 0, 8, 2, 0,  -8, 2,
@@ -118,7 +118,7 @@ static riis_status make_patches(twin_numbers *numbers) {
 }
 
 static riis_status make_plate(void) {
-  /* Two quads. Then two of their triangles, one at another place, and a third one without area. */
+  /* Two quads, then two of their triangles, one of them moved, and a third triangle without area. */
   const double x[6] = {-9, 0, 9, -9, 0, 9}, y[6] = {-9, -9, -9, 9, 9, 9}, z[6] = {0, 0.5, 0, 0, 0.5, 0};
   const int64_t quads[8] = {1, 2, 5, 4, 2, 3, 6, 5};
   const int32_t triangles[9] = {0, 1, 4, 1, 1, 2, 2, 5, 4}, leaflet_id[3] = {3, 4, 5};
@@ -224,7 +224,7 @@ static riis_status make_cells(int64_t n) {
   return riis_adjacency_create_from_cells(&cells, &of_cells);
 }
 
-/* The grid's nodes are cell centres. There are also faces at one of its boundaries. */
+/* Makes a mesh of cell centres at the grid's nodes, with faces at one of its boundaries. */
 static riis_status make_faces(int64_t n) {
   const int64_t steps[3] = {1, n, n * n};
   int64_t n_faces = 0, *owner = allocate(3 * n * n * n, sizeof *owner);
@@ -245,7 +245,7 @@ static riis_status make_faces(int64_t n) {
   return riis_adjacency_create_from_faces(&faces, &of_faces);
 }
 
-/* Marks along an adjacency with a new result, which has no last marking. */
+/* Marks by walking along an adjacency, with a new result that holds no earlier marking. */
 static riis_status walk(const riis_adjacency *along, int32_t search, const uint8_t *node_mask, riis_csr *csr,
                         riis_mark_stats *stats) {
   riis_mark_options options;
@@ -292,7 +292,7 @@ static riis_status find_leaks(twin_leaks *leaks) {
   return riis_mesh_set_adjacency(mesh, NULL);
 }
 
-/* The right cusp is turned into its neighbours. */
+/* Finds the crossings of an aortic valve whose right cusp is turned into its neighbours. */
 static riis_status find_crossings(riis_crossing_list *list) {
   const double turned[3] = {0, 0, 60};
   riis_valve *crossing_valve = NULL;
@@ -322,7 +322,8 @@ static riis_status walk_along_all(int64_t per_side, twin_numbers *numbers) {
   return find_leaks(&numbers->leaks);
 }
 
-/* Opens by 0.1 in 5 ms, while it is moved by 0.01 mm; marked with all fields, wider than the half thickness. */
+/* The valve opens by 0.1 in 5 ms while it moves by 0.01 mm. It is marked with all fields, up to a limit beyond the half
+ * thickness. */
 static riis_status resist(int64_t n_nodes, const double *xyz, twin_motion *motion) {
   riis_valve *before = NULL, *now = NULL, *open = NULL;
   riis_surface_options options, options_before;
@@ -370,13 +371,13 @@ static riis_status resist(int64_t n_nodes, const double *xyz, twin_motion *motio
   TRY(add_resistance_to(resisting, &resistance, n_nodes, coefficient, momentum));
   motion->coefficient = coefficient;
   motion->momentum = momentum;
-  /* The flow is as fast as the coordinates are long, and every node weighs what stands in coefficient now. */
+  /* The flow's speed equals the coordinates, and every node is weighted with its coefficient. */
   for (int c = 0; c < 3; ++c) motion->force[c] = c;
   TRY(add_reaction_to(resisting, &resistance, n_nodes, xyz, coefficient, motion->force));
   return band_sums_of(resisting, 0.5, 2, n_nodes, coefficient, coefficient, &motion->sums, sizeof motion->sums);
 }
 
-/* A square that is lifted by 1 and bent; made at its first frame, then updated. */
+/* A square is lifted by 1 and bent. Its surface is made at the first frame, then updated. */
 static riis_status move_by_frames(twin_motion *motion) {
   const int32_t quad[4] = {0, 1, 2, 3};
   const double time[2] = {0, 0.5};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The results that c_twin.c computes for the Fortran tests. The types in c_twin.f90 mirror these. */
+ * The results that c_twin.c computes for the Fortran tests. The types in c_twin.f90 mirror these structs. */
 #ifndef RIIS_TESTS_FORTRAN_C_TWIN_H
 #define RIIS_TESTS_FORTRAN_C_TWIN_H
 
@@ -20,48 +20,48 @@ typedef struct twin_walk {
 /* The list of leaking edges. */
 typedef struct twin_leaks {
   riis_leak_list list;
-  const int64_t *label; /* of each node's open region */
+  const int64_t *label; /* number of each node's open region */
   int64_t n_regions;
   riis_passage passage; /* from the first node to the last one */
 } twin_leaks;
 
-/* An aortic valve that opens, and the results computed with its fields. */
+/* An aortic valve that opens, and the results that use its fields. */
 typedef struct twin_motion {
   twin_surface surface;
   riis_mark_list marked, within_limit;
   const double *coefficient, *momentum; /* (n_nodes), (3, n_nodes) */
   double force[3];
   riis_band_sums sums;
-  twin_surface framed; /* half way between two frames of a square */
+  twin_surface framed; /* at half the time between two frames of a square */
 } twin_motion;
 
-/* What the laws of opening say. */
+/* Results of the laws of opening. */
 typedef struct twin_laws {
-  double by_table[2], by_times[2]; /* opening and rate */
+  double by_table[2], by_times[2]; /* opening and its rate */
   riis_opening_switch_state by_switch;
   riis_opening_angle_state by_angle;
 } twin_laws;
 
-/* Everything that the calls of twin_run gave. Pointers stay valid until twin_end. */
+/* All results of the calls of twin_run. Pointers stay valid until twin_end. */
 typedef struct twin_numbers {
   int64_t n_parameters;
   const riis_parameter *parameters; /* (n_parameters) */
   twin_surface aortic;
   twin_surface mitral;     /* half open */
-  twin_surface opening;    /* the aortic valve, on its way to a second state */
+  twin_surface opening;    /* the aortic valve, between its two states */
   twin_surface patches;    /* a valve from patches */
-  riis_closest closest;    /* of the first node, on the aortic valve */
-  riis_closest_arrays all; /* of all nodes, on the surface from arrays */
+  riis_closest closest;    /* for the first node, on the aortic valve */
+  riis_closest_arrays all; /* for all nodes, on the surface from arrays */
   riis_mark_list marked, within_limit;
   const uint8_t *dense_mark;
   const double *dense_distance;
   const int64_t *dense_triangle_id;
   const int32_t *dense_leaflet_id;
   riis_mark_stats stats;
-  twin_walk cells, faces, grid; /* RIIS_SEARCH_NEIGHBOR */
-  riis_mark_stats paper;        /* RIIS_SEARCH_PAPER along the grid */
+  twin_walk cells, faces, grid; /* marked by RIIS_SEARCH_NEIGHBOR */
+  riis_mark_stats paper;        /* by RIIS_SEARCH_PAPER along the grid */
   twin_leaks leaks;             /* of a thin aortic valve, along the tetrahedra */
-  riis_crossing_list crossings; /* of an aortic valve with a cusp that is turned */
+  riis_crossing_list crossings; /* of an aortic valve with one cusp turned */
   twin_motion motion;
   twin_laws laws;
 } twin_numbers;
@@ -70,7 +70,7 @@ typedef struct twin_numbers {
 riis_status twin_run(int64_t per_side, const double *xyz, twin_numbers *numbers);
 void twin_end(void);
 
-/* Gets the size and field offsets of a struct by its name, at most `capacity` numbers. Returns how many there are. */
+/* Copies the size and the field offsets of the named struct, at most `capacity` numbers. Returns how many there are. */
 int64_t twin_layout(const char *struct_name, int64_t capacity, int64_t *numbers);
 /* Returns the number of structs in riis.h. */
 int64_t twin_n_layouts(void);

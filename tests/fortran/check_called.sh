@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_called.sh HEADER OBJECT_FILES...
-# The Fortran tests, and the modules that they go through, must call every function of the header.
+# The Fortran tests and the modules that they use must call every function of the header.
 set -euo pipefail
 header=$1
 shift
@@ -11,7 +11,7 @@ if [ "$(wc -l <<<"$functions")" -ne "$(grep -v '^#define' "$header" | grep -c '\
   echo "$header has declarations that this script does not understand" >&2
   exit 1
 fi
-# Undefined symbols are the functions that are really called.
+# The object files' undefined symbols are the functions that they call.
 called=$(nm -u "$@" | awk '$1 == "U" && $2 ~ /^riis_/ { print $2 }' | sort -u)
 uncalled=$(comm -23 <(sort <<<"$functions") <(echo "$called"))
 if [ -n "$uncalled" ]; then

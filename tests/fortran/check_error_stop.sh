@@ -1,15 +1,15 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_error_stop.sh PROGRAM
-# Errors without a status argument, and copies of handles, must end error_stop.f90 with a message on the error unit and an exit
-# status.
+# error_stop.f90 makes errors in calls without a status argument, and copies handles. Each case must end with a message on the
+# error unit and an exit status.
 set -euo pipefail
 program=$1
 failed=0
 output=$(mktemp) errors=$(mktemp)
 trap 'rm -f "$output" "$errors"' EXIT
 
-# stops CASE TEXT
+# stops CASE TEXT: the program must stop in this case with the text.
 stops() {
   if "$program" "$1" >"$output" 2>"$errors"; then
     echo "$1: the program ended without an error" >&2

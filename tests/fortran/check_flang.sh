@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_flang.sh FLANG CC SOURCE_DIR WORK_DIR LIBRARY
-# Compiles the Fortran sources with another compiler, as its users do, against the same C library. The tests' programs must pass.
+# Compiles the Fortran sources with another compiler, as that compiler's users do, and links them with the same C library. The
+# test programs must pass.
 set -euo pipefail
 flang=$1 cc=$2 source=$3 work=$4 library=$5
 flags=(-O1 -Werror)
@@ -16,7 +17,7 @@ for name in "${modules[@]}"; do
 done
 link=("$library" "-Wl,-rpath,$(dirname "$library")")
 tests=$source/tests/fortran
-# The interface is made for pointers to arrays that lack the target attribute, but flang warns about them.
+# The interface intentionally takes pointers to arrays without the target attribute. flang warns about this.
 for name in checks box c_twin; do
   "$flang" -O1 -c "$tests/$name.f90"
 done

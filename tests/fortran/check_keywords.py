@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""check_keywords.py SOURCES: in riis.h, the arguments of every released function must have their names of abi/riis-*.xml.
-Names mean nothing to a caller in C. But riis_c.f90 gets them from riis.h, and in Fortran they are keywords."""
+"""check_keywords.py SOURCES: in riis.h, the arguments of every released function must keep their names of abi/riis-*.xml. In
+C, argument names mean nothing to a caller. But riis_c.f90 takes them from riis.h, and in Fortran they are keywords."""
 
 import glob
 import os
@@ -18,7 +18,7 @@ def main(sources):
     for path in glob.glob(os.path.join(sources, "abi", "riis-*.xml")):
         for released in xml.etree.ElementTree.parse(path).iter("function-decl"):
             name, names = released.get("name"), [argument.get("name", "?") for argument in released.findall("parameter")]
-            if name not in now:  # not a function of riis.h; riis_symbols reports missing functions
+            if name not in now:  # not in riis.h now; the test riis_symbols reports removed functions
                 continue
             compared += 1
             if now[name] != names:

@@ -1,8 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_procedures.sh SOURCES... -- OBJECT_FILES...
-# The objects of the Fortran tests must call every public procedure of module riis and every external subroutine. A procedure is
-# public if a binding, a generic or a PUBLIC statement names it. Each must have a documentation comment.
+# The Fortran tests must call every public procedure of module riis and every external subroutine. OBJECT_FILES are the tests'
+# objects. A procedure is public if a binding, a generic or a PUBLIC statement names it. Each public procedure must have a
+# documentation comment.
 set -euo pipefail
 sources=()
 while [ "$1" != -- ]; do
@@ -12,7 +13,7 @@ done
 shift
 failed=0
 
-# A procedure is documented if a comment that begins with !> stands right before it.
+# A procedure is documented if a comment that begins with !> precedes it immediately.
 documented=$(awk '
   /^ *!>/ { is_documented = 1; next }
   /^ *!!/ { next }
@@ -28,7 +29,7 @@ if [ -n "$undocumented" ]; then
   failed=1
 fi
 
-# Undefined symbols are the procedures that are really called: __module_MOD_name, or name_ for an external subroutine.
+# Undefined symbols are the procedures that are called: __module_MOD_name, or name_ for an external subroutine.
 called=$(nm -u "$@" | sed -n -E 's/^ *U (__riis(_[a-z]+)?_MOD_)?([a-z0-9_]+)$/\3/p' |
   sed -E 's/^(riisf_[a-z0-9_]+)_$/\1/' | sort -u)
 uncalled=$(comm -23 <(printf '%s\n' "$documented" "$named" | sort -u) <(echo "$called"))

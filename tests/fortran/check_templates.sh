@@ -10,7 +10,7 @@ if ! command -v fypp >/dev/null; then
   exit 77
 fi
 
-# check FOLDER: succeeds if the sources in FOLDER are those of the templates in FOLDER.
+# check FOLDER: succeeds if the sources in FOLDER equal the expanded templates in FOLDER.
 check() {
   local name status=0
   rm -rf "$scratch/expanded"
@@ -35,7 +35,7 @@ check() {
   return "$status"
 }
 
-# refused TEXT: check must refuse $scratch/copy with an error that has the text.
+# refused TEXT: `check` must refuse $scratch/copy with an error that contains TEXT.
 refused() {
   local errors
   if errors=$(check "$scratch/copy" 2>&1); then
@@ -48,7 +48,7 @@ refused() {
   fi
 }
 
-# Two sources with their templates are enough for the damaged copies.
+# The damaged copies need only two sources and their templates.
 copy() {
   local name
   rm -rf "$scratch/copy"

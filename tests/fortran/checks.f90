@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! What the Fortran tests are written with: checks that count, and a comparison of memory.
+! Helpers of the Fortran tests: checks that count failures, and a comparison of memory.
 module checks
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int8_t, c_int64_t, c_ptr
   use, intrinsic :: iso_fortran_env, only: error_unit
@@ -21,7 +21,7 @@ contains
     write (error_unit, '(2a)') 'failed: ', what
   end subroutine check
 
-  ! Ends the test where the call did not succeed: what follows counts on it.
+  ! Ends the test if the call failed, because later calls depend on it.
   subroutine check_ok(status, what)
     integer(riis_status), intent(in) :: status
     character(len=*), intent(in) :: what
@@ -32,7 +32,7 @@ contains
     error stop
   end subroutine check_ok
 
-  ! The call has to be refused with this status, and the error text has to hold these words.
+  ! Checks that the call was refused with this status, and that the error message contains these words.
   subroutine check_refused(status, expected, words)
     integer(riis_status), intent(in) :: status, expected
     character(len=*), intent(in) :: words
@@ -42,7 +42,7 @@ contains
       riis_c_text(riis_last_error()))
   end subroutine check_refused
 
-  ! Bit for bit, whatever it is: comparing reals by value would take -0 for 0 and no NaN for itself.
+  ! Compares bit for bit. Comparing reals by value would treat -0 and 0 as equal, and NaN as different from itself.
   subroutine check_same_bytes(a, b, n_bytes, what)
     type(c_ptr), intent(in) :: a, b
     integer(c_int64_t), intent(in) :: n_bytes
@@ -55,7 +55,7 @@ contains
     call check(all(bytes_a == bytes_b), what // ': the same bits from Fortran and from C')
   end subroutine check_same_bytes
 
-  ! Whether two numbers have the same bits.
+  ! Returns whether two numbers have the same bits.
   elemental function same(a, b)
     real(c_double), intent(in) :: a, b
     logical :: same

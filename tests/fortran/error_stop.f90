@@ -1,10 +1,10 @@
 ! SPDX-License-Identifier: Apache-2.0
-! error_stop CASE: does what module riis answers with an error stop; check_error_stop.sh runs it.
+! error_stop CASE: makes a mistake that module riis answers with an error stop. check_error_stop.sh runs it.
 program error_stop
   use, intrinsic :: iso_c_binding, only: c_double
   use riis
   implicit none
-  type :: model ! handles inside another type
+  type :: model ! a type that contains handles
     integer :: number = 0
     type(riis_valve) :: valve
   end type model

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! A step of a moving valve by module riis: the modules allocate nothing, and pointers are to the library's own arrays.
+! In a step of a moving valve, module riis allocates nothing, and its pointers point to the library's own arrays.
 program test_allocations
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
@@ -20,8 +20,8 @@ program test_allocations
   type(riis_marks) :: result
   type(riis_opening_switch_state) :: state
   type(riis_opening_angle_state) :: angle
-  real(c_double), pointer :: coefficient(:), momentum(:, :), weight(:), distance(:) ! as many solvers have them
-  real(c_double), allocatable :: near(:) ! for an argument that is CONTIGUOUS
+  real(c_double), pointer :: coefficient(:), momentum(:, :), weight(:), distance(:) ! pointers, as in many solvers
+  real(c_double), allocatable :: near(:) ! for an argument with the attribute CONTIGUOUS
   integer(int8), allocatable :: mask(:)
   integer :: step
 
@@ -92,7 +92,7 @@ contains
       lbound(fields%velocity, 2) == 1 .and. size(fields%velocity, 2) == size(node_id), 'pointers count from 1')
   end subroutine one_step
 
-  ! What copies is counted.
+  ! Calls that do copy must be counted, so the count can fail.
   subroutine test_counting()
     integer, allocatable :: node_num(:)
     call allocations_begin()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests fortran/bindings/generate.py on copies of riis.h and of bindings.table with something planted in them. It must write the
+"""Tests fortran/bindings/generate.py on copies of riis.h and bindings.table with planted changes. The generator must write the
 right lines, or refuse, name the line and leave the files alone. check_keywords.py is tested in the same way."""
 
 import contextlib
@@ -39,7 +39,7 @@ class Planted(unittest.TestCase):
         return [self.text(path) for path in (MODULE, FIXED, LAYOUTS)]
 
     def plant(self, path, old, new):
-        """Replaces the only place that has the old text. Returns its line number."""
+        """Replaces the only occurrence of the old text. Returns its line number."""
         text = self.text(path)
         self.assertEqual(text.count(old), 1, f"{path} does not have {old!r} once: this test is out of date")
         with open(os.path.join(self.root, path), "w", encoding="utf-8") as file:
@@ -60,7 +60,7 @@ class Planted(unittest.TestCase):
         return status, out.getvalue()
 
     def writes(self):
-        """Reports first, without writing, that files are not up to date. Then writes them."""
+        """First checks that the generator reports outdated files without writing. Then lets it write them."""
         status, text = self.run_it("--check")
         self.assertEqual(status, 1, text)
         self.assertIn("; ./run bindings writes it anew", text)
@@ -79,7 +79,7 @@ class Planted(unittest.TestCase):
         self.assertEqual(self.generated(), self.before)
 
     def function(self, name):
-        """Returns the interface of a function as it was written."""
+        """Returns the written interface of a function."""
         text = self.text(MODULE)
         end = text.index(f"    end function {name}\n")
         return text[text.rindex("\n\n", 0, end) + 2:end]
@@ -253,7 +253,7 @@ class Functions(Planted):
         self.assertRegex(self.text(MODULE), r"(?s)end function riis_valve_create\n.* riis_valve_planted.* riis_valve_destroy\(")
 
     def test_what_c_leaves_open_is_asked_for(self):
-        """The refusal names all gaps at once, with the lines to fill in."""
+        """If riis.h leaves something open, the refusal names all gaps at once, with the lines to fill in."""
         line = self.plant_function("int64_t *n, const double *x,\n    const int64_t **ids, const riis_csr *csr, int32_t k")
         place = f"{HEADER}:{line}: riis_valve_planted: {TABLE} does not say of"
         pointer = "'required', or 'optional' where it may be NULL, with 'scalar', (*) or (3); or else 'borrowed'"
@@ -374,7 +374,7 @@ class Words(Planted):
         )
         self.refused("  rotation_angle  -", "  rotation_angle  (3)",
                      "TABLE: riis_surface_options: 'double rotation_angle' points to no")
-        self.refused("  user_data  -  what", "  user_data  scalar  what", "TABLE: riis_log_function: only a text is wanted")
+        self.refused("  user_data  -  the pointer", "  user_data  scalar  the pointer", "TABLE: riis_log_function: only a text is wanted")
         self.refused("riis_csr\n", "riis_parameter\n  unit  (3)\n\nriis_csr\n",
                      "riis_parameter: 'const char *unit' points to no array")
         self.refused("  degree       (n_curves)", "  degree       optional", "'const int32_t *degree': the shape of the array")

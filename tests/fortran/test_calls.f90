@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Every binding of riis_c is called, and gives the bits that the same calls give from C (c_twin.c). That none is left
-! out is checked by check_called.sh.
+! Calls every binding of riis_c. Each call must give the same bits as the same call from C (c_twin.c). check_called.sh checks that
+! no binding is left out.
 module log_capture
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_int32_t, c_ptr
   use riis_c
@@ -8,7 +8,7 @@ module log_capture
   implicit none
   public
 
-  ! What the user data of the log function points to.
+  ! The user data of the log function is a pointer to this type.
   type, bind(c) :: captured
     integer(c_int32_t) :: n_messages
     integer(c_int32_t) :: n_warnings
@@ -72,7 +72,7 @@ program test_calls
 
 contains
 
-  ! What the surface's triangles have, by name.
+  ! Gives the arrays of a surface's triangles by their names.
   function triangles_from(surface, n_vertices, xyz, uv, velocity, n_triangles, vertex_id, triangle_id, leaflet_id, &
       patch_id) result(status)
     type(c_ptr), intent(in) :: surface
@@ -108,7 +108,7 @@ contains
     write (text, '(i0, ".", i0, ".", i0)') major, minor, patch
     call check(riis_c_text(riis_version_string()) == text, 'the version and its string agree: ' // trim(text))
     patch = -1
-    call riis_get_version(patch=patch) ! an argument that is left out is NULL
+    call riis_get_version(patch=patch) ! an argument that is left out is passed as NULL
     call check(patch >= 0, 'the patch version alone')
     do i = 1, size(statuses)
       call check(riis_c_text(riis_status_name(statuses(i))) == names(i), 'the name of ' // names(i))
@@ -153,7 +153,7 @@ contains
     call check_refused(riis_valve_get_parameter(valve, 0_c_int64_t, parameter, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, &
       'struct size')
 
-    ! Surfaces of the default valve, before it is changed.
+    ! Surfaces of the default valve, before the valve is changed.
     call check_ok(riis_surface_create(valve, surface=surface), 'create a surface with default options')
     call check_area(6.986d0, 0.02d0)
 
@@ -237,7 +237,7 @@ contains
     integer(c_int64_t) :: n_vertices, n_parameters, n_triangles
 
     call check_ok(riis_surface_get_info(made, info, c_sizeof(info)), what // ': describe a surface')
-    ! Times differ: up to them.
+    ! The bytes are compared up to the times, which differ.
     call check_same_bytes(c_loc(info), c_loc(from_c%info), 88_c_int64_t, what // ': description')
     call check(info%seconds_triangles > 0 .and. info%seconds_scene > 0, what // ': a surface takes time')
     call check_ok(triangles_from(made, n_vertices=n_vertices, xyz=vertices), what // ': vertices')
@@ -557,7 +557,7 @@ contains
     call check_same_bytes(a%leaflet_id, b%leaflet_id, 4 * min(a%n_nodes, b%n_nodes), what // ': leaflet ids')
   end subroutine check_same_list
 
-  ! A valve that opens, all fields, and the resistance.
+  ! A valve that opens, marked with all fields and the resistance.
   subroutine test_motion()
     type(c_ptr) :: before, now, open, moving, resisting, velocity
     type(riis_surface_options) :: options, options_before
@@ -668,7 +668,7 @@ contains
     call check_same_bytes(a%patch_id, b%patch_id, 4 * a%n_nodes, what // ': patches')
   end subroutine check_same_fields
 
-  ! A square that is lifted by 1 and bent.
+  ! A square is lifted by 1 and bent.
   subroutine test_keyframes()
     type(riis_surface_arrays) :: faces
     type(riis_keyframe_arrays) :: frames
@@ -774,7 +774,7 @@ contains
       RIIS_INVALID_ARGUMENT, 'time is 0')
   end subroutine test_laws
 
-  ! A hexahedron, a pyramid on it, a prism beside it and a tetrahedron between these two.
+  ! A hexahedron has a pyramid on it and a prism beside it. A tetrahedron lies between pyramid and prism.
   subroutine test_mixed_cells()
     integer(c_int64_t), target :: node_ids(23), offsets(5)
     type(riis_mesh_cells) :: cells
@@ -804,7 +804,7 @@ contains
     call c_f_pointer(csr%offsets, row_offsets, [csr%n_rows + 1])
     call c_f_pointer(csr%columns, columns, [row_offsets(csr%n_rows + 1)])
     call check(size(columns) == 2 * (12 + 4 + 5 + 3), 'every edge twice')
-    ! The row of node 6, which is in every cell.
+    ! Node 6 is in every cell.
     call check(all(columns(row_offsets(6) + 1:row_offsets(7)) + 1 == [2, 5, 7, 9, 10, 12]), 'the neighbours of a node')
     call riis_adjacency_destroy(adjacency)
     call check(.not. c_associated(adjacency), 'a destroyed handle is null')
@@ -817,7 +817,7 @@ contains
     call check(.not. c_associated(adjacency), 'no adjacency is made by calls that are refused')
   end subroutine test_mixed_cells
 
-  ! The same grid in three ways, each with ids of 32 bits from 1, where C gives ids of 64 bits from 0.
+  ! Makes the same grid's adjacency by three functions, with 32-bit ids from 1. C gives 64-bit ids from 0.
   subroutine test_adjacency()
     type(c_ptr) :: of_cells = c_null_ptr, of_faces = c_null_ptr, of_grid = c_null_ptr, of_nothing = c_null_ptr
     type(riis_mark_options) :: options
@@ -860,7 +860,7 @@ contains
       'destroyed handles are null')
   end subroutine test_adjacency
 
-  ! Along tetrahedra, marked thinly.
+  ! Finds the leaks of a thin valve along tetrahedra.
   subroutine test_leaks(of_cells)
     type(c_ptr), intent(in) :: of_cells
     type(riis_surface_options) :: surface_options
@@ -956,7 +956,7 @@ contains
     call riis_valve_destroy(valve)
   end subroutine test_crossings
 
-  ! Every cube of the grid as six tetrahedra, each along a path from its first corner to its last.
+  ! Cuts every cube of the grid into six tetrahedra, each along a path from the cube's first corner to its last.
   subroutine make_tetrahedra(adjacency)
     type(c_ptr), intent(inout) :: adjacency
     integer(c_int32_t), parameter :: n = int(per_side, c_int32_t), nn = n * n
@@ -988,7 +988,7 @@ contains
     call check_ok(riis_adjacency_create_from_cells(cells, adjacency), 'an adjacency from tetrahedra')
   end subroutine make_tetrahedra
 
-  ! The grid's nodes as cell centres; with faces at one of its boundaries.
+  ! Uses the grid's nodes as cell centres, with faces at one of the grid's boundaries.
   subroutine make_faces(adjacency)
     type(c_ptr), intent(inout) :: adjacency
     integer(c_int32_t), parameter :: n = int(per_side, c_int32_t), steps(3) = [1, n, n * n]
@@ -1022,12 +1022,13 @@ contains
 
   subroutine set_adjacency(adjacency)
     type(c_ptr), intent(in) :: adjacency
-    type(riis_csr) :: csr ! may go: only its arrays are borrowed
+    type(riis_csr) :: csr ! may be lost on return, since only its arrays are used
     call check_ok(riis_adjacency_get_csr(adjacency, csr, c_sizeof(csr)), 'the rows of an adjacency')
     call check_ok(riis_mesh_set_adjacency(mesh, csr), 'set an adjacency')
   end subroutine set_adjacency
 
-  ! Marks as the calls from C do, with a new result, which remembers nothing. All but the paper's search find the same.
+  ! Marks as the calls from C do, with a new result that holds no earlier marking. All searches but the paper's find the same
+  ! nodes.
   subroutine mark_along(search, stats)
     integer(c_int32_t), intent(in) :: search
     type(riis_mark_stats), intent(inout) :: stats
@@ -1082,7 +1083,7 @@ contains
     call check_ok(riis_mesh_set_adjacency(mesh), what // ': take it away')
   end subroutine check_walk
 
-  ! But for the time.
+  ! Compares everything but the time.
   subroutine check_same_stats(a, b, what)
     type(riis_mark_stats), intent(in) :: a, b
     character(len=*), intent(in) :: what
@@ -1092,7 +1093,7 @@ contains
     call check(a%n_marked > 0 .and. a%n_queries > 0 .and. a%seconds > 0, what // ': there is something to compare')
   end subroutine check_same_stats
 
-  ! The rows of a solver in Fortran: from 1, of the default kind, with a ghost.
+  ! Uses rows as a Fortran solver has them: counted from 1, of the default integer kind, with a ghost node.
   subroutine test_own_rows()
     integer, target, allocatable :: offsets(:), columns(:)
     integer(c_int64_t), pointer :: own_offsets(:)
@@ -1107,7 +1108,7 @@ contains
     call c_f_pointer(csr%columns, own_columns, [own_offsets(n_nodes + 1)])
     allocate (offsets(n_nodes + 1), columns(size(own_columns) + 1))
     offsets(:) = int(own_offsets) + 1
-    columns(:) = [own_columns + 1, int(n_nodes) + 1] ! the last row gets a ghost
+    columns(:) = [own_columns + 1, int(n_nodes) + 1] ! the last row also lists a ghost node
     offsets(n_nodes + 1) = offsets(n_nodes + 1) + 1
     call riis_adjacency_destroy(of_grid)
 
@@ -1134,7 +1135,7 @@ contains
 
   subroutine test_destroy()
     integer :: i
-    do i = 1, 2 ! destroying nothing is fine
+    do i = 1, 2 ! destroying a handle twice is allowed
       call riis_marks_destroy(result)
       call riis_mesh_destroy(mesh)
       call riis_surface_destroy(plate)

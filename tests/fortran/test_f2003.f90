@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! A code in Fortran 2003, which has no int64 and no real128, uses module riis: riis_id is the kind of its ids.
+! Uses module riis from Fortran 2003, which has no int64 and no real128. The kind of node ids is riis_id.
 program test_f2003
   use riis
   implicit none
@@ -35,7 +35,7 @@ program test_f2003
   if (size(fields%velocity, 2) /= size(node_num) .or. any(abs(fields%velocity) > 0d0)) stop 2
   if (count(resistance > 0) > size(node_num) .or. .not. any(resistance > 0)) stop 3
 
-  ! The marked nodes, as the result points to them.
+  ! The marked nodes, through the result's pointers.
   distance = -1
   call surface%closest_points(xyz, distance=distance, point_id=node_id)
   if (count(distance >= 0) /= size(node_id)) stop 4
@@ -59,5 +59,5 @@ program test_f2003
   call mesh%destroy()
   call surface%destroy()
   call valve%destroy()
-  deallocate (node_num) ! a main program keeps it, and the sanitizer takes it for a leak
+  deallocate (node_num) ! a main program's variables keep their memory, which the leak sanitizer would report
 end program test_f2003

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Module riis: surfaces from frames in time, velocities of the caller's vertices, closest points of a mask and of a list,
-! against closed forms and against what riis_c gives.
+! Tests of module riis: surfaces from frames in time, velocities of the caller's vertices, closest points of a mask and of a list.
+! The results are compared with closed forms and with riis_c.
 program test_frames
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_loc, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
@@ -33,7 +33,7 @@ program test_frames
 
 contains
 
-  ! The square is at this height everywhere, and moves up with this speed.
+  ! Checks that the square is at this height everywhere and moves up at this speed.
   subroutine check_height(surface, height, speed, what)
     type(riis_triangles) :: all_triangles
     type(riis_surface), intent(in) :: surface
@@ -64,7 +64,7 @@ contains
     mine = frames
     call check(.not. keyframes%is_created(), 'empty at first')
     call keyframes%create(time, mine, quad, [7])
-    mine = 0 ! they were copied
+    mine = 0 ! the arrays were copied, so they may change
     call surface%create_from_keyframes(keyframes, 0.125d0, half_thickness=0.2d0, scale=2d0, translation=[0d0, 0d0, 5d0])
     call check_height(surface, 5.1d0, 0.8d0, 'placed')
     call surface%get_triangles(all_triangles)
@@ -82,7 +82,7 @@ contains
     call surface%update_from_keyframes(keyframes, 9d0)
     call check_height(surface, 0d0, 0d0, 'at rest behind the last key')
 
-    ! The velocities are the library's own.
+    ! The velocities have the same address as the library's own.
     n = 0
     of_c = c_null_ptr
     call surface%get_triangles(all_triangles)
@@ -92,11 +92,11 @@ contains
     call check(from_c%n_vertices == 4 .and. c_associated(own_velocities, from_c%velocity), 'no copy of velocities')
     call surface%destroy()
 
-    ! Sections, ids of the other kind from 0, cubic.
+    ! With leaflets, ids of the other kind from 0, cubic.
     call others%create(time, frames, int(halves - 1, int64), [7, 8], index_base=0, interpolation=RIIS_INTERPOLATION_CUBIC)
     call surface%create_from_keyframes(others, 0.25d0, 0d0, .true., 0.2d0, 0.1d0, 1d0, [0d0, 0d0, 1d0], 0d0, &
       [0d0, 0d0, 0d0], .false., 1)
-    ! The weighted harmonic mean of the slopes on either side.
+    ! The slope is the weighted harmonic mean of the slopes on either side.
     call check_height(surface, 0.1d0, 2 / (1 / 0.4d0 + 1 / 0.8d0), 'cubic')
     call surface%destroy()
     call surface%create_from_keyframes(keyframes, 0.25d0)
@@ -190,8 +190,8 @@ contains
     call keyframes%destroy()
   end subroutine test_bad_keyframes
 
-  ! Velocities come by xyz or x, y, z, with ids of either kind, at first and later. The placement turns them about z and doubles
-  ! them.
+  ! Velocities are given by xyz or by x, y, z, with ids of either kind, when the surface is made and later. The placement turns
+  ! the velocities about z and doubles them.
   subroutine test_velocities_of_arrays()
     type(riis_triangles) :: all_triangles
     type(riis_surface) :: surface
@@ -266,7 +266,7 @@ contains
     call check(.not. surface%is_created(), 'a refused surface is empty')
   end subroutine test_bad_velocities
 
-  ! Only the points of a mask or a list have answers: those of all points.
+  ! Only the points of a mask or a list get answers, equal to those that a query of all points gives.
   subroutine test_masks()
     real(c_double), allocatable :: all_distances(:), distance(:), point(:, :), expected_distance(:)
     integer(int8), allocatable :: bytes(:)
@@ -306,7 +306,7 @@ contains
     call surface%closest_points(xyz, distance=distance, point_id=list(:0))
     call check(all(same(distance, -7d0)), 'a list of none is not a list of all')
 
-    ! The nodes of a marking, as it points to them: nothing is gathered or scattered.
+    ! The marked nodes, through the result's pointer: nothing is gathered or scattered.
     call mesh%create(xyz)
     call riis_mark_nodes(surface, mesh, result, fields=RIIS_FIELD_POINT)
     call result%marked(node_id)

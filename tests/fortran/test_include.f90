@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! riisf.h in free form (test_f77.f has it in fixed form); generate.py writes its constants from riis.h.
+! Uses riisf.h in free form. test_f77.f uses it in fixed form. generate.py writes its constants from riis.h.
 program test_include
   use, intrinsic :: iso_c_binding, only: c_double
   use checks

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Module riis: laws of opening. What they say is what riis_c says, bit for bit; a restart in mid-motion changes nothing.
+! Laws of opening in module riis. Results equal those of riis_c bit for bit, and a restart in mid-motion changes nothing.
 program test_laws
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_sizeof
@@ -26,7 +26,7 @@ program test_laws
 
 contains
 
-  ! Whether numbers have the same bits, or are both NaN: the default NaN has no sign in Fortran.
+  ! Returns whether two numbers have the same bits, or are both NaN, because the sign of Fortran's default NaN is unspecified.
   elemental logical function alike(a, b)
     real(c_double), intent(in) :: a, b
     alike = same(a, b) .or. (ieee_is_nan(a) .and. ieee_is_nan(b))
@@ -221,8 +221,8 @@ contains
       of_c%pressure_difference, of_c%flow]))
   end function is_same_angle
 
-  ! An aortic and a mitral valve follow laws. The laws' states are all that a restart file holds; K and K u_surface have the
-  ! same bits to the end of the cycle as without the restart.
+  ! An aortic and a mitral valve follow laws. A restart file holds only the states of the laws. After the restart, K and K
+  ! u_surface must have the same bits to the end of the cycle as without it.
   subroutine test_restart()
     type(riis_opening_switch_state) :: aortic
     type(riis_opening_angle_state) :: mitral
@@ -259,7 +259,7 @@ contains
     call free_box()
   end subroutine test_restart
 
-  ! From the state before the first of the steps to the last.
+  ! Runs from the state before the step `first` to the step `last`.
   subroutine run(mesh, aortic, mitral, first, last, fields)
     type(riis_mesh), intent(in) :: mesh
     type(riis_opening_switch_state), intent(inout) :: aortic

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! The derived types of riis_c lie in memory as the structs of riis.h do, field by field, and the real constants are the
-! same bits. The fields are listed here by hand, the C half of the comparison comes from riis.h by fortran/bindings/generate.py.
+! The derived types of riis_c must have the memory layout of the structs in riis.h, field by field. The real constants must have
+! the same bits. The fields are listed here by hand. fortran/bindings/generate.py writes the C half of the comparison from riis.h.
 program test_layout
   use, intrinsic :: iso_c_binding
   use checks
@@ -165,7 +165,7 @@ contains
     character(len=*), intent(in) :: name
     integer(c_size_t), intent(in) :: n_bytes
     type(c_ptr), intent(in) :: start
-    integer(c_intptr_t), intent(in) :: fields(:) ! their addresses
+    integer(c_intptr_t), intent(in) :: fields(:) ! the fields' addresses
     integer(c_int64_t) :: layout(40), n
     n_compared = n_compared + 1
     n = twin_layout(riis_c_string(name), size(layout, kind=c_int64_t), layout)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Module riis: marking, its results in every form, several threads.
+! Tests of marking by module riis: its results in every form, and several threads.
 program test_marking
   use, intrinsic :: iso_c_binding, only: c_associated, c_double
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
@@ -50,7 +50,7 @@ contains
     call check(all(node_id == expected) .and. all(same(distance, expected_distance)), 'its pointers')
     call check(minval(triangle_id) >= 0 .and. any(leaflet_id == RIIS_LEAFLET_NON_CORONARY), 'its triangles and leaflets')
 
-    ! Copies, into arrays that are not there, too short, too long, and right.
+    ! Copies into arrays that are unallocated, too short, too long, or of the right size.
     call result%marked_nodes(node_num, distances, triangles, leaflets)
     call check(all(node_num == expected + 1) .and. all(same(distances, distance)) .and. all(triangles == triangle_id) &
       .and. all(leaflets == leaflet_id), 'its copies, counted from 1')
@@ -66,7 +66,7 @@ contains
     call result%marked_nodes(node_num, distances, triangles, leaflets)
     call check(all(node_num == expected + 1) .and. all(same(distances, distance)), 'copies over copies')
 
-    ! A wider limit, by options of either kind.
+    ! A wider limit, given by options of either kind.
     call riis_mark_nodes(surface, mesh, result, distance_limit=0.3d0, search=int(RIIS_SEARCH_EXHAUSTIVE, int64), &
       n_threads=1_int64)
     n = result%n_within_limit()
@@ -188,7 +188,7 @@ contains
     call result%destroy()
   end subroutine test_dense
 
-  ! The box leaks along its six neighbours through a thin valve, as riis_c says.
+  ! The box leaks along its edges through a thin valve. The result equals riis_c's.
   subroutine test_leaks()
     type(riis_surface) :: thin
     type(riis_mesh) :: joined
@@ -259,7 +259,7 @@ contains
     n = list%n_edges
   end function n_of
 
-  ! In the box, by every kind of mask and number; a lone node is a region of its own.
+  ! Passages in the box, with masks and numbers of every kind. A lone node is a region of its own.
   subroutine test_passages()
     type(riis_surface) :: thin
     type(riis_mesh) :: joined
@@ -335,7 +335,7 @@ contains
     call thin%destroy()
   end subroutine test_passages
 
-  ! Options out of range, and handles that there are not.
+  ! Options out of range and handles that were not created are refused.
   subroutine test_errors()
     type(riis_surface) :: no_surface
     type(riis_mesh) :: no_mesh
@@ -397,7 +397,7 @@ contains
     call check(.not. (a%is_created() .or. c%is_created() .or. e%is_created()), 'an empty copy is empty')
   end subroutine test_assignment
 
-  ! One surface and one mesh, read by all threads; a result and an error text for each.
+  ! All threads read one surface and one mesh. Each has a result and an error message of its own.
   subroutine test_threads()
     integer, parameter :: n_parts = 8
     logical :: is_right(n_parts)
@@ -411,7 +411,8 @@ contains
     call check(all(is_right), 'threads do not disturb each other')
   end subroutine test_threads
 
-  recursive subroutine work(part, is_right) ! whatever -fcheck and -fno-automatic say
+  ! Recursive, so that its variables are local to a thread under any -fcheck or -fno-automatic.
+  recursive subroutine work(part, is_right)
     integer, intent(in) :: part
     logical, intent(out) :: is_right
     type(riis_marks) :: result
@@ -426,9 +427,9 @@ contains
       is_right = is_right .and. size(node_num) == size(expected)
       if (is_right) is_right = all(node_num == expected + 1)
       call riis_mark_nodes(surface, mesh, result, search=100 + part, status=own_status)
-      text = 'search is 10' // achar(iachar('0') + part) // ';' ! a write would mix those of several threads
+      text = 'search is 10' // achar(iachar('0') + part) // ';' ! a WRITE statement would mix the messages of several threads
       is_right = index(riis_error_message(), trim(text)) > 0 .and. is_right
-      call surface%closest_points(xyz(:, :part), side=none, status=own_status) ! refused by this layer
+      call surface%closest_points(xyz(:, :part), side=none, status=own_status) ! module riis itself refuses this call
       text = 'there are ' // achar(iachar('0') + part) // ' points'
       is_right = index(riis_error_message(), trim(text)) > 0 .and. is_right
     end do

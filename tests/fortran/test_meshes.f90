@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Module riis: meshes without copies, adjacencies of all kinds.
+! Tests of module riis: meshes without copies, and adjacencies of all kinds.
 program test_meshes
   use, intrinsic :: iso_c_binding, only: c_associated, c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64, real32, real64
@@ -9,7 +9,7 @@ program test_meshes
   use riis
   implicit none
 
-  type :: node_data ! as in codes that keep all data of a node together
+  type :: node_data ! as in codes that store all data of a node together
     real(c_double) :: pressure
     real(c_double) :: at(3)
     integer :: flag
@@ -53,7 +53,7 @@ contains
     call check_marking(mesh, 'x, y, z')
     call mesh%destroy()
 
-    ! Every second column, of rows in the wrong order and not side by side.
+    ! The coordinates are every second column. The rows are in another order and not adjacent.
     allocate (wide(6, 2 * n_nodes))
     wide = ieee_value(0d0, ieee_quiet_nan)
     wide(6:2:-2, 2::2) = xyz
@@ -96,7 +96,7 @@ contains
     call check_refused(status, RIIS_INVALID_MESH, 'node 0')
   end subroutine test_sections
 
-  ! Nothing is copied: what moves in place has moved.
+  ! Nothing is copied: coordinates that change in place change the mesh.
   subroutine test_in_place()
     type(riis_mesh) :: mesh
     type(riis_marks) :: result
@@ -116,7 +116,7 @@ contains
     call check(size(node_num) == size(expected) + 1 .and. node_num(1) == node .and. abs(distance(1) - 0.01d0) < 1d-9, &
       'a node that moved in place is marked')
     xyz(:, node) = -1.4d0
-    ! Without telling the mesh: still the same memory, which is what borrowed means.
+    ! The mesh was not told of the change, but it borrows the same memory.
     call riis_mark_nodes(surface, mesh, result, search=RIIS_SEARCH_EXHAUSTIVE)
     call check(result%n_marked() == size(expected), 'a node that moved back is not')
     call result%destroy()
@@ -151,7 +151,7 @@ contains
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the mesh was not created, or was destroyed')
   end subroutine test_mesh_errors
 
-  ! Copies of both precisions, of temporaries: the caller's arrays are free afterwards.
+  ! Meshes that copy temporaries of both precisions. The caller's arrays may be freed afterwards.
   subroutine test_copies()
     type(riis_mesh) :: mesh
     type(riis_marks) :: marks
@@ -220,7 +220,7 @@ contains
     call mesh%set_adjacency(small_offsets, small_columns, status=status)
     call check_ok(status, 'rows of 32 and 32 bits')
     call check_marking(mesh, 'rows of 32 and 32 bits', RIIS_SEARCH_NEIGHBOR)
-    ! From 0, with ghosts.
+    ! Rows that count from 0, with ghost nodes.
     offsets_0 = offsets - 1
     columns_0 = columns - 1
     columns_0(1) = n_nodes + 4
@@ -285,7 +285,7 @@ contains
     call mesh%destroy()
   end subroutine test_row_errors
 
-  ! Tetrahedra by six to each cube of the box, hexahedra, faces and the grid, of all kinds.
+  ! Adjacencies of all kinds: six tetrahedra to each cube of the box, hexahedra, faces and the grid.
   subroutine test_adjacencies()
     integer, parameter :: corners(3, 8) = reshape([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1], &
       [3, 8])
@@ -302,7 +302,7 @@ contains
         cubes(corner, cube + 1) = dot_product(at + corners(:, corner), [1, per_side, per_side**2]) + 1
       end do
     end do
-    allocate (node_ids(8 * n_cubes)) ! gfortran 14 takes it for undefined when it is made by the assignment
+    allocate (node_ids(8 * n_cubes)) ! allocated first, because gfortran 14 otherwise warns that it is undefined
     node_ids(:) = reshape(cubes, [8 * n_cubes])
     offsets = [(8 * k + 1, k = 0, n_cubes)]
     call get_rows(rows, columns)
@@ -363,7 +363,7 @@ contains
     call check(.not. adjacency%is_created(), 'an adjacency that was destroyed twice is empty')
   end subroutine test_adjacencies
 
-  ! Marks with the adjacency, then drops it.
+  ! Marks with the adjacency, then removes it from the mesh.
   subroutine use_adjacency(mesh, adjacency, what)
     type(riis_mesh), intent(inout) :: mesh
     type(riis_adjacency), intent(inout) :: adjacency
@@ -372,7 +372,7 @@ contains
     type(riis_mark_stats) :: stats
     call mesh%set_adjacency(adjacency)
     call check_marking(mesh, what, RIIS_SEARCH_NEIGHBOR)
-    ! That neighbours were really found: the walk reaches all but what its proof finds.
+    ! Neighbours were used: the walk along them reaches all nodes except those that the search's final check finds.
     call riis_mark_nodes(surface, mesh, result, search=RIIS_SEARCH_NEIGHBOR)
     call result%get_stats(stats)
     call check(stats%search == RIIS_SEARCH_NEIGHBOR .and. stats%complete == 1 .and. &

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Module riis: valves, surfaces, closest points, errors, log. What they give is what riis_c gives, bit for bit.
+! Tests of module riis: valves, surfaces, closest points, errors and log. Results equal those of riis_c bit for bit.
 module log_lines
   use, intrinsic :: iso_fortran_env, only: int32
   use riis, only: RIIS_LOG_WARNING
@@ -186,7 +186,7 @@ contains
     integer(int32), pointer :: leaflets(:), patches(:)
 
     degree = 1
-    control = square(:, [1, 2, 4, 3, 1, 4, 2, 3]) ! v = 0, v = 1, u = 0, u = 1
+    control = square(:, [1, 2, 4, 3, 1, 4, 2, 3]) ! the sides v = 0, v = 1, u = 0, u = 1
     curve_id(:, 1) = [1, 2, 3, 4]
     leaflet_id = 5
     call valve%create_from_patches(degree, control, curve_id, leaflet_id=leaflet_id)
@@ -199,7 +199,7 @@ contains
     call check(size(leaflets) > 0 .and. all(leaflets == 5) .and. all(patches == 0), 'the leaflet and patch ids')
     call valve%destroy()
 
-    ! The same with a side turned round, from 0, in the other kind.
+    ! The same patch with one side reversed, counted from 0, with integers of the other kind.
     control(:, 3:4) = square(:, [3, 4])
     reversed = .false.
     reversed(2, 1) = .true.
@@ -234,7 +234,7 @@ contains
     call surface%destroy()
   end subroutine test_patches
 
-  ! Options that may be of either kind, and only that.
+  ! Some options may be of either integer kind, others of one kind only.
   subroutine test_options()
     type(riis_valve) :: valve
     type(riis_surface) :: surface
@@ -296,7 +296,7 @@ contains
     call check_address(xyz, c_xyz, 'the vertices are the library''s own')
     call check(size(vertex_id, 2) == n .and. minval(vertex_id) == 0, 'the corners count from 0')
 
-    ! Options that are not given stay; those that are given replace the surface's.
+    ! Options that are left out stay as they were. Options that are given replace the surface's.
     call surface%update(valve)
     call surface%get_info(again)
     call check(same(again%half_thickness, info%half_thickness) .and. all(same(again%lower, info%lower)), 'all options stay')
@@ -312,7 +312,7 @@ contains
     call surface%update(valve)
     call check_same_surface(surface, twin, 'a refused option is forgotten')
     call twin%destroy()
-    ! The default half thickness goes with the scale.
+    ! The default half thickness is multiplied by the scale.
     call twin%create(valve)
     call twin%update(valve, scale=10d0)
     call twin%get_info(info)
@@ -322,7 +322,7 @@ contains
     call valve%destroy()
   end subroutine test_surface
 
-  ! Distances by another method than triangles, asked for when a surface is made or later, and kept.
+  ! Another method of measuring distances is chosen when a surface is made, or later. The surface keeps it.
   subroutine test_distances()
     type(riis_valve) :: valve
     type(riis_surface) :: by_triangles, by_other
@@ -394,7 +394,7 @@ contains
     call twin%create_from_arrays(square, reshape([1, 2, 3, 4], [4, 1]), half_thickness=0.1d0)
     call check_same_surface(surface, twin, 'a quad')
 
-    ! Updates: moved up by 1.
+    ! The sheet is moved up by 1 by updates.
     sheet(6, :) = 1
     call surface%update_from_arrays(sheet(2:6:2, 1::2), faces, leaflets)
     call surface%get_info(info)
@@ -466,7 +466,7 @@ contains
     end do
     call check(all_same, 'closest points are those of riis_c')
 
-    ! Sections as answers, separate coordinates, a limit.
+    ! Closest points with leaflets, separate coordinates and a limit.
     sections = -1
     call surface%closest_points(xyz(1, :), xyz(2, :), xyz(3, :), distance_limit=0.2d0, far_distance=-5d0, &
       distance=sections(2, :), n_threads=2)
@@ -515,7 +515,7 @@ contains
     call surface%destroy()
   end subroutine test_log
 
-  ! Handles that there are not.
+  ! Calls with handles that were not created.
   subroutine test_empty()
     type(riis_triangles) :: all_triangles
     type(riis_valve) :: valve
@@ -571,7 +571,7 @@ contains
     call valve%destroy()
   end subroutine test_empty
 
-  ! Empty ones may be assigned (error_stop.f90 has the others), also inside other types.
+  ! Empty handles may be assigned, also inside other types. error_stop.f90 tests assignments of other handles.
   subroutine test_assignment()
     type :: holder
       type(riis_valve) :: valve

@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Module riis: surfaces that move, the fields of closest points, and the resistance, against closed forms and other queries.
+! Tests of module riis: surfaces that move, the fields at closest points, and the resistance. The results are compared with closed
+! forms and other queries.
 program test_resistance
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_loc, c_ptr
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -37,7 +38,7 @@ program test_resistance
 
 contains
 
-  ! The square from -1 to 1 at z = 0, which came from z = -0.01 in 2 ms: u = 5 upwards.
+  ! Makes the square from -1 to 1 at z = 0. It came from z = -0.01 in 2 ms, so u = 5 upwards.
   subroutine make_plate()
     type(riis_valve) :: square
     real(c_double) :: corners(3, 4)
@@ -64,7 +65,7 @@ contains
     call copy%destroy()
   end subroutine test_copy
 
-  ! A valve that opens: the velocity is the way of each vertex from one opening to the other, by the time.
+  ! If a valve opens, each vertex's velocity is its displacement between the two openings, divided by the time.
   subroutine test_velocities()
     type(riis_triangles) :: all_triangles
     type(riis_valve) :: before, now
@@ -88,7 +89,7 @@ contains
     call still%get_triangles(all_triangles)
     from => all_triangles%xyz
     call check(size(velocity, 2) == size(to, 2) .and. size(from, 2) == size(to, 2), 'a velocity for every vertex')
-    ! Parameters of vertices follow the opening, so the ways are those of the same vertex only to second order.
+    ! The parameters u and v of a vertex depend on the opening. So the displacements follow the same vertex only to second order.
     call check(maxval(abs(velocity - (to - from) / 0.25d0)) < 0.02d0 * maxval(abs(velocity)), 'the way by the time')
     allocate (forth, source=velocity)
     call moving%update_moving(now, before, -0.25d0)
@@ -112,7 +113,7 @@ contains
     call before%destroy()
   end subroutine test_velocities
 
-  ! The placement turns about z and grows: each vertex x comes from where the placement before puts it.
+  ! The placement turns the surface about z and enlarges it. Each vertex x comes from its position in the earlier placement.
   subroutine test_placement_before()
     type(riis_triangles) :: all_triangles
     type(riis_surface) :: moving
@@ -134,7 +135,7 @@ contains
         maxval(abs(velocity(2, :) - (at(2, :) - (s * x + c * y)) / 0.5d0)) < 1d-12 .and. &
         maxval(abs(velocity(3, :) - (at(3, :) - z) / 0.5d0)) < 1d-12, 'turned, grown and moved')
     end associate
-    ! What is left out before is as it is now.
+    ! Parts of the earlier placement that are left out equal the present ones.
     call moving%update_moving(valve, valve, 0.5d0, translation_before=[1d0, 2d0, 2d0])
     call moving%get_triangles(all_triangles)
     velocity => all_triangles%velocity
@@ -142,7 +143,7 @@ contains
     call moving%destroy()
   end subroutine test_placement_before
 
-  ! Triangles that stay the same while a valve opens, as riis_c makes them.
+  ! The triangulation stays the same while a valve opens. Its triangles equal those of riis_c.
   subroutine test_fixed_triangles()
     type(riis_triangles) :: all_triangles
     type(riis_valve) :: mitral, before
@@ -209,7 +210,7 @@ contains
     call moving%destroy()
   end subroutine test_motion_errors
 
-  ! Every field against closest points, and against the triangles' vertices.
+  ! Every field is compared with closest points, and with the triangles' vertices.
   subroutine test_fields()
     type(riis_triangles) :: all_triangles
     type(riis_surface) :: moving
@@ -257,12 +258,12 @@ contains
       if (any(abs(matmul(velocity(:, vertex_id(:, j) + 1), barycentric(:, i)) - fields%velocity(:, i)) >= 1d-10)) &
         n_means = n_means + 1
     end do
-    ! Where patches are equally near, as in a cusp's plane of symmetry, the velocity is a mean.
+    ! If two patches are equally near, as in a cusp's plane of symmetry, the velocity is their mean.
     call check(is_interpolated .and. n_means < size(node_id) / 20 .and. any(abs(fields%velocity) > 0.1d0), &
       'patches, u, v and velocities are the triangles''')
     call check(any(fields%rim == 1) .and. any(fields%rim == 0) .and. all(fields%rim == 0 .or. fields%rim == 1), 'the rim')
 
-    ! Those of the marked nodes are the same, without a copy.
+    ! The fields of the marked nodes are the same values, without a copy.
     call result%marked(marked_id)
     call result%get_list(RIIS_LIST_MARKED, marked)
     call check(marked%n_nodes == size(marked_id) .and. lbound(marked%velocity, 2) == 1, 'fields of marked nodes count from 1')
@@ -307,7 +308,7 @@ contains
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object marks was not created')
   end subroutine test_fields_not_asked_for
 
-  ! K by the formula, at the distance from the square.
+  ! Returns K by the formula, at the node's distance from the square.
   function resistance_at(node, half_thickness, cuts_rim) result(k)
     integer, intent(in) :: node
     real(c_double), intent(in) :: half_thickness
@@ -442,7 +443,7 @@ contains
     call result%destroy()
   end subroutine test_errors
 
-  ! A rank without nodes calls everything as the others do.
+  ! A rank without nodes makes the same calls as the other ranks.
   subroutine test_no_nodes()
     type(riis_mesh) :: empty
     type(riis_adjacency) :: adjacency

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes one call of the library, in some floating-point environment of the caller, and checks what holds after any call.
+// Makes one call of the library in some floating-point environment, and checks the promises that hold after any call.
 #pragma once
 
 #include <riis/riis.h>
@@ -17,7 +17,7 @@
 
 namespace fuzz {
 
-// The parts of the environment that a caller would notice.
+// The parts of the floating-point environment that a caller would notice.
 struct FloatSettings {
   int rounding = std::fegetround(), traps = fegetexcept(), raised = std::fetestexcept(FE_ALL_EXCEPT);
 #if defined(__SSE__)
@@ -37,7 +37,7 @@ inline void set_float_environment(int choice) {
   if (choice == 2) std::fesetround(FE_TOWARDZERO);
   if (choice == 3) feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
 #if defined(__SSE__)
-  if (choice == 4) _mm_setcsr(_mm_getcsr() | 0x8040);  // flush to zero, denormals are zero
+  if (choice == 4) _mm_setcsr(_mm_getcsr() | 0x8040);  // sets "flush to zero" and "denormals are zero"
 #endif
 }
 
@@ -48,7 +48,7 @@ inline void check_status(riis_status status, const std::string &text_before) {
     EXPECT(text == text_before, "a successful call changed the text of the last error to '%s'", text);
     return;
   }
-  // RIIS_UNAVAILABLE is for instructions that this processor lacks.
+  // RIIS_UNAVAILABLE is returned for instructions that this processor lacks.
   EXPECT((status >= RIIS_INVALID_ARGUMENT && status <= RIIS_OUT_OF_MEMORY) || status == RIIS_UNAVAILABLE,
          "status %d: %s", status, text);
   EXPECT(std::strcmp(riis_status_name(status), "unknown status") != 0, "status %d", status);
@@ -70,14 +70,14 @@ riis_status call(Input &in, const Call &make_call) {
   return status;
 }
 
-// A call that must succeed in any state, whatever the memory.
+// Makes a call that must succeed in any state, however little memory there is.
 #define EXPECT_OK(call_)                                                                \
   do {                                                                                  \
     const riis_status status_ = (call_);                                                \
     EXPECT(status_ == RIIS_OK, "%s: %s", riis_status_name(status_), riis_last_error()); \
   } while (0)
 
-// A call that makes an object. It must write the handle on success, and only then.
+// Makes a call that creates an object. It must write the handle if it succeeds, and only then.
 template <class Handle, class Make>
 Handle *made_by(Input &in, const Make &make) {
   auto *const untouched = reinterpret_cast<Handle *>(0x5a5a5a5a5a5a5a50);
@@ -89,7 +89,7 @@ Handle *made_by(Input &in, const Make &make) {
   return status == RIIS_OK ? handle : nullptr;
 }
 
-// Returns an option struct that its init function filled. Its size is sometimes spoilt.
+// Returns an option struct that its init function filled. Sometimes its size is wrong.
 template <class Struct>
 Struct initialised(Input &in, riis_status (*init)(Struct *, int64_t)) {
   Struct made;

@@ -10,7 +10,7 @@ namespace {
 
 MeshSlot &slot_of(Input &in, State &state) { return state.meshes[in.slot()]; }
 
-// Returns a few single nodes, a lattice, or a cloud.
+// Returns the positions of a few single nodes, of a lattice, or of a cloud.
 std::vector<std::array<double, 3>> places_of(Input &in) {
   std::vector<std::array<double, 3>> places;
   switch (in.below(3)) {
@@ -57,7 +57,7 @@ std::shared_ptr<Nodes> nodes_of(Input &in, const std::vector<std::array<double, 
   return nodes;
 }
 
-// Returns the size, or sometimes an impossible one.
+// Returns the size, or sometimes an impossible size.
 std::int64_t spoilt_count(Input &in, std::int64_t n) {
   static const std::int64_t wrong[] = {0, -1, INT64_MIN, INT64_MAX / 7, INT64_MAX};
   return in.one_in(24) ? in.one_of(wrong) : n;
@@ -80,15 +80,15 @@ void make_mesh(Input &in, State &state) {
       made_by<riis_mesh>(in, [&](riis_mesh **mesh) { return riis_mesh_create(n, x, y, z, stride, mesh); });
   if (!made) return;
   riis_mesh_destroy(&slot.handle);
-  nodes->n = n;            // 0 is also right
-  nodes->stride = stride;  // any stride is right for a single node
+  nodes->n = n;            // 0 is also accepted
+  nodes->stride = stride;  // any stride is allowed for a single node
   slot = {made, nodes, nullptr, true};
 }
 
 void move_mesh(Input &in, State &state) {
   MeshSlot &slot = slot_of(in, state);
   if (slot.handle && in.one_in(2)) {
-    // Moves nodes in place, sometimes to places that are not finite, sometimes without an update.
+    // Moves nodes in place, sometimes to non-finite coordinates, sometimes without an update.
     const double shift = in.sound_place();
     for (double &x : slot.nodes->buffer) x += shift;
     if (in.one_in(8)) slot.nodes->buffer[static_cast<std::size_t>(in.byte()) % slot.nodes->buffer.size()] = in.number();
@@ -137,16 +137,16 @@ void give_rows(Input &in, State &state) {
   const int kind = in.below(4);
   std::uint32_t seed = kind == 3 ? in.raw<std::uint16_t>() : 0u;
   for (std::int64_t i = 0; i < n; ++i) {
-    if (kind <= 1) {  // a chain
+    if (kind <= 1) {  // cells in a chain
       if (i > 0) columns.push_back(i - 1 + base);
       if (i + 1 < n) columns.push_back(i + 1 + base);
-    } else if (kind == 3) {  // anything
+    } else if (kind == 3) {  // arbitrary rows
       for (std::uint32_t k = (seed = seed * 1664525u + 1013904223u) >> 29; k > 0; --k)
         columns.push_back((seed = seed * 1664525u + 1013904223u) % (n + n_ghosts) + base);
     }
     offsets.push_back(base + static_cast<std::int64_t>(columns.size()));
   }
-  // Offsets may be out of order, but the last one is never beyond the columns, because it gives their number.
+  // Offsets may be out of order. But the last one never exceeds the number of columns, because it tells the library that number.
   if (in.one_in(12) && n > 1)
     offsets[1 + static_cast<std::size_t>(in.byte()) % (offsets.size() - 2)] =
         in.one_in(2) ? in.raw<std::int64_t>() : in.below(64) - 8;
@@ -183,7 +183,7 @@ void put(Input &in, State &state, riis_adjacency *made) {
   if (made) state.adjacencies[in.slot()] = std::make_shared<OwnedAdjacency>(made);
 }
 
-// Checks that columns ascend without repeats, and that the rows are symmetric and have base 0.
+// Checks that columns are in ascending order without repeats, and that the rows are symmetric and have base 0.
 void check_rows(const riis_csr &csr) {
   EXPECT(csr.offset_bits == 64 && csr.column_bits == 32 && csr.index_base == 0, "%d %d", csr.offset_bits,
          csr.column_bits);
@@ -241,7 +241,7 @@ void make_adjacency_of_cells(Input &in, State &state) {
     offsets[1 + static_cast<std::size_t>(in.byte()) % (offsets.size() - 2)] =
         in.one_in(2) ? in.raw<std::int64_t>() : in.below(64) - 8;
   if (in.one_in(24))
-    offsets[0] = in.one_in(2) ? in.raw<std::int64_t>() | 2 : -1;  // 0 or 1 could be right, for more nodes
+    offsets[0] = in.one_in(2) ? in.raw<std::int64_t>() | 2 : -1;  // 0 or 1 could be valid, if there are more nodes
   if (in.one_in(12))
     ids[static_cast<std::size_t>(in.byte()) % ids.size()] = in.one_in(2) ? in.raw<std::int64_t>() : n_nodes + base;
   const Integers node_ids(ids, is_wide), begins(offsets, is_wide);
@@ -300,7 +300,7 @@ void make_adjacency_of_grid(Input &in, State &state) {
   };
   const std::int64_t ni = side(), nj = side(), nk = side();
   const std::int32_t n_threads = in.n_threads();
-  // Larger grids that fit into memory would only take time.
+  // Larger grids that fit into memory would only waste time.
   const double n = static_cast<double>(ni) * static_cast<double>(nj) * static_cast<double>(nk);
   if (n > 1e5 && n < 1e9) return;
   put(in, state, made_by<riis_adjacency>(in, [&](riis_adjacency **made) {

@@ -13,7 +13,7 @@ bool are_equal(const std::vector<double> &a, const std::vector<double> &b) {
 
 }  // namespace
 
-// A refusal leaves the arrays as they were.
+// Adds forces. A refusal must leave the arrays as they were.
 void add_forces(Input &in, State &state) {
   ResultSlot &slot = state.results[in.slot()];
   const Given<riis_marks> result = given(in, state, State::result, slot.handle);

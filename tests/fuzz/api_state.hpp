@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The handles of a sequence of calls, the memory that they borrow, and the calls.
+// The handles of a sequence of calls, the memory that the handles borrow, and the functions that make the calls.
 #pragma once
 
 #include <riis/riis.h>
@@ -34,22 +34,22 @@ struct Nodes {
   std::array<double, 3> operator[](std::int64_t i) const { return {x[i * stride], y[i * stride], z[i * stride]}; }
 };
 
-// A mesh and everything that its handle borrows.
+// A mesh and all memory that its handle borrows.
 struct MeshSlot {
   riis_mesh *handle = nullptr;
   std::shared_ptr<Nodes> nodes;
-  std::shared_ptr<void> adjacency;  // the memory of the rows; empty if there are none
+  std::shared_ptr<void> adjacency;  // the memory of the rows; empty if the mesh has no adjacency
   bool was_told = true;             // whether the handle was updated after the last change of coordinates
 };
 
 struct ValveSlot {
   riis_valve *handle = nullptr;
-  double size = 1;  // of a valve from patches: the extent of its control points
+  double size = 1;  // for a valve from patches: the extent of its control points
 };
 
 struct ResultSlot {
   riis_marks *handle = nullptr;
-  double distance_limit = 0;  // of the last marking
+  double distance_limit = 0;  // the limit of the last marking
 };
 
 struct State {
@@ -66,12 +66,12 @@ struct State {
   State &operator=(const State &) = delete;
   ~State();
 
-  // Returns a handle of any other kind than the given one, for a place where it does not belong, or NULL if there is none.
+  // Returns a handle of another kind than the given one, to be passed where it does not belong. Returns NULL if there is none.
   enum Kind { valve, surface, mesh, adjacency, result, leak, crossing, n_kinds };
   void *handle_of_another_kind(Input &in, Kind but) const;
 };
 
-// The right handle, or sometimes a handle of another kind or NULL. `is_right` tells which.
+// Returns the right handle, or sometimes NULL or a handle of another kind. `is_right` tells whether it is the right one.
 template <class Handle>
 struct Given {
   Handle *handle;
@@ -85,7 +85,7 @@ Given<Handle> given(Input &in, const State &state, State::Kind kind, Handle *rig
   return {right, right != nullptr};
 }
 
-// Each function makes some calls and takes its choices from the input.
+// Each function makes some calls, with choices from the input.
 void call_status_functions(Input &in);
 void call_init_functions(Input &in);
 void make_valve(Input &in, State &state);
@@ -118,15 +118,16 @@ void add_forces(Input &in, State &state);
 void advance_laws(Input &in, State &state);
 void move_by_keyframes(Input &in, State &state);
 
-// The closest triangle by a loop over all, and its distance. The position is -1 if none is within the limit.
+// The closest triangle and its distance, found by a loop over all triangles. The position is -1 if no triangle is within the
+// limit.
 struct Closest {
   double distance;
   std::int64_t triangle;
 };
-// Tells whether the surface's distances are to triangles, by its own answer.
+// Returns whether the surface itself reports that its distances are to triangles.
 bool is_by_triangles(const riis_surface *surface);
 Closest closest_by_loop(const riis_triangles &triangles, const std::array<double, 3> &point);
-// Tells whether n_points loops over all triangles are worth their time.
+// Returns whether n_points loops over all triangles are fast enough.
 inline bool is_small(const riis_triangles &triangles, std::int64_t n_points) {
   return triangles.n_triangles * n_points <= 60'000;
 }

@@ -54,7 +54,7 @@ riis_surface_options options_of(Input &in) {
   return options;
 }
 
-// Makes fine distances coarse, because they are as expensive as fine triangles.
+// Makes a fine sampling of distances coarse, because it takes as much time as fine triangles.
 void make_distance_coarse(double size, riis_surface_options &options) {
   if (options.measure == RIIS_MEASURE_TRIANGLES || options.measure_tolerance == RIIS_AUTO) return;
   const double half_thickness = options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
@@ -75,7 +75,7 @@ double size_of(const ValveSlot &slot) {
   return size > 0 ? size : slot.size;
 }
 
-// Millions of triangles would waste the fuzzer's time. So a tolerance is coarse, or so fine that it must be refused.
+// Millions of triangles would waste the fuzzer's time. So the tolerance is made coarse, or so fine that it must be refused.
 void make_coarse(Input &in, double size, riis_surface_options &options) {
   const double half_thickness = options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
   const double ratio = options.tolerance * half_thickness / options.scale / size;
@@ -85,7 +85,7 @@ void make_coarse(Input &in, double size, riis_surface_options &options) {
   options.half_thickness = 0.03 * size * options.scale;
 }
 
-// Returns data that can be read from a surface, without times.
+// Returns all data of a surface that can be read, without times.
 std::vector<double> picture_of(const riis_surface *surface) {
   riis_surface_info info;
   EXPECT_OK(riis_surface_get_info(surface, &info, sizeof info));
@@ -129,7 +129,7 @@ void make_surface(Input &in, State &state) {
 
 namespace {
 
-// Returns the velocities of all vertices; empty if there are none.
+// Returns the velocities of all vertices, or an empty vector if the surface has none.
 std::vector<double> velocities_of(const riis_surface *surface) {
   const riis_triangles t = triangles_of(surface);
   return t.velocity ? std::vector<double>(t.velocity, t.velocity + 3 * t.n_vertices) : std::vector<double>();
@@ -204,12 +204,12 @@ void make_surface_of_arrays(Input &in, State &state) {
     arrays.vz = mostly(in, velocities.data() + 2);
     arrays.velocity_stride = in.one_in(16) ? -in.below(2) : 3;
   }
-  if (in.one_in(8)) {  // vertices alone
+  if (in.one_in(8)) {  // vertices without triangles
     arrays.n_faces = 0;
     arrays.vertex_ids = nullptr;
     if (!in.one_in(8)) arrays.leaflet_id = nullptr;
   }
-  // Sizes may be below those of the buffers, or impossible.
+  // The stated sizes may be smaller than the buffers, or impossible.
   if (in.one_in(32)) arrays.n_vertices = in.below(n + 1) - 1;
   if (in.one_in(32)) arrays.n_faces = in.below(n_faces + 1) - 1;
   if (in.one_in(32)) arrays.n_faces = INT64_MAX - in.below(2);

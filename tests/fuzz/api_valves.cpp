@@ -48,7 +48,7 @@ const char *const names[] = {"opening",
                              "t0_leaflet",
                              "%s%n"};
 
-// Returns every parameter's values.
+// Returns the values of every parameter.
 std::vector<double> values_of(const riis_valve *valve) {
   std::vector<double> all;
   std::int64_t n = -1;
@@ -152,7 +152,7 @@ void set_open_state(Input &in, State &state) {
 
 namespace {
 
-// A strip of patches between two rails. Each patch has rungs at its ends, so its boundary curves close.
+// A strip of patches between two rails. Curves across the strip, the rungs, end each patch, so its boundary is closed.
 struct Strip {
   std::vector<std::int32_t> degree, curve_id, reversed, leaflet_id;
   std::vector<double> control;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A fault that a harness finds ends the process. The fuzzer takes this for a crash and keeps the input.
+// Ends the process if a harness finds a fault. The fuzzer then reports a crash and keeps the input.
 #pragma once
 
 #include <cstdio>

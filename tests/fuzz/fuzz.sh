@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # Runs the fuzzing harnesses.
 #   fuzz.sh test BUILD_DIR HARNESS             runs one harness for RIIS_FUZZ_TEST_SECONDS (9) and keeps only findings
-#   fuzz.sh all BUILD_DIR SECONDS N_JOBS OUT   runs all harnesses for SECONDS altogether, N_JOBS at a time, and prints a table;
-#                                              OUT keeps their corpora for the next time, their logs, and findings
-# RIIS_FUZZ_SEED is the seed of the mutations, 1 unless given; "random" draws one. It is printed. A finding fails.
+#   fuzz.sh all BUILD_DIR SECONDS N_JOBS OUT   runs all harnesses for SECONDS altogether, N_JOBS at a time, and prints a table.
+#                                              OUT keeps their corpora for the next time, their logs and their findings.
+# RIIS_FUZZ_SEED is the seed of the mutations: 1 by default; "random" draws one. The seed is printed. The script fails if there is
+# a finding.
 set -euo pipefail
 here=$(dirname -- "$(readlink -f -- "$0")")
 mode=$1 build=$2
@@ -12,34 +13,34 @@ mode=$1 build=$2
 seed=${RIIS_FUZZ_SEED:-1}
 [[ $seed != random ]] || seed=$(od -An -N4 -tu4 /dev/urandom | tr -d ' ')
 
-# Each harness has a share of the time.
+# Each harness gets its share of the time.
 declare -A shares=([api]=8 [vtk]=4 [vtu]=3 [vtp]=3 [pvd]=1 [json]=3 [stl]=2 [command_line]=2 [cycle]=1)
 harnesses=(api vtk vtu vtp pvd json stl command_line cycle)
 
-# options HARNESS SECONDS: prints the options of every run of a harness. No input of its size should reach the limits: seconds for
-# a single input, and memory, most of which the address sanitizer holds back.
+# options HARNESS SECONDS: prints the options for every run of a harness. They limit the seconds for a single input and the
+# memory, most of which the address sanitizer keeps for itself. No input of the allowed size should reach these limits.
 options() {
   local max_len=4096 dictionary=$1
   case $1 in
     api)
       max_len=1024
-      echo -len_control=10 # long sequences soon
+      echo -len_control=10 # tries long sequences early
       ;;
     command_line)
       max_len=1024
-      echo -close_fd_mask=1 # it prints its help
+      echo -close_fd_mask=1 # hides the help that the harness prints
       ;;
     vtu | vtp | pvd) dictionary=xml ;;
   esac
-  # VTK's readers leak on inputs that they refuse. Looking for leaks after each such input would take all the time, so it is done
-  # only at the end.
+  # VTK's readers leak on inputs that they refuse. A check for leaks after each such input would take all the time, so leaks are
+  # checked only at the end.
   [[ $1 != vt? && $1 != pvd && $1 != stl ]] || echo -detect_leaks=0
   printf '%s\n' -max_total_time="$2" -max_len=$max_len -timeout=300 -rss_limit_mb=4000 -malloc_limit_mb=4000 -print_final_stats=1
   [[ ! -f $here/$dictionary.dict ]] || echo -dict="$here/$dictionary.dict"
 }
 
-# fuzz HARNESS SECONDS FINDINGS CORPUS...: runs a harness and adds new inputs to the first corpus. It runs in stretches, each with
-# a seed of its own, since VTK's leaks add up.
+# fuzz HARNESS SECONDS FINDINGS CORPUS...: runs a harness and adds new inputs to the first corpus. The run is split into several
+# processes, each with a seed of its own, because VTK's leaks add up.
 fuzz() {
   local name=$1 left=$2 findings=$3 arguments now number=0
   shift 3
@@ -54,7 +55,7 @@ fuzz() {
   echo "all of $name done"
 }
 
-# Prints the numbers behind "$1: " in the log $2.
+# Prints the numbers that follow "$1: " in the log $2.
 numbers() {
   grep -oE "(^|[ :])$1: +[0-9]+" "$2" | grep -oE '[0-9]+$' || true
 }
@@ -76,12 +77,12 @@ run_all() {
   for name in "${harnesses[@]}"; do
     while (($(jobs -rp | wc -l) >= n_jobs)); do wait -n || true; done
     mine=$((seconds * n_jobs * shares[$name] / parts))
-    # A harness has at most the whole time.
+    # A harness gets at most the whole time.
     ((mine <= seconds)) || mine=$seconds
     ((mine >= 1)) || mine=1
     given[$name]=$mine
     mkdir -p "$out/$name/corpus" "$out/$name/findings"
-    # This run begins with the earlier findings. It finds them again unless they were mended.
+    # The run begins with the earlier findings. It reports them again unless they were fixed.
     find "$out/$name/findings" -type f -exec mv -t "$out/$name/corpus" {} +
     echo "$name: $mine s"
     fuzz "$name" "$mine" "$out/$name/findings" "$out/$name/corpus" "$here/corpus/$name" >"$out/$name/log" 2>&1 </dev/null &
@@ -94,7 +95,7 @@ run_all() {
     printf '%-13s %11s %6s %6s %6s %7s %9s\n' "$name" "$executions" $((executions / given[$name])) \
       "$(numbers cov "$out/$name/log" | tail -n 1)" "$(numbers ft "$out/$name/log" | tail -n 1)" \
       "$(find "$out/$name/corpus" -type f | wc -l)" "$n_findings"
-    # A harness that did not reach its end has found something, such as a leak at the end, or did not start.
+    # A harness that did not reach its end found a fault, such as a leak at the end, or did not start.
     if ((n_findings > 0)) || ! grep -q "^all of $name done" "$out/$name/log"; then
       status=1
       echo "  $out/$name/log:"

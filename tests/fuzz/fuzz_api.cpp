@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C interface: the input is a sequence of calls with right and wrong arguments, on a few handles of each kind. After every
-// call the harness checks the header's promises for all calls. It also checks results that it can compute in another way.
+// Fuzzes the C interface. The input is a sequence of calls with right and wrong arguments, on a few handles of each kind. After
+// every call the harness checks the header's promises for all calls. It also checks results that it can compute in another way.
 #include <cstdio>
 
 #include "api_state.hpp"
@@ -48,13 +48,13 @@ void call_status_functions(Input &in) {
 
 namespace {
 
-// Checks that an init function fills as much as the caller has room for, or nothing.
+// Checks that an init function fills exactly as much as the caller has room for, or nothing.
 template <class Struct>
 void init(Input &in, riis_status (*init_function)(Struct *, int64_t)) {
   static const int64_t sizes[] = {sizeof(Struct),     0,         8,        -8, sizeof(Struct) - 8, sizeof(Struct) + 8,
                                   sizeof(Struct) + 1, INT64_MAX, INT64_MIN};
   const int64_t size = in.one_of(sizes);
-  // The struct is on the heap, where the sanitizer sees its end.
+  // The struct is on the heap, so that the sanitizer detects writes beyond its end.
   const auto out = std::make_unique<Struct>();
   std::memset(static_cast<void *>(out.get()), 0x5a, sizeof(Struct));
   const bool into_nothing = in.one_in(8);
@@ -153,7 +153,7 @@ void destroy_something(Input &in, State &state) {
 
 namespace {
 
-// The calls in the order for an input without choices: bytes of 0 alone run through all of them successfully.
+// The order of calls for an input without choices: an input of zero bytes makes all these calls, and all succeed.
 void (*const calls[])(Input &, State &) = {make_valve,
                                            make_surface,
                                            make_mesh,

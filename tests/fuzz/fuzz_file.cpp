@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of meshes, surfaces and motions in the format RIIS_FUZZ_ENDING. They are read whole, or refused with the file's name and
-// a reason. The content must be usable: nodes make a mesh or are refused for their coordinates, cells make an adjacency, faces
-// make a surface, frames make keyframes.
+// Fuzzes files of meshes, surfaces and motions in the format RIIS_FUZZ_ENDING. A file is read whole, or refused with the file's
+// name and a reason. The content must be usable: nodes make a mesh or are refused for their coordinates, cells make an adjacency,
+// faces make a surface, frames make keyframes.
 #include <riis/riis_vtk.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ const fuzz::ScratchFile &file() {
   return scratch;
 }
 
-// Returns true for RIIS_OK. Any other status must be a refusal of one of two kinds, with a message.
+// Returns whether the status is RIIS_OK. Any other status must be a refusal of one of two kinds, with a message.
 bool is_fine(riis_status status, riis_status refusal) {
   if (status == RIIS_OK) return true;
   const char *text = riis_last_error();
@@ -50,7 +50,8 @@ void read_mesh() {
   EXPECT(riis_vtk_mesh_get_nodes(read, &n_nodes, &n_cells, &xyz) == RIIS_OK, "%s", riis_last_error());
   EXPECT(n_nodes > 0 && n_cells >= 0, "%lld nodes", static_cast<long long>(n_nodes));
   double sum = 0;
-  for (std::int64_t i = 0; i < 3 * n_nodes; ++i) sum += xyz[i];  // the sanitizer watches the reads
+  // Reads all of it, so that the sanitizer checks the reads.
+  for (std::int64_t i = 0; i < 3 * n_nodes; ++i) sum += xyz[i];
   riis_mesh *mesh = nullptr;
   if (is_fine(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh), RIIS_INVALID_MESH))
     EXPECT(std::isfinite(sum), "%g", sum);
@@ -88,7 +89,7 @@ void read_surface() {
   riis_vtk_surface_destroy(&read);
 }
 
-// A motion becomes keyframes. A file that a collection names may be any.
+// Makes keyframes of a motion. A collection may name any file.
 void use_motion(riis_status status, riis_vtk_motion *read, const char *named) {
   if (status != RIIS_OK) {
     const char *text = riis_last_error();
@@ -109,7 +110,7 @@ void use_motion(riis_status status, riis_vtk_motion *read, const char *named) {
   riis_vtk_motion_destroy(&read);
 }
 
-// The file is both frames of a motion, and may have displacements.
+// Uses the file as both frames of a motion, and possibly as displacements.
 void read_motion() {
   static const double times[2] = {0, 1};
   const char *const paths[2] = {file().path().c_str(), file().path().c_str()};

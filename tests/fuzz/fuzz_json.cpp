@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program's JSON files: each input is read as a valve of patches, as parameters of either kind of valve, and as the opening
-// of a valve in a case. It is refused with an exit status and a message, or it is a valve or a law. The valve's parameters,
+// Fuzzes the program's JSON files. Each input is read as a valve of patches, as parameters of either kind of valve, and as the
+// opening of a valve in a case. It is refused with an exit status and a message, or it is a valve or a law. A valve's parameters,
 // printed and read back, must be unchanged.
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +23,7 @@ const fuzz::ScratchFile &file() {
   return scratch;
 }
 
-// Tells whether the file was accepted.
+// Returns whether the file was accepted.
 bool is_taken(const std::function<void()> &read) {
   try {
     read();
@@ -68,7 +68,7 @@ void read_opening() {
   is_taken([] {
     const riis::program::Json root = riis::program::parse_json_file(file().path(), "a case");
     const riis::program::CaseValues values(file().path(), "valve 0", root, {"opening"});
-    // No input names a file of the machine.
+    // No input may name a file of this machine.
     const riis::program::CaseOpening found =
         riis::program::case_opening(values, [](const std::string &) { return file().path() + ".none"; });
     for (const double time : {-1.0, 0.0, 0.37, 1e9}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns the fuzzer's bytes into choices and numbers. Beyond the last byte everything is 0, and choice 0 is always harmless.
+// Turns the fuzzer's bytes into choices and numbers. After the last byte every choice is 0, and choice 0 is always harmless.
 #pragma once
 
 #include <cfloat>
@@ -20,12 +20,12 @@ class Input {
 
   int byte() { return next_ == end_ ? 0 : *next_++; }
 
-  // 0 <= choice < n <= 256
+  // Returns a choice from 0 to n - 1. n is at most 256.
   int below(int n) { return byte() % n; }
 
   bool one_in(int n) { return below(n) == n - 1; }
 
-  // Chooses one of three handles, mostly the first, so that handles that belong together meet.
+  // Chooses one of three handles. It is mostly the first, so that handles of the same slot are used together.
   std::size_t slot() {
     const int k = byte();
     return static_cast<std::size_t>(k < 208 ? 0 : k % 3);
@@ -45,7 +45,7 @@ class Input {
     return values[below(static_cast<int>(n))];
   }
 
-  // Returns any double: small ones, limits of ranges, or arbitrary bits.
+  // Returns any double: a small one, the limit of a range, or arbitrary bits.
   double number() {
     static const double special[] = {
         0.0,     -0.0, 1.0,   -1.0,   std::nan(""), -std::nan(""), INFINITY, -INFINITY, DBL_MAX, 5e-324, DBL_MIN,
@@ -57,7 +57,7 @@ class Input {
     return raw<double>();
   }
 
-  // Returns a coordinate, mostly on a coarse lattice, where points coincide and distances tie.
+  // Returns a coordinate, mostly on a coarse lattice, where points coincide and distances are equal.
   double place() {
     const int k = byte();
     if (k < 192) return (k - 96) / 32.0;
@@ -65,7 +65,7 @@ class Input {
     return number();
   }
 
-  // Returns a usable coordinate.
+  // Returns a coordinate that the library accepts.
   double sound_place() {
     const double x = place();
     return std::abs(x) <= 1e3 ? x : 1;
@@ -77,7 +77,7 @@ class Input {
     return one_of(some);
   }
 
-  // Returns the value, or in one of 16 cases a wrong one.
+  // Returns the value, or in one of 16 cases a wrong value.
   template <class T>
   T mostly(T value) {
     static const T wrong[] = {
@@ -95,7 +95,7 @@ T *mostly(Input &in, T *pointer) {
   return in.one_in(32) ? nullptr : pointer;
 }
 
-// Integers of 32 or 64 bits, in a buffer of exactly their size.
+// An array of 32-bit or 64-bit integers, in a buffer of exactly their size.
 class Integers {
  public:
   Integers(const std::vector<std::int64_t> &values, bool is_64_bits) : bytes_(values.size() * (is_64_bits ? 8 : 4)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the fuzzer's bytes to a file with a fixed name, in a folder of the process's own.
+// Writes the fuzzer's bytes to a file with a fixed name, in a folder that belongs to this process.
 #pragma once
 
 #include <fcntl.h>
@@ -22,7 +22,7 @@ class ScratchFile {
     folder_ = pattern;
     open_file(pattern + "/" + name);
   }
-  // Makes a file in the folder of another, which must live longer.
+  // Makes a file in the folder of `other`, which must live longer.
   ScratchFile(const ScratchFile &other, const std::string &name) { open_file(other.folder_ + "/" + name); }
   ~ScratchFile() {
     close(file_);
@@ -46,7 +46,7 @@ class ScratchFile {
     EXPECT(file_ >= 0, "%s cannot be made", path_.c_str());
   }
 
-  std::string folder_;  // which this file made
+  std::string folder_;  // the folder, if this file made it
   std::string path_;
   int file_ = -1;
 };

@@ -58,10 +58,10 @@ static void arc_length_of_known_curves(void **state) {
   const double line[12] = {0, 0, 0, 1, 2, 2, 2, 4, 4, 3, 6, 6};
   CHECK_NEAR(bezier_arc_length(3, line, 0, 1), 9, 1e-12);
   CHECK_NEAR(bezier_arc_length(3, line, 0.25, 0.75), 4.5, 1e-12);
-  /* y = x^2 on [0,1]: (2 sqrt 5 + asinh 2) / 4. */
+  /* The length of y = x^2 on [0,1] is (2 sqrt 5 + asinh 2) / 4. */
   const double parabola[9] = {0, 0, 0, 0.5, 0, 0, 1, 1, 0};
   CHECK_NEAR(bezier_arc_length(2, parabola, 0, 1), (2 * sqrt(5.0) + asinh(2.0)) / 4, 1e-12);
-  /* A curve that goes there and back. The speed is zero at the turning point, so the length is twice the reach. */
+  /* This curve goes out and back on a line. The speed is zero at the turning point, so the length is twice the distance to it. */
   const double there_and_back[9] = {0, 0, 0, 1, 0, 0, 0, 0, 0};
   CHECK_NEAR(bezier_arc_length(2, there_and_back, 0, 1), 1, 1e-11);
   const double point[9] = {1, 2, 3, 1, 2, 3, 1, 2, 3};
@@ -82,7 +82,7 @@ static void arc_length_is_the_limit_of_chords(void **state) {
         memcpy(previous, next, sizeof next);
       }
     }
-    /* The chords' error is in proportion to h^2, so it can be extrapolated away. */
+    /* The error of chords is proportional to h^2, so extrapolation removes it. */
     const double expected = sum[1] + (sum[1] - sum[0]) / 3;
     CHECK_NEAR(bezier_arc_length(3, control, 0, 1), expected, 1e-9 * expected);
     CHECK_NEAR(bezier_arc_length(3, control, 0, 0.3) + bezier_arc_length(3, control, 0.3, 1), expected,
@@ -112,14 +112,14 @@ static void flatness_is_measured_to_the_segment(void **state) {
   (void)state;
   const double beyond_the_end[9] = {0, 0, 0, 3, 0, 0, 1, 0, 0}; /* on the line, 2 beyond the segment */
   CHECK_NEAR(bezier_flatness(2, beyond_the_end), 2, 1e-15);
-  const double closed[12] = {0, 0, 0, 0, 3, 0, 4, 0, 0, 0, 0, 0}; /* 0/0 in the paper's formula */
+  const double closed[12] = {0, 0, 0, 0, 3, 0, 4, 0, 0, 0, 0, 0}; /* the paper's formula gives 0/0 here */
   CHECK_NEAR(bezier_flatness(3, closed), 4, 1e-15);
   const double arch[12] = {0, 0, 0, 1, 1, 0, 2, -2, 0, 3, 0, 0};
   CHECK_NEAR(bezier_flatness(3, arch), 2, 1e-15);
 }
 
-/* Compares every point of the curve with the point of its chord at the same share of the length. The promised bound holds for
- * every piece, and on average it is not much too large. Shares are binary fractions. */
+/* Compares every point of the curve with the point of its chord at the same fraction of the length. The promised bound holds
+ * for every piece, and on average it is not much too large. Pieces begin and end at binary fractions of the length. */
 static void flattening_stays_within_its_bound(void **state) {
   (void)state;
   double sum_of_ratios = 0;
@@ -131,7 +131,7 @@ static void flattening_stays_within_its_bound(void **state) {
     const int degree = 2 + trial % 2;
     const double max_error = pow(10, random_between(&rng, -4, -1));
     random_control(control);
-    if (trial % 10 == 0) memcpy(control + 3 * degree, control, 3 * sizeof *control); /* closed */
+    if (trial % 10 == 0) memcpy(control + 3 * degree, control, 3 * sizeof *control); /* a closed curve */
     CHECK_OK(bezier_flatten(degree, control, max_error, &n, &points, &t, &errors));
     assert_true(n >= 2);
     for (int c = 0; c < 3; ++c) {
@@ -163,7 +163,7 @@ static void flattening_stays_within_its_bound(void **state) {
     CHECK_SAME(t[0], 0.0);
     CHECK_SAME(t[n - 1], 1.0);
     for (int64_t i = 0; i + 1 < n; ++i) {
-      assert_true(t[i + 1] > t[i]); /* a shared middle appears once */
+      assert_true(t[i + 1] > t[i]); /* a shared point appears once */
       CHECK_AT_MOST(errors[i], max_error);
       CHECK_SAME(t[i] * 0x1p20, floor(t[i] * 0x1p20));
     }
@@ -187,7 +187,7 @@ static void flattening_takes_few_points(void **state) {
   const double line[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, point[9] = {1, 2, 3, 1, 2, 3, 1, 2, 3};
   assert_int_equal(n_flattened(2, line, 1e-9), 2);
   assert_int_equal(n_flattened(2, point, 1e-9), 1);
-  /* A quarter of a unit circle: n equal pieces are off by (pi / (2 n))^2 / 8. Halving takes the next power of two for n. */
+  /* A quarter of a unit circle. The error of n equal pieces is (pi / (2 n))^2 / 8. Halving makes n the next power of two. */
   const double k = 0.5522847498, quarter[12] = {1, 0, 0, 1, k, 0, k, 1, 0, 0, 1, 0};
   assert_int_equal(n_flattened(3, quarter, 0.0055), 9);
   assert_int_equal(n_flattened(3, quarter, 0.0014), 17);

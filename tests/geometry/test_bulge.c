@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0
- * O(u) of patches of arcs: its value, and the bound on its deviation from linear between two u. */
+ * The offset O(u) of patches made of arcs: its value, and the bound on its deviation from a linear function between two values
+ * of u. */
 #include "internals.h"
 #include "test_support.h"
 
 static random_source rng;
 
-/* Half a circle of cubics in the plane z = 0, radius 1, counter-clockwise: the base. */
+/* The base: half a circle of cubics in the plane z = 0, with radius 1, counter-clockwise. */
 enum { n_base = 2 };
 static const double k = 0.5522847498307933984;
 static double base[12 * n_base];
@@ -31,7 +32,7 @@ static void of_a_cylinder(void **state) {
     CHECK_NEAR(offset[1], -0.5 * tangent[0], 1e-12);
     CHECK_NEAR(offset[2], 0, 1e-12);
   }
-  /* A negative factor turns O round. */
+  /* A negative factor reverses O. */
   double offset[3];
   bulge_at(n_base, base, n_base, edge, -0.25, 0.5, offset);
   CHECK_NEAR(offset[1], -0.5, 1e-12);
@@ -45,8 +46,8 @@ static void is_nothing_where_base_and_edge_touch(void **state) {
   for (int c = 0; c < 3; ++c) CHECK_NEAR(offset[c], 0, 0);
 }
 
-/* Edges have any shape, also single points, and bases have joints. O never leaves the line by more than the bound. On short
- * ranges the bound is not much too large. */
+/* Edges have any shape, even single points, and bases have joints. O never deviates from a linear function by more than the
+ * bound. On short ranges the bound is not much too large. */
 static void stays_within_the_bound(void **state) {
   (void)state;
   double sum_of_ratios = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests whether a segment meets a triangle, against whole numbers. Segments are in general position, pass through corners, sides
- * and planes, miss these by less than doubles resolve, or lie in planes. Units vary. */
+ * Compares the library's test of whether a segment meets a triangle with exact integer arithmetic. Segments are in general
+ * position, pass through corners or sides, miss them by less than doubles resolve, or lie in the triangle's plane. Units vary. */
 #include "crossing_oracle.h"
 #include "internals.h"
 #include "test_support.h"
@@ -27,7 +27,7 @@ static int answer(const sample *s, int exponent, int swapped, int turned) {
   return swapped ? segment_triangle_meet(b, a, abc) : segment_triangle_meet(a, b, abc);
 }
 
-/* Checks that every order of ends and corners gives the oracle's answer. */
+/* Checks that the answer is the oracle's for every order of ends and corners. */
 static int check(const sample *s, int exponent) {
   const int expected = oracle_segment_meets_triangle(s->a, s->b, s->abc);
   for (int i = 0; i < 12; ++i)
@@ -42,7 +42,7 @@ static void random_triangle(sample *s, int64_t largest) {
   while (!has_area(s->abc));
 }
 
-/* In the smallest unit coordinates are barely above the numbers that count as 0. In the largest they reach 1e60. */
+/* In the smallest unit, coordinates are barely above the numbers that count as 0. In the largest unit they reach 1e60. */
 static int random_exponent(int bits) { return -298 + (int)(random_bits(&rng) % (uint64_t)(298 + 199 - bits)); }
 
 static void small_numbers_meet_in_every_way(void **state) {
@@ -63,8 +63,8 @@ static void small_numbers_meet_in_every_way(void **state) {
   assert_true(n_met > n / 10 && n_met < n * 9 / 10 && n_in_plane > n / 10);
 }
 
-/* A segment passes through a point at a corner, on a side or inside of a triangle. The point is rounded to whole
- * numbers, and one end is off by at most 1. */
+/* A segment passes through a triangle's corner, a point of its side, or an inner point. That point is rounded to whole
+ * numbers, and one end of the segment is off by at most 1. */
 static void numbers_of_38_bits_are_told_apart(void **state) {
   (void)state;
   int n_met = 0;
@@ -89,7 +89,7 @@ static void numbers_of_38_bits_are_told_apart(void **state) {
   assert_true(n_met > n / 5 && n_met < n * 4 / 5);
 }
 
-/* A fan of triangles round a corner has no hole: a segment through an inner point meets at least one triangle. */
+/* A fan of triangles around a corner has no hole: a segment through a point inside the fan meets at least one triangle. */
 static void a_fan_has_no_hole(void **state) {
   (void)state;
   enum { n_sides = 7 };
@@ -100,7 +100,7 @@ static void a_fan_has_no_hole(void **state) {
       corners[k][0] = cos(angle), corners[k][1] = sin(angle), corners[k][2] = random_between(&rng, -0.1, 0.1);
     }
     for (int i = 0; i < 3; ++i) centre[i] = random_between(&rng, -0.01, 0.01);
-    /* The ends are above and below the centre or a point of a spoke, up to rounding. */
+    /* One end is above and one below the centre, or a point of a spoke, up to rounding. */
     const int spoke = trial % n_sides;
     const double share = trial % 3 ? 0 : random_between(&rng, 0, 0.3), tilt = random_between(&rng, -0.1, 0.1);
     for (int i = 0; i < 3; ++i) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Curves of several Bézier pieces by the share of their length. */
+ * Curves of several Bézier pieces, with points given by their fraction of the curve's length. */
 #include "internals.h"
 #include "test_support.h"
 
@@ -7,7 +7,7 @@ static random_source rng;
 
 enum { max_pieces = 5 };
 
-/* Cubics that follow each other in the same direction, at different speeds and with a jump in curvature. */
+/* Makes cubics that continue each other's direction, at different speeds and with jumps in curvature. */
 static int64_t random_chain(double *control) {
   const int64_t n = 1 + (int64_t)(random_bits(&rng) % max_pieces);
   double at[3] = {0, 0, 0}, along[3] = {1, 0, 0};
@@ -87,7 +87,7 @@ static void parts_are_parts(void **state) {
       CHECK_AT_MOST(distance(of_part, of_whole), 1e-10);
     }
   }
-  /* A cut at a joint leaves no part of the neighbour. */
+  /* If a cut is at a joint, the part contains nothing of the neighbouring piece. */
   double control[12 * max_pieces], part[12 * max_pieces], first = 0;
   int64_t n = 0;
   while (n < 3) n = random_chain(control);
@@ -96,8 +96,8 @@ static void parts_are_parts(void **state) {
   assert_int_equal(chain_between(n, control, first, 1, 0, part), n - 1);
 }
 
-/* Points are on the curve at binary fractions of its length, as for one piece (test_bezier). At equal shares no chord is farther
- * from the curve than its bound, not even across joints. */
+/* Points are on the curve at binary fractions of its length, as for one piece (test_bezier). At equal fractions, no point of a
+ * chord is farther from the curve than the bound, even across joints. */
 static void flattening_stays_within_its_bound(void **state) {
   (void)state;
   double sum_of_ratios = 0;

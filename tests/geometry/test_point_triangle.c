@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The decision kernel, compared with an independent one in extended precision on triangles of every shape, size and place. */
+ * The decision kernel, which finds a triangle's closest point, compared with an independent one in extended precision.
+ * Triangles have every shape, size and position. */
 #include "internals.h"
 #include "oracle.h"
 #include "test_support.h"
@@ -10,7 +11,7 @@ typedef struct {
   double p[3], abc[9], size;
 } sample;
 
-/* A triangle of the given size and thinness around a random centre, and a point within a few sizes of it. */
+/* Makes a triangle of the given size and thinness around a random centre, and a point within a few sizes of the triangle. */
 static sample random_sample(double size, double thinness, double offset) {
   sample s;
   double centre[3], along[3], across[3];
@@ -51,7 +52,7 @@ static void check_sample(const sample *s, double *worst) {
   for (int i = 0; i < 9; ++i) largest = fmax(largest, fabs(s->abc[i]));
   for (int c = 0; c < 3; ++c) largest = fmax(largest, fabs(s->p[c]));
   *worst = fmax(*worst, fabs(distance - expected) / largest);
-  /* The weights are at least 0 and sum to 1. They give the point, and the point is at the returned distance. */
+  /* The weights are at least 0 and sum to 1. They reproduce the closest point, which lies at the returned distance. */
   CHECK_NEAR(w[0] + w[1] + w[2], 1, 1e-15);
   double sum = 0;
   for (int c = 0; c < 3; ++c) {
@@ -79,7 +80,8 @@ static void agrees_on_needles(void **state) {
   int n = 0;
   for (int trial = 0; trial < 200000; ++trial) {
     const sample s = random_sample(pow(10, random_between(&rng, -3, 1)), pow(10, random_between(&rng, -11, -2)), 1);
-    if (height_over_longest(s.abc) <= 2e-12) continue; /* such triangles count as zero area and never get here */
+    /* Triangles this thin count as having no area and never reach the kernel. */
+    if (height_over_longest(s.abc) <= 2e-12) continue;
     check_sample(&s, &worst);
     ++n;
   }

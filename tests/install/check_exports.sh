@@ -15,7 +15,7 @@ if [ "$n_declared" -ne "$n_api" ]; then
 fi
 expected=$(printf '%s\n' "$declared" "$@" | sort)
 
-# Absolute symbols are the names of versions.
+# Absolute symbols are names of versions, not of functions.
 exported=$(nm -D --defined-only "$library" | awk '$2 != "A" { sub(/@.*/, "", $3); print $3 }' | sort)
 
 if ! diff <(echo "$expected") <(echo "$exported"); then

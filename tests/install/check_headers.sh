@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_headers.sh WORK_DIR CC CXX INCLUDE_DIR HEADER...
-# Every public header must compile alone, also when it is included twice, as strict C99 and as C++17, a .hpp as C++17 alone. Its
-# declarations must be usable from both.
+# Every public header must compile alone, and also if it is included twice. Headers *.h must compile as strict C99 and as C++17,
+# and be usable from both. Headers *.hpp must compile as C++17.
 set -euo pipefail
 work=$1 cc=$2 cxx=$3 include=$4
 shift 4
@@ -17,7 +17,7 @@ for header in "$@"; do
     "$cxx" -std=c++17 -pedantic -Wall -Wextra -Wconversion -Werror "$optimise" -I"$include" \
       -c "$work/alone.cpp" -o "$work/alone.o"
   done
-  # A mangled name would not link.
+  # In C++, a mangled name would show that the header lacks extern "C".
   nm -u "$work/alone.o" | grep -q -w riis_last_error
   [[ $header == *.hpp ]] && echo "$header: C++17" || echo "$header: C99 and C++17"
 done

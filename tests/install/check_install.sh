@@ -1,10 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_install.sh SOURCE_DIR BUILD_DIR WORK_DIR shared|static [VTK] [Fortran] [program]
-# Installs a build tree to a fresh prefix and uses it as a stranger would. Examples are built outside the tree by CMake and by
-# pkg-config, and run. C and Fortran must print the same. The prefix is then moved and this repeated. The last prefix is used by
-# all examples, the ones before by two. A staged (DESTDIR) install must hold the same files and no path of its stage.
-# Environment: CMAKE, PKG_CONFIG, CC, CXX, FC, TEST_PLUGIN, which is the test of that name
+# Installs a build tree to a fresh prefix and uses it as an outside project would. Examples are built outside the tree by CMake
+# and by pkg-config, and run. Each example must print the same in C and in Fortran. The prefix is then moved, and the examples are
+# built again. After the last move all examples are built, before that only two. A staged (DESTDIR) install must hold the same
+# files and no path of its stage. Environment: CMAKE, PKG_CONFIG, CC, CXX, FC, and TEST_PLUGIN, the path of the program
+# test_plugin
 set -euo pipefail
 source=$1 build=$2 work=$3 kind=$4
 shift 4
@@ -24,7 +25,8 @@ quietly() {
 c_flags=(-std=c99 -pedantic -Wall -Wextra -Werror)
 fortran_flags=(-std=f2018 -Wall -Wextra -Werror)
 
-# All examples except those of MPI, which check_mpi_example.sh runs. Then the flags that a compiler needs for them besides riis.
+# All examples except those of MPI, which check_mpi_example.sh runs. After them come the flags that a compiler needs for them
+# besides riis.
 all_examples=(first_marking prosthesis opening_valve cell_centres quadrature_points csr_from_elements openmp_caller)
 few_examples=(first_marking openmp_caller)
 declare -A more_flags=([openmp_caller]=-fopenmp)
@@ -37,7 +39,7 @@ fortran_sources=(riis_c riis_support riis_calls riis_valves riis_frames riis_sur
   riis_f77_arrays riis_f77_queries riis_f77_laws riisf)
 
 
-configure_consumer() { # source directory, build directory, prefix, more options
+configure_consumer() { # arguments: source directory, build directory, prefix, more options
   local arguments=(-DCMAKE_PREFIX_PATH="$3" -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX"
     -DCMAKE_C_FLAGS="${c_flags[*]}")
   if has Fortran; then
@@ -46,18 +48,18 @@ configure_consumer() { # source directory, build directory, prefix, more options
   "$CMAKE" -S "$1" -B "$2" "${arguments[@]}" "${@:4}"
 }
 
-library_dir() { # of a prefix
+library_dir() { # argument: prefix
   dirname "$(dirname "$(find "$1" -name riis.pc)")"
 }
 
-# An example prints the same, however it was built and in C or in Fortran.
-check_example() { # name, program
+# An example must print the same however it was built, and in C and in Fortran.
+check_example() { # arguments: name, program
   "$2" >"$work/printed.txt" || problem "$2 failed"
   diff "$expected/$1.txt" "$work/printed.txt" || problem "$2 does not print what it should"
 }
 
-# The prosthesis from its file must mark as many nodes at each opening as the example.
-check_prosthesis_file() { # the program
+# The prosthesis of the example's JSON file must mark as many nodes at each opening as the example's program.
+check_prosthesis_file() { # argument: the program
   local opening
   awk 'BEGIN {
     n = 27; n_nodes = n * n * n
@@ -77,7 +79,7 @@ check_prosthesis_file() { # the program
   grep '^opening' "$expected/prosthesis.txt" | diff - "$work/file.txt" || problem "prosthesis.json is not that of prosthesis.c"
 }
 
-check_by_cmake() { # prefix, all|few
+check_by_cmake() { # arguments: prefix, all|few
   rm -rf "$work/cmake"
   quietly configure_consumer "$source/examples" "$work/cmake" "$1"
   grep -q "^riis_DIR:PATH=$1/" "$work/cmake/CMakeCache.txt" || problem "another riis was found than that in $1"
@@ -113,29 +115,29 @@ check_by_cmake() { # prefix, all|few
 }
 
 # find_package must fail and say why.
-refused() { # text, option, prefix
+refused() { # arguments: text, option, prefix
   rm -rf "$work/refused"
   local consumer=$source/tests/install/refused_consumer
   if configure_consumer "$consumer" "$work/refused" "$3" "$2" >"$work/refused.txt" 2>&1; then
     echo "find_package was not refused: $2"
     return 1
   fi
-  # CMake may break lines anywhere.
+  # CMake may break lines between any two words.
   tr -s ' \n' ' ' <"$work/refused.txt" | grep -q -F "$1" || { cat "$work/refused.txt"; return 1; }
 }
 
-flags() { # pkg-config arguments
+flags() { # arguments: for pkg-config
   PKG_CONFIG_PATH=$pkg_config_path "$PKG_CONFIG" "$@"
 }
 
-check_by_pkg_config() { # prefix, all|few, more pkg-config options
+check_by_pkg_config() { # arguments: prefix, all|few, more pkg-config options
   local pkg_config_path out=$work/pkg_config examples=("${all_examples[@]}")
   [ "$2" = all ] || examples=("${few_examples[@]}")
   pkg_config_path=$(library_dir "$1")/pkgconfig
   rm -rf "$out"
   mkdir -p "$out"
   local example file more source_name
-  # A compiler that cannot read the module files uses the installed sources. They hold no paths, so once is enough.
+  # A compiler that cannot read the module files uses the installed sources. They contain no paths, so one test is enough.
   if has Fortran && [ ! -d "$work/fortran" ]; then
     mkdir "$work/fortran"
     file=$(dirname "$(find "$1" -name riis_c.f90)")
@@ -144,7 +146,7 @@ check_by_pkg_config() { # prefix, all|few, more pkg-config options
     done
   fi
   if has Fortran && [ "$2" = all ]; then
-    # Built like codes that do not use modules.
+    # Compiled as codes do that use no modules.
     # shellcheck disable=SC2046
     quietly "$FC" -std=legacy "$source/tests/fortran/test_f77.f" "$source/tests/fortran/f77_checks.f" -o "$out/test_f77" \
       $(flags --cflags --libs "${@:3}" riis-fortran)
@@ -182,8 +184,8 @@ check_by_pkg_config() { # prefix, all|few, more pkg-config options
   fi
 }
 
-# A plug-in with the static library inside exports its own names only. It can be closed after it marked.
-check_plugin() { # prefix
+# A plug-in that contains the static library exports only its own names. It can be unloaded after it has marked nodes.
+check_plugin() { # argument: prefix
   local pkg_config_path plugin=$work/plugin.so exported
   pkg_config_path=$(library_dir "$1")/pkgconfig
   # shellcheck disable=SC2046
@@ -195,14 +197,14 @@ check_plugin() { # prefix
   quietly "$TEST_PLUGIN" "$plugin"
 }
 
-binaries() { # prefix
+binaries() { # argument: prefix
   find "$1" -type f \( -name '*.so.*' -o -path '*/bin/*' \)
 }
 
-check_prefix() { # prefix, all|few: the examples
+check_prefix() { # arguments: prefix, all|few (examples)
   local file
   while read -r file; do
-    # Every installed file must find its libraries by itself.
+    # Every installed file must find its libraries without LD_LIBRARY_PATH.
     if env -u LD_LIBRARY_PATH ldd "$file" | grep 'not found'; then
       problem "$file does not find the libraries that it needs"
     fi
@@ -238,7 +240,7 @@ else
   grep -q '/libriis\.a$' "$work/files.txt" || problem "no libriis.a is installed"
 fi
 
-# No file may hold a path of the build or of the prefix.
+# No file may contain a path of the build or of the prefix.
 if grep -r -I -F -e "$build" -e "$source/" -e "$prefix" "$prefix"; then
   problem "an installed text names a directory of the build or the prefix"
 fi
@@ -248,8 +250,8 @@ while read -r file; do
   fi
 done < <(binaries "$prefix")
 
-# An absolute library directory is not moved, but everything must still be found. The static test has its own build tree, so it
-# may be configured anew. Its fixture puts it back.
+# An absolute library directory does not move with the prefix, but everything must still be found. The static test has its own
+# build tree, so this may configure it again. The test's fixture restores it.
 is_configured_anew='' examples_of_moved=all
 if [ "$kind" = static ] && [[ $build == "$(dirname "$work")"/* ]]; then
   is_configured_anew=1 examples_of_moved=few

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_kernels.sh NM SET OBJECT...
-# Objects compiled for an instruction set must define their tables of kernels and nothing else that the linker sees. If other
-# objects have the same function, such as a weak one of a header, the linker might take the version with instructions that the
+# Objects compiled for an instruction set must define their tables of kernels and no other symbol that the linker sees. Otherwise,
+# for a function that other objects also define, such as a weak one from a header, the linker might pick instructions that the
 # processor lacks.
 set -euo pipefail
 nm=$1 set=$2

@@ -8,22 +8,22 @@ set -euo pipefail
 build=$1 n_ranks=$2
 shift 2
 
-# Settings for Open MPI, which others ignore. The test must run on any one machine, however small or restricted:
-#   with more ranks than processors, which yield while they wait
+# Settings for Open MPI. Other MPI libraries ignore them. The test must run on any single machine, however small or restricted:
+#   with more ranks than processors, where waiting ranks yield
 #   as root
-#   without ssh, since nothing is started elsewhere
+#   without ssh, since no rank is started elsewhere
 #   without a network except the loopback
-#   in a container that may not copy from one process's memory to another's
+#   in a container that forbids copying from one process's memory to another's
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1
 export OMPI_MCA_plm=isolated OMPI_MCA_pml=ob1 OMPI_MCA_btl=self,vader OMPI_MCA_btl_vader_single_copy_mechanism=none
-# The same for Open MPI 5, which starts its ranks by PRRTE.
+# The same settings for Open MPI 5, whose launcher is PRRTE.
 export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none
 
 suffixes=("")
 [[ " $* " != *" Fortran "* ]] || suffixes+=(_fortran)
 
-check() { # example, lines that it prints
+check() { # arguments: example, and the lines that it must print
   local example=$1 suffix program printed
   shift
   for suffix in "${suffixes[@]}"; do

@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_needed.sh LIBRARY
-# The core may need Embree, TBB, OpenMP and the C and C++ runtimes, but nothing else: no VTK, no Fortran, no path of its own.
+# The core may link to Embree, TBB, OpenMP and the C and C++ runtimes, but to nothing else: not VTK, not Fortran. It may have no
+# run path of its own.
 set -euo pipefail
 library=$1
 needed=$(readelf -d "$library" | sed -n 's/.*(NEEDED).*\[\(.*\)\].*/\1/p')
@@ -11,6 +12,6 @@ if [ -n "$unexpected" ]; then
   echo "$library needs what it should not:" "$unexpected" >&2
   exit 1
 fi
-# The check above would prove nothing if the list were empty.
+# An empty list would pass the check above.
 grep -q '^libembree' <<<"$needed"
 echo "needed:" "$needed"

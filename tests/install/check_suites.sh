@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_suites.sh CTEST SOURCE_DIR BUILD_DIR SCRATCH_FOLDER
-# ./run test must leave out the slow tests and no others, ./run quick must have no slow test, and continuous integration must run
-# every part. A test whose fixture is slow would bring the fixture back.
+# ./run test must leave out the slow tests and no others. ./run quick must contain no slow test, and continuous integration must
+# run every part. CTest adds the fixtures of a chosen test, so a test that is not slow may have no slow fixture.
 set -euo pipefail
 ctest=$1 source=$2 build=$3 scratch=$4
 
@@ -10,7 +10,7 @@ problem() {
   echo "problem: $*" >&2
   exit 1
 }
-names() { # options of ctest
+names() { # arguments: options of ctest
   "$ctest" --test-dir "$build" -N "$@" | sed -nE 's/^ *Test +#[0-9]+: ([^ ]+).*/\1/p' | sort
 }
 
@@ -22,7 +22,7 @@ both=$(comm -12 <(cat <<<"$slow") <(cat <<<"$plain"))
 both=$(comm -23 <(cat <<<"$quick") <(cat <<<"$plain"))
 [[ ! $both ]] || problem "in ./run quick and not in ./run test: $both"
 
-# Continuous integration, with a run that writes down its words and fails where it is told.
+# Continuous integration is tested with a fake `run` that records its arguments, and fails at a chosen one.
 rm -rf "$scratch"
 mkdir -p "$scratch/.ci"
 cp "$source/.ci/run" "$scratch/.ci/run"

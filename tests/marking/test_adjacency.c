@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Adjacencies: the builders against lists of pairs made by other means, and refusals of cells, faces and grids.
+ * Adjacencies are compared with lists of pairs that are made without the library. Wrong cells, faces and grids are refused.
  */
 #include <riis/riis.h>
 
@@ -11,7 +11,7 @@
 
 static random_source rng;
 
-/* --- A list of pairs, made without the library --------------------------------------------------------------------- */
+/* --- A list of pairs, made without the library ----------------------------------------------------------------------- */
 
 typedef struct pair_list {
   int64_t n, room;
@@ -38,7 +38,7 @@ static int compare_pairs(const void *a, const void *b) {
   return p[1] < q[1] ? -1 : p[1] > q[1];
 }
 
-/* Sorts the pairs and removes repeats. The rows, read from front to back, should hold the result. */
+/* Sorts the pairs and removes repeats. The rows, read in order, should equal the result. */
 static void tidy_pairs(pair_list *list) {
   if (list->n == 0) return;
   qsort(list->ends, (size_t)list->n, 2 * sizeof *list->ends, compare_pairs);
@@ -55,7 +55,7 @@ static riis_csr rows_of(const riis_adjacency *adjacency) {
   return csr;
 }
 
-/* Checks that the rows are the pairs, with base 0, 64-bit offsets and 32-bit columns. */
+/* Checks that the rows contain exactly the pairs, with base 0, 64-bit offsets and 32-bit columns. */
 static void check_rows(const riis_adjacency *adjacency, int64_t n_nodes, pair_list *expected) {
   const riis_csr csr = rows_of(adjacency);
   tidy_pairs(expected);
@@ -93,10 +93,11 @@ static int same_rows(const riis_adjacency *a, const riis_adjacency *b) {
 
 typedef struct cell_list {
   int64_t n_nodes, n_cells;
-  int64_t *offsets, *nodes; /* from 0 */
+  int64_t *offsets, *nodes; /* counted from 0 */
 } cell_list;
 
-/* kind: 4, 5, 6, 8, or 0 for a mixture. Nodes n_used to n_nodes - 1 are in no cell. */
+/* Makes random cells. kind is the number of nodes of a cell, 4, 5, 6 or 8, or 0 for a mixture. Nodes n_used to n_nodes - 1 are
+ * in no cell. */
 static cell_list random_cells(int kind, int64_t n_nodes, int64_t n_used, int64_t n_cells, int repeated_nodes) {
   static const int kinds[4] = {4, 5, 6, 8};
   cell_list list = {n_nodes, n_cells, own(calloc((size_t)n_cells + 1, sizeof(int64_t))),
@@ -107,7 +108,7 @@ static cell_list random_cells(int kind, int64_t n_nodes, int64_t n_used, int64_t
     list.offsets[c + 1] = list.offsets[c] + n;
     for (int k = 0; k < n; ++k) {
       int is_new;
-      do { /* nodes near each other, as in a mesh */
+      do { /* chooses nodes near each other, as in a mesh */
         nodes[k] = (c * n_used / n_cells + (int64_t)(random_bits(&rng) % 40)) % n_used;
         is_new = 1;
         for (int m = 0; m < k && !repeated_nodes; ++m) is_new = is_new && nodes[m] != nodes[k];
@@ -129,7 +130,7 @@ static pair_list pairs_of_cells(const cell_list *list) {
   return pairs;
 }
 
-/* n integers plus base, as 32 or 64 bits. */
+/* Returns the n integers plus base, as an array of 32 or 64 bits. */
 static void *as_bits(const int64_t *from, int64_t n, int bits, int64_t base) {
   int32_t *narrow = own(malloc((size_t)(n + 1) * sizeof(int64_t)));
   int64_t *wide = (int64_t *)(void *)narrow;
@@ -175,7 +176,7 @@ static void cells_of_every_kind(void **state) {
             if (kinds[k] && trial == 0)
               cells.nodes_per_cell = kinds[k];
             else
-              cells.offsets = offsets, cells.nodes_per_cell = 77; /* not used */
+              cells.offsets = offsets, cells.nodes_per_cell = 77; /* nodes_per_cell is ignored if there are offsets */
             cells.n_threads = 1;
             CHECK_OK(riis_adjacency_create_from_cells(&cells, &one));
             check_rows(one, n_nodes, &expected);
@@ -191,7 +192,7 @@ static void cells_of_every_kind(void **state) {
       }
 }
 
-/* One cell of each kind, with its edges written down by hand. */
+/* One cell of each kind, with its edges listed by hand. */
 static void one_cell_of_each_kind(void **state) {
   (void)state;
   static const int n_corners[4] = {4, 5, 6, 8}, n_edges[4] = {6, 8, 9, 12};
@@ -264,7 +265,8 @@ static void cells_that_are_refused(void **state) {
   REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cell 0 are given from 0 to 7|4, 5, 6 and 8");
   offsets[1] = 4, offsets[2] = 3;
   REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cell 1 are given from 4 to 3");
-  offsets[1] = 8, offsets[2] = 16; /* beyond the last offset: nothing is read there */
+  /* These offsets exceed the last one, 12; the call must refuse before it reads there. */
+  offsets[1] = 8, offsets[2] = 16;
   REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cell 2 are given from 16 to 12");
   offsets[1] = 4, offsets[2] = 8, offsets[0] = 1;
   REFUSED_WITH(offsets = offsets, RIIS_INVALID_MESH, "cells.offsets begins with 1|begin with 0");
@@ -276,11 +278,11 @@ static void cells_that_are_refused(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "adjacency|NULL", riis_adjacency_create_from_cells(&good, NULL));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "cells|NULL", riis_mesh_cells_init(NULL, sizeof cells));
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "cells is 8", riis_mesh_cells_init(&cells, 8));
-  assert_null(adjacency); /* written on success only */
+  assert_null(adjacency); /* a handle is written only on success */
 #undef REFUSED_WITH
 }
 
-/* The least 64-bit integer, from either base. */
+/* The least 64-bit integer is refused as a node, with base 0 and 1. */
 static void wildest_integers_are_refused(void **state) {
   (void)state;
   const int64_t ids[4] = {1, 2, 3, INT64_MIN}, offsets[2] = {1, 2}, columns[1] = {INT64_MIN};
@@ -349,7 +351,7 @@ static void faces_in_every_layout(void **state) {
     pair_list expected = {0};
     for (int64_t f = 0; f < n_faces; ++f) {
       int64_t *face = ends + 2 * f;
-      if (f > 0 && random_bits(&rng) % 10 == 0) { /* repeat a face, either way round */
+      if (f > 0 && random_bits(&rng) % 10 == 0) { /* repeats a face, with its cells in either order */
         const int64_t *again = ends + 2 * (int64_t)(random_bits(&rng) % (uint64_t)f);
         const int turned = again[1] >= 0 && random_bits(&rng) % 2;
         face[0] = again[turned], face[1] = again[!turned];
@@ -390,7 +392,7 @@ static void faces_in_every_layout(void **state) {
   }
 }
 
-/* A rank without cells: no arrays at all. */
+/* A rank without cells passes no arrays at all. */
 static void nothing_makes_empty_rows(void **state) {
   (void)state;
   for (int64_t n_nodes = 0; n_nodes <= 3; n_nodes += 3) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The handle of an adjacency, the rows that a mesh is given, and the calls that end them. */
+ * The handle of an adjacency, the rows of a mesh, and the calls after which a mesh has no rows. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -18,7 +18,7 @@ static void handles_of_adjacencies(void **state) {
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "csr is 64", riis_adjacency_get_csr(adjacency, &csr, 64));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "csr|NULL", riis_csr_init(NULL, sizeof csr));
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "csr is -8", riis_csr_init(&csr, -8));
-  /* A mesh takes the place of an adjacency, and an adjacency the place of a mesh. */
+  /* The handles of a mesh and an adjacency are swapped. */
   const double xyz[18] = {0};
   riis_mesh *mesh = NULL;
   CHECK_OK(riis_mesh_create(6, xyz, xyz + 1, xyz + 2, 3, &mesh));
@@ -29,7 +29,7 @@ static void handles_of_adjacencies(void **state) {
                 riis_mesh_set_adjacency((riis_mesh *)(void *)adjacency, &csr));
   riis_adjacency *wrong = (riis_adjacency *)(void *)mesh;
   riis_adjacency_destroy(&wrong);
-  assert_non_null(wrong); /* left alone */
+  assert_non_null(wrong); /* a refused call leaves the handle alone */
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
   riis_mesh_destroy(&mesh);
   riis_adjacency_destroy(&adjacency);
@@ -38,7 +38,7 @@ static void handles_of_adjacencies(void **state) {
   riis_adjacency_destroy(NULL);
 }
 
-/* Returns 1 if the mesh can be searched along an adjacency. */
+/* Returns 1 if the mesh can be searched along its adjacency. */
 static int has_adjacency(const riis_surface *surface, const riis_mesh *mesh) {
   riis_marks *result = new_result();
   riis_mark_options options = mark_options();
@@ -71,7 +71,7 @@ static void rows_that_are_refused(void **state) {
   good.n_rows = n;
   good.offsets = offsets;
   good.columns = columns;
-  /* A refusal comes before there is an adjacency, and while there is one. The adjacency stays. */
+  /* Rows are refused whether or not the mesh has an adjacency. An adjacency stays. */
   for (int has_one = 0; has_one < 2; ++has_one) {
     if (has_one) CHECK_OK(riis_mesh_set_adjacency(mesh, &good));
 #define REFUSED(status, parts)                                         \
@@ -106,7 +106,7 @@ static void rows_that_are_refused(void **state) {
     columns[4] = 3;
     offsets[3] = 2;
     REFUSED(RIIS_INVALID_MESH, "row 2|ends at 2|begins, at 3");
-    offsets[3] = 1000; /* beyond the number that the last offset promises: nothing is read there */
+    offsets[3] = 1000; /* exceeds the last offset, which gives the number of columns; nothing is read there */
     REFUSED(RIIS_INVALID_MESH, "row 3|ends at 7|begins, at 1000");
     offsets[3] = 5;
     offsets[0] = 1;
@@ -130,7 +130,7 @@ static void when_an_adjacency_goes(void **state) {
   enum { n = 4 };
   riis_surface *surface = aortic_surface(NULL);
   double xyz[3 * (n + 1)] = {0};
-  /* Columns 4 and 5 are ghosts. The rest of each row is the node itself, with repeats. */
+  /* Columns 4 and 5 are ghost nodes. The other columns are the row's own node, with repeats. */
   int64_t offsets[n + 1] = {1, 4, 4, 7, 8}, columns[7] = {5, 6, 1, 3, 3, 2, 4};
   riis_csr csr;
   riis_marks *result = new_result();
@@ -148,7 +148,7 @@ static void when_an_adjacency_goes(void **state) {
   csr.n_all = n + 2;
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
   assert_int_equal(has_adjacency(surface, mesh), 1);
-  /* The adjacency stays if the number of nodes stays, and if an update is refused. It goes with another number of nodes. */
+  /* The adjacency stays if the number of nodes stays or if an update is refused. It is dropped if the number changes. */
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   assert_int_equal(has_adjacency(surface, mesh), 1);
   xyz[3 * n] = NAN;
@@ -170,7 +170,7 @@ static void when_an_adjacency_goes(void **state) {
   assert_int_equal(has_adjacency(surface, mesh), 1);
   CHECK_OK(riis_mesh_set_adjacency(mesh, NULL));
   assert_int_equal(has_adjacency(surface, mesh), 0);
-  /* All rows empty: no columns are wanted. */
+  /* If all rows are empty, columns may be NULL. */
   const int32_t nothing[n + 1] = {0};
   CHECK_OK(riis_csr_init(&csr, sizeof csr));
   csr.n_rows = n;

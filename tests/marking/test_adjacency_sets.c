@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Adjacencies of small random meshes against a std::set of edges: every shape and mixtures, repeated cells and nodes, nodes
- * without cells, nodes in every cell, integers of every width, any number of threads.
+ * Adjacencies of small random meshes are compared with a std::set of edges. The meshes have cells of every shape and mixtures of
+ * them, repeated cells and nodes, nodes in no cell and nodes in every cell. Integers have every width, and any number of threads
+ * runs.
  */
 #include <riis/riis.h>
 
@@ -12,20 +13,20 @@
 
 static random_source rng;
 
-/* The same number of meshes is made of each kind of cells. */
+/* Each kind of cells has the same number of meshes. */
 enum { n_kinds = 5, n_meshes = 150 * n_kinds, most_cells = 300, most_corners = 8 };
 
 static int64_t below(int64_t n) { return (int64_t)(random_bits(&rng) % (uint64_t)n); }
 
 typedef struct random_mesh {
   int64_t n_nodes, n_cells;
-  int64_t offsets[most_cells + 1], nodes[most_cells * most_corners]; /* from 0 */
+  int64_t offsets[most_cells + 1], nodes[most_cells * most_corners]; /* counted from 0 */
 } random_mesh;
 
-/* kind: the number of corners, or 0 for a mixture. */
+/* Makes a mesh. kind is the number of corners of its cells, or 0 for a mixture. */
 static void make_mesh(random_mesh *mesh, int kind) {
   static const int kinds[4] = {4, 5, 6, 8};
-  const int is_large = below(20) == 0; /* then there are several blocks of nodes */
+  const int is_large = below(20) == 0; /* large enough for several blocks of nodes */
   const int64_t n_used = is_large ? 4000 + below(9000) : 1 + below(200),
                 n_cells = below(10) ? below(most_cells) : below(3);
   const int repeats_nodes = n_used < most_corners || below(3) == 0, has_hub = below(6) == 0;
@@ -34,7 +35,7 @@ static void make_mesh(random_mesh *mesh, int kind) {
   for (int64_t c = 0; c < n_cells; ++c) {
     int64_t *nodes = mesh->nodes + mesh->offsets[c];
     int n = kind ? kind : kinds[below(4)];
-    if (c > 0 && below(8) == 0) { /* a cell again */
+    if (c > 0 && below(8) == 0) { /* repeats a cell */
       const int64_t again = below(c), begin = mesh->offsets[again];
       n = (int)(mesh->offsets[again + 1] - begin);
       memmove(nodes, mesh->nodes + begin, (size_t)n * sizeof *nodes);
@@ -98,7 +99,7 @@ static void rows_are_those_of_a_set(void **state) {
     else
       cells.offsets = offsets;
     for (int width = 0; width < 3; ++width) {
-      /* The library's own limits, then limits below the mesh's numbers. */
+      /* First with the library's own limits, then with limits below the mesh's numbers. */
       const int64_t n_entries = width == 1 ? mesh.offsets[mesh.n_cells] - 1 : -1, n_nodes = width == 2 ? 0 : -1;
       const int n_threads = below(20) ? 1 + (int)below(3) : 9;
       wide_rows rows = {0};
@@ -115,7 +116,7 @@ static void rows_are_those_of_a_set(void **state) {
   assert_true(n_long_rows > 0);
 }
 
-/* Without nodes or without cells, in each width. */
+/* Without nodes or without cells the rows are empty, in each width of integers. */
 static void nothing_makes_empty_rows_in_each_width(void **state) {
   (void)state;
   for (int64_t n_nodes = 0; n_nodes <= 5000; n_nodes += 5000)
@@ -132,7 +133,7 @@ static void nothing_makes_empty_rows_in_each_width(void **state) {
       }
 }
 
-/* The first wrong cell is named, whatever block of cells a thread finds first. */
+/* The message names the first wrong cell, whichever block of cells a thread checks first. */
 static void the_first_wrong_cell_is_named(void **state) {
   (void)state;
   enum { n_cells = 20000 };
@@ -151,7 +152,7 @@ static void the_first_wrong_cell_is_named(void **state) {
       CHECK_REFUSED(RIIS_INVALID_MESH, "node 2 of cell 9001 is -3; there are nodes 0 to 0",
                     rows_with_limits(&cells, n_threads, -1, -1, &rows));
     }
-  /* A wrong size comes before any wrong node. */
+  /* A wrong size is reported before any wrong node. */
   offsets[15001] = 60003, offsets[18001] = 72003;
   for (int n_threads = 1; n_threads <= 4; ++n_threads)
     CHECK_REFUSED(RIIS_INVALID_MESH, "cell 15000 are given from 60000 to 60003",

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The search over clusters finds the same nodes as the exhaustive search, to the last bit. This holds for every mesh,
- * surface, limit, mask, instruction set and number of threads. If it cannot be used, the exhaustive search runs and is named. */
+ * The search over clusters finds the same nodes as the exhaustive search, to the last bit. This holds for every mesh, surface,
+ * limit, mask, instruction set and number of threads. If clusters cannot be used, the exhaustive search runs, and the
+ * statistics say so. */
 #include <omp.h>
 #include <riis/riis.h>
 
@@ -41,7 +42,8 @@ static void meshes_of_few_nodes(void **state) {
   assert_true(most_within > 20);
 }
 
-/* Nodes in one place, in few places, on a line or in a plane. Their numbers are near those of a leaf, a cluster and a region. */
+/* All nodes are at one point, at few points, on a line or in a plane. Their number is near the size of a leaf, a cluster or a
+ * region. */
 static void nodes_without_extent(void **state) {
   (void)state;
   static const int counts[] = {1, 2, 31, 33, 100, 511, 513, 1025, 8191, 8193, 20000};
@@ -66,7 +68,7 @@ static void nodes_without_extent(void **state) {
     }
 }
 
-/* The coordinates differ by numbers that have no inverse, or by the smallest number. */
+/* Coordinates differ by the smallest number, or by numbers so small that their inverse overflows. */
 static void nodes_that_differ_by_next_to_nothing(void **state) {
   (void)state;
   const double soup[9] = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
@@ -91,8 +93,8 @@ static void nodes_that_differ_by_next_to_nothing(void **state) {
   }
 }
 
-/* Both valves are tested with spacings that grow to one side, and with cells a hundred times as long as they are high. Limits
- * reach from nearly 0 to beyond the mesh. */
+/* Both valves are tested in meshes whose spacing grows to one side, and in meshes with cells a hundred times as long as high.
+ * Limits reach from nearly 0 to beyond the mesh. */
 static void graded_and_anisotropic_meshes(void **state) {
   (void)state;
   static const double limits[] = {0, 1e-3, 0.05, 0.4, 50};
@@ -118,7 +120,7 @@ static void graded_and_anisotropic_meshes(void **state) {
       }
       free_owned_after(owned_before);
     }
-  /* If OpenMP gives as many threads as asked for, more than one ran. */
+  /* If OpenMP gives as many threads as requested, more than one must have run. */
   if (omp_get_thread_limit() > 1) assert_true(most_threads > 1);
 }
 
@@ -142,8 +144,8 @@ static void masked_nodes_are_left_out(void **state) {
   }
 }
 
-/* Each mesh is one node, so only the allowance for single precision makes its box large. The limit is the node's distance, or one
- * bit less. */
+/* Each mesh is one node, so only the allowance for single precision gives its box a size. The limit is the node's distance, or
+ * one bit less. */
 static void nodes_at_the_limit_are_found(void **state) {
   (void)state;
   riis_surface_options options = surface_options();
@@ -153,7 +155,7 @@ static void nodes_at_the_limit_are_found(void **state) {
   const double square[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
   const int32_t ids[6] = {0, 1, 2, 0, 2, 3};
   const riis_surface_arrays arrays = triangle_arrays(4, square, 2, ids);
-  /* The square's box has the same distance as the square. */
+  /* The square's bounding box is as far from the node as the square itself. */
   riis_surface *surfaces[2] = {valve_surface("aortic", options), surface_from(&arrays, &options)};
   for (int k = 0; k < 2; ++k) {
     int n_tried = 0;
@@ -175,7 +177,7 @@ static void nodes_at_the_limit_are_found(void **state) {
 
 /* --- Surfaces -------------------------------------------------------------------------------------------------------- */
 
-/* A sphere about the origin of (2 n) times n quads, each of two triangles except at the poles. */
+/* Makes a sphere around the origin of (2 n) times n quads, each of two triangles except at the poles. */
 static riis_surface *sphere(int n, double radius, double half_thickness) {
   double *at = own(malloc((size_t)(2 * n) * (size_t)(n + 1) * 3 * sizeof *at));
   int32_t *ids = own(malloc((size_t)(4 * n * n) * 3 * sizeof *ids));
@@ -200,8 +202,9 @@ static riis_surface *sphere(int n, double radius, double half_thickness) {
   return surface_from(&arrays, &options);
 }
 
-/* All of the surface is equally far from its middle, so the filter leaves far more pairs than there is room for. The test counts
- * the pairs that the filter must leave: triangles whose distance is within single precision's error of the smallest. */
+/* Every point of the surface is equally far from its middle, so the filter leaves far more pairs than its buffer holds. The
+ * test counts the pairs that the filter must leave: triangles whose distance is within single precision's error of the
+ * smallest. */
 static void more_pairs_than_room(void **state) {
   (void)state;
   enum { n = 40, room = 4096 };
@@ -215,19 +218,19 @@ static void more_pairs_than_room(void **state) {
     n_equal += oracle_point_triangle(middle, abc) <= smallest + error;
   }
   printf("%lld of %lld triangles are as near\n", (long long)n_equal, (long long)all.n_triangles);
-  assert_true(32 * n_equal > 2 * room); /* so many pairs in one leaf */
+  assert_true(32 * n_equal > 2 * room); /* one leaf has this many pairs */
   for (int spread = 0; spread < 3; ++spread) {
     for (int i = 0; i < 3 * n; ++i)
       xyz[i] = spread == 0 ? 0 : (spread == 1 ? 1e-7 : 1e-3) * random_between(&rng, -1, 1);
     most_within = 0;
     check(surface, n, xyz, 1);
     assert_int_equal(most_within, n);
-    check(surface, n, xyz, smallest); /* only triangles at exactly this distance, or nearer */
+    check(surface, n, xyz, smallest); /* a limit at which only triangles at exactly this distance, or nearer, count */
   }
 }
 
-/* Triangles from arrays: arbitrary ones, needles down to 1e-11, sizes over many powers of ten, level triangles, and separate
- * pieces. Units go from 1e-50 to 1e50. Some surfaces are far from the origin, where coordinates round. */
+/* Surfaces from arrays have arbitrary triangles, needles down to 1e-11, sizes over many powers of ten, coplanar triangles, and
+ * separate pieces. Units go from 1e-50 to 1e50. Some surfaces are far from the origin, where coordinates round. */
 static void surfaces_from_arrays(void **state) {
   (void)state;
   enum { max_triangles = 600, n = 1500 };
@@ -262,12 +265,12 @@ static void surfaces_from_arrays(void **state) {
     options.half_thickness = unit * random_power_of_ten(&rng, -4, -1);
     riis_surface *surface = NULL;
     const riis_status status = riis_surface_create_from_arrays(&arrays, &options, &surface);
-    if (status == RIIS_INVALID_SURFACE) continue; /* only triangles without an area */
+    if (status == RIIS_INVALID_SURFACE) continue; /* all its triangles are without area */
     CHECK_OK(status);
     own(surface);
     const double off = unit * random_power_of_ten(&rng, -6, 0.5);
     for (int i = 0; i < n; ++i) point_near(surface, i % 3 ? off : 0, xyz + 3 * i);
-    for (int i = 0; i < n; i += 50) /* some far away, so that the mesh is larger than the surface or as large */
+    for (int i = 0; i < n; i += 50) /* some are far away, so that the mesh is as large as the surface or larger */
       for (int c = 0; c < 3 && trial % 4 == 0; ++c) xyz[3 * i + c] += 300 * unit * random_between(&rng, -1, 1);
     check(surface, n, xyz, RIIS_AUTO);
     check(surface, n, xyz, fmax(options.half_thickness, off * random_power_of_ten(&rng, -1, 1)));
@@ -276,7 +279,7 @@ static void surfaces_from_arrays(void **state) {
   assert_int_equal(most_within, n);
 }
 
-/* Needles along a diagonal. Subtracting the surface's middle from their corners rounds their heights away. */
+/* Needles lie along a diagonal. If the surface's middle is subtracted from their corners, their heights round to 0. */
 static void needles_that_are_lines_in_the_frame(void **state) {
   (void)state;
   enum { n_triangles = 64, n = 2000 };
@@ -293,7 +296,7 @@ static void needles_that_are_lines_in_the_frame(void **state) {
       p[6] = p[7] = p[8];
       p[6] += size * 1e-11, p[7] -= size * 1e-11;
     }
-    /* This triangle determines the frame. */
+    /* This triangle determines the surface's frame. */
     const double large[9] = {0.7, 0.7, 0.7, -0.1, 0.7, 0.7, 0.7, -0.1, -0.1};
     memcpy(corners, large, sizeof large);
     const riis_surface_arrays arrays = triangle_arrays(3 * n_triangles, corners, n_triangles, ids);
@@ -308,7 +311,7 @@ static void needles_that_are_lines_in_the_frame(void **state) {
   }
 }
 
-/* The valve lies far from the origin: as in a scanner's coordinates, or where coordinates round. */
+/* The valve lies far from the origin, as in a scanner's coordinates, or so far that coordinates round. */
 static void valves_far_from_the_origin(void **state) {
   (void)state;
   static const double far[] = {300, 1e4, 1e6};
@@ -328,7 +331,7 @@ static void valves_far_from_the_origin(void **state) {
   }
 }
 
-/* --- Where single precision does not do ------------------------------------------------------------------------------- */
+/* --- If single precision does not suffice ---------------------------------------------------------------------------- */
 
 static void where_it_cannot_be_used_the_exhaustive_search_runs(void **state) {
   (void)state;
@@ -349,7 +352,7 @@ static void where_it_cannot_be_used_the_exhaustive_search_runs(void **state) {
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
     const int owned_before = n_owned();
     for (int i = 0; i < 3 * n; ++i) xyz[i] = cases[k].at + cases[k].size * random_between(&rng, -1, 1);
-    for (int i = 0; i < 20; ++i) /* some are near */
+    for (int i = 0; i < 20; ++i) /* some are near the surface */
       if (cases[k].at == 0 && cases[k].size > 1) point_near(surface, 0.1, xyz + 3 * i);
     riis_mesh *mesh = mesh_of(n, xyz);
     riis_mark_options options = mark_options();
@@ -378,7 +381,7 @@ static void what_options_say(void **state) {
     options.instructions = wrong[k];
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, text, riis_mark_nodes(surface, mesh, &options, result));
   }
-  /* The processor lacks the instruction sets beyond the best. */
+  /* The loop covers instruction sets that this processor lacks. */
   for (int32_t set = RIIS_INSTRUCTIONS_BASELINE; set <= RIIS_INSTRUCTIONS_AVX512; ++set) {
     options.instructions = set;
     assert_int_equal(is_refused(riis_mark_nodes(surface, mesh, &options, result), set), set > best);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The search over clusters from step to step, as the automatic choice, and from several threads at once. */
+ * The search over clusters from step to step, chosen by RIIS_SEARCH_AUTO, and called by several threads at the same time. */
 #include <omp.h>
 #include <riis/riis.h>
 
@@ -28,7 +28,7 @@ static void nodes_and_valve_move(void **state) {
   riis_mark_options options = mark_options();
   for (int step = 0; step < 8; ++step) {
     check_with(surface, mesh, options, 2, RIIS_SEARCH_CLUSTERS);
-    const double turn = 0.3 * step, grow = step == 5 ? 40 : 1; /* slowly, then far apart, then all mixed */
+    const double turn = 0.3 * step, grow = step == 5 ? 40 : 1; /* first slowly, then far apart, then shuffled */
     double *to = step % 2 ? xyz : other;
     for (int i = 0; i < n; ++i) {
       const double *p = (step % 2 ? other : xyz) + 3 * i, x = p[0], y = p[1];
@@ -43,8 +43,8 @@ static void nodes_and_valve_move(void **state) {
   }
 }
 
-/* Nodes move before they are sorted, without riis_mesh_update. The clusters are those of the present nodes, however far these
- * are. */
+/* Nodes move before they are sorted, without riis_mesh_update. The clusters contain the nodes at their present positions,
+ * however far they moved. */
 static void nodes_that_moved_without_a_word(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -85,11 +85,11 @@ static void non_finite_coordinates(void **state) {
         options.n_threads = threads;
         CHECK_OK(riis_mark_nodes(surface, mesh, &options, kept));
         CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-        if (made_before < 2) { /* otherwise the clusters are next used as they are */
+        if (made_before < 2) { /* otherwise the clusters are used next without change */
           free_one_owned(mesh);
           mesh = mesh_of(n, xyz);
         }
-        /* Clusters have to be made, or only placed. */
+        /* Clusters must be made, or only need new positions. */
         if (made_before == 1) {
           CHECK_OK(riis_mesh_prepare(mesh, threads));
           CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
@@ -120,8 +120,8 @@ static int32_t search_of(const riis_surface *surface, const riis_mesh *mesh, int
   return search;
 }
 
-/* RIIS_SEARCH_AUTO is exhaustive for the first marking of a mesh, and uses clusters for all others. It also uses clusters for the
- * first if the mesh is prepared. */
+/* RIIS_SEARCH_AUTO is exhaustive for the first marking of a mesh, and uses clusters for all others. It also uses clusters for
+ * the first marking if the mesh is prepared. */
 static void what_auto_is(void **state) {
   (void)state;
   enum { n = 200 };
@@ -133,7 +133,7 @@ static void what_auto_is(void **state) {
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
-  CHECK_OK(riis_mesh_update(mesh, n - 1, xyz, xyz + 1, xyz + 2, 3)); /* other nodes */
+  CHECK_OK(riis_mesh_update(mesh, n - 1, xyz, xyz + 1, xyz + 2, 3)); /* the mesh has other nodes now */
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_EXHAUSTIVE);
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
   free_one_owned(mesh);
@@ -144,7 +144,7 @@ static void what_auto_is(void **state) {
   CHECK_OK(riis_mesh_prepare(mesh, 0));
   CHECK_OK(riis_mesh_prepare(mesh, 2));
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
-  CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3)); /* moved after the first marking, or before it */
+  CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3)); /* nodes moved after the first marking, or before it */
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
   free_one_owned(mesh);
   mesh = mesh_of(n, xyz);
@@ -152,14 +152,14 @@ static void what_auto_is(void **state) {
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
   free_one_owned(mesh);
-  mesh = mesh_of(n, xyz); /* any search counts as a marking */
+  mesh = mesh_of(n, xyz); /* an earlier marking by any search counts */
   assert_int_equal(search_of(surface, mesh, RIIS_SEARCH_EXHAUSTIVE), RIIS_SEARCH_EXHAUSTIVE);
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
 }
 
 /* --- Threads --------------------------------------------------------------------------------------------------------- */
 
-/* Returns 1 if a marking of a mesh, which may be new to all threads, is not the expected one. */
+/* Returns 1 if a marking differs from the expected one. The mesh may be new to all threads. */
 static int marks_wrong(const riis_surface *surface, riis_mesh *mesh, const riis_marks *expected, int n_threads,
                        int prepares) {
   riis_mark_options options = {0};
@@ -174,8 +174,8 @@ static int marks_wrong(const riis_surface *surface, riis_mesh *mesh, const riis_
   return wrong;
 }
 
-/* The thread sanitizer's view of OpenMP misses the end of a team inside another team. If the stack of such a team is used again,
- * this looks like a race. */
+/* The thread sanitizer misses the end of an OpenMP team inside another team. If another team reuses that team's stack, the
+ * sanitizer reports a race. */
 #if defined(__has_feature)
 #if __has_feature(thread_sanitizer)
 #define RIIS_TEST_MOST_NESTED 1
@@ -201,7 +201,7 @@ static void several_callers_of_one_mesh(void **state) {
         int n_wrong = 0;
         free_one_owned(mesh);
         mesh = mesh_of(nodes.n, nodes.xyz);
-        if (moved) { /* only to be placed */
+        if (moved) { /* these clusters only need new positions */
           CHECK_OK(riis_mesh_prepare(mesh, 1));
           CHECK_OK(riis_mesh_update(mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
         }
@@ -213,7 +213,7 @@ static void several_callers_of_one_mesh(void **state) {
   omp_set_max_active_levels(levels);
 }
 
-/* There are so many nodes that threads share their sorting. */
+/* The mesh has so many nodes that threads share the sorting. */
 static void a_mesh_that_threads_sort_together(void **state) {
   (void)state;
   const int64_t n = 300000;

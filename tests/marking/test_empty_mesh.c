@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A process without nodes calls everything as the others do, with NULL for arrays: meshes, adjacencies, markings, leaks, and
- * sums over nodes. */
+ * A process without nodes makes the same calls as other processes, with NULL for arrays: meshes, adjacencies, markings, leaks,
+ * and sums over nodes. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -20,7 +20,7 @@ static riis_csr empty_csr(void) {
   return csr;
 }
 
-/* A moving valve, so that no field is refused. */
+/* Makes a moving valve, so that no field is refused. */
 static riis_surface *moving_surface(void) {
   riis_valve *valve = new_valve("mitral");
   riis_surface *surface = new_surface(valve, NULL);
@@ -73,7 +73,8 @@ static void meshes_may_be_empty(void **state) {
   CHECK_REFUSED(RIIS_INVALID_MESH, "n_nodes is -9223372036854775808;",
                 riis_mesh_update(mesh, INT64_MIN, NULL, NULL, NULL, 1));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "mesh is NULL", riis_mesh_create(0, NULL, NULL, NULL, 1, NULL));
-  assert_int_equal(riis_mesh_create(1, NULL, NULL, NULL, 1, &none), RIIS_INVALID_ARGUMENT); /* pointers for nodes */
+  /* A mesh with nodes needs the pointers. */
+  assert_int_equal(riis_mesh_create(1, NULL, NULL, NULL, 1, &none), RIIS_INVALID_ARGUMENT);
   assert_null(none);
 }
 
@@ -85,7 +86,7 @@ static void adjacencies_may_be_empty(void **state) {
   static const int64_t from_one = 1, zero = 0;
   csr.offsets = &zero, csr.offset_bits = 64;
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
-  csr.offsets = &from_one, csr.index_base = 1, csr.n_all = 7; /* ghosts, which are nodes of other ranks */
+  csr.offsets = &from_one, csr.index_base = 1, csr.n_all = 7; /* ghost nodes, which belong to other ranks */
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
   csr = empty_csr();
   csr.n_rows = -1;
@@ -99,7 +100,7 @@ static void adjacencies_may_be_empty(void **state) {
   riis_mesh_cells cells;
   riis_adjacency *adjacency = NULL;
   CHECK_OK(riis_mesh_cells_init(&cells, sizeof cells));
-  for (int64_t n_nodes = 0; n_nodes <= 5; n_nodes += 5) /* no cells, or no nodes either */
+  for (int64_t n_nodes = 0; n_nodes <= 5; n_nodes += 5) /* once without cells and nodes, once only without cells */
     for (int32_t base = 0; base < 2; ++base)
       for (int with_offsets = 0; with_offsets < 2; ++with_offsets) {
         const int32_t first = base;
@@ -122,7 +123,7 @@ static void adjacencies_may_be_empty(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "cells.n_nodes is -1", riis_adjacency_create_from_cells(&cells, &adjacency));
   cells.n_nodes = 4, cells.n_cells = -1;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "cells.n_cells is -1", riis_adjacency_create_from_cells(&cells, &adjacency));
-  cells.n_cells = 1; /* a cell has nodes */
+  cells.n_cells = 1; /* a cell needs nodes */
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "cells.node_ids", riis_adjacency_create_from_cells(&cells, &adjacency));
   static const int32_t ids[4] = {0, 1, 2, 3};
   cells.node_ids = ids, cells.n_nodes = 0;
@@ -170,7 +171,7 @@ static void every_search_finds_all_of_nothing(void **state) {
         check_nothing_found(result, search);
       }
     }
-  /* A mesh without nodes may lack an adjacency, as other meshes may. Then these two searches are refused. */
+  /* A mesh without nodes may lack an adjacency, as other meshes may. These two searches are then refused. */
   riis_mesh *mesh = empty_mesh();
   riis_mark_options options = mark_options();
   for (int32_t search = RIIS_SEARCH_NEIGHBOR; search <= RIIS_SEARCH_PAPER; ++search) {
@@ -193,7 +194,7 @@ static void other_distances_find_nothing_too(void **state) {
   }
 }
 
-/* A result and a mesh have nodes, have none, and have them again. */
+/* The same result and mesh have nodes, then none, then nodes again. */
 static void nodes_come_and_go(void **state) {
   (void)state;
   riis_surface *surface = moving_surface();
@@ -252,7 +253,7 @@ static void nothing_leaks(void **state) {
   riis_passage passage;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "ends.from[0] is 0|0 nodes",
                 find_passage_between(surface, mesh, NULL, 1, &node, 1, &node, &passage, sizeof passage));
-  /* An empty result is of no marking. */
+  /* This result has never been marked. */
   riis_marks *empty = new_result();
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks are empty", find_leaks_in(surface, mesh, empty, NULL, &leaks));
 }
@@ -290,7 +291,7 @@ static void nobody_is_warned(void *user_data, int32_t level, const char *message
   if (level == RIIS_LOG_WARNING) ++*(int *)user_data;
 }
 
-/* The box of no nodes has no size. */
+/* Without nodes, the mesh's box has no size to warn about. */
 static void no_warning_of_proportions(void **state) {
   (void)state;
   int n_warnings = 0;

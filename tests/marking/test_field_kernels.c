@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The kernels that make fields. Every instruction set gives the bits of plain C in the same order of operations. */
+ * The kernels that compute fields of closest points. Every instruction set gives the bits of plain C in the same order of
+ * operations. */
 #include "internals.h"
 #include "test_support.h"
 
@@ -52,7 +53,7 @@ static void sides_follow_the_height_over_the_plane(void **state) {
   for (int trial = 0; trial < 5000; ++trial) {
     double points[3 * n_lanes], on[3 * n_lanes], normals[3 * n_lanes];
     int32_t side[n_lanes];
-    /* Small whole numbers, so that many points lie in the plane. */
+    /* The coordinates are small whole numbers, so that many points lie in the triangle's plane. */
     for (int i = 0; i < 3 * n_lanes; ++i) {
       points[i] = (double)(random_bits(&rng) % 4);
       on[i] = (double)(random_bits(&rng) % 4);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The fields of closest points that a marking keeps: those of single queries to the last bit, for any search, threads and
- * instructions; the rim, against the numbering of patches and a count of edges; and refusals. */
+ * The fields of closest points that a marking keeps. They equal those of single queries to the last bit, for any search,
+ * threads and instructions. The rim is compared with the numbering of patches and with a count of edges. Wrong requests are
+ * refused. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -49,7 +50,7 @@ static int same_fields(riis_mark_list a, riis_mark_list b) {
          same_array(a.rim, b.rim, n, 4) && same_array(a.patch_id, b.patch_id, n, 4);
 }
 
-/* Returns the sum of the fields whose arrays are given. */
+/* Returns the flags of all fields whose arrays are there. */
 static int32_t arrays_in(riis_mark_list f) {
   return (f.point ? RIIS_FIELD_POINT : 0) | (f.normal ? RIIS_FIELD_NORMAL : 0) |
          (f.barycentric ? RIIS_FIELD_BARYCENTRIC : 0) | (f.side ? RIIS_FIELD_SIDE : 0) | (f.rim ? RIIS_FIELD_RIM : 0) |
@@ -58,7 +59,8 @@ static int32_t arrays_in(riis_mark_list f) {
 
 static int is_bit(int32_t fields) { return fields && !(fields & (fields - 1)); }
 
-/* Checks that the marked nodes have the same fields in both lists of the result. */
+/* Checks that the marked nodes have the same fields in the result's list of marked nodes and its list of nodes within the
+ * limit. */
 static void check_part(const riis_marks *result) {
   const found_nodes all = within_in(result), some = marked_in(result);
   const riis_mark_list of_all = within_fields(result), of_some = marked_fields(result);
@@ -77,10 +79,10 @@ static void check_part(const riis_marks *result) {
   }
 }
 
-/* --- The rim, by another count --------------------------------------------------------------------------------------- */
+/* --- The rim, counted independently ---------------------------------------------------------------------------------- */
 
-/* Marks of the rim, three of each kind for each triangle. Edge k runs from corner k to the next. A corner is marked if it is
- * an end of a marked edge. */
+/* The edges and corners on the rim, three flags of each kind for each triangle. Edge k runs from corner k to the next. A
+ * corner is on the rim if it is an end of a rim edge. */
 typedef struct rims {
   riis_triangles c;
   const int64_t *triangle_id;
@@ -108,8 +110,9 @@ static void mark_corners(rims *r) {
   }
 }
 
-/* Marks the rim by the numbers of patches. It is u = 1 (the sinus) of all aortic patches and v = 1 (the free edge) of the upper
- * ones. It is v = 0 (the annulus) of all mitral patches, and v = 1 (the free edge) unless the leaflets meet there. */
+/* Marks the rim by the numbers of patches. On aortic valves the rim is u = 1 (the sinus) of all patches and v = 1 (the free
+ * edge) of the upper ones. On mitral valves it is v = 0 (the annulus) of all patches, and v = 1 (the free edge) unless the
+ * leaflets meet there. */
 static rims rims_of_valve(const riis_surface *surface, int is_mitral, double opening) {
   rims r = new_rims(surface);
   for (int64_t e = 0; e < 3 * r.c.n_triangles; ++e) {
@@ -155,8 +158,8 @@ static int is_rim(const rims *r, int64_t triangle, const double *w) {
 
 /* --- Against single queries ------------------------------------------------------------------------------------------ */
 
-/* Compares all fields of the nodes within the limit with single queries and with the rim. Velocities are those of the closest
- * triangle, except where several places are equally near. */
+/* Compares all fields of the nodes within the limit with single queries and with the rim. Velocities must be the closest
+ * triangle's, unless several points of the surface are equally near. */
 static void check_fields(const riis_surface *surface, const double *xyz, const rims *r, const riis_marks *result) {
   const riis_mark_list f = within_fields(result);
   const found_nodes nodes = within_in(result);
@@ -195,7 +198,7 @@ static void check_fields(const riis_surface *surface, const double *xyz, const r
   }
 }
 
-/* Nodes near a surface: some on it, at its corners, beyond its edges. Each has the next for a neighbour. */
+/* Makes nodes near a surface: some on it, at its corners, or beyond its edges. Each node's neighbour is the next node. */
 static test_mesh nodes_near(const riis_surface *surface, int64_t n, double reach) {
   const riis_triangles c = triangles_of(surface);
   test_mesh mesh = {.n = n};
@@ -218,7 +221,7 @@ static test_mesh nodes_near(const riis_surface *surface, int64_t n, double reach
   return mesh;
 }
 
-/* Checks that all searches, several threads and instructions give the fields of the first search. */
+/* Checks that all searches, numbers of threads and instruction sets give the fields of the first search. */
 static void check_all_ways(const riis_surface *surface, const rims *r, int32_t fields) {
   const double half_thickness = info_of(surface).half_thickness;
   test_mesh nodes = nodes_near(surface, 300 + any_of(400), 2 * half_thickness);
@@ -247,7 +250,7 @@ static void check_all_ways(const riis_surface *surface, const rims *r, int32_t f
       assert_true(same_fields(within_fields(result), within_fields(expected)));
       assert_true(same_fields(marked_fields(result), marked_fields(expected)));
     }
-  options.search = RIIS_SEARCH_PAPER; /* finds fewer, with their fields */
+  options.search = RIIS_SEARCH_PAPER; /* this search finds fewer nodes, but with their fields */
   options.instructions = RIIS_INSTRUCTIONS_AUTO;
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
   check_fields(surface, nodes.xyz, r, result);
@@ -282,11 +285,12 @@ static void fields_of_valves_are_those_of_single_queries(void **state) {
   }
 }
 
-/* A crumpled sheet with holes and with triangles without area. Triangles have corners of their own or share them. */
+/* The surface is a crumpled sheet with holes and with triangles without area. Triangles have corners of their own or share
+ * them. */
 static void fields_of_arrays_are_those_of_single_queries(void **state) {
   (void)state;
   enum { side = 9, max_vertices = 6 * side * side };
-  riis_surface *surface = surface_of_kind("mitral", NULL); /* its rim is forgotten */
+  riis_surface *surface = surface_of_kind("mitral", NULL); /* the test checks that its rim is forgotten */
   for (int trial = 0; trial < 24; ++trial) {
     const int owned_before = n_owned();
     static double height[side + 1][side + 1], xyz[3 * max_vertices];
@@ -303,14 +307,14 @@ static void fields_of_arrays_are_those_of_single_queries(void **state) {
             const int *step = steps[3 * half + k];
             double *p = xyz + 3 * n_vertices;
             p[0] = 0.1 * (i + step[0]), p[1] = 0.1 * (j + step[1]), p[2] = height[i + step[0]][j + step[1]];
-            if (p[0] == 0 && any_of(2)) p[0] = -0.0; /* the same place */
+            if (p[0] == 0 && any_of(2)) p[0] = -0.0; /* -0 must count as the same position */
             int64_t same = n_vertices;
             for (int64_t v = 0; v < n_vertices && trial % 2; ++v)
               if (is_same_place(xyz + 3 * v, p)) same = v;
             if (same == n_vertices) ++n_vertices;
             ids[3 * n_triangles + k] = (int32_t)same;
           }
-          if (any_of(10) == 0) ids[3 * n_triangles] = ids[3 * n_triangles + 1]; /* no area */
+          if (any_of(10) == 0) ids[3 * n_triangles] = ids[3 * n_triangles + 1]; /* a triangle without area */
           ++n_triangles;
         }
       }
@@ -329,7 +333,7 @@ static void fields_of_arrays_are_those_of_single_queries(void **state) {
 
 /* --- The rim of valves ----------------------------------------------------------------------------------------------- */
 
-/* Three nodes beyond each edge of each triangle: in its plane, off it, and below. */
+/* Returns three points beyond each edge of each triangle: in its plane, off its plane, and vertically below the edge. */
 static double *beyond_edges(const riis_triangles *c, double off) {
   double *xyz = own(malloc((size_t)c->n_triangles * 27 * sizeof *xyz)), *to = xyz;
   for (int64_t e = 0; e < 3 * c->n_triangles; ++e) {
@@ -351,8 +355,8 @@ static double *beyond_edges(const riis_triangles *c, double off) {
   return xyz;
 }
 
-/* Neither valve has a rim along the bending curve, along the symmetry planes or between patches. The closed mitral valve has
- * none along its free edges. */
+/* No valve has a rim along the bending curve, along the symmetry planes or between patches. The closed mitral valve has none
+ * along its free edges. */
 static void valves_have_a_rim_all_around_and_none_inside(void **state) {
   (void)state;
   const int step = is_sanitized() ? 4 : 1;
@@ -389,13 +393,14 @@ static void valves_have_a_rim_all_around_and_none_inside(void **state) {
                    f.uv[2 * k + 1], f.patch_id[k]);
         n_rim += expected;
         const int64_t e = k / 3;
-        if (t == e / 3 && expected && r.edge[e]) ++n_free; /* it is the edge that it was put beyond */
+        /* The closest edge is the edge that the node was put beyond. */
+        if (t == e / 3 && expected && r.edge[e]) ++n_free;
         if (!r.edge[e]) ++n_inside;
         if (f.uv[2 * k + 1] > 1 - 1e-9 && is_mitral && i == 0) {
           ++n_free_closed;
           assert_int_equal(f.rim[k], 0);
         }
-        /* This check does not use the numbers of patches: no rim has both ends in the mirror's plane of the mitral valve. */
+        /* This check does not use the numbers of patches: no rim edge lies in the mitral valve's plane of symmetry. */
         if (is_mitral && f.rim[k] && r.edge[e] && t == e / 3)
           assert_true(corner_of(&r.c, e)[0] != 0 || corner_of(&r.c, next_of(e))[0] != 0);
       }
@@ -432,13 +437,13 @@ static void no_other_patch_touches_the_rim(void **state) {
       for (int64_t k = 0; k < f.n_nodes; ++k) {
         const double *w = f.barycentric + 3 * k, *p = f.point + 3 * k;
         const double middle = fmax(w[0], fmax(w[1], w[2]));
-        if (!f.rim[k] || middle > 0.6) continue; /* ends of edges are shared */
+        if (!f.rim[k] || middle > 0.6) continue; /* skips the ends of edges, which other patches share */
         ++n;
         for (int64_t t = 0; t < c.n_triangles; ++t) {
-          /* Triangles of other leaflets may touch this one, so they are left out. */
+          /* Triangles of other leaflets may touch this edge, so they are skipped. */
           if (c.patch_id[t] == f.patch_id[k]) continue;
           if (c.leaflet_id[t] != (is_mitral ? f.patch_id[k] > 5 : f.patch_id[k] / 4)) continue;
-          /* Its distance to the box of the triangle's corners, which bounds that to the triangle from below. */
+          /* The distance to the box of the triangle's corners is a lower bound of the distance to the triangle. */
           double gap = 0;
           for (int x = 0; x < 3; ++x) {
             double low = INFINITY, high = -INFINITY;
@@ -586,7 +591,7 @@ static void fields_are_refused_by_name(void **state) {
   }
 }
 
-/* Arrays that were not requested are NULL, also after a marking that had them. A result without nodes has no arrays. */
+/* Arrays that were not requested are NULL, even if the marking before had them. A result without nodes has no arrays. */
 static void what_is_not_asked_for_is_null(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0
  * The kernels, compiled for several instruction sets. Decisions and located points have the bits of the scalar kernel. Single
- * precision is off by no more than the library allows for (docs/theory.md, section 8). No pair that matters is left out, however
- * little room there is. */
+ * precision is off by no more than the library allows for (docs/theory.md, section 8). No pair that matters is left out,
+ * however small the buffer for pairs is. */
 #include "internals.h"
 #include "sanitized.h"
 #include "test_support.h"
 
 static random_source rng;
 
-/* Tells whether a count is above n, or above a third of n with a sanitizer, which has a third of the trials. */
+/* Returns whether a count is above n. Sanitized builds run a third of the trials, so there the limit is a third of n. */
 static int is_more(int64_t count, int n) { return count > fewer_if_sanitized(n); }
 
 static double sign(void) { return random_bits(&rng) & 1 ? 1 : -1; }
@@ -26,7 +26,7 @@ static void random_direction(double *v) {
 static void cross(const double *a, const double *b, double *c) {
   for (int i = 0; i < 3; ++i) c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
-/* Unit vectors at right angles. */
+/* Makes three unit vectors at right angles. */
 static void random_frame(double (*axis)[3]) {
   double other[3], length = 0;
   random_direction(axis[0]);
@@ -57,9 +57,8 @@ static double largest_of(const double *x, int n) {
   return largest;
 }
 
-/* Random triangles in the surface's frame, with coordinates of at most 1. Some are needles with heights down to 1e-12 of their
- * length and any angle at their tips, some are tiny, some have coinciding corners. The corners are in the order (first, second,
- * third) or another. */
+/* Makes random triangles in the surface's frame, with coordinates of at most 1. Some are needles with heights down to 1e-12 of
+ * their length and any angle at their tips. Some are tiny, some have coinciding corners. The corners are in any order. */
 enum { n_kinds = 6 };
 static void random_triangle(int kind, double *abc) {
   double q[3][3], axis[3][3], origin[3];
@@ -70,7 +69,7 @@ static void random_triangle(int kind, double *abc) {
   if (kind == 0)
     for (int i = 0; i < 3; ++i) random_point(1, q[i]);
   else {
-    /* The third corner is above an end of the first edge, far beyond it, or anywhere. */
+    /* The third corner's foot is on the first edge, far beyond it, or anywhere. */
     const double along = kind == 2   ? random_between(&rng, 0, 1)
                          : kind == 1 ? (double)(random_bits(&rng) % 2)
                                      : random_between(&rng, -1, 2);
@@ -78,14 +77,15 @@ static void random_triangle(int kind, double *abc) {
     place(origin, axis, size, 0, 0, q[1]);
     place(origin, axis, size * along, size * height, 0, q[2]);
     if (kind == 4) memcpy(q[random_bits(&rng) % 3], q[random_bits(&rng) % 3], sizeof q[0]);
-    if (kind == 5) /* corners on a lattice, where distances tie */
+    if (kind == 5) /* corners on a lattice, where several distances are equal */
       for (int i = 0; i < 9; ++i) q[i / 3][i % 3] = (double)((int)(random_bits(&rng) % 5) - 2) / 4;
   }
   const int first = (int)(random_bits(&rng) % 3), turn = random_bits(&rng) & 1 ? 1 : 2;
   for (int i = 0; i < 3; ++i) memcpy(abc + 3 * i, q[(first + turn * i) % 3], sizeof q[0]);
 }
 
-/* A point on a triangle or off it by a power of ten. It is over a corner, an edge or the inside, beyond a tip, or anywhere. */
+/* Makes a point on a triangle, or away from it by a power of ten. The point is over a corner, an edge or the inside, beyond a
+ * tip, or anywhere. */
 static void random_point_near(const double *abc, double reach, double *p) {
   const int kind = (int)(random_bits(&rng) % 8), from = (int)(random_bits(&rng) % 3), to = (from + 1) % 3;
   double offset[3], w[3] = {0, 0, 0};
@@ -105,7 +105,7 @@ static void random_point_near(const double *abc, double reach, double *p) {
     if (length > 1e-100)
       for (int c = 0; c < 3; ++c) offset[c] = n[c] / length;
   }
-  if (kind == 7) { /* in the triangle's plane, beyond a tip, along the median from there */
+  if (kind == 7) { /* in the triangle's plane, beyond a tip, on the extended median */
     const double beyond = random_power_of_ten(&rng, -6, 0.5);
     w[from] = 1 + 2 * beyond, w[to] = w[(from + 2) % 3] = -beyond;
   }
@@ -168,8 +168,8 @@ static void decisions_have_the_bits_of_the_scalar_kernel(void **state) {
               is_more(n_corner, 5000));
 }
 
-/* There are random triangles, needles, coinciding corners and lattices, in registers of eight that mix kinds. Some points are at
- * corners and on edges. In some units, squares nearly leave the range. */
+/* The triangles are random, needles, with coinciding corners, or on lattices; registers of eight mix these kinds. Some points
+ * are at corners and on edges. In some units, squares of coordinates nearly overflow or underflow. */
 static void located_points_have_the_bits_of_the_scalar_kernel(void **state) {
   (void)state;
   enum { n = 8 };
@@ -189,7 +189,7 @@ static void located_points_have_the_bits_of_the_scalar_kernel(void **state) {
       if (random_bits(&rng) % 32 == 0) memcpy(abc + 3, abc, 3 * sizeof *abc), memcpy(abc + 6, abc, 3 * sizeof *abc);
       random_point_near(abc, random_bits(&rng) % 20 ? 1 : 1e6, p);
       const double *q = abc + 3 * (random_bits(&rng) % 3), *r = abc + 3 * (random_bits(&rng) % 3);
-      if (random_bits(&rng) % 4 == 0) /* at a corner, or half way along an edge */
+      if (random_bits(&rng) % 4 == 0) /* the point is at a corner, or half way along an edge */
         for (int c = 0; c < 3; ++c) p[c] = 0.5 * (q[c] + r[c]);
       for (int c = 0; c < 9; ++c) abc[c] = unit * (abc[c] + origin[c % 3]);
       for (int c = 0; c < 3; ++c) p[c] = unit * (p[c] + origin[c]);
@@ -221,7 +221,8 @@ static void located_points_have_the_bits_of_the_scalar_kernel(void **state) {
 
 /* --- Single precision ------------------------------------------------------------------------------------------------ */
 
-/* The mesh's frame relative to the surface's: points are stored in the first and compared in the second. */
+/* The mesh's frame, given relative to the surface's frame. Points are stored in the mesh's frame and compared in the
+ * surface's. */
 typedef struct framed {
   double ratio, shift[3], largest_shift;
 } framed;
@@ -234,8 +235,8 @@ static framed random_framed(void) {
   return f;
 }
 
-/* Makes the numbers that the mesh stores for a point p of the surface's frame. as_float becomes that point in the surface's
- * frame, in single precision. Returns 0 if p is not in the mesh. */
+/* Computes the numbers that the mesh stores for a point p of the surface's frame. as_float gets that stored point in the
+ * surface's frame, in single precision. Returns 0 if p is not in the mesh. */
 static int store(const framed *f, const double *p, float *stored, float *as_float) {
   for (int c = 0; c < 3; ++c) {
     const double x = (p[c] - f->shift[c]) / f->ratio;
@@ -246,8 +247,8 @@ static int store(const framed *f, const double *p, float *stored, float *as_floa
   return 1;
 }
 
-/* Compares filtered distances with decided ones, as shares of the allowed error. Distances that are too small and distances that
- * are too large are judged apart, because the margin causes most of the second kind. */
+/* Compares filtered distances with decided ones, as fractions of the allowed error. Distances that are too small and those
+ * that are too large are checked separately, because the margin causes most of the latter. */
 static void single_precision_is_right_to_its_error(void **state) {
   (void)state;
   enum { n_lanes = 16 };
@@ -291,14 +292,15 @@ static void single_precision_is_right_to_its_error(void **state) {
     printf("%s: %lld distances, nearer by %.3f of the error at most, farther by %.3f\n", kernels_name(set),
            (long long)n_compared, nearer, farther);
     assert_true(is_more(n_compared, 100000));
-    /* The proof's E2 is at most half of the error. */
+    /* The proof's error E2 is at most half of the allowed error. */
     CHECK_AT_MOST(nearer, 0.5);
-    /* The errors come near the margin, so the check above would notice if the library's margin were smaller. */
+    /* The errors come close to the margin, so the check above would fail if the library's margin were much smaller. */
     CHECK_AT_MOST(0.4, farther);
   }
 }
 
-/* --- A leaf and its groups ------------------------------------------------------------------------------------------- */
+/* --- A leaf of nodes and its groups of triangles
+ * ------------------------------------------------------------------------------------------- */
 
 typedef struct leaf_case {
   enum { max_groups = 24, max_nodes = 32 } sizes;
@@ -310,8 +312,8 @@ typedef struct leaf_case {
   double error;
 } leaf_case;
 
-/* The first triangle has an edge across the others, which are level. The quantity that chooses a group's axes is nearly 0
- * there. */
+/* The first triangle has an edge across the other triangles, which are parallel. There the quantity that chooses a group's
+ * axes is nearly 0. */
 static void first_edge_across(int n, double *corners) {
   double axis[3][3], origin[3];
   random_frame(axis);
@@ -330,7 +332,7 @@ static void first_edge_across(int n, double *corners) {
   }
 }
 
-/* Small triangles, all equally far from the middle. */
+/* Makes small triangles that are all equally far from the middle. */
 static void on_a_sphere(int n, double *corners) {
   for (int i = 0; i < n; ++i) {
     double axis[3][3];
@@ -366,7 +368,7 @@ static void make_case(int set, int trial, leaf_case *c) {
   }
   random_point_near(c->corners[0], limit, centre);
   if (what == all_near) memset(centre, 0, sizeof centre);
-  if (what == with_edge_across) random_point(1.5, centre); /* far enough for angles to matter */
+  if (what == with_edge_across) random_point(1.5, centre); /* so far away that angles matter */
   const int wanted = 1 + (int)(random_bits(&rng) % max_nodes);
   for (int tries = 0; tries < 1000 && c->n_nodes < wanted; ++tries) {
     double *p = c->points + 3 * c->n_nodes;
@@ -433,14 +435,14 @@ static void first_bounds_and_boxes_lose_nothing(void **state) {
           ++n_near;
           const double share = (sqrt(lower_sq[32 * g + node]) - distance) / c.error;
           below = fmax(below, share);
-          if (!(share <= 0.25)) /* half of the error is allowed for */
+          if (!(share <= 0.25)) /* the library allows for twice this error */
             fail_msg("%s, trial %d: a bound from below of %.9g, the distance is %.17g", kernels_name(set), trial,
                      sqrt(lower_sq[32 * g + node]), distance);
         }
         if (!(nearest <= c.filter.limit)) continue;
         const double share = (nearest - sqrt(upper_sq[node])) / c.error;
         above = fmax(above, share);
-        if (!(share <= 0.25)) /* half of the error is allowed for */
+        if (!(share <= 0.25)) /* the library allows for twice this error */
           fail_msg("%s, trial %d: a bound from above of %.9g, the distance is %.17g", kernels_name(set), trial,
                    sqrt(upper_sq[node]), nearest);
       }
@@ -455,8 +457,8 @@ static void first_bounds_and_boxes_lose_nothing(void **state) {
   }
 }
 
-/* The pairs contain the closest triangle of every node within the limit, and all closest ones where several tie. This holds with
- * room for all pairs at once, and with so little room that the filter stops and goes on. */
+/* The pairs contain the closest triangle of every node within the limit, and all closest triangles if several are equally
+ * near. This holds with a buffer for all pairs, and with one so small that the filter must stop and continue. */
 static void no_pair_that_matters_is_lost(void **state) {
   (void)state;
   static const int32_t rooms[] = {100000, 64, 65, 79, 200};
@@ -475,7 +477,8 @@ static void no_pair_that_matters_is_lost(void **state) {
           fail_msg("%s, trial %d: writes beyond its room, or names other nodes than it has pairs of", kernels_name(set),
                    trial);
         n_resumed += n_calls > 1;
-        if (k == 0) assert_true(n_calls <= 1 + 32 * c.n_groups / 200); /* it also stops when its own room is full */
+        /* The filter also stops when its own buffer is full. */
+        if (k == 0) assert_true(n_calls <= 1 + 32 * c.n_groups / 200);
         memset(has, 0, sizeof has);
         for (int64_t i = 0; i < n; ++i) {
           if (!(c.filter.wanted >> pairs[i].node & 1)) fail_msg("a pair of a node that is not wanted");
@@ -555,8 +558,8 @@ static void corners_are_bounded_and_framed(void **state) {
   }
 }
 
-/* Triangles have heights around the least one. A triangle without area never passes. A triangle with a hundred times the least
- * height always passes. */
+/* Triangles have heights around the least height. A triangle without area never passes. A triangle of a hundred times the
+ * least height always passes. */
 static void triangles_without_area_are_noticed(void **state) {
   (void)state;
   for (int set = 0; set < n_kernel_sets; ++set) {
@@ -587,7 +590,7 @@ static void triangles_without_area_are_noticed(void **state) {
   }
 }
 
-/* Triangles that pass with a shift still have an area after their corners have moved by an eighth of it. */
+/* If triangles pass the check for a shift, they still have an area after their corners have moved by an eighth of that shift. */
 static void triangles_keep_their_area_when_corners_move(void **state) {
   (void)state;
   for (int set = 0; set < n_kernel_sets; ++set) {
@@ -605,7 +608,7 @@ static void triangles_keep_their_area_when_corners_move(void **state) {
       }
       ++n_passed;
       for (int k = 0; k < 3; ++k) {
-        double by[3] = {0, k == 2 ? -1 : 1, 0};  // lowers the height most
+        double by[3] = {0, k == 2 ? -1 : 1, 0};  // this direction lowers the height most
         if (trial % 2) random_direction(by);
         for (int c = 0; c < 3; ++c) vertices[3 * k + c] += 0.125 * shift * by[c];
       }
@@ -626,7 +629,7 @@ static void triangles_keep_their_area_when_corners_move(void **state) {
   }
 }
 
-/* Points have the bits of plain products and sums, from the left, and nothing behind them is written. */
+/* Points have the bits of plain products and sums, from left to right. Nothing after the last point is written. */
 static void points_are_placed(void **state) {
   (void)state;
   enum { most = 20 };
@@ -655,7 +658,7 @@ static void points_are_placed(void **state) {
 
 /* --- Without any instruction set ------------------------------------------------------------------------------------- */
 
-/* The code for processors without any of these instruction sets does the baseline's operations. */
+/* On processors without any of these instruction sets, the portable code does the same operations as the baseline set. */
 static void portable_kernels_have_the_bits_of_the_baseline(void **state) {
   (void)state;
   if (!kernels_there(portable_set) || !kernels_baseline_rounds_twice()) skip();
@@ -725,7 +728,7 @@ static void keys_are_ranked(void **state) {
   for (int trial = 0; trial < fewer_if_sanitized(5000); ++trial) {
     int32_t key[n_keys], n_less[n_keys];
     const int32_t n = (int32_t)(random_bits(&rng) % (n_keys + 1));
-    const uint64_t n_values = trial % 2 ? 10 : UINT64_C(1) << 32; /* many are equal, or few */
+    const uint64_t n_values = trial % 2 ? 10 : UINT64_C(1) << 32; /* many keys are equal, or few */
     for (int i = 0; i < n_keys; ++i)
       key[i] = (int32_t)((int64_t)(random_bits(&rng) % n_values) - (trial % 2 ? 5 : INT64_C(1) << 31));
     for (int set = 0; set < n_kernel_sets; ++set) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Edges that cross the surface between unmarked nodes, against a loop over all edges and all triangles: in whole numbers, for
- * random surfaces. RIIS_TEST_LONG=1 tries a thousand times as many. */
+ * Leaking edges, which cross the surface between unmarked nodes, are compared with a loop over all edges and triangles of
+ * random surfaces. The loop computes with whole numbers. RIIS_TEST_LONG=1 tries a thousand times as many cases. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -23,7 +23,7 @@ static int one_in(int64_t n) { return random_integer(1, n) == 1; }
 
 enum { max_nodes = 60, max_triangles = 48, max_columns = 12 * max_nodes };
 
-/* Coordinates are these numbers times 2^exponent. */
+/* A random case. Its coordinates are these whole numbers times 2^exponent. */
 typedef struct whole_case {
   int64_t n_nodes, n_vertices, n_triangles;
   int64_t node[3 * max_nodes], vertex[9 * max_triangles];
@@ -36,7 +36,7 @@ typedef struct whole_case {
 
 static int64_t whole(int64_t largest) { return random_integer(-largest, largest); }
 
-/* Separate triangles, or a sheet of triangles that share corners. */
+/* Makes separate triangles, or a sheet of triangles that share corners. */
 static void random_triangles(whole_case *c, int64_t largest) {
   int64_t m = 0;
   const int is_sheet = one_in(2), side = (int)random_integer(1, 4);
@@ -78,7 +78,8 @@ static void random_rows(whole_case *c) {
   int64_t n = 0;
   for (int64_t i = 0; i < c->n_nodes; ++i) {
     c->offsets[i] = n;
-    for (int64_t k = random_integer(0, 11); k > 0; --k) /* the node itself, repeats and ghosts are among them */
+    /* The row may contain the node itself, repeats and ghost nodes. */
+    for (int64_t k = random_integer(0, 11); k > 0; --k)
       c->columns[n++] = one_in(12) ? c->n_nodes + 3 : random_integer(0, c->n_nodes - 1);
   }
   c->offsets[c->n_nodes] = n;
@@ -141,7 +142,7 @@ static int64_t expected_leaks(const whole_case *c, const uint8_t *marks, uint8_t
   return n;
 }
 
-/* Writes the oracle's marks. If rounding decides, the result's marks replace them. */
+/* Writes the oracle's marks. If rounding decides a mark, the result's mark is used instead. */
 static void expected_marks(const whole_case *c, const double *xyz, const riis_surface *surface,
                            const riis_marks *result, uint8_t *marks) {
   const riis_triangles all = triangles_of(surface);
@@ -186,7 +187,7 @@ static void check_list(const whole_case *c, const double *xyz, const riis_surfac
   }
 }
 
-/* The number of leaks with another half thickness. */
+/* Returns the number of leaks with another half thickness. */
 static int64_t n_leaks_with(const whole_case *c, const riis_mesh *mesh, double half_thickness) {
   const int owned_before = n_owned();
   riis_surface *surface = surface_of_case(c, half_thickness);
@@ -240,9 +241,10 @@ static void random_meshes_leak_where_the_loop_says(void **state) {
   assert_true(n_leaking > n / 4 && n_leaking < n);
 }
 
-/* --- What must not matter ---------------------------------------------------------------------------------------------- */
+/* --- Changes that must not matter
+ * ---------------------------------------------------------------------------------------------- */
 
-/* If a case is turned by quarters, mirrored, moved and renumbered, it has the same leaking edges. */
+/* If a case is turned by right angles, mirrored, moved and renumbered, it has the same leaking edges. */
 static void motion_and_order_do_not_matter(void **state) {
   (void)state;
   static whole_case c, moved;
@@ -276,7 +278,7 @@ static void motion_and_order_do_not_matter(void **state) {
   }
 }
 
-/* A mesh of many blocks of rows. */
+/* The mesh has many blocks of rows. */
 static void threads_do_not_matter(void **state) {
   (void)state;
   const int64_t counts[3] = {24, 24, 20};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Marked nodes, compared with the independent oracle and with analytic shapes: lists, dense arrays, limits, masks, threads,
- * reuse. */
+ * Marked nodes are compared with an independent oracle and with analytic shapes. The tests cover lists, dense arrays, limits,
+ * masks, threads and reused results. */
 #include <riis/riis.h>
 
 #include "oracle.h"
@@ -38,13 +38,13 @@ static void aortic_marks_equal_the_oracle(void **state) {
   for (int64_t i = 0; i < n; ++i) {
     int64_t triangle;
     const double expected = (double)oracle_distance(xyz + 3 * i, n_triangles, vertex_id, vertices, &triangle);
-    if (fabs(expected - 0.1) < 1e-12) continue; /* either answer is right */
+    if (fabs(expected - 0.1) < 1e-12) continue; /* near the limit, either answer is right */
     const int is_listed = at < marked.n && marked.node_id[at] == i;
     assert_int_equal(is_listed, expected <= 0.1);
     if (!is_listed) continue;
     CHECK_NEAR(marked.distance[at], expected, 1e-13);
     assert_int_equal(marked.leaflet_id[at], leaflet_id[marked.triangle_id[at]]);
-    /* The named triangle is at that distance. */
+    /* Checks that the reported triangle is at that distance. */
     double abc[9];
     for (int k = 0; k < 3; ++k)
       memcpy(abc + 3 * k, vertices + 3 * vertex_id[3 * marked.triangle_id[at] + k], 3 * sizeof *abc);
@@ -63,8 +63,8 @@ static void aortic_marks_equal_the_oracle(void **state) {
   assert_true(stats.seconds > 0);
 }
 
-/* A rectangle [0,4] x [0,2] in z = 0 on a lattice. Arithmetic gives the number of nodes within 1/2, including nodes exactly at
- * 1/2. */
+/* The nodes of a lattice around the rectangle [0,4] x [0,2] in z = 0. The number of nodes within 1/2 is known by arithmetic,
+ * including nodes exactly at 1/2. */
 static void lattice_around_a_rectangle_is_counted(void **state) {
   (void)state;
   const double corners[12] = {0, 0, 0, 4, 0, 0, 4, 2, 0, 0, 2, 0};
@@ -77,7 +77,7 @@ static void lattice_around_a_rectangle_is_counted(void **state) {
   enum { m = 25, n = m * m * m };
   double *xyz = own(malloc(3 * n * sizeof *xyz));
   int64_t expected = 0;
-  for (int i = 0; i < n; ++i) { /* spacing 1/4 from -1: all exact */
+  for (int i = 0; i < n; ++i) { /* spacing 1/4 from -1, so all coordinates are exact */
     double *p = xyz + 3 * i;
     p[0] = -1 + 0.25 * (i % m), p[1] = -1 + 0.25 * (i / m % m), p[2] = -1 + 0.25 * (i / m / m);
     const double dx = fmax(fmax(-p[0], p[0] - 4), 0), dy = fmax(fmax(-p[1], p[1] - 2), 0);
@@ -118,7 +118,7 @@ static void wider_limit_lists_more_and_marks_the_same(void **state) {
   assert_int_equal(n_marked, b.n);
   assert_int_equal(stats_of(wide).n_within_limit, c.n);
 
-  /* Dense arrays: every entry is written. Nodes beyond the limit get the far value. */
+  /* Dense arrays: the call writes every entry. Nodes beyond the limit get the far value. */
   static uint8_t mark[n];
   static double distance[n];
   static int64_t triangle_id[n];
@@ -133,7 +133,7 @@ static void wider_limit_lists_more_and_marks_the_same(void **state) {
     assert_int_equal(mark[i], listed && c.distance[at] <= 0.1);
     at += listed;
   }
-  /* Any of the arrays may be given alone. A far value is accepted unless it could be a near distance. */
+  /* Any of the arrays may be requested alone. A far value is accepted unless it could be a distance within the limit. */
   CHECK_OK(dense_of(wide, n, NAN, NULL, distance, NULL, NULL));
   assert_true(isnan(distance[0]) || within_in(wide).node_id[0] == 0);
   CHECK_OK(dense_of(wide, n, -1, mark, NULL, NULL, NULL));
@@ -151,7 +151,8 @@ static void mask_leaves_nodes_out(void **state) {
   riis_mesh *mesh = mesh_of(n, xyz);
   riis_marks *all = new_result(), *some = new_result();
   riis_mark_options options = mark_options();
-  for (int i = 0; i < n; ++i) mask[i] = (uint8_t)(random_bits(&rng) % 3); /* 0, 1, 2: anything but 0 counts */
+  /* 0, 1 or 2: every value but 0 selects the node. */
+  for (int i = 0; i < n; ++i) mask[i] = (uint8_t)(random_bits(&rng) % 3);
   options.node_mask = mask;
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, all));
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, some));
@@ -191,7 +192,7 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
     for (int repeat = 0; repeat < 3; ++repeat) {
       options.n_threads = threads;
       CHECK_OK(riis_mark_nodes(surface, mesh, &options, many));
-      assert_int_equal(stats_of(many).n_threads, threads); /* they really ran */
+      assert_int_equal(stats_of(many).n_threads, threads); /* the threads must really have run */
       const found_nodes b = within_in(many);
       assert_int_equal(a.n, b.n);
       assert_memory_equal(a.node_id, b.node_id, (size_t)a.n * sizeof *a.node_id);
@@ -207,11 +208,11 @@ static void coordinates_may_move_and_results_are_reused(void **state) {
   double *xyz = random_nodes(n, 1.6, -1.2, 0.3);
   riis_mesh *mesh = mesh_of(n, xyz);
   riis_marks *result = new_result();
-  assert_int_equal(marked_in(result).n, 0); /* empty marks */
+  assert_int_equal(marked_in(result).n, 0); /* an update leaves no marks */
   assert_int_equal(stats_of(result).n_nodes, 0);
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
   const int64_t n_before = marked_in(result).n;
-  for (int i = 0; i < n; ++i) xyz[3 * i + 2] += 10; /* away from the valve */
+  for (int i = 0; i < n; ++i) xyz[3 * i + 2] += 10; /* moves the nodes away from the valve */
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
   assert_int_equal(marked_in(result).n, 0);
@@ -219,9 +220,9 @@ static void coordinates_may_move_and_results_are_reused(void **state) {
   for (int i = 0; i < n; ++i) xyz[3 * i + 2] -= 10;
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
-  assert_true(llabs(marked_in(result).n - n_before) <= 2); /* z + 10 - 10 rounds */
-  /* A coordinate is spoilt without an update of the handle. A search that reads it refuses it by name, and the result stays as it
-   * was. Clusters keep the coordinates that they were given. */
+  assert_true(llabs(marked_in(result).n - n_before) <= 2); /* z + 10 - 10 rounds, so a few marks may differ */
+  /* A coordinate becomes non-finite without an update of the handle. A search that reads it refuses it by name, and the result
+   * stays as it was. The search over clusters uses the coordinates that it copied earlier. */
   const found_nodes kept = marked_in(result);
   const int64_t spoilt = kept.node_id[kept.n / 2];
   char text[64];
@@ -257,7 +258,7 @@ static void separate_coordinate_arrays_are_the_same_mesh(void **state) {
   assert_memory_equal(l.node_id, m.node_id, (size_t)l.n * sizeof *l.node_id);
 }
 
-/* Coordinates that single precision has, as doubles and as floats. */
+/* Coordinates that are exact in single precision, as doubles and as floats. */
 enum { n_exact = 5000 };
 static double exact[3 * n_exact];
 static float single[3 * n_exact];
@@ -283,7 +284,8 @@ static riis_marks *marks_of(const riis_surface *surface, const riis_mesh *mesh) 
   return marks;
 }
 
-/* A mesh of copies has the marks of a mesh that borrows, whatever happens to the arrays. A mesh may change between both. */
+/* A mesh of copied coordinates gets the same marks as a mesh that borrows them, whatever happens to the arrays. A mesh may
+ * change from copying to borrowing and back. */
 static void copies_and_single_precision_are_the_same_mesh(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -314,7 +316,7 @@ static void copies_and_single_precision_are_the_same_mesh(void **state) {
     free_owned_after(owned_before);
   }
 
-  /* Refusals leave the mesh as it was. */
+  /* Refused calls leave the mesh as it was. */
   make_exact(0);
   riis_points points = exact_points(32);
   riis_mesh *mesh = NULL;
@@ -336,7 +338,7 @@ static void copies_and_single_precision_are_the_same_mesh(void **state) {
   assert_true(same_results(expected, marks_of(surface, mesh)));
 }
 
-/* Points, a surface's vertices and velocities, and frames in single precision give the bits of the same numbers in double. */
+/* Points, vertices, velocities and frames in single precision give the same bits as the same numbers in double precision. */
 static void single_precision_is_double_precision(void **state) {
   (void)state;
   make_exact(0);

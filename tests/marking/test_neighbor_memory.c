@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * A step that finds the same nodes as the last step allocates nothing, whatever the search. */
 #ifndef _GNU_SOURCE
-#define _GNU_SOURCE /* dladdr, RTLD_DEFAULT */
+#define _GNU_SOURCE /* for dladdr, RTLD_DEFAULT */
 #endif
 #include <dlfcn.h>
 #include <execinfo.h>
@@ -13,9 +13,9 @@
 #include "sanitized.h"
 #include "searches.h"
 
-/* All allocations of the process use these functions, because an executable's symbols go before those of the libraries. The
- * functions count the allocations of the object that has riis_mark_nodes, also those that the C++ library makes for it. A
- * sanitizer's allocator must be the only one. */
+/* All allocations of the process call these functions, because an executable's symbols take precedence over those of
+ * libraries. They count the allocations of the object that contains riis_mark_nodes, including those that the C++ library
+ * makes for it. Sanitizers are left out, because their allocator must be the only one. */
 #if defined(__GLIBC__) && defined(__x86_64__) && !defined(IS_SANITIZED)
 #define COUNTS_ALLOCATIONS 1
 void *__libc_malloc(size_t size);
@@ -23,7 +23,7 @@ void *__libc_calloc(size_t n, size_t size);
 void *__libc_realloc(void *p, size_t size);
 void *__libc_memalign(size_t alignment, size_t size);
 
-static const void *counted_object; /* NULL: nothing is counted */
+static const void *counted_object; /* the object whose allocations count; NULL: nothing is counted */
 static const void *cxx_library;
 static int64_t n_counted;
 
@@ -32,7 +32,7 @@ static const void *object_at(const void *address) {
   return dladdr(address, &info) ? info.dli_fbase : NULL;
 }
 
-/* Returns the object on the call stack that called the C++ library, or NULL. */
+/* Returns the object on the call stack that called the C++ library, or NULL if there is none. */
 static const void *object_behind_cxx(void) {
   void *frames[16];
   const int n = backtrace(frames, 16);
@@ -58,13 +58,13 @@ void *aligned_alloc(size_t alignment, size_t size) {
   return counted(__libc_memalign(alignment, size), __builtin_return_address(0));
 }
 
-/* operator new, new[], and both for aligned types. */
+/* The C++ operators new and new[], plain and for aligned types. */
 void *new_one(size_t size) __asm__("_Znwm");
 void *new_many(size_t size) __asm__("_Znam");
 void *new_aligned(size_t size, size_t alignment) __asm__("_ZnwmSt11align_val_t");
 void *new_many_aligned(size_t size, size_t alignment) __asm__("_ZnamSt11align_val_t");
 
-static void *or_abort(void *p) { return p ? p : (abort(), p); } /* C cannot throw */
+static void *or_abort(void *p) { return p ? p : (abort(), p); } /* C cannot throw, so this aborts */
 void *new_one(size_t size) { return counted(or_abort(__libc_malloc(size ? size : 1)), __builtin_return_address(0)); }
 void *new_many(size_t size) { return counted(or_abort(__libc_malloc(size ? size : 1)), __builtin_return_address(0)); }
 void *new_aligned(size_t size, size_t alignment) {
@@ -74,7 +74,8 @@ void *new_many_aligned(size_t size, size_t alignment) {
   return counted(or_abort(__libc_memalign(alignment, size ? size : 1)), __builtin_return_address(0));
 }
 
-/* A static library exports nothing: it is in the same object as this function. */
+/* Returns the object that contains the function. A static library exports nothing; its functions are in the same object as
+ * this one. */
 static const void *object_of(const char *name) {
   const void *function = dlsym(RTLD_DEFAULT, name);
   return object_at(function ? function : (const void *)(intptr_t)object_of);
@@ -83,7 +84,7 @@ static const void *object_of(const char *name) {
 static void begin_to_count(void) {
   n_counted = 0;
   cxx_library = object_of("_ZSt9terminatev");
-  object_behind_cxx(); /* the first call loads what it needs */
+  object_behind_cxx(); /* the first call allocates, so it comes before counting */
   __atomic_store_n(&counted_object, object_of("riis_mark_nodes"), __ATOMIC_RELEASE);
 }
 
@@ -101,7 +102,7 @@ static int64_t allocations_of_a_step(const riis_surface *surface, const riis_mes
   return n;
 }
 
-/* A valve through its openings, with velocity, all fields and K. */
+/* A valve that opens and closes, with velocity, all fields and K. */
 typedef struct moving_valve {
   riis_valve *now, *before;
   riis_surface *surface;
@@ -112,7 +113,7 @@ typedef struct moving_valve {
   int64_t n_nodes;
 } moving_valve;
 
-/* Without velocities, updates are plain. */
+/* Makes a moving valve. Without velocities the surface is updated by riis_surface_update. */
 static moving_valve moving_valve_of(const char *kind, int has_open_state, int32_t triangulation, int has_velocity,
                                     int32_t n_threads) {
   moving_valve made = {.now = new_valve(kind), .result = new_result(), .options = mark_options()};
@@ -178,8 +179,8 @@ static void a_steady_step_allocates_nothing(void **state) {
       options.search = search;
       options.n_threads = 1;
       if (kind % 2) options.distance_limit = 0.2;
-      if (kind / 2) options.fields = 255 - RIIS_FIELD_VELOCITY; /* all that the surface has */
-      /* The first step makes room. It shows that allocations are seen, both those of vectors and aligned ones. */
+      if (kind / 2) options.fields = 255 - RIIS_FIELD_VELOCITY; /* all fields that the surface has */
+      /* The first step allocates memory. This shows that allocations are counted, those of vectors and aligned ones. */
       assert_true(allocations_of_a_step(surface, mesh, &options, result) > 5);
       allocations_of_a_step(surface, mesh, &options, result);
       for (int step = 3; step <= 5; ++step) assert_int_equal(allocations_of_a_step(surface, mesh, &options, result), 0);
@@ -191,7 +192,7 @@ static void a_steady_step_allocates_nothing(void **state) {
 #endif
 }
 
-/* After the first cycles all memory is there. Embree's own allocations are not the library's. */
+/* After the first cycles all memory has been allocated. Embree's own allocations do not count. */
 static void a_steady_moving_step_allocates_nothing(void **state) {
   (void)state;
 #if defined(COUNTS_ALLOCATIONS)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The neighbour search finds the nodes of the exhaustive search, to the last bit. This holds for any mesh, adjacency, mask,
- * limit, number of threads and last marking. The paper's own algorithm finds the piece of the band that it starts in, and reports
- * this. */
+ * The neighbour search gives the same result as the exhaustive search, to the last bit. This holds for any mesh, adjacency,
+ * mask, limit, number of threads and earlier marking. The paper's own algorithm finds only the connected piece of the band
+ * that it starts in, and reports that nodes may be missing. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -13,7 +13,7 @@
 
 static random_source rng;
 
-/* Returns the number of nodes that the paper's algorithm misses. It must report that it may miss some. */
+/* Returns how many nodes the paper's algorithm misses. The algorithm must report that it may miss some. */
 static int64_t missed_by_the_paper(const riis_surface *surface, const riis_mesh *mesh, const uint8_t *mask) {
   const int owned_before = n_owned();
   riis_marks *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, mask);
@@ -25,7 +25,7 @@ static int64_t missed_by_the_paper(const riis_surface *surface, const riis_mesh 
   return missed;
 }
 
-/* --- Bands and meshes in pieces ------------------------------------------------------------------------------------ */
+/* --- Bands and meshes in pieces -------------------------------------------------------------------------------------- */
 
 static void three_separate_cusps(void **state) {
   (void)state;
@@ -41,20 +41,20 @@ static void three_separate_cusps(void **state) {
   riis_mesh *mesh = mesh_from(&nodes);
   const riis_mark_stats stats = check_same_as_exhaustive(surface, mesh, mark_options(), NULL);
   assert_int_equal(stats.n_unreached,
-                   0); /* the walk starts in every near ball, so it reaches all of a connected band */
-  /* One start finds one cusp. */
+                   0); /* the walk starts in every ball near the surface, so it reaches all of a connected band */
+  /* The paper's walk has one start, so it finds one cusp. */
   const int64_t missed = missed_by_the_paper(surface, mesh, NULL);
   assert_true(missed > stats.n_marked / 2 && missed < stats.n_marked);
   riis_marks *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, NULL);
   const found_nodes found = marked_in(paper);
   for (int64_t i = 0; i < found.n; ++i) assert_int_equal(found.leaflet_id[i], found.leaflet_id[0]);
-  /* A walk that starts at these nodes leaves the others to the proof. */
+  /* A walk that starts from this result's marks leaves the other nodes to the final check. */
   riis_mark_options options = mark_options();
   assert_true(check_same_as_exhaustive(surface, mesh, options, paper).n_unreached == missed);
   assert_int_equal(check_same_as_exhaustive(surface, mesh, options, paper).n_unreached, 0);
 }
 
-/* No edge joins the slabs. The same region comes twice, the second time half a spacing away. */
+/* No edge joins the slabs. The second test uses the same region shifted by half a spacing. */
 static void mesh_of_several_components(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -65,7 +65,7 @@ static void mesh_of_several_components(void **state) {
   for (int64_t i = 0; i < one.n; ++i)
     for (int64_t k = one.offsets[i]; k < one.offsets[i + 1]; ++k) {
       const int64_t j = one.columns[k];
-      /* No pair across x = -0.5, 0, 0.5. */
+      /* Leaves out pairs across x = -0.5, 0 and 0.5. */
       if (j < i || floor(2 * one.xyz[3 * i]) != floor(2 * one.xyz[3 * j])) continue;
       for (int64_t copy = 0; copy < 2; ++copy)
         pairs[2 * n_pairs] = i + copy * one.n, pairs[2 * n_pairs++ + 1] = j + copy * one.n;
@@ -100,7 +100,8 @@ static void valve_that_sticks_out_of_the_mesh(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   const riis_surface_info info = info_of(surface);
   static const int64_t counts[3] = {24, 22, 26};
-  for (int trial = 0; trial < 20; ++trial) { /* any box: around a part of the valve, beside it, within it */
+  /* Random boxes that contain a part of the valve, lie inside it, or miss it. */
+  for (int trial = 0; trial < 20; ++trial) {
     const int owned_before = n_owned();
     double lower[3], upper[3];
     for (int c = 0; c < 3; ++c) {
@@ -108,7 +109,7 @@ static void valve_that_sticks_out_of_the_mesh(void **state) {
       const double b = random_between(&rng, info.lower[c] - 0.3, info.upper[c] + 0.3);
       lower[c] = fmin(a, b), upper[c] = fmax(a, b);
     }
-    if (trial == 0) /* this box surely holds half of the valve */
+    if (trial == 0) /* this box certainly contains half of the valve */
       for (int c = 0; c < 3; ++c) lower[c] = info.lower[c], upper[c] = c ? info.upper[c] : 0;
     test_mesh nodes = lattice(counts, lower, upper);
     riis_mesh *mesh = mesh_from(&nodes);
@@ -130,12 +131,13 @@ static void isolated_nodes(void **state) {
   riis_marks *result = new_result();
   const riis_mark_stats first = check_same_as_exhaustive(surface, mesh, mark_options(), result);
   assert_true(first.n_marked > 1000);
-  assert_true(first.n_unreached > first.n_marked / 2); /* each start's walk has one step */
-  assert_int_equal(check_same_as_exhaustive(surface, mesh, mark_options(), result).n_unreached, 0); /* all are starts */
+  assert_true(first.n_unreached > first.n_marked / 2); /* each walk ends after one step */
+  /* Now all of these nodes are starts of a walk. */
+  assert_int_equal(check_same_as_exhaustive(surface, mesh, mark_options(), result).n_unreached, 0);
   assert_true(missed_by_the_paper(surface, mesh, NULL) >= first.n_marked - 1);
 }
 
-/* The adjacency only gives the order of queries, so the result does not depend on it. */
+/* The adjacency only determines the order of queries, so the result does not depend on it. */
 static void any_adjacency_is_right(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -150,7 +152,7 @@ static void any_adjacency_is_right(void **state) {
     options.n_threads = 1 + trial % 4;
     check_same_as_exhaustive(surface, mesh, options, NULL);
   }
-  /* First each node has only the next one as a neighbour, in a ring. Then every node is its own neighbour many times. */
+  /* First each node's only neighbour is the next node of a ring. Then every node is its own neighbour, many times. */
   for (int self = 0; self < 2; ++self) {
     nodes.columns = own(malloc((size_t)nodes.n * 5 * sizeof *nodes.columns));
     for (int64_t i = 0; i < nodes.n; ++i) {
@@ -162,7 +164,7 @@ static void any_adjacency_is_right(void **state) {
   }
 }
 
-/* Rows also hold nodes of other ranks. Indices have every width and base. */
+/* Rows also contain nodes of other ranks. Indices have every width and base. */
 static void ghosts_are_passed_over(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -191,7 +193,7 @@ static void ghosts_are_passed_over(void **state) {
   CHECK_OK(riis_mesh_set_adjacency(with_ghosts, &csr));
   const riis_mark_stats plain = check_same_as_exhaustive(surface, mesh, mark_options(), NULL);
   const riis_mark_stats stats = check_same_as_exhaustive(surface, with_ghosts, mark_options(), NULL);
-  assert_int_equal(stats.n_queries, plain.n_queries); /* the same walk */
+  assert_int_equal(stats.n_queries, plain.n_queries); /* the walk was the same */
   assert_int_equal(stats.n_unreached, plain.n_unreached);
 }
 
@@ -218,7 +220,7 @@ static void mesh_of_one_node(void **state) {
     }
 }
 
-/* Nodes at the same place, on a line, in a plane, or far apart from each other. */
+/* The nodes coincide, lie on a line or in a plane, or are far apart from each other. */
 static void degenerate_meshes(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -235,14 +237,14 @@ static void degenerate_meshes(void **state) {
     check_same_as_exhaustive(surface, mesh, options, NULL);
     options.distance_limit = 1;
     check_same_as_exhaustive(surface, mesh, options, NULL);
-    options.distance_limit = 1e60; /* all of them */
+    options.distance_limit = 1e60; /* includes all nodes */
     assert_int_equal(check_same_as_exhaustive(surface, mesh, options, NULL).n_within_limit, nodes.n);
     free_owned_after(owned_before);
   }
 }
 
-/* The limit is the library's own distance of the first node of a column over a triangle of any size. All other distances in the
- * proof equal it up to rounding, which must not lose the node. */
+/* The limit is the library's own distance of the first node of a column over a triangle of any size. Up to rounding, all other
+ * distances in the search's check equal it. Rounding must not lose the node. */
 static void nodes_at_the_limit_are_found(void **state) {
   (void)state;
   static const int32_t ids[3] = {0, 1, 2};
@@ -255,7 +257,7 @@ static void nodes_at_the_limit_are_found(void **state) {
     for (int c = 0; c < 3; ++c) normal[c] = ab[(c + 1) % 3] * ac[(c + 2) % 3] - ab[(c + 2) % 3] * ac[(c + 1) % 3];
     const double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     const double b = random_between(&rng, 0.1, 0.5), a = random_between(&rng, 0.1, 0.4);
-    for (int c = 0; c < 3; ++c) { /* the column's foot to the origin */
+    for (int c = 0; c < 3; ++c) { /* moves the column's foot to the origin */
       const double foot = corners[c] + b * ab[c] + a * ac[c];
       for (int k = 0; k < 3; ++k) corners[3 * k + c] += origin - foot;
     }
@@ -278,8 +280,8 @@ static void nodes_at_the_limit_are_found(void **state) {
   }
 }
 
-/* Triangles have nearly no height, nodes are as close to them as that height, and the limit is the first node's distance. The
- * rounding of a needle's distances in the kernel must not lose a node. */
+/* The triangles are needles of nearly no height, and nodes are as close to them as that height. The limit is the first node's
+ * distance. The rounding of distances to needles must not lose a node. */
 static void needles_lose_no_node(void **state) {
   (void)state;
   static const int32_t ids[3] = {0, 1, 2};
@@ -303,7 +305,8 @@ static void needles_lose_no_node(void **state) {
     riis_surface_arrays arrays = triangle_arrays(3, corners, 1, ids);
     riis_surface_options options = surface_options();
     riis_surface *surface = NULL;
-    if (riis_surface_create_from_arrays(&arrays, NULL, &surface) != RIIS_OK) continue; /* too thin to be one */
+    /* So thin that it counts as having no area. */
+    if (riis_surface_create_from_arrays(&arrays, NULL, &surface) != RIIS_OK) continue;
     own(surface);
     options.half_thickness = fmax(closest_to(surface, xyz[0], xyz[1], xyz[2]).distance, 1e-40);
     CHECK_OK(riis_surface_update_from_arrays(surface, &arrays, &options));
@@ -336,12 +339,13 @@ static void masked_nodes_are_left_out(void **state) {
     riis_marks *fresh = new_result();
     check_same_as_exhaustive(surface, mesh, options, fresh);
     const riis_mark_stats stats =
-        check_same_as_exhaustive(surface, mesh, options, reused); /* starts from the marking with another mask */
+        /* The search starts from the marks with another mask. */
+        check_same_as_exhaustive(surface, mesh, options, reused);
     const found_nodes found = within_in(reused);
     for (int64_t i = 0; i < found.n; ++i) assert_true(mask[found.node_id[i]]);
     if (trial == 8) {
       assert_int_equal(stats.n_within_limit, 0);
-      missed_by_the_paper(surface, mesh, mask); /* there is no node to start from */
+      missed_by_the_paper(surface, mesh, mask); /* here the mask leaves no node to start from */
     } else {
       assert_true(stats.n_within_limit > 100);
     }
@@ -349,7 +353,7 @@ static void masked_nodes_are_left_out(void **state) {
   }
 }
 
-/* No walk passes a wall of one layer of masked nodes across a connected band. */
+/* A wall of one layer of masked nodes cuts a connected band, and no walk passes it. */
 static void mask_that_cuts_the_band(void **state) {
   (void)state;
   const double corners[9] = {-1, -1, 0, 1, -1, 0, 0, 2, 0};
@@ -358,7 +362,7 @@ static void mask_that_cuts_the_band(void **state) {
   riis_surface *surface = surface_from(&arrays, NULL);
   test_mesh nodes = lattice_around(surface, 0.05, 0.2);
   riis_mesh *mesh = mesh_from(&nodes);
-  assert_int_equal(missed_by_the_paper(surface, mesh, NULL), 0); /* a band in one piece */
+  assert_int_equal(missed_by_the_paper(surface, mesh, NULL), 0); /* without the wall the band is in one piece */
   uint8_t *mask = own(malloc((size_t)nodes.n));
   double wall = 10;
   for (int64_t i = 0; i < nodes.n; ++i)
@@ -372,8 +376,8 @@ static void mask_that_cuts_the_band(void **state) {
   riis_marks *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, mask);
   const found_nodes found = marked_in(paper);
   for (int64_t i = 0; i < found.n; ++i)
-    assert_true(nodes.xyz[3 * found.node_id[i]] < wall); /* the first vertex's side */
-  /* The walk starts from the marking of one side and does not reach the other side. The proof does. */
+    assert_true(nodes.xyz[3 * found.node_id[i]] < wall); /* the node is on the first vertex's side of the wall */
+  /* The walk starts from the marks of one side and does not reach the other. The search's final check does. */
   assert_int_equal(check_same_as_exhaustive(surface, mesh, options, paper).n_unreached, missed);
 }
 
@@ -395,7 +399,8 @@ static void limits_wider_than_the_half_thickness(void **state) {
 
 /* --- The paper's algorithm ------------------------------------------------------------------------------------------- */
 
-/* The paper's algorithm must find the marked nodes that neighbours connect to the node nearest to the first vertex. */
+/* The paper's algorithm must find exactly the marked nodes that are connected, by marked neighbours, to the node nearest to
+ * the first vertex. */
 static void paper_finds_the_piece_that_it_starts_in(void **state) {
   (void)state;
   static const double half_thickness[4] = {0.03, 0.06, 0.1, 0.3};
@@ -404,7 +409,7 @@ static void paper_finds_the_piece_that_it_starts_in(void **state) {
     riis_surface *surface = aortic_band(half_thickness[k]);
     test_mesh nodes = lattice_around(surface, 0.1, 0.3);
     for (int64_t i = 0; i < 3 * nodes.n; ++i)
-      nodes.xyz[i] += random_between(&rng, -0.02, 0.02); /* so no two nodes are equally near */
+      nodes.xyz[i] += random_between(&rng, -0.02, 0.02); /* a random shift, so that no two nodes are equally near */
     riis_mesh *mesh = mesh_from(&nodes);
     riis_marks *all = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, NULL);
     riis_marks *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, NULL);
@@ -432,7 +437,7 @@ static void paper_finds_the_piece_that_it_starts_in(void **state) {
   }
 }
 
-/* The default search is the library's choice, which is complete with or without an adjacency. */
+/* The default search is chosen by the library. It is complete with or without an adjacency. */
 static void auto_is_never_incomplete(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The neighbour search from step to step: valves, nodes and results that move, change places or are refused. */
+ * The neighbour search from step to step. Valves and nodes move, results are swapped between meshes, and some calls are
+ * refused. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -51,13 +52,14 @@ static void a_valve_jumps(void **state) {
   riis_mesh *mesh = mesh_from(&nodes);
   riis_marks *result = new_result();
   riis_surface_options options = surface_options();
-  static const double x[10] = {0, 7, 0, 100, 0.01, 0, 4, 4.5, -50, 7}; /* also where there is no mesh */
+  static const double x[10] = {0, 7, 0, 100, 0.01, 0, 4, 4.5, -50, 7}; /* some positions are outside the mesh */
   for (int step = 0; step < 10; ++step) {
     options.translation[0] = x[step];
     CHECK_OK(riis_surface_update(surface, valve, &options));
     const riis_mark_stats stats = check_same_as_exhaustive(surface, mesh, mark_options(), result);
     assert_int_equal(stats.n_marked > 0, fabs(x[step]) < 10);
-    if (step == 1 || step == 2) assert_int_equal(stats.n_unreached, stats.n_within_limit); /* the start did not help */
+    /* In these steps the earlier marking did not help. */
+    if (step == 1 || step == 2) assert_int_equal(stats.n_unreached, stats.n_within_limit);
   }
 }
 
@@ -66,7 +68,7 @@ static void a_result_goes_from_mesh_to_mesh(void **state) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh a = lattice_around(surface, 0.15, 0.2), b = lattice_around(surface, 0.11, 0.3),
             c = lattice_around(surface, 0.15, 0.2);
-  for (int64_t i = c.n - 1; i > 0; --i) /* c: as many nodes as a, at other places */
+  for (int64_t i = c.n - 1; i > 0; --i) /* mesh c has as many nodes as mesh a, at other positions */
     for (int k = 0; k < 3; ++k) {
       const int64_t j = (int64_t)(random_bits(&rng) % (uint64_t)i);
       const double swap = c.xyz[3 * i + k];
@@ -77,7 +79,7 @@ static void a_result_goes_from_mesh_to_mesh(void **state) {
   for (int step = 0; step < 30; ++step) {
     riis_mark_options options = mark_options();
     options.n_threads = 1 + (int)(random_bits(&rng) % 3);
-    if (step % 5 == 4) { /* another search in between */
+    if (step % 5 == 4) { /* another search runs in between */
       options.search = step % 2 ? RIIS_SEARCH_EXHAUSTIVE : RIIS_SEARCH_PAPER;
       CHECK_OK(riis_mark_nodes(surface, mesh[random_bits(&rng) % 3], &options, result));
     }
@@ -85,7 +87,7 @@ static void a_result_goes_from_mesh_to_mesh(void **state) {
   }
 }
 
-/* More steps than a small counter holds. */
+/* There are more steps than a small counter can hold. */
 static void many_steps(void **state) {
   (void)state;
   riis_surface *surface = aortic_band(0.1);
@@ -106,10 +108,10 @@ static void nodes_move(void **state) {
   double *moved = own(malloc((size_t)nodes.n * 3 * sizeof *moved));
   for (int step = 0; step < 12; ++step) {
     const double shift = step < 8 ? 0.03 * step : 1000 * (step % 2),
-                 mix = step == 5 ? 3 : 0.05; /* 5: all places anew */
+                 mix = step == 5 ? 3 : 0.05; /* in step 5, all nodes get new positions */
     for (int64_t i = 0; i < 3 * nodes.n; ++i) {
       moved[i] = nodes.xyz[i] + shift + random_between(&rng, -mix, mix);
-      if (step % 2 == 0) nodes.xyz[i] = moved[i]; /* in place, or elsewhere */
+      if (step % 2 == 0) nodes.xyz[i] = moved[i]; /* changes the coordinates in place, or uses another array */
     }
     const double *now = step % 2 == 0 ? nodes.xyz : moved;
     CHECK_OK(riis_mesh_update(mesh, nodes.n, now, now + 1, now + 2, 3));
@@ -147,7 +149,7 @@ static void non_finite_coordinates_are_refused(void **state) {
     const found_nodes marked = marked_in(expected);
     const int is_first_search = trial % 4 < 2;
     if (!is_first_search) CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-    /* A node of the band has to be queried. */
+    /* A node of the band is always queried, so its coordinate is noticed. */
     const int64_t node = marked.node_id[random_bits(&rng) % (uint64_t)marked.n];
     double *coordinate = nodes.xyz + 3 * node + trial % 3;
     const double good = *coordinate;
@@ -157,18 +159,18 @@ static void non_finite_coordinates_are_refused(void **state) {
              trial / 4 % 3 ? "inf" : "nan");
     if (trial / 4 % 3 == 2) snprintf(text, sizeof text, "of node %lld is -inf", (long long)node);
     CHECK_REFUSED(RIIS_INVALID_MESH, text, riis_mark_nodes(surface, mesh, &options, result));
-    assert_int_equal(marked_in(result).n, is_first_search ? 0 : marked.n); /* as it was */
+    assert_int_equal(marked_in(result).n, is_first_search ? 0 : marked.n); /* the marks stay as they were */
     if (!is_first_search) assert_true(same_results(result, expected));
     *coordinate = good;
     if (is_first_search) CHECK_OK(riis_mesh_update(mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
-    CHECK_OK(riis_mark_nodes(surface, mesh, &options, result)); /* and goes on */
+    CHECK_OK(riis_mark_nodes(surface, mesh, &options, result)); /* the next search succeeds */
     assert_true(same_results(result, expected));
     free_one_owned(result);
     free_one_owned(mesh);
   }
 }
 
-/* Nodes that moved in place are at their new places, even if an update refused these coordinates. */
+/* Nodes that moved in place are searched at their new positions, even if an update refused these coordinates. */
 static void a_refused_update_forgets_where_nodes_were(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The neighbour search by several threads: the library's, and the caller's own. */
+ * The neighbour search on several threads: the library's own, and the caller's. */
 #include <omp.h>
 #include <pthread.h>
 #include <riis/riis.h>
@@ -39,7 +39,8 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
         if (stats.n_threads > most[threads]) most[threads] = stats.n_threads;
         free_owned_after(n_outside);
       }
-    /* The threads really ran. The paper's search is only the walk, which a second thread joins when the system lets it. */
+    /* More than one thread must really have run. The paper's search is a single walk, which a second thread joins only when
+     * the system schedules it in time. */
     for (int repeat = 0; repeat < 500 && most[2] < 2; ++repeat) {
       const int n_outside = n_owned();
       riis_marks *two = marked_by(surface, mesh, searches[k], 2, NULL);
@@ -50,7 +51,7 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
     assert_int_equal(most[2], 2);
     free_owned_after(owned_before);
   }
-  /* A mesh's first search also makes its balls, with any number of threads. */
+  /* A mesh's first search also makes its balls of nodes, with any number of threads. */
   riis_marks *one = marked_by(surface, mesh, RIIS_SEARCH_NEIGHBOR, 1, NULL);
   for (int threads = 1; threads <= 4; ++threads) {
     const int owned_before = n_owned();
@@ -62,7 +63,7 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
   }
 }
 
-/* Returns 1 if any of several markings, each with a result of its own, is not the expected one. */
+/* Returns 1 if any of several markings, each into a result of its own, differs from the expected one. */
 static int marks_wrong(const riis_surface *surface, const riis_mesh *mesh, const riis_marks *expected, int n_threads) {
   riis_mark_options options = {0};
   riis_marks *result = NULL;
@@ -90,7 +91,7 @@ static void *mark_with_own_result(void *of) {
   return NULL;
 }
 
-/* All threads use the same surface and mesh, which are new to them. The first caller makes the mesh's balls. */
+/* All threads use one surface and one mesh for the first time. The first caller makes the mesh's balls of nodes. */
 static void several_caller_threads_at_once(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -125,7 +126,7 @@ static void inside_the_callers_openmp(void **state) {
   riis_mesh *mesh = mesh_from(&nodes);
   riis_marks *expected = marked_by(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, NULL);
   for (int n_threads = 0; n_threads <= 3; ++n_threads)
-    for (int nested = 1; nested <= 2; ++nested) { /* also regions within regions */
+    for (int nested = 1; nested <= 2; ++nested) { /* tests nested regions too */
       const int levels = omp_get_max_active_levels();
       int n_wrong = 0;
       omp_set_max_active_levels(nested);
@@ -188,7 +189,8 @@ static void the_callers_openmp_settings_stay(void **state) {
   omp_set_max_active_levels(levels);
 }
 
-/* Returns the threads that a search of a mesh reports, by default and if two are requested. Both searches find the same. */
+/* The numbers of threads that a search of a mesh reports: by default, and if two are requested. Both searches find the same
+ * nodes. */
 typedef struct reported_threads {
   int32_t by_default, if_two;
 } reported_threads;
@@ -219,7 +221,8 @@ static void the_default_has_the_threads_that_the_work_feeds(void **state) {
     assert_int_equal(of_few.if_two, 2);
     assert_in_range(of_many.by_default, more, omp_get_num_procs());
     assert_int_equal(of_many.if_two, 2);
-    /* The exhaustive search queries all nodes. The others query the nodes near the surface, which are few. */
+    /* The exhaustive search queries all nodes. The other searches query only the few nodes near the surface, so they use fewer
+     * threads. */
     assert_in_range(of_dot.by_default, search == RIIS_SEARCH_EXHAUSTIVE ? more : 1,
                     search == RIIS_SEARCH_EXHAUSTIVE ? omp_get_num_procs() : 1);
   }

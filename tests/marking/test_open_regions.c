@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Labels of open regions against a serial flood fill: on random graphs, on long chains and round valves. RIIS_TEST_LONG=1 tries
- * many more. */
+ * Labels of open regions are compared with a serial flood fill on random graphs, on long chains and around valves.
+ * RIIS_TEST_LONG=1 tries many more. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -12,7 +12,7 @@
 
 #include "flood_fill.h"
 
-/* Labels with 1, 2 and 4 threads, and returns the number of regions. */
+/* Labels the regions with 1, 2 and 4 threads, checks the labels, and returns the number of regions. */
 static int64_t check_labels(const test_mesh *graph, const riis_mesh *mesh, const riis_marks *result,
                             const uint8_t *mask) {
   const test_mesh rows = both_ways(graph);
@@ -58,7 +58,7 @@ static void graphs_are_labelled_as_the_flood_fill_does(void **state) {
   assert_true(n_many > n_trials / 2);
 }
 
-/* A surface far from all nodes. */
+/* Makes a surface that is far from all nodes. */
 static riis_surface *far_surface(void) {
   static const double xyz[9] = {1e3, 0, 0, 1e3, 1, 0, 1e3, 0, 1};
   static const int32_t ids[3] = {0, 1, 2};
@@ -66,7 +66,7 @@ static riis_surface *far_surface(void) {
   return surface_from(&arrays, NULL);
 }
 
-/* A chain's nodes are in any order, so roots are hooked many times. Some links are missing. */
+/* A chain's nodes are numbered in any order, so the labelling joins trees many times. Some links are missing. */
 static void chains_are_labelled_as_the_flood_fill_does(void **state) {
   (void)state;
   riis_surface *surface = far_surface();
@@ -95,7 +95,7 @@ static void meshes_round_valves_are_labelled_as_the_flood_fill_does(void **state
     riis_valve *valve = new_valve(trial % 2 ? "mitral" : "aortic");
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
     riis_surface_options options = surface_options();
-    options.half_thickness = trial < 4 ? 0.1 : 0.3; /* the thick one closes pockets off */
+    options.half_thickness = trial < 4 ? 0.1 : 0.3; /* the larger half thickness closes off pockets */
     riis_surface *surface = new_surface(valve, &options);
     const riis_surface_info info = info_of(surface);
     double spacing;
@@ -109,10 +109,10 @@ static void meshes_round_valves_are_labelled_as_the_flood_fill_does(void **state
   }
 }
 
-/* The rows have 32 bits and count from 1, as in Fortran codes. The ids of labels count from 0. */
+/* The rows have 32 bits and count from 1, as in Fortran codes. The ids in the labels count from 0. */
 static void rows_that_count_from_1_give_the_same_labels(void **state) {
   (void)state;
-  static const int32_t offsets[6] = {1, 2, 2, 3, 4, 4}, columns[3] = {3, 5, 2}; /* 0-2-4, 1-3 */
+  static const int32_t offsets[6] = {1, 2, 2, 3, 4, 4}, columns[3] = {3, 5, 2}; /* the edges 0-2, 2-4 and 1-3 */
   static const double xyz[15] = {0};
   riis_mesh *mesh = mesh_of(5, xyz);
   riis_csr csr;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The widest passage is compared with a binary search over half thicknesses, with a flood fill each, and with holes of known
- * place and size. RIIS_TEST_LONG=1 tries many more. */
+ * The widest passage is compared with a binary search over half thicknesses, which does a flood fill for each. It is also
+ * compared with holes of known position and size. RIIS_TEST_LONG=1 tries many more. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -13,14 +13,14 @@
 
 #include "flood_fill.h"
 
-/* --- The serial search ------------------------------------------------------------------------------------------------- */
+/* --- The serial search --------------------------------------------------------------------------------------------------- */
 
 typedef struct near_node {
   double distance;
   int64_t node;
 } near_node;
 
-/* Orders the nearest first, and the highest id first among equal distances. */
+/* Compares two nodes: the nearer comes first, and at equal distances the one with the higher id. */
 static int nearer(const void *a, const void *b) {
   const near_node *p = a, *q = b;
   if (p->distance != q->distance) return p->distance < q->distance ? -1 : 1;
@@ -39,7 +39,7 @@ static int are_joined(const test_mesh *rows, const uint8_t *is_open, const ends 
   return 0;
 }
 
-/* Finds, by bisection, the node whose closing separates the ends if all nearer nodes are closed. */
+/* Finds, by bisection, the node that separates the two ends when it is closed after all nearer nodes. */
 static riis_passage expected_passage(const test_mesh *rows, const riis_surface *surface, const uint8_t *mask,
                                      const ends *e) {
   const size_t n = (size_t)rows->n;
@@ -52,7 +52,8 @@ static riis_passage expected_passage(const test_mesh *rows, const riis_surface *
     order[i] = (near_node){closest_to(surface, p[0], p[1], p[2]).distance, i};
   }
   qsort(order, n, sizeof *order, nearer);
-  while (low < high) { /* the last node that closes with the ends still joined is from low - 1 on, below high */
+  /* Closing the nodes before `low` leaves the ends joined. Closing the nodes up to `high` separates them. */
+  while (low < high) {
     const int64_t middle = low + (high - low) / 2;
     memcpy(is_open, mask, n);
     for (int64_t i = 0; i <= middle; ++i) is_open[order[i].node] = 0;
@@ -94,7 +95,7 @@ static int is_among(int64_t node, const int64_t *ids, int64_t n) {
   return i < n;
 }
 
-/* Chooses ends outside the band. Returns 0 if there are none. */
+/* Chooses two ends outside the band. Returns 0 if there are none. */
 static int random_ends(const test_mesh *rows, const riis_surface *surface, const uint8_t *mask, ends *e) {
   const double half_thickness = info_of(surface).half_thickness;
   e->n_from = e->n_to = 0;
@@ -111,7 +112,7 @@ static int random_ends(const test_mesh *rows, const riis_surface *surface, const
   return e->n_from > 0 && e->n_to > 0;
 }
 
-/* Returns the state, or -1 without ends. */
+/* Checks one graph. Returns the passage's state, or -1 if no ends were found. */
 static int check_graph(const test_mesh *graph, const riis_surface *surface) {
   const test_mesh rows = both_ways(graph);
   riis_mesh *mesh = mesh_of_graph(graph);
@@ -146,7 +147,7 @@ static void graphs_have_the_passage_of_the_serial_search(void **state) {
   assert_true(n_of_state[RIIS_PASSAGE_OPEN] > 0 && n_of_state[RIIS_PASSAGE_NONE] > 0);
 }
 
-/* Lattices round a plate have many nodes at equal distances. */
+/* In lattices around a plate, many nodes are at equal distances. */
 static void meshes_have_the_passage_of_the_serial_search(void **state) {
   (void)state;
   int64_t n_of_state[3] = {0}, n = is_long_test() ? 4000 : 100;
@@ -168,7 +169,7 @@ static void meshes_have_the_passage_of_the_serial_search(void **state) {
   assert_true(n_of_state[RIIS_PASSAGE_OPEN] > 0 && n_of_state[RIIS_PASSAGE_CLOSED] > 0);
 }
 
-/* With the passage's distance as the half thickness, nothing joins the ends. With a smaller half thickness, something does. */
+/* If the half thickness is the passage's distance, nothing joins the ends. If it is smaller, a path does. */
 static void the_distance_is_what_just_closes(void **state) {
   (void)state;
   static const int32_t ids[18] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17};
@@ -211,7 +212,7 @@ static void the_distance_is_what_just_closes(void **state) {
 
 enum { n_sides = 24 };
 
-/* The square [-2, 2]^2 at z = 0 with a hole: a regular polygon of this radius about the place. */
+/* Makes the square [-2, 2]^2 at z = 0 with a hole. The hole is a regular polygon of this radius around `place`. */
 static riis_surface *plate_with_hole(const double *place, double radius, double half_thickness) {
   double xyz[6 * n_sides];
   int32_t ids[6 * n_sides];
@@ -241,7 +242,7 @@ static int64_t node_at(const test_mesh *mesh, double x, double y, double z) {
   return nearest;
 }
 
-/* The middle of the hole is a node. Its distance is that of the polygon's sides. */
+/* One node is the middle of the hole. Its distance is the distance to the polygon's sides. */
 static void a_hole_is_found_where_it_is(void **state) {
   (void)state;
   const test_mesh nodes = tube(1.2, -1, 1, 0.05);
@@ -272,8 +273,8 @@ static riis_valve *aortic_with_free_edges_at(double radius_in) {
   return valve;
 }
 
-/* The paper's set at opening 0 has a hole along its axis that no usual half thickness closes. With inner radii of 0.02 the cusps
- * nearly meet there. */
+/* The paper's aortic valve at opening 0 has a hole along its axis that no usual half thickness closes. With inner radii of
+ * 0.02 the cusps nearly meet there. */
 static void the_papers_aortic_valve_leaks_along_its_axis(void **state) {
   (void)state;
   const test_mesh nodes = tube(1.2, -1, 1.5, 0.05);
@@ -288,7 +289,8 @@ static void the_papers_aortic_valve_leaks_along_its_axis(void **state) {
     assert_true(open.distance > 0.3 && open.distance < 0.33 && hypot(open.point[0], open.point[1]) < 0.2);
     const riis_passage closed = passage_of(new_surface(aortic_with_free_edges_at(0.02), &options), mesh, NULL, &e);
     assert_int_equal(closed.state, RIIS_PASSAGE_CLOSED);
-    CHECK_NEAR(closed.distance, 0.02 * sqrt(2), 1e-3); /* of a node on the axis from the corners of three free edges */
+    /* The distance of a node on the axis from the corners of three free edges. */
+    CHECK_NEAR(closed.distance, 0.02 * sqrt(2), 1e-3);
     assert_true(hypot(closed.point[0], closed.point[1]) < 0.01);
   }
 }
@@ -297,7 +299,8 @@ static double distance_of(const double *p, const double *q) {
   return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]);
 }
 
-/* Leaves out the triangles that have a vertex in the ball. *reach is the distance of their farthest corner from its centre. */
+/* Copies the surface without the triangles that have a vertex in the ball. *reach gets the distance of their farthest corner
+ * from the ball's centre. */
 static riis_surface *without_ball(const riis_surface *surface, const double *centre, double radius, double *reach) {
   const riis_triangles all = triangles_of(surface);
   int32_t *ids = own(malloc((size_t)all.n_triangles * 3 * sizeof *ids));
@@ -321,7 +324,7 @@ static riis_surface *without_ball(const riis_surface *surface, const double *cen
   return surface_from(&arrays, &options);
 }
 
-/* If a hole opens into the narrow gap between two leaflets, it may stay closed. So the centre is far from the other leaflets. */
+/* A hole into the narrow gap between two leaflets may stay closed. So the hole's centre is far from other leaflets. */
 static const double *centre_of_hole(const riis_triangles *all) {
   for (;;) {
     const int64_t t = random_integer(0, all->n_triangles - 1), leaflet = all->patch_id[t] / 4;
@@ -340,7 +343,7 @@ static void a_pierced_leaflet_is_found_where_it_is(void **state) {
   riis_mesh *mesh = mesh_from(&nodes);
   const ends e = {1, 1, {node_at(&nodes, 0, 0, -1)}, {node_at(&nodes, 0, 0, 1.5)}};
   riis_surface_options options = surface_options();
-  options.tolerance = 0.01; /* small triangles, so that the hole is about the ball */
+  options.tolerance = 0.01; /* small triangles, so that the hole is hardly larger than the ball */
   riis_surface *valve = new_surface(aortic_with_free_edges_at(0.02), &options);
   const riis_triangles all = triangles_of(valve);
   for (int trial = 0; trial < fewer_if_sanitized(8); ++trial) {
@@ -354,7 +357,7 @@ static void a_pierced_leaflet_is_found_where_it_is(void **state) {
   }
 }
 
-/* Distances to points of the patches, by the paper's method. */
+/* Passages also exist for distances to points of the patches, by the paper's method. */
 static void other_distances_have_passages(void **state) {
   (void)state;
   const test_mesh nodes = tube(1.2, -1, 1.5, 0.15);
@@ -366,7 +369,7 @@ static void other_distances_have_passages(void **state) {
     const riis_passage found = passage_of(new_surface(aortic_with_free_edges_at(0), &options), mesh, NULL, &e);
     if (options.measure == RIIS_MEASURE_TRIANGLES) by_triangles = found;
     assert_int_equal(found.state, RIIS_PASSAGE_OPEN);
-    CHECK_NEAR(found.distance, by_triangles.distance, 0.01); /* twice the tolerance */
+    CHECK_NEAR(found.distance, by_triangles.distance, 0.01); /* the two methods differ by at most twice the tolerance */
   }
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Results must not depend on the place, rotation or unit of the whole, or on the order of nodes and triangles. */
+ * Results must not depend on the position, rotation or unit of valve and mesh, or on the order of nodes and triangles. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -12,7 +12,7 @@ static random_source rng;
 enum { n = 8000 };
 static double nodes[3 * n];
 
-/* Computes the distances of all nodes to the surface, up to a limit. Far nodes get 1e30. */
+/* Computes the distances of all nodes to the surface, up to a limit. Nodes beyond the limit get 1e30. */
 static void distances(const riis_surface *surface, const double *xyz, double limit, double *distance,
                       int32_t *leaflet_id) {
   const int owned_before = n_owned();
@@ -25,7 +25,7 @@ static void distances(const riis_surface *surface, const double *xyz, double lim
   free_owned_after(owned_before);
 }
 
-/* Checks that b holds the distances a times the scale. Near the limit a node may be within or far. */
+/* Checks that the distances b equal the distances a times the scale. A node near the limit may be on either side of it. */
 static void check_scaled(const double *a, const double *b, double scale, double limit, double tolerance) {
   int n_near = 0;
   for (int i = 0; i < n; ++i) {
@@ -67,7 +67,7 @@ static void rigid_motion_and_unit_do_not_matter(void **state) {
     }
     const double angle = options.rotation_angle * 3.14159265358979323846 / 180, s = sin(angle), k = cos(angle);
     for (int c = 0; c < 3; ++c) axis[c] /= sqrt(sum);
-    for (int i = 0; i < n; ++i) { /* v cos + (axis x v) sin + axis (axis . v) (1 - cos) */
+    for (int i = 0; i < n; ++i) { /* Rodrigues' formula: v cos + (axis x v) sin + axis (axis . v) (1 - cos) */
       const double *v = nodes + 3 * i, along = axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2];
       for (int c = 0; c < 3; ++c) {
         const int d = (c + 1) % 3, e = (c + 2) % 3;
@@ -80,7 +80,7 @@ static void rigid_motion_and_unit_do_not_matter(void **state) {
     distances(surface, moved_nodes, 0.3 * options.scale, moved, moved_leaflet);
     CHECK_NEAR(info_of(surface).area / (options.scale * options.scale), 6.98, 0.01);
     free_one_owned(surface);
-    /* Coordinates of 300 leave 300 times the rounding. */
+    /* Coordinates of about 300 have 300 times the rounding error. */
     check_scaled(plain, moved, options.scale, 0.3, 1e-12 * options.scale);
     int n_other_leaflet = 0; /* nodes where two leaflets are equally near */
     for (int i = 0; i < n; ++i) n_other_leaflet += leaflet[i] != moved_leaflet[i];
@@ -126,7 +126,7 @@ static void order_of_triangles_does_not_matter(void **state) {
   for (int i = 0; i < n; ++i) CHECK_SAME(shuffled[i], plain[i]);
 }
 
-/* Each cusp of the valve is a mirror image of itself, and so are the distances. */
+/* Each cusp of the valve is its own mirror image, so the distances are symmetric too. */
 static void cusps_are_symmetric(void **state) {
   (void)state;
   static double plain[n], mirrored[n], mirrored_nodes[3 * n];

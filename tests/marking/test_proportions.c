@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The warning about a mesh, a surface and a half thickness that can hardly be in one unit. It comes once, and not for a part of a
- * mesh that is elsewhere. It depends on the box of the nodes. The test checks the box for every layout of the coordinates. */
+ * The library warns if a mesh, a surface and a half thickness can hardly be in one unit. The warning comes once, and not for a
+ * part of a mesh that lies elsewhere. It depends on the nodes' bounding box, which is tested for every layout of the
+ * coordinates. */
 #include <pthread.h>
 #include <riis/riis.h>
 
@@ -43,7 +44,7 @@ static int stop_listening(void **state) {
 
 static double box[3 * n_nodes];
 
-/* A cube of nodes round a point. */
+/* Makes a mesh of nodes in a cube around a point. */
 static riis_mesh *cube(double centre, double side) {
   for (int i = 0; i < n_nodes; ++i) {
     const int place[3] = {i % n_side, i / n_side % n_side, i / n_side / n_side};
@@ -60,7 +61,7 @@ static void mark(const riis_surface *surface, const riis_mesh *mesh) {
   free_one_owned(result);
 }
 
-/* The number of warnings of one marking of the aortic valve in a new mesh. */
+/* Returns the number of warnings when the aortic valve is marked in a new mesh. */
 static int n_warnings(double scale, double half_thickness, double centre, double side) {
   const int owned_before = n_owned();
   riis_surface_options options = surface_options();
@@ -79,7 +80,7 @@ static void sizes_that_fit_are_no_news(void **state) {
   assert_int_equal(n_warnings(1, RIIS_AUTO, 0, 4), 0);
   assert_int_equal(n_warnings(0.01, RIIS_AUTO, 0, 0.04), 0);
   assert_int_equal(n_warnings(10, RIIS_AUTO, 0, 400), 0);
-  /* Parts of a mesh: other processes hold the rest. */
+  /* These are parts of a mesh, whose other parts belong to other processes. */
   assert_int_equal(n_warnings(1, RIIS_AUTO, 100, 4), 0);
   assert_int_equal(n_warnings(1, RIIS_AUTO, 1e6, 0.2), 0);
   assert_int_equal(n_warnings(0.01, RIIS_AUTO, -3, 1), 0);
@@ -94,18 +95,18 @@ static void expect_text(const char *a, const char *b, const char *c) {
 
 static void sizes_that_do_not_fit_are_told(void **state) {
   (void)state;
-  /* The valve in centimetres and the mesh in metres or micrometres. */
+  /* The valve is in centimetres, and the mesh in metres or micrometres. */
   assert_int_equal(n_warnings(1, 0.001, 0, 0.04), 1);
   expect_text("the surface is more than 50 times as large as the mesh", "0.04 (mesh of 1331 nodes)",
               "half thickness is 0.001");
   assert_int_equal(n_warnings(1, RIIS_AUTO, 0, 4e4), 1);
   expect_text("the mesh is more than 50 times as large as the surface", "40000 (mesh", "half thickness is 0.1");
-  /* Half thicknesses in centimetres. */
+  /* The half thickness is in centimetres, other sizes are not. */
   assert_int_equal(n_warnings(0.01, 0.1, 0, 0.04), 1);
   expect_text("the half thickness is larger than the surface", "0.04 (mesh", "half thickness is 0.1");
   assert_int_equal(n_warnings(0.3, 0.5, 0, 0.4), 1);
   expect_text("the half thickness is larger than the mesh", "0.4 (mesh", "half thickness is 0.5");
-  /* A box far from the valve is also out of proportion if its size is. */
+  /* A mesh far from the valve also gets the warning if its size does not match. */
   assert_int_equal(n_warnings(1, RIIS_AUTO, 1e6, 4e4), 1);
 }
 
@@ -123,8 +124,8 @@ static void one_warning_a_mesh_and_surface(void **state) {
   mark(first, other);
   mark(first, other);
   assert_int_equal(warnings.n, 3);
-  /* Surfaces come and go. Each is a new one, even at the address of the last one. The list of warned surfaces fills up at some
-   * point. */
+  /* Surfaces are created and destroyed. Each counts as new, even at the last one's address. The library's list of warned
+   * surfaces eventually fills up. */
   for (int i = 0; i < 20; ++i) {
     free_one_owned(second);
     second = aortic_surface(NULL);
@@ -133,7 +134,7 @@ static void one_warning_a_mesh_and_surface(void **state) {
   }
 }
 
-/* Without a listener, a warning does not count as given. */
+/* If nobody listens, a warning does not count as given. */
 static void a_late_listener_is_told(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -182,10 +183,10 @@ static void threads_share_the_one_warning(void **state) {
   assert_int_equal(warnings.n, 1);
 }
 
-/* Nodes with a stride, x first or last. */
+/* A layout of nodes with a stride, with x first or last. */
 typedef struct layout {
   int64_t stride;
-  int first[3]; /* of x, y, z */
+  int first[3]; /* the index of the first x, y and z */
 } layout;
 enum { n_layouts = 4, most_nodes = 1004, n_doubles = 5 * most_nodes };
 static const layout layouts[n_layouts] = {
@@ -201,8 +202,8 @@ static riis_status create(const layout *lies, int n, riis_mesh **mesh) {
                           lies->stride, mesh);
 }
 
-/* All nodes but one are within a hundredth of the surface, so there is no warning only if the box holds that node. The test tries
- * every place of a node in the registers, every axis and both directions. */
+/* All nodes but one are within a hundredth of the surface, so the warning is absent only if the box contains that node. The
+ * test puts it into every lane of the registers, on every axis and in both directions. */
 static void the_box_holds_every_node(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -226,7 +227,7 @@ static void the_box_holds_every_node(void **state) {
           }
 }
 
-/* The message names the first bad coordinate, wherever it and a second one are. */
+/* The message names the first of two bad coordinates, wherever they are. */
 static void the_first_bad_coordinate_is_named(void **state) {
   (void)state;
   const double bad[] = {NAN, INFINITY, -INFINITY, 1.1e60, -1.1e60};

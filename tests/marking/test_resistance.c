@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Resistance, reaction and band sums: integrals over a grid against areas of discs, cylinders and spheres, sums by plain
- * loops, and refusals that leave the arrays as they were. */
+ * Resistance, reaction and band sums. Integrals over a grid are compared with the areas of discs, cylinders and spheres, and
+ * sums with plain loops. Refusals leave the arrays as they were. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -21,17 +21,17 @@ static riis_resistance resistance_of(double r) {
   return resistance;
 }
 
-/* The header's formula. */
+/* Returns K by the header's formula. */
 static double coefficient_at(double r, double eps, double distance) {
   return distance < eps ? r / eps * (1 + cos(pi * distance / eps)) / (2 * eps) : 0;
 }
 
 /* --- Integrals ------------------------------------------------------------------------------------------------------- */
 
-/* A surface x(s, t), 0 <= s, t <= 1, by n * m quads, each of two triangles. */
+/* Makes a surface x(s, t), 0 <= s, t <= 1, of n * m quads, each of two triangles. */
 typedef void (*shape)(double s, double t, double *p);
 static const double disc_radius = 1, cylinder_radius = 1.3, sphere_radius = 0.8;
-static double frame[3][3], origin[3]; /* by which all are turned and moved */
+static double frame[3][3], origin[3]; /* the rotation and translation of all surfaces */
 
 static void into_frame(double a, double b, double c, double *p) {
   for (int i = 0; i < 3; ++i) p[i] = origin[i] + a * frame[0][i] + b * frame[1][i] + c * frame[2][i];
@@ -39,20 +39,20 @@ static void into_frame(double a, double b, double c, double *p) {
 static void disc(double s, double t, double *p) {
   into_frame(disc_radius * t * cos(2 * pi * s), disc_radius * t * sin(2 * pi * s), 0, p);
 }
-/* The cylinder is a bit wider than half a radian. */
+/* A cylinder. Its angle is a bit wider than half a radian. */
 static void cylinder(double s, double t, double *p) {
   const double angle = 0.9 * (s - 0.5);
   into_frame(cylinder_radius * cos(angle), cylinder_radius * sin(angle), 0.7 * t, p);
 }
-/* A cap with a polar angle up to 0.8. */
+/* A spherical cap with a polar angle up to 0.8. */
 static void cap(double s, double t, double *p) {
   const double polar = 0.8 * t, angle = 2 * pi * s;
   into_frame(sphere_radius * sin(polar) * cos(angle), sphere_radius * sin(polar) * sin(angle),
              sphere_radius * cos(polar), p);
 }
 
-/* The axes are far from the grid's directions. Along a direction of the grid, an edge of the band jumps over a row of nodes at
- * once. */
+/* Makes a frame whose axes are far from the grid's directions. Otherwise an edge of the band would jump over a whole row of
+ * nodes at once. */
 static void random_frame(void) {
   const double a = between(0.3, 0.6), b = between(0.3, 0.6);
   const double ca = cos(a), sa = sin(a), cb = cos(b), sb = sin(b);
@@ -66,7 +66,7 @@ static riis_surface *surface_of(shape at, int n, int m, double half_thickness) {
   int32_t *ids = own(malloc((size_t)(n * m) * 4 * sizeof *ids));
   for (int j = 0; j <= m; ++j)
     for (int i = 0; i <= n; ++i) at((double)i / n, (double)j / m, xyz + 3 * (j * (n + 1) + i));
-  /* The two ends of a closed shape are the same place, to the last bit. */
+  /* The two ends of a closed shape coincide to the last bit. */
   for (int j = 0; j <= m; ++j)
     if (at != cylinder) memcpy(xyz + 3 * (j * (n + 1) + n), xyz + 3 * j * (n + 1), 3 * sizeof *xyz);
   for (int i = 1; i <= n; ++i)
@@ -86,12 +86,12 @@ static riis_surface *surface_of(shape at, int n, int m, double half_thickness) {
   return surface;
 }
 
-/* The sum of K over a grid with a spacing, times the cells' volume. */
+/* Returns the sum of K over a grid, times the volume of its cells. */
 static double integral_of(const riis_surface *surface, const riis_resistance *resistance, double spacing) {
   const int owned_before = n_owned();
   test_mesh nodes = lattice_around(surface, spacing, info_of(surface).half_thickness + spacing);
   double volume = 1, sum = 0;
-  for (int c = 0; c < 3; ++c) { /* from one node to the next */
+  for (int c = 0; c < 3; ++c) { /* the step from one node to the next */
     int64_t i = 1;
     while (nodes.xyz[3 * i + c] == nodes.xyz[c]) ++i;
     volume *= nodes.xyz[3 * i + c] - nodes.xyz[c];
@@ -110,8 +110,8 @@ static double integral_of(const riis_surface *surface, const riis_resistance *re
 }
 
 /* Without the rim, the integral of K is the area times R / eps. This is exact for a plane. It is also exact for a cylinder,
- * because its layers inside and outside balance. A sphere has a factor 1 + c eps^2 / r^2 more. Here c = 1/3 - 2/pi^2 is the
- * integral of x^2 (1 + cos pi x) from 0 to 1. */
+ * because the excess outside balances the deficit inside. For a sphere there is an additional factor 1 + c eps^2 / r^2. Here c
+ * = 1/3 - 2/pi^2 is the integral of x^2 (1 + cos pi x) from 0 to 1. */
 static void the_integral_is_the_area(void **state) {
   (void)state;
   const double c = 1.0 / 3 - 2 / (pi * pi);
@@ -120,7 +120,7 @@ static void the_integral_is_the_area(void **state) {
     const char *name;
     shape at;
     int n, m;
-    double radius_sq; /* of a sphere, or infinite */
+    double radius_sq; /* square of the sphere's radius, or infinite */
   } shapes[] = {{"disc", disc, 300, 30, INFINITY},
                 {"part of a cylinder", cylinder, 60, 1, INFINITY},
                 {"part of a sphere", cap, 160, 60, sphere_radius * sphere_radius}};
@@ -183,7 +183,8 @@ static riis_mark_list fields_of(const flow *f) {
   return fields;
 }
 
-/* Compares K, K u of the surface, and the force with a plain loop over all nodes, whatever the library keeps. */
+/* Compares K, K times the surface's velocity, and the force with a plain loop over all nodes, whatever fields the marking
+ * keeps. */
 static void sums_are_those_of_plain_loops(void **state) {
   (void)state;
   for (int trial = 0; trial < 12; ++trial) {
@@ -198,7 +199,8 @@ static void sums_are_those_of_plain_loops(void **state) {
     const int64_t n = f.nodes.n;
     double *k = own(malloc((size_t)n * 4 * sizeof *k)), *momentum = k + n;
     double *expected = own(malloc((size_t)n * 4 * sizeof *k));
-    for (int64_t i = 0; i < 4 * n; ++i) k[i] = expected[i] = between(-1, 1); /* to be added to */
+    /* Initial values, which the calls add to. */
+    for (int64_t i = 0; i < 4 * n; ++i) k[i] = expected[i] = between(-1, 1);
     double force[3], expected_force[3], scale = 0;
     for (int c = 0; c < 3; ++c) force[c] = expected_force[c] = between(-1, 1);
     const found_nodes within = within_in(f.result);
@@ -227,7 +229,7 @@ static void sums_are_those_of_plain_loops(void **state) {
     CHECK_OK(add_reaction_to(f.result, &resistance, n, f.velocity, f.weight, force));
     for (int c = 0; c < 3; ++c) CHECK_NEAR(force[c], expected_force[c], 1e-12 * (1 + scale));
 
-    /* The calls add K alone, K u alone, and neither of them. */
+    /* The calls may add K alone, K u alone, or neither. */
     double *alone = own(calloc((size_t)n * 3, sizeof *alone)), *both = own(calloc((size_t)n * 4, sizeof *both));
     CHECK_OK(add_resistance_to(f.result, &resistance, n, NULL, NULL));
     CHECK_OK(add_resistance_to(f.result, &resistance, n, both, moves ? both + n : NULL));
@@ -237,7 +239,7 @@ static void sums_are_those_of_plain_loops(void **state) {
     if (moves) CHECK_OK(add_resistance_to(f.result, &resistance, n, NULL, alone));
     assert_memory_equal(alone, both + n, (size_t)n * 3 * sizeof *alone);
 
-    /* Momentum is K times the surface's velocity. */
+    /* K u is K times the surface's velocity. */
     for (int64_t j = 0; j < within.n && moves; ++j)
       for (int c = 0; c < 3; ++c)
         CHECK_SAME(both[n + 3 * within.node_id[j] + c] + 0.0,
@@ -246,8 +248,8 @@ static void sums_are_those_of_plain_loops(void **state) {
   }
 }
 
-/* K and K u of a list are those of the arrays, to the last bit. Arrays by component and with gaps have the same bits. Both lists
- * have K and K u, and a marking does not need the field of velocities for them. */
+/* K and K u in the result's lists equal those in the arrays, to the last bit. Arrays by component and with gaps get the same
+ * bits. Both lists have K and K u, and the marking does not need the field of velocities for them. */
 static void lists_and_layouts_have_the_same_bits(void **state) {
   (void)state;
   for (int trial = 0; trial < 12; ++trial) {
@@ -285,7 +287,7 @@ static void lists_and_layouts_have_the_same_bits(void **state) {
           CHECK_SAME(list.K_u_surface[3 * j + c] + 0.0, momentum[3 * list.node_id[j] + c] + 0.0);
       }
     }
-    /* K in every fifth number, components in blocks of their own, two numbers apart. */
+    /* K is in every fifth number. Components are in blocks of their own, with a stride of two. */
     double *gaps = own(calloc((size_t)n * 11, sizeof *gaps));
     riis_resistance_arrays arrays;
     CHECK_OK(riis_resistance_arrays_init(&arrays, sizeof arrays));
@@ -307,7 +309,7 @@ static void lists_and_layouts_have_the_same_bits(void **state) {
   }
 }
 
-/* The force on the surface is the loss of the flow. Ranks that share the nodes add their parts. */
+/* The force on the surface is the momentum that the flow loses. Ranks that share the nodes add their parts. */
 static void ranks_add_up(void **state) {
   (void)state;
   for (int trial = 0; trial < 8; ++trial) {
@@ -319,7 +321,7 @@ static void ranks_add_up(void **state) {
     riis_band_sums all, of_rank[2];
     CHECK_OK(add_reaction_to(f.result, &resistance, n, f.velocity, f.weight, whole));
     CHECK_OK(band_sums_of(f.result, 0, 0.2, n, f.value, f.weight, &all, sizeof all));
-    /* The nodes of the other rank have weights of 0. */
+    /* Nodes of the other rank have a weight of 0. */
     double *weight = own(malloc((size_t)n * sizeof *weight));
     uint8_t *rank = own(malloc((size_t)n));
     for (int64_t i = 0; i < n; ++i) rank[i] = random_bits(&rng) & 1, scale += 300 * f.weight[i];
@@ -367,7 +369,7 @@ static void two_surfaces_add_up(void **state) {
   double *sum = own(calloc((size_t)n * 12, sizeof *sum)), *one = sum + 4 * n, *two = sum + 8 * n;
   riis_resistance a = resistance_of(2), b = resistance_of(5);
   CHECK_OK(add_resistance_to(f.result, &a, n, one, one + n));
-  CHECK_OK(add_resistance_to(result, &b, n, two, NULL)); /* a valve at rest */
+  CHECK_OK(add_resistance_to(result, &b, n, two, NULL)); /* the valve is at rest */
   CHECK_OK(add_resistance_to(f.result, &a, n, sum, sum + n));
   CHECK_OK(add_resistance_to(result, &b, n, sum, NULL));
   int64_t n_both = 0;
@@ -388,7 +390,8 @@ static void band_sums_are_those_of_a_plain_loop(void **state) {
     const riis_mark_list fields = fields_of(&f);
     for (int i = 0; i < 5; ++i) {
       double inner = i ? between(0, 0.25) : 0, outer = i > 1 ? between(inner, 0.25) : 0.25;
-      if (i == 4) inner = outer = within.distance[random_bits(&rng) % (uint64_t)within.n]; /* both ends belong to it */
+      /* A band whose ends coincide contains that distance. */
+      if (i == 4) inner = outer = within.distance[random_bits(&rng) % (uint64_t)within.n];
       riis_band_sums expected = {{0, 0}, {0, 0}, {0, 0}}, sums;
       double scale = 0;
       for (int64_t j = 0; j < within.n; ++j) {
@@ -416,7 +419,7 @@ static void band_sums_are_those_of_a_plain_loop(void **state) {
   assert_true(n_rim > 100);
 }
 
-/* The pressure jumps across the surface, and the means on either side are the pressures there. */
+/* The pressure jumps across the surface. The mean on each side is the pressure there. */
 static void a_jump_of_pressure_is_measured(void **state) {
   (void)state;
   random_frame();
@@ -437,7 +440,7 @@ static void a_jump_of_pressure_is_measured(void **state) {
   }
   riis_band_sums sums;
   CHECK_OK(band_sums_of(result, 0.1, 0.2, nodes.n, pressure, weight, &sums, sizeof sums));
-  /* The disc's triangles turn so that their normals are along the frame's third axis, or all against it. */
+  /* The disc's orientation is random: its normals are along the frame's third axis or opposite to it. */
   const double mean[2] = {sums.sum[0] / sums.weight[0], sums.sum[1] / sums.weight[1]};
   const int turned = mean[0] < mean[1];
   CHECK_NEAR(mean[turned], 12, 1e-12);
@@ -510,7 +513,7 @@ static void refusals_leave_the_arrays(void **state) {
                 band_sums_of(f.result, 0, 0.1, 0, f.value, f.weight, &sums, sizeof sums));
   UNCHANGED();
 
-  /* The options of a marking, whose refusals leave the marks, and layouts. */
+  /* Wrong resistances in the options of a marking, whose refusals leave the marks, and wrong layouts. */
   riis_mark_options with_resistance = mark_options();
   const riis_mark_list list_before = marked_list(f.result);
   with_resistance.resistance = &resistance;
@@ -537,7 +540,7 @@ static void refusals_leave_the_arrays(void **state) {
                 riis_marks_add_resistance(f.result, &resistance, &arrays));
   UNCHANGED();
 
-  /* Fields that the marks lack. */
+  /* Calls that need fields which the marks lack. */
   const char *lacks = "options.fields = 0";
   resistance.rim = RIIS_RIM_CUT;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "RIIS_RIM_CUT needs RIIS_FIELD_RIM|options.fields = 0",
@@ -557,7 +560,7 @@ static void refusals_leave_the_arrays(void **state) {
                 band_sums_of(bare.result, 0, 0.1, m, bare.value, bare.weight, &sums, sizeof sums));
   UNCHANGED();
 
-  /* Bands. */
+  /* Wrong bands. */
 #define BAND_REFUSED(inner, outer, parts)                                                          \
   do {                                                                                             \
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, parts,                                                    \
@@ -576,7 +579,7 @@ static void refusals_leave_the_arrays(void **state) {
                   band_sums_of(f.result, 0, 0.1, n, f.value, f.weight, &sums, sum_sizes[i]));
   UNCHANGED();
 
-  /* NULLs. */
+  /* NULL arguments. */
   const void *no_result = f.mesh;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks is NULL", add_resistance_to(NULL, &resistance, n, k, momentum));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks is a handle of another kind",
@@ -595,7 +598,7 @@ static void refusals_leave_the_arrays(void **state) {
   SUMS_REFUSED("sums is NULL", f.result, 0, 0.1, n, f.value, f.weight, NULL, sizeof sums);
   UNCHANGED();
 
-  /* These marks are empty. */
+  /* This result holds no marks. */
   riis_marks *empty = new_result();
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks are empty", add_resistance_to(empty, &resistance, 0, k, NULL));
   REACTION_REFUSED("marks are empty", empty, &resistance, 0, f.velocity, f.weight, force);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The neighbour search is compared with the exhaustive search bit by bit, and nodes of both with brute force in extended
- * precision. Meshes, surfaces, placements, half thicknesses, limits, masks and threads are random. RIIS_TEST_LONG=1 goes on
- * until ten million pairs of a node and a surface have been compared with brute force. */
+ * The neighbour search is compared with the exhaustive search bit by bit. Some of the nodes are also compared with brute force
+ * in extended precision. Meshes, surfaces, placements, half thicknesses, limits, masks and threads are random.
+ * RIIS_TEST_LONG=1 continues until ten million pairs of a node and a surface have been compared with brute force. */
 #include <riis/riis.h>
 
 #include "oracle.h"
@@ -15,13 +15,13 @@
 
 /* --- Brute force ------------------------------------------------------------------------------------------------------ */
 
-/* Triangles are in blocks with boxes. If a triangle's box is farther than the closest triangle so far, by more than any rounding,
- * it is left out. The distance of every other triangle is computed in extended precision. */
+/* Triangles are grouped into blocks with bounding boxes. A block or triangle is skipped if its box is farther, by more than
+ * any rounding, than the closest triangle so far. The distance of every other triangle is computed in extended precision. */
 enum { per_block = 16 };
 typedef struct brute_force {
   int64_t n;
   double *corners; /* (9, n) */
-  double *boxes;   /* (6, n): lower, upper */
+  double *boxes;   /* (6, n): lower and upper corners */
   double *blocks;  /* (6, blocks of per_block triangles) */
 } brute_force;
 
@@ -55,7 +55,7 @@ static brute_force brute_force_of(const riis_surface *surface) {
   return b;
 }
 
-/* The square of the distance to a box. */
+/* Returns the square of the distance to a box. */
 static double to_box_sq(const double *p, const double *box) {
   double sum = 0;
   for (int c = 0; c < 3; ++c) {
@@ -65,7 +65,7 @@ static double to_box_sq(const double *p, const double *box) {
   return sum;
 }
 
-/* Returns the distance to the closest triangle if it is at most reach, and any number above reach otherwise. */
+/* Returns the distance to the closest triangle if it is at most `reach`, or else any number above `reach`. */
 static long double brute_force_distance(const brute_force *b, const double *p, double reach) {
   long double least = INFINITY;
   double least_sq = reach * reach * (1 + 1e-9);
@@ -86,7 +86,7 @@ static long double brute_force_distance(const brute_force *b, const double *p, d
 /* --- Surfaces --------------------------------------------------------------------------------------------------------- */
 
 typedef struct placement {
-  double axis[3], angle, translation[3]; /* unit axis, degrees */
+  double axis[3], angle, translation[3]; /* unit axis, angle in degrees */
 } placement;
 
 static placement random_placement(void) {
@@ -101,7 +101,7 @@ static placement random_placement(void) {
 
 static void place(const placement *p, test_mesh *mesh) {
   const double angle = p->angle * 3.14159265358979323846 / 180, s = sin(angle), k = cos(angle), *axis = p->axis;
-  for (int64_t i = 0; i < mesh->n; ++i) { /* v cos + (axis x v) sin + axis (axis . v) (1 - cos) */
+  for (int64_t i = 0; i < mesh->n; ++i) { /* Rodrigues' formula: v cos + (axis x v) sin + axis (axis . v) (1 - cos) */
     double *to = mesh->xyz + 3 * i;
     const double v[3] = {to[0], to[1], to[2]}, along = axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2];
     for (int c = 0; c < 3; ++c) {
@@ -111,7 +111,7 @@ static void place(const placement *p, test_mesh *mesh) {
   }
 }
 
-/* A valve, or triangles, from which surfaces can be made again at other places. */
+/* A valve, or triangles, from which surfaces can be made again at other positions. */
 typedef struct shape {
   riis_valve *valve; /* or NULL */
   int is_mitral;
@@ -136,7 +136,7 @@ static shape random_shape(void) {
   return s;
 }
 
-/* Makes the surface, or makes it again a step later. */
+/* Makes the surface, or updates it a step later. */
 static void update_surface(riis_surface **surface, shape *s, const riis_surface_options *options) {
   if (s->valve) {
     s->opening += s->step;
@@ -162,11 +162,11 @@ static struct totals {
   int64_t meshes[n_kinds], markings, nodes, pairs, pairs_within, marked, undecided;
   int64_t different_bits, different_distances, different_marks, incomplete;
   int64_t unreached, most_threads;
-  int64_t by_instructions[RIIS_INSTRUCTIONS_AVX512 + 1]; /* markings over clusters */
-  double largest;                                        /* error, relative to the coordinates */
+  int64_t by_instructions[RIIS_INSTRUCTIONS_AVX512 + 1]; /* number of markings over clusters */
+  double largest;                                        /* largest error, relative to the coordinates */
 } totals;
 
-/* Compares a share of the nodes with brute force. */
+/* Compares some of the nodes with brute force. */
 static void compare_with_brute_force(const riis_surface *surface, const test_mesh *nodes, const uint8_t *mask,
                                      const riis_marks *result, double limit, int64_t n_wanted) {
   const int owned_before = n_owned();
@@ -183,7 +183,7 @@ static void compare_with_brute_force(const riis_surface *surface, const test_mes
 #pragma omp parallel for num_threads(2) schedule(dynamic, 64) reduction(max : largest) \
     reduction(+ : pairs, within, undecided, bad_distances, bad_marks)
   for (int64_t i = first; i < nodes->n; i += stride) {
-    if (mask && !mask[i]) { /* must be left out, wherever it is */
+    if (mask && !mask[i]) { /* masked nodes must be left out, wherever they are */
       bad_marks += mark[i] != 0 || distance[i] != 1e30;
       continue;
     }
@@ -263,7 +263,7 @@ static void one_case(int kind, int64_t n_nodes, int64_t n_compared) {
   uint8_t *mask = NULL;
   for (int64_t step = 0, n_steps = random_integer(1, 4); step < n_steps; ++step) {
     update_surface(&surface, &s, &options);
-    if (step > 0 && one_in(4)) { /* the mesh also moves */
+    if (step > 0 && one_in(4)) { /* here the mesh moves too */
       for (int64_t i = 0; i < 3 * nodes.n; ++i) nodes.xyz[i] += random_between(&rng, -0.1, 0.1) * spacing;
       CHECK_OK(riis_mesh_update(mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
     }
@@ -336,13 +336,13 @@ static void random_cases_equal_brute_force(void **state) {
   assert_int_equal(totals.incomplete, 0);
   assert_int_equal(totals.different_distances, 0);
   assert_int_equal(totals.different_marks, 0);
-  /* The cases are not trivial. */
+  /* The random cases must not be trivial. */
   assert_true(totals.pairs >= (is_long ? n_pairs : fewer_if_sanitized(50000)));
   assert_true(totals.pairs_within > totals.pairs / 50);
   assert_true(totals.undecided < totals.pairs / 1000);
 }
 
-/* Brute force with boxes equals the plain loop. */
+/* Brute force with boxes gives the same distances as a plain loop. */
 static void boxes_leave_nothing_out(void **state) {
   (void)state;
   for (int trial = 0; trial < 12; ++trial) {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Velocities where several leaflets, or patches of one, are equally near. They are the means that a loop over all triangles
- * gives, with the same bits by any search. K and K u of symmetric meshes stay when the mesh moves by rounding or is cut. Nodes
- * without ties have the velocity of their closest triangle. */
+ * Velocities of nodes that are equally near to several leaflets, or to several patches of one leaflet. Such a node gets the
+ * mean velocity, as a loop over all triangles gives it, with the same bits from any search. The sums of K and K u over
+ * symmetric meshes stay the same if the mesh moves by a rounding error or is split into parts. Nodes without ties have the
+ * velocity of their closest triangle. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -26,7 +27,7 @@ static riis_mark_list fields_in(const riis_marks *result) {
 enum { n_kinds = 4 };
 static const char *const kinds[n_kinds] = {"trileaflet", "mitral", "bileaflet", "aortic"};
 
-/* A valve that moves from one opening to another. */
+/* Makes a valve that moves from one opening to another. */
 static riis_surface *moving_surface(const char *kind, double now, double before, const riis_surface_options *options) {
   riis_valve *valve = new_valve(kind), *earlier = new_valve(kind);
   CHECK_OK(riis_valve_set_scalar(valve, "opening", now));
@@ -45,7 +46,7 @@ static void place(int64_t n, double *xyz, double degrees, const double *offset) 
   }
 }
 
-/* Centres of cells around a surface. Some of them lie in the planes x = 0 and y = 0, which are planes of symmetry. */
+/* Returns the centres of cells around a surface. Some of them lie in the planes of symmetry x = 0 and y = 0. */
 static test_mesh symmetric_cells(const riis_surface *surface, double spacing) {
   const riis_surface_info info = info_of(surface);
   const double margin = 1.5 * info.half_thickness;
@@ -59,7 +60,7 @@ static test_mesh symmetric_cells(const riis_surface *surface, double spacing) {
   lower[2] = info.lower[2] - margin, upper[2] = info.upper[2] + margin;
   counts[2] = 1 + (int64_t)ceil((upper[2] - lower[2]) / spacing);
   test_mesh mesh = lattice(counts, lower, upper);
-  /* The lattice's own coordinates round to one side. */
+  /* The lattice's own coordinates are rounded with a bias, so they are symmetrized. */
   for (int64_t i = 0; i < mesh.n; ++i) {
     mesh.xyz[3 * i] = spacing * (double)(i % counts[0] - counts[0] / 2);
     mesh.xyz[3 * i + 1] = spacing * (double)(i / counts[0] % counts[1] - counts[1] / 2);
@@ -83,7 +84,7 @@ typedef struct tie_counts {
   int64_t nodes, leaflets, three, places, unclear;
 } tie_counts;
 
-/* Compares velocities with the oracle, and adds up the ties. */
+/* Compares velocities with the oracle's, and counts the ties. */
 static void check_velocities(const riis_surface *surface, const test_mesh *mesh, const riis_marks *result,
                              tie_counts *counts) {
   const riis_triangles content = triangles_of(surface);
@@ -107,8 +108,8 @@ static void check_velocities(const riis_surface *surface, const test_mesh *mesh,
   }
 }
 
-/* Other searches, threads and instructions give the same bits. A marking without velocity gives the same bits of everything else.
- * */
+/* Checks that other searches, threads and instructions give the same bits, and that a marking without velocity gives the same
+ * bits in all other arrays. */
 static void check_searches(const riis_surface *surface, const test_mesh *from, const riis_marks *expected) {
   static const int32_t searches[] = {RIIS_SEARCH_EXHAUSTIVE, RIIS_SEARCH_NEIGHBOR, RIIS_SEARCH_CLUSTERS};
   const int64_t n = within_in(expected).n;
@@ -165,7 +166,7 @@ static void valves_have_the_means_of_their_leaflets(void **state) {
   CHECK_AT_MOST((double)all.unclear, 0.02 * (double)all.nodes);
 }
 
-/* Three copies of random triangles, whose coordinates change places, and nodes on the diagonal that is equally far from all. */
+/* Three copies of random triangles have permuted coordinates. Nodes on the diagonal are equally far from all three. */
 static void three_leaflets_of_arrays_count_alike(void **state) {
   (void)state;
   tie_counts all = {0, 0, 0, 0, 0};
@@ -211,10 +212,11 @@ static void three_leaflets_of_arrays_count_alike(void **state) {
 /* --- Rounding -------------------------------------------------------------------------------------------------------- */
 
 typedef struct term {
-  double *k, *ku; /* (n), (3, n) */
+  double *k, *ku; /* k: (n), ku: (3, n) */
 } term;
 
-/* K and K u of the whole mesh, marked in parts of its own coordinates, each node moved by `shift` along each axis. */
+/* Computes K and K u of the whole mesh, marked in parts with coordinates of their own. Each node is moved by `shift` along
+ * each axis. */
 static term term_of(const riis_surface *surface, const test_mesh *mesh, int n_parts, double shift) {
   const size_t n = (size_t)mesh->n;
   term made = {own(calloc(n, sizeof(double))), own(calloc(3 * n, sizeof(double)))};
@@ -269,7 +271,7 @@ static void rounding_does_not_change_k_u(void **state) {
   }
 }
 
-/* The reaction of a flow at rest is the sum of -K u with the weights. */
+/* The reaction of a flow at rest is the weighted sum of -K u. */
 static void reaction_takes_the_means(void **state) {
   (void)state;
   riis_surface *surface = moving_surface("trileaflet", 0, 0.01, NULL);
@@ -294,7 +296,7 @@ static void reaction_takes_the_means(void **state) {
 
 /* --- Nodes without ties ---------------------------------------------------------------------------------------------- */
 
-/* The same triangles from arrays of one leaflet have no ties, and give the velocity of the closest triangle. */
+/* Made from arrays as one leaflet, the same triangles have no ties. Each node has the velocity of its closest triangle. */
 static void other_nodes_have_the_closest_triangle_s(void **state) {
   (void)state;
   int64_t n_single = 0, n_other = 0;
@@ -332,7 +334,7 @@ static void other_nodes_have_the_closest_triangle_s(void **state) {
   assert_true(n_single > 1000 && n_other > 10);
 }
 
-/* Two sheets, z = 0 and z = 2, with a node that is nearer to one of them by a given share of the half thickness. */
+/* The sheets are z = 0 and z = 2. A node is nearer to one of them by a given fraction of the half thickness. */
 static void ties_end_at_a_millionth(void **state) {
   (void)state;
   static const struct {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Edges that cross the surface between unmarked nodes: of valves, against a loop in extended precision, and of plates. */
+ * Edges that cross the surface between unmarked nodes. For valves they are compared with a loop in extended precision; for
+ * plates they are known. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -13,7 +14,8 @@ static random_source rng;
 
 /* --- Valves ------------------------------------------------------------------------------------------------------------ */
 
-/* Returns how far the segment passes inside the triangle, as a share of its size. The result is below 0 if it passes outside. */
+/* Returns how deep inside the triangle the segment passes, as a fraction of its size. The result is negative if it passes
+ * outside. */
 static long double depth_in(const double *a, const double *b, const double *const *corner) {
   long double e1[3], e2[3], along[3], from[3], p[3], q[3], det = 0, t = 0, u = 0, v = 0;
   for (int i = 0; i < 3; ++i) {
@@ -33,7 +35,7 @@ static long double depth_in(const double *a, const double *b, const double *cons
   return least;
 }
 
-/* Checks every edge between two unmarked nodes, however short, against every triangle. */
+/* Compares every edge between two unmarked nodes, however short, with every triangle. */
 static int64_t check_against_valve(const test_mesh *nodes, const riis_surface *surface, const uint8_t *marks,
                                    leak_list list) {
   const riis_triangles all = triangles_of(surface);
@@ -62,7 +64,7 @@ static int ascending_columns(const void *a, const void *b) {
   return (*(const int64_t *)a > *(const int64_t *)b) - (*(const int64_t *)a < *(const int64_t *)b);
 }
 
-/* A jittered lattice round a valve, its rows ascending. */
+/* Makes a jittered lattice around a valve, with ascending rows. */
 static test_mesh mesh_round(const riis_surface *surface, double spacing) {
   const riis_surface_info info = info_of(surface);
   int64_t counts[3];
@@ -90,7 +92,7 @@ static riis_surface *valve_surface(const char *kind, double opening, int32_t dis
   return surface;
 }
 
-/* This holds for marks by every kind of distance. */
+/* The marks may come from any method of measuring distances. */
 static void valves_leak_where_the_loop_says(void **state) {
   (void)state;
   static const char *const kinds[2] = {"aortic", "mitral"};
@@ -110,7 +112,7 @@ static void valves_leak_where_the_loop_says(void **state) {
   for (int i = 0; i < 3; ++i) assert_true(n_leaking[i] > 0);
 }
 
-/* Edges of at most two half thicknesses cannot leak, not even if a plane cuts an edge of exactly that length in half. */
+/* Edges of at most two half thicknesses cannot leak, even if a plane cuts an edge of exactly that length in half. */
 static void short_edges_do_not_leak(void **state) {
   (void)state;
   for (int trial = 0; trial < 4; ++trial) {
@@ -127,7 +129,7 @@ static void short_edges_do_not_leak(void **state) {
 
 /* --- Plates ------------------------------------------------------------------------------------------------------------ */
 
-/* The squares [-1, 1]^2 at the heights 0 and 10, half thickness 0.25. */
+/* Makes the squares [-1, 1]^2 at the heights 0 and 10, with half thickness 0.25. */
 static riis_surface *two_plates(void) {
   static const double xyz[24] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, -1, -1, 10, 1, -1, 10, 1, 1, 10, -1, 1, 10};
   static const int32_t ids[12] = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
@@ -137,14 +139,14 @@ static riis_surface *two_plates(void) {
   return surface_from(&arrays, &options);
 }
 
-/* A column of nodes along z, each joined to the next. */
+/* Makes a column of nodes along z, each joined to the next. */
 static test_mesh column_of_nodes(int64_t n, double from, double step) {
   const int64_t counts[3] = {1, 1, n};
   const double lower[3] = {0, 0, from}, upper[3] = {0, 0, from + step * (double)(n - 1)};
   return lattice(counts, lower, upper);
 }
 
-/* Short edges are examined also if the search may have missed nodes. */
+/* If the search may have missed nodes, short edges are examined too. */
 static void what_the_papers_search_misses_leaks(void **state) {
   (void)state;
   test_mesh nodes = column_of_nodes(121, -1, 0.1);
@@ -157,11 +159,12 @@ static void what_the_papers_search_misses_leaks(void **state) {
   options.search = RIIS_SEARCH_PAPER;
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
   const leak_list list = leaks_of(surface, mesh, &options, result);
-  assert_true(list.sum.n_edges == 1 || list.sum.n_edges == 2); /* a node on the plate has two edges that touch it */
+  /* If a node is on the plate, two edges touch the plate there. */
+  assert_true(list.sum.n_edges == 1 || list.sum.n_edges == 2);
   CHECK_NEAR(list.sum.longest_middle[2], 10, 0.06);
 }
 
-/* The list follows the present mesh and adjacency, and the last marking. */
+/* The list reflects the present mesh and adjacency, and the last marking. */
 static void changes_are_seen(void **state) {
   (void)state;
   test_mesh nodes = column_of_nodes(12, -0.5, 1);
@@ -184,14 +187,14 @@ static void changes_are_seen(void **state) {
   for (int64_t i = 0; i < nodes.n; ++i) nodes.xyz[3 * i + 2] += 0.3;
   CHECK_OK(riis_mesh_update(mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
-  assert_int_equal(leaks_of(surface, mesh, NULL, result).sum.n_edges, 0); /* at 0.2 from the plates: marked */
+  assert_int_equal(leaks_of(surface, mesh, NULL, result).sum.n_edges, 0); /* nodes at 0.2 from the plates are marked */
 
   static const int64_t offsets[13] = {0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, columns[1] = {11};
   riis_csr csr;
   CHECK_OK(riis_csr_init(&csr, sizeof csr));
   csr.n_rows = 12, csr.offsets = offsets, csr.columns = columns, csr.offset_bits = csr.column_bits = 64;
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
-  list = leaks_of(surface, mesh, NULL, result); /* from 0.8 to 10.8 */
+  list = leaks_of(surface, mesh, NULL, result); /* nodes from z = 0.8 to 10.8 */
   assert_int_equal(list.sum.n_edges, 1);
   CHECK_NEAR(list.sum.longest_length, 10, 1e-14);
   CHECK_NEAR(list.sum.half_thickness, 0.8, 1e-14);
@@ -227,7 +230,7 @@ static void what_makes_no_sense_is_refused(void **state) {
   options.n_threads = -1;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.n_threads is -1",
                 find_leaks_in(surface, mesh, result, &options, &leaks));
-  /* A refused search leaves the edges of the last one, in place. */
+  /* A refused call leaves the edges of the last one in the same memory. */
   riis_leaks *found = NULL;
   riis_leak_list before, after;
   CHECK_OK(riis_leaks_create(&found));
@@ -243,7 +246,7 @@ static void what_makes_no_sense_is_refused(void **state) {
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "list is 104|96", riis_leaks_get_list(found, &after, 104));
 
   riis_valve *valve = new_valve("mitral");
-  CHECK_OK(riis_surface_update(surface, valve, NULL)); /* keeps its half thickness */
+  CHECK_OK(riis_surface_update(surface, valve, NULL)); /* the update keeps the half thickness */
   riis_surface_options thicker = surface_options();
   thicker.half_thickness = 0.3;
   CHECK_OK(riis_surface_update(surface, valve, &thicker));

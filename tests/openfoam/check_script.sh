@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_script.sh SOURCE WORK
-# The checks of examples/openfoam/openfoam.sh refuse what they must, by their texts. Functions here stand for OpenFOAM's programs.
+# The checks of examples/openfoam/openfoam.sh must refuse faults with the right messages. Functions here replace OpenFOAM's
+# programs.
 # shellcheck disable=SC2317 # openfoam.sh calls the functions
 set -euo pipefail
 source=$1 work=$2
@@ -21,7 +22,7 @@ problem() {
   failed=1
 }
 
-# ends STATUS TEXT COMMAND...: the command must end with the status, and its output must have the text.
+# ends STATUS TEXT COMMAND...: the command must end with STATUS, and its output must contain TEXT.
 ends() {
   local status=0 wanted=$1 text=$2 output
   shift 2
@@ -31,7 +32,7 @@ ends() {
   fi
 }
 
-# Words of the command line. These end before anything is installed.
+# Faulty words on the command line end the script before anything is installed.
 ends 2 "./run openfoam: '--shrot' is not an option" openfoam --shrot
 ends 2 "./run openfoam: '--short --size' is not an option" openfoam --short --size
 ends 2 "./run openfoam: '' is not a size of edges in centimetres, such as 0.1" openfoam --size
@@ -39,7 +40,7 @@ ends 2 "./run openfoam: '1.6' is not a size of edges" openfoam --size 1.6
 ends 2 "./run openfoam: '0.00' is not a size of edges" openfoam --size 0.00
 ends 2 "./run openfoam: '0.1 0.2' is not a size of edges" openfoam --size 0.1 0.2
 
-# A run with bad input must stop, with its words, and leave no time folder.
+# A run with bad input must stop with its message, and leave no time folder.
 solver_says='' solver_ends=1 solver_leaves=''
 of_run() {
   mkdir -p "$of_cases/$1/0"
@@ -62,13 +63,13 @@ ends 1 "an unknown key: the solver ended, but it had written $of_cases/bad/0.002
   of_refused "an unknown key" bad "unknown key 'closesBelow'"
 (($(wc -l <"$of_out/refusals.txt") == 1)) || problem "refusals.txt has what was not refused: $(<"$of_out/refusals.txt")"
 
-# A program that fails is shown by the end of its log.
+# If a program fails, the end of its log is shown.
 mkdir -p "$of_cases/logged"
 ends 1 "failed: sh -c echo its last words; exit 7; the end of $of_cases/logged/log.sh:
 its last words" of_logged logged sh sh -c 'echo its last words; exit 7'
 ends 0 "" of_logged logged sh true
 
-# A mesh that checkMesh does not like must not be kept.
+# A mesh that checkMesh refuses must not be kept.
 gmsh() { :; }
 gmshToFoam() {
   mkdir -p "$2/constant/polyMesh"
@@ -83,7 +84,7 @@ ends 0 "Mesh OK." openfoam_mesh 0.25
 [[ -e $of_work/mesh-0.25/complete ]] || problem "a good mesh is not kept"
 grep -q 'type wall;' "$of_work/mesh-0.25/constant/polyMesh/boundary" || problem "the wall is no wall"
 
-# Function objects: as they are, with the digest of the plug-in's folder, and failing in another way.
+# The check of function objects: once they succeed, with the digest of the plug-in's folder; then they fail in another way.
 function_objects=good
 openfoam_function_object() {
   case $function_objects in
@@ -102,21 +103,21 @@ function_objects=other
 ends 1 "error in IOstream \"points\"
 ==> a function object of OpenFOAM's own fails: $of_work/function_object.log" with_digests
 
-# A copy into a case that is there would be no copy.
+# A case must not be copied into an existing folder.
 mkdir -p "$of_cases/first" "$of_cases/second"
 ends 1 "the case $of_cases/second is there already" of_copy first second
 [[ ! -e $of_cases/second/first ]] || problem "the copy is inside the case"
 ends 0 "" of_copy first third
 [[ -d $of_cases/third ]] || problem "there is no copy"
 
-# A restart goes on from a time: later ones are removed, earlier ones are kept.
+# A restart continues from a time: later times are removed, earlier ones are kept.
 mkdir -p "$of_cases/beat/processor0/"{0,0.16,0.2,0.22,0.3,1e-05,constant} "$of_cases/beat/postProcessing"
 of_forget_after beat 0.2
 left=$(cd "$of_cases/beat" && echo processor0/* postProcessing*)
 [[ $left == 'processor0/0 processor0/0.16 processor0/0.2 processor0/1e-05 processor0/constant postProcessing*' ]] ||
   problem "after of_forget_after there is: $left"
 
-# A leaflet height that is not in the dictionary would leave the test of a restart without its other valve.
+# If the leaflet height were missing in the dictionary, the test of a restart would lack its other valve.
 mkdir -p "$of_cases/tall/system"
 echo 'valve { kind trileaflet; }' >"$of_cases/tall/system/fvOptions"
 ends 0 "" of_height tall 1.123456789012

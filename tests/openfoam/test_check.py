@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests what examples/openfoam/check.py refuses, on OpenFOAM's files made up here."""
+"""Tests which faults examples/openfoam/check.py refuses, on invented files in OpenFOAM's format."""
 import contextlib
 import io
 import pathlib
@@ -24,7 +24,7 @@ N = 400
 
 
 def text_of(values, binary):
-    """A field of cells as OpenFOAM writes it."""
+    """Returns a field of cells as OpenFOAM writes it."""
     kind = "vector" if values.ndim > 1 else "scalar"
     head = f"FoamFile {{ format {'binary' if binary else 'ascii'}; }}\ninternalField nonuniform List<{kind}> \n{len(values)}\n("
     if binary:
@@ -34,7 +34,7 @@ def text_of(values, binary):
 
 
 class Files(unittest.TestCase):
-    """Cases in a folder of their own, and what a check says of them."""
+    """Writes cases into a folder of their own, and compares a check's output."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -47,7 +47,7 @@ class Files(unittest.TestCase):
         path.write_bytes(data if isinstance(data, bytes) else data.encode())
 
     def parts(self, case, parts):
-        """The meshes of ranks that have these cells. Returns their folders."""
+        """Writes the meshes of ranks that have these cells. Returns their folders."""
         folders = []
         for rank, ids in enumerate(parts):
             folder = case / f"processor{rank}" if len(parts) > 1 else case
@@ -69,7 +69,7 @@ class Files(unittest.TestCase):
             f" in the library\nExecutionTime = {1 + i / 4} s\n" for i, (time, x, n) in enumerate(zip(times, opening, cells))))
 
     def valve(self, case):
-        """The dictionary of a valve, and leaflets of 8 cm2."""
+        """Writes the dictionary of a valve whose leaflets have 8 cm2."""
         self.write(case / "system/fvOptions", "aorticValve { resistance 1e3; halfThickness 1e-3; }\n")
         self.write(case / "postProcessing/aorticValve/0.01/leaflets.vtk",
                    "# vtk\nPOINTS 3 double\n0 0 0\n0.04 0 0\n0 0.04 0\nPOLYGONS 1 4\n3 0 1 2\n")
@@ -97,7 +97,7 @@ class Marks(Files):
     def setUp(self):
         super().setUp()
         self.centres = self.random.random((N, 3))
-        # More cells in each step, as of an opening valve.
+        # Each step has more cells with K, as of an opening valve.
         self.k = [numpy.where(numpy.arange(N) < 150 + 10 * i, self.random.random(N) + 1, 0) for i in range(len(self.TIMES))]
 
     def case(self, name, parts, binary, change=lambda part_ids, k, centres, i: None):
@@ -237,7 +237,7 @@ class Marks(Files):
 
 
 class Drops(Files):
-    FLOW = 4e-5  # m3/s through 8 cm2: (R / eps) u is 50,000 Pa
+    FLOW = 4e-5  # m3/s; through 8 cm2, (R / eps) u is 50,000 Pa
 
     def setUp(self):
         super().setUp()
@@ -388,8 +388,9 @@ class Sizes(Files):
 
 class Hexahedra(Files):
     def test_drops_by_hand(self):
-        """With eps = h the middle cell alone has K, or two cells at the distance h / 2 have half of the largest K each. With
-        eps = 2 h the middle cell has twice the K of its neighbours. Many cells are the integral of K."""
+        """With eps = h, either the middle cell alone has K, or two cells at the distance h / 2 have half of the largest K
+        each. With eps = 2 h the middle cell has twice the K of its neighbours. With many cells the sum is the integral of
+        K."""
         printed = self.printed(check.hexahedra, "1", "2", "1000")
         found = [tuple(map(float, pair)) for pair in re.findall(r"\(\(R / eps\) u\) (\S+) to (\S+)\n", printed)]
         self.assertEqual(found[0], (0, 0.5))
@@ -464,7 +465,7 @@ class Restart(Files):
     TIMES = ("0.2", "0.22", "0.24")
 
     def restart(self, change=lambda cases: None):
-        """Two equal runs with a valve, two without one. change may spoil them."""
+        """Makes two equal runs with a valve and two without. `change` may spoil them."""
         k = numpy.where(numpy.arange(N) < 150, self.random.random(N) + 1, 0)
         values = {check.K_NAME: k, check.KU_NAME: numpy.stack([k, k, k], axis=1),
                   "p": self.random.random(N), "U": self.random.random((N, 3))}
@@ -479,7 +480,7 @@ class Restart(Files):
         return cases
 
     def refused(self, words, case, time, name, change):
-        """change gets the values of the second rank, and changes them."""
+        """`change` gets the values of the second rank and changes them."""
         def spoil(cases):
             path = cases[case] / "processor1" / time / name
             values = foam.field(path, N // 2).copy()

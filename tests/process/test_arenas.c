@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The arenas that walks run in are kept for later walks, and each is lent to one walk at a time. */
+ * Walks along an adjacency run in TBB arenas. An arena is kept for later walks, and is lent to one walk at a time. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -30,7 +30,7 @@ static void one_caller_has_one_arena(void **state) {
     expect_walk(walk_once(2), 2);
   }
   assert_int_equal(arenas_made(), 1);
-  assert_true(walk_once(1).is_right); /* without TBB */
+  assert_true(walk_once(1).is_right); /* a walk with one thread uses no TBB */
   assert_int_equal(arenas_made(), 1);
 }
 
@@ -45,7 +45,7 @@ static void callers_at_once_have_one_each(void **state) {
   (void)state;
   assert_true(walk_at_once(2, 1));
   assert_int_equal(arenas_made(), 2);
-  /* Arenas of two threads exist for all five callers at once. There are at most five arenas of three threads. */
+  /* Arenas of two threads exist for all five callers at the same time. At most five arenas of three threads exist. */
   assert_true(walk_at_once(5, 200));
   assert_in_range(arenas_made(), 6, 10);
 }
@@ -56,9 +56,9 @@ static void the_callers_limit_is_kept(void **state) {
   for (int repeat = 0; repeat < 20; ++repeat)
     for (int i = 0; i < 6; ++i) {
       expect_walk(walk_under_limit(limits[i], 4), limits[i]);
-      expect_walk(walk_once(4), 4); /* as many threads as asked for, also on fewer processors */
+      expect_walk(walk_once(4), 4); /* as many threads as requested, even on fewer processors */
     }
-  assert_int_equal(arenas_made(), 4); /* of 1, 2, 3 and 4 threads */
+  assert_int_equal(arenas_made(), 4); /* with 1, 2, 3 and 4 threads */
 }
 
 static void an_arena_comes_back_when_a_body_throws(void **state) {
@@ -108,10 +108,10 @@ static void a_child_of_fork_walks_alone_and_ends(void **state) {
   assert_int_equal(arenas_made(), 1);
 }
 
-/* Runs after every handler that was registered later. A caller's static object may walk in its destructor. */
+/* This handler was registered first, so it runs last. A caller's static object may start a walk in its destructor. */
 static pid_t process;
 static void walk_at_exit(void) {
-  if (getpid() != process) return; /* a child of fork */
+  if (getpid() != process) return; /* a forked child also comes here */
   arenas_keeper *keeper = arenas_keep();
   const int is_right = walk_once(2).is_right;
   arenas_let_go(&keeper);

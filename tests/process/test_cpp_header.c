@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * riis.hpp: what its handles, exceptions, structs and spans do, through a shim. The sanitized build sees leaks. */
+ * Tests the handles, exceptions, structs and spans of riis.hpp through C wrappers. The sanitized build finds leaks. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -8,7 +8,7 @@
 #include "handles.h"
 #include "searches.h"
 
-/* The ten lines of the header give the marks of C. */
+/* The ten-line example in the header's comment gives the same marks as C. */
 static void marks_are_those_of_c(void **state) {
   (void)state;
   riis_valve *valve = new_valve("mitral");

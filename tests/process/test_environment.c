@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The caller's surroundings neither change a result nor are changed: floating-point traps, rounding, flush-to-zero, OpenMP
- * settings, parallel regions, errors and logs of several threads, standard output and error. */
+ * Results do not depend on the caller's environment, and the library does not change it: floating-point traps, rounding,
+ * flush-to-zero, OpenMP settings, parallel regions, errors and logs of several threads, standard output and error. */
 #ifndef _GNU_SOURCE
-#define _GNU_SOURCE /* feenableexcept */
+#define _GNU_SOURCE /* for feenableexcept */
 #endif
 #include <fenv.h>
 #include <omp.h>
@@ -71,7 +71,7 @@ static void flush_to_zero_stays(void **state) {
   (void)state;
 #if defined(__SSE2__)
   const unsigned before = _mm_getcsr();
-  _mm_setcsr(before | 0x8040); /* as -ffast-math leaves it */
+  _mm_setcsr(before | 0x8040); /* as code compiled with -ffast-math sets it */
   const uint64_t got = digest_of_a_step(2);
   const unsigned after = _mm_getcsr();
   _mm_setcsr(before);
@@ -114,7 +114,7 @@ static void works_inside_a_parallel_region(void **state) {
     if (riis_marks_create(&result) == RIIS_OK && riis_mark_nodes(surface, mesh, NULL, result) == RIIS_OK)
       counts[i] = marked_list(result).n_nodes;
     riis_marks_destroy(&result);
-    /* The first query of a side, in any thread, makes the data that sides need. */
+    /* In any thread, the first query with a side makes the data that sides need. */
     riis_closest closest;
     if (riis_closest_point(surface, nodes + 3 * i, &closest, sizeof closest) != RIIS_OK) counts[i] = -2;
   }
@@ -137,7 +137,7 @@ static void errors_belong_to_their_thread(void **state) {
     snprintf(part, sizeof part, "n_nodes is %d;", -1 - t);
     assert_non_null(strstr(texts[t], part));
   }
-  /* Success leaves the message alone. */
+  /* A call that succeeds leaves the message alone. */
   riis_valve *valve = NULL;
   assert_true(riis_valve_create("none", &valve) != RIIS_OK);
   valve = new_valve("aortic");
@@ -165,7 +165,7 @@ static void log_goes_to_the_callers_function_only(void **state) {
   assert_string_equal(line, "");
 }
 
-/* A step and a refusal run while both standard streams go to a file, which stays empty. */
+/* A step and a refusal run while both standard streams are redirected to a file, which must stay empty. */
 static void nothing_is_printed(void **state) {
   (void)state;
   FILE *file = tmpfile();

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Every refusal of the public interface, by code and message. */
+ * Every refusal of the public interface is tested by status and message. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -117,7 +117,7 @@ static void null_arguments_are_named(void **state) {
   NULL_IS_NAMED("surface", find_passage_between(NULL, mesh, NULL, 1, &n, 1, &n, NULL, 56));
   NULL_IS_NAMED("mesh", find_passage_between(surface, NULL, NULL, 1, &n, 1, &n, NULL, 56));
   NULL_IS_NAMED("passage", find_passage_between(surface, mesh, NULL, 1, &n, 1, &n, NULL, 56));
-  /* Destroying takes NULL, a NULL handle, and a handle, and leaves NULL. */
+  /* Destroying accepts NULL, a NULL handle, and a handle, which becomes NULL. */
   riis_valve_destroy(NULL);
   riis_surface_destroy(NULL);
   riis_mesh_destroy(NULL);
@@ -167,7 +167,7 @@ static void swapped_handles_are_refused(void **state) {
   IS_OF_ANOTHER_KIND("marks", riis_marks_get_list(no_result, RIIS_LIST_MARKED, NULL, 120));
   IS_OF_ANOTHER_KIND("mesh", riis_mesh_update(no_mesh, 4, xyz, xyz, xyz, 1));
   riis_surface_destroy(&no_surface);
-  assert_true((void *)no_surface == (void *)mesh); /* left alone */
+  assert_true((void *)no_surface == (void *)mesh); /* the handle was not changed */
   riis_marks_destroy(&result);
   riis_mesh_destroy(&mesh);
   riis_surface_destroy(&surface);
@@ -254,12 +254,12 @@ static void surface_options_are_refused_by_name(void **state) {
   OPTION_IS_REFUSED(measure_tolerance, 0, "measure_tolerance is 0|1e-06 to 1");
   OPTION_IS_REFUSED(measure_tolerance, 1.5, "measure_tolerance is 1.5");
   OPTION_IS_REFUSED(measure_tolerance, NAN, "measure_tolerance is nan");
-  /* So far away, rounding would flatten the valve. */
+  /* So far from the origin, rounding would flatten the valve. */
   OPTION_IS_REFUSED(translation[1], 1e14, "translation moves the valve by 1e+14|tolerance * half_thickness, 0.005");
   options = surface_options();
   options.tolerance = 1e-6;
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "16777216 triangles|tolerance", riis_surface_create(valve, &options, &surface));
-  options.half_thickness = 1e-50; /* both in range, but absurd together */
+  options.half_thickness = 1e-50; /* each value is in range, but the combination is absurd */
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "tolerance", riis_surface_create(valve, &options, &surface));
 }
 
@@ -295,13 +295,13 @@ static void surface_arrays_are_refused_by_name(void **state) {
   ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.index_base = 1, "corner 0 of face 0 is 0|1 to 4");
   ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, arrays.leaflet_id = negative, "leaflet_id of face 0 is -3");
   memcpy(bad, xyz, sizeof bad);
-  bad[11] = INFINITY; /* refused although no face uses it */
+  bad[11] = INFINITY; /* refused although no face uses this vertex */
   ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, (arrays.x = bad, arrays.y = bad + 1, arrays.z = bad + 2),
                      "z of vertex 3 is inf");
   bad[11] = 1e61;
   ARRAYS_ARE_REFUSED(RIIS_INVALID_SURFACE, (arrays.x = bad, arrays.y = bad + 1, arrays.z = bad + 2),
                      "z of vertex 3 is 1e+61");
-  /* The coordinate is in range before its placement and out of range after it. */
+  /* The coordinate is in range before the surface is placed, and out of range afterwards. */
   bad[11] = 1e59;
   riis_surface_options options = surface_options();
   options.scale = 100;
@@ -385,7 +385,8 @@ static void marking_options_are_refused_by_name(void **state) {
   MARK_OPTION_IS_REFUSED(n_threads, 4096, "n_threads is 4096");
 }
 
-/* A caller with an older header exchanges fewer fields. A caller with a newer header is refused. */
+/* A caller with an older header passes a smaller struct, and only its fields are exchanged. A caller with a newer header is
+ * refused. */
 static void struct_sizes_are_checked(void **state) {
   (void)state;
   riis_surface_options options;
@@ -394,10 +395,10 @@ static void struct_sizes_are_checked(void **state) {
   char parts[40];
   snprintf(parts, sizeof parts, "options is 128|riis %s ", riis_version_string());
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, parts, riis_surface_options_init(&options, 128));
-  assert_int_equal(options.zero_area, 0x5a5a5a5a); /* untouched */
+  assert_int_equal(options.zero_area, 0x5a5a5a5a); /* a field that the caller's struct lacks is untouched */
   riis_surface *surface = NULL;
   riis_valve *valve = new_valve("aortic");
-  options.struct_size = 0; /* never filled */
+  options.struct_size = 0; /* as if the struct had never been initialized */
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 0|init function", riis_surface_create(valve, &options, &surface));
   options.struct_size = -8;
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is -8", riis_surface_create(valve, &options, &surface));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Failures that the public interface cannot provoke: failures from inside become a status and a message, and memory that runs
- * out leaves everything as it was. */
+ * Failures inside the library that a caller cannot provoke. They become a status and a message. If memory runs out, everything
+ * stays as it was. */
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -22,8 +22,8 @@ static void every_exception_becomes_a_status(void **state) {
   CHECK_REFUSED(RIIS_INVALID_MESH, "error of block 0", wall_meets("workers"));
 }
 
-/* Runs in a child process with little address space left. An update that needs much more is refused and the surface stays.
- * Returns 0 if this holds. */
+/* Updates a surface in a child process with little address space left. An update that needs much more is refused, and the
+ * surface stays. Returns 0 if this holds. */
 static int update_without_memory(void) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
@@ -37,14 +37,14 @@ static int update_without_memory(void) {
   if (riis_valve_create("aortic", &valve) || riis_surface_create(valve, NULL, &surface)) return 2;
   if (riis_surface_options_init(&options, sizeof options)) return 3;
   riis_surface_get_info(surface, &before, sizeof before);
-  options.tolerance = 1e-4; /* 3.5 million triangles */
+  options.tolerance = 1e-4; /* makes 3.5 million triangles */
   getrlimit(RLIMIT_AS, &limit);
   const rlim_t unlimited = limit.rlim_cur;
   limit.rlim_cur = (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE) + ((rlim_t)160 << 20);
   setrlimit(RLIMIT_AS, &limit);
   if (riis_surface_update(surface, valve, &options) != RIIS_OUT_OF_MEMORY) return 4;
   if (strcmp(riis_last_error(), "out of memory") != 0) return 5;
-  limit.rlim_cur = unlimited; /* the checks may need memory, and other threads may have taken the rest */
+  limit.rlim_cur = unlimited; /* the checks below may need memory that other threads took meanwhile */
   setrlimit(RLIMIT_AS, &limit);
   riis_surface_get_info(surface, &after, sizeof after);
   if (memcmp(&before, &after, sizeof before) != 0) return 6;
@@ -56,8 +56,9 @@ static int update_without_memory(void) {
   return 0;
 }
 
-/* Also runs in a child process. There are many patches, and the first one already has too many quads. The curves of a few patches
- * are made before the quads are counted, but not all curves, which would take a gigabyte. Returns 0 if this holds. */
+/* Runs in a child process too. The valve has many patches, and the first one already has too many quads. The library makes the
+ * curves of a few patches before it counts the quads. It must not make all curves, which would take a gigabyte. Returns 0 if
+ * this holds. */
 static int refusal_with_little_memory(void) {
   enum { n_patches = 200, n_curves = 4 * n_patches };
   static const double ends[4][4] = {{0, 0, 1, 0}, {0, 1, 1, 1}, {0, 0, 0, 1}, {1, 0, 1, 1}};
@@ -96,7 +97,7 @@ static int refusal_with_little_memory(void) {
 
 static void check_in_child(int (*returns_0)(void)) {
 #if defined(IS_SANITIZED)
-  skip(); /* sanitizers reserve the address space that this test takes away */
+  skip(); /* sanitizers reserve the address space that this test would limit */
 #endif
   fflush(NULL);
   const pid_t child = fork();
@@ -120,7 +121,8 @@ static void what_is_too_much_is_not_made(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(
-          memory_that_runs_out_changes_nothing), /* first: OpenMP does not survive a fork once it has threads */
+          /* Must be first, because OpenMP does not survive a fork after it has started threads. */
+          memory_that_runs_out_changes_nothing),
       cmocka_unit_test(what_is_too_much_is_not_made),
       cmocka_unit_test(every_exception_becomes_a_status),
   };

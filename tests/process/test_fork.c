@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A process may be forked while another thread is inside the library: the child finds the library's pools unlocked. It makes no
- * surface, because TBB would wait there for threads that the child lacks. If a process used several threads, its child has one
- * thread. A request for more is refused, and the default is one. */
+ * A process may be forked while another thread is inside the library. In the child, the library's memory pools are unlocked.
+ * This child makes no surface, because TBB would wait for threads that the child lacks. If the parent used several threads,
+ * the library runs on one thread in the child: one is the default, and a request for more is refused. */
 #ifndef _GNU_SOURCE
-#define _GNU_SOURCE /* fork */
+#define _GNU_SOURCE /* for fork */
 #endif
 #include <pthread.h>
 #include <riis/riis.h>
@@ -31,7 +31,7 @@ static riis_status step(riis_surface *surface, riis_valve *valve, double opening
   return status ? status : riis_surface_update(surface, valve, &options);
 }
 
-/* Takes and gives back the library's memory until the test is over. Returns the first error. */
+/* Allocates and frees the library's memory until the test is over. Returns the first error. */
 static void *go_on_stepping(void *status_of_thread) {
   riis_status *status = status_of_thread;
   riis_valve *valve = NULL;
@@ -44,7 +44,7 @@ static void *go_on_stepping(void *status_of_thread) {
   return NULL;
 }
 
-/* Copies and drops valves, whose values are in the pools. */
+/* Copies and destroys valves, whose values are in the memory pools. */
 static riis_status copy_often(const riis_valve *valve) {
   riis_status status = RIIS_OK;
   for (int i = 0; i < 20 && !status; ++i) {
@@ -55,7 +55,7 @@ static riis_status copy_often(const riis_valve *valve) {
   return status;
 }
 
-/* Returns whether a forked process copies valves and ends by itself. A locked pool would stop it until its alarm. */
+/* Returns whether a forked process can copy valves and ends by itself. A locked pool would block it until its alarm ends it. */
 static int child_copies_valves(const riis_valve *valve) {
   int outcome = 0;
   const pid_t child = fork();
@@ -67,7 +67,7 @@ static int child_copies_valves(const riis_valve *valve) {
          WEXITSTATUS(outcome) == child_passed;
 }
 
-/* The thread holds a pool's lock for a part of its time, so that a few of the forks meet a locked pool. */
+/* The thread holds a pool's lock part of the time, so that some forks happen while a pool is locked. */
 static void forked_processes_copy_valves(void **state) {
   (void)state;
   pthread_t thread;
@@ -89,7 +89,7 @@ typedef struct scene {
   riis_surface *surface;
   test_mesh nodes;
   riis_mesh *mesh;
-  riis_marks *result; /* by one thread, or by several */
+  riis_marks *result; /* marked by one thread, or by several */
   double *k;
 } scene;
 
@@ -113,7 +113,7 @@ static riis_status mark(const scene *s, int32_t search, int32_t n_threads, riis_
   return status ? status : riis_mark_nodes(s->surface, s->mesh, &options, result);
 }
 
-/* Makes each call with an n_threads. Returns how many calls give the status, and counts the calls. */
+/* Makes each call with this n_threads. Returns how many calls give the status, and counts the calls. */
 static int with_status(const scene *s, int32_t n_threads, riis_status expected, const char *text, int *n_calls) {
   riis_mark_options options;
   riis_surface_options of_surface;
@@ -167,7 +167,7 @@ static int with_status(const scene *s, int32_t n_threads, riis_status expected, 
   return n_as_expected;
 }
 
-/* Marks of a result that the parent made become arrays, with the threads of that marking or without. */
+/* Copies the parent's marks to arrays, whether or not that marking used several threads. */
 static riis_status use_result(const scene *s) {
   riis_resistance resistance;
   riis_status status = riis_resistance_init(&resistance, sizeof resistance);
@@ -176,7 +176,7 @@ static riis_status use_result(const scene *s) {
   return status ? status : dense_of(s->result, s->nodes.n, RIIS_FAR_DISTANCE, NULL, s->k, NULL, NULL);
 }
 
-/* The check of a child. Returns 0 if all is right. */
+/* A check that the child runs. Returns 0 if all is right. */
 typedef int child_check(const scene *s);
 
 static int run_child(child_check *check, const scene *s) {
@@ -230,7 +230,7 @@ static int has_threads(const scene *s) {
   return all_have(s, 2, RIIS_OK, NULL) ? 0 : 2;
 }
 
-/* This test runs first, because the process has not used threads then. */
+/* This test runs first, while the process has not used threads yet. */
 static void a_child_of_one_thread_has_threads(void **state) {
   (void)state;
   const scene s = scene_by(1);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * n_threads = 1 starts no thread: after each call the process has the number of threads that it had before the first. The default
- * 0 also starts none if there is little work. With 2 there are more, so the count sees threads. Calls on one thread come first,
- * because OpenMP and TBB keep the threads that they start. */
+ * n_threads = 1 starts no thread: after each call the process has as many threads as before the first. The default, 0, also
+ * starts no thread if there is little work. With 2 the process has more threads, which shows that the count works. Calls on
+ * one thread come first, because OpenMP and TBB keep the threads that they start. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -11,7 +11,7 @@
 #include "handles.h"
 #include "searches.h"
 
-static int n_threads_at_first; /* a sanitizer may have its own */
+static int n_threads_at_first; /* a sanitizer may have threads of its own */
 static int32_t n_threads_asked;
 
 /* Returns the number of threads of this process. */
@@ -144,7 +144,7 @@ static void surfaces_from_arrays(void **state) {
   CALL_ALONE(updated);
 }
 
-/* Makes adjacencies of all kinds. The last is the lattice's own. */
+/* Makes adjacencies of all kinds. The last one is the lattice's own. */
 static riis_adjacency *make_adjacencies(void) {
   riis_mesh_cells cells;
   riis_mesh_faces faces;
@@ -220,7 +220,7 @@ static void markings(void **state) {
   check_markings(most_side);
 }
 
-/* On a machine of one processor this holds in any case. */
+/* On a machine with one processor this holds in any case. */
 static void little_work_by_default(void **state) {
   (void)state;
   n_threads_asked = 0;

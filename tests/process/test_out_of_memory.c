@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Memory runs out at every single allocation of the library's own code, and at every request of Embree to its memory monitor. The
- * call then returns RIIS_OUT_OF_MEMORY, nothing has changed, nothing leaks, and the same call succeeds afterwards. Without
- * RIIS_TEST_LONG=1 some of the allocations of long calls are left out. */
+ * Every single allocation of the library's own code fails once, and so does every request of Embree to its memory monitor. The
+ * call must then return RIIS_OUT_OF_MEMORY, change nothing and leak nothing, and the same call must succeed afterwards.
+ * Without RIIS_TEST_LONG=1 some allocations of long calls are left out. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -18,9 +18,9 @@
 
 static random_source rng;
 
-static int64_t n_injected[4], n_calls_failed[4]; /* by the owner of the memory */
+static int64_t n_injected[4], n_calls_failed[4]; /* indexed by whose memory fails */
 
-/* The state of everything before and after the call. */
+/* The state of all objects before and after the call. */
 typedef struct reference {
   uint64_t before, after;
 } reference;
@@ -42,15 +42,16 @@ static void check_digest(const scenario *s, const world *w, uint64_t expected, c
   if (digest_of(w) != expected) fail_msg("%s, allocation %lld: something else %s", s->name, (long long)n, when);
 }
 
-static int n_grown; /* how often memory remained after a scenario that is the first of its kind */
+static int n_grown; /* how often memory stayed allocated after a first call of its kind */
 
-/* Makes allocation n fail in a fresh world. Returns how many allocations failed, or 0 if there are fewer than n. */
+/* Makes allocation n fail in a new process state. Returns how many allocations failed, or 0 if there are fewer than n. */
 static int64_t try_one(const scenario *s, const reference *expected, int whose, int64_t n, int and_all_after,
                        int attempt) {
   const live before = live_now();
   world w = {.scenario = s};
   s->make(&w);
-  assert_int_equal(riis_marks_create(NULL), RIIS_INVALID_ARGUMENT); /* leaves a message of its own */
+  /* Sets another message, so that the failing call must write its own. */
+  assert_int_equal(riis_marks_create(NULL), RIIS_INVALID_ARGUMENT);
   memory_fail(whose, n, and_all_after);
   riis_status status = s->call(&w);
   const int64_t n_failed = memory_stop_failing();
@@ -58,7 +59,8 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
     n_injected[whose] += n_failed;
     ++n_calls_failed[whose];
     check_status(s, status, n);
-    /* There are two ways to fail at n. One checks everything before it calls again. The other does not. */
+    /* There are two variants of a failure at n. One checks everything before it repeats the call; the other repeats it
+     * immediately. */
     if ((n + and_all_after) % 2 == 0 || (s->flags & IS_FIRST))
       check_digest(s, &w, expected->before, "after the failure", n);
     if (!(s->flags & IS_FIRST)) status = s->call(&w);
@@ -69,13 +71,14 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
   }
   destroy(&w);
   const live after = live_now();
-  /* Embree keeps memory for each thread from that thread's first work for it on. TBB's threads may begin such work at any time.
-   * So memory is a leak only if it remains after each of several attempts. */
+  /* Embree allocates memory for each thread when the thread first works for it, and keeps that memory. TBB's threads may begin
+   * such work at any time. So memory is a leak only if it remains after each of several attempts. */
   if (after.embree == before.embree + 1 && after.library == before.library &&
       after.embree_bytes == before.embree_bytes && attempt < 5)
     return try_one(s, expected, whose, n, and_all_after, attempt + 1);
   const int grew = memcmp(&before, &after, sizeof before) != 0;
-  if (grew && (!(s->flags & IS_FIRST) || n_grown++ > 0)) /* memory that is made once stays, but only once */
+  /* Memory that is allocated once and kept is accepted, but only once. */
+  if (grew && (!(s->flags & IS_FIRST) || n_grown++ > 0))
     fail_msg("%s, allocation %lld: leaks %lld of the library's, %lld of Embree's, %lld bytes of Embree's", s->name,
              (long long)n, (long long)(after.library - before.library), (long long)(after.embree - before.embree),
              (long long)(after.embree_bytes - before.embree_bytes));
@@ -89,7 +92,7 @@ static reference reference_of(const scenario *s) {
   made.before = digest_of(&w);
   destroy(&w);
   made.after = 0;
-  if (s->flags & IS_FIRST) return made; /* a second call would no longer be the first */
+  if (s->flags & IS_FIRST) return made; /* a second call would not be the first of its kind */
   s->make(&w);
   CHECK_OK(s->call(&w));
   made.after = digest_of(&w);
@@ -97,15 +100,15 @@ static reference reference_of(const scenario *s) {
   return made;
 }
 
-/* Each of the first allocations of a call fails, then some at random. From allocation n, at most n / share are left out. A call
- * that samples a surface has more than a thousand allocations, and a sanitizer makes each trial slow. */
+/* Each of the first allocations of a call fails, then some at random. After allocation n, at most n / share are skipped. A
+ * call that samples a surface makes more than a thousand allocations, and with a sanitizer each trial is slow. */
 #if defined(IS_SANITIZED)
 enum { n_first = 8, share = 1 };
 #else
 enum { n_first = 64, share = 16 };
 #endif
 
-/* Makes allocations 1, 2, ... fail until the call has no more. Returns the last one that failed. */
+/* Makes allocations 1, 2, ... fail until the call makes no more. Returns the last one that failed. */
 static int64_t try_all(const scenario *s, int whose) {
   const reference expected = reference_of(s);
   const int is_whole = is_long_test();
@@ -137,8 +140,8 @@ static void embrees_memory_runs_out(void **state) {
   assert_int_equal(memory_live_bytes_of_embree(), 0);
 }
 
-/* Chance decides the work of each thread, so the test repeats until another thread allocates. The mesh is large enough to give
- * all threads work. */
+/* Chance decides which thread does which work, so the test repeats until another thread allocates. The mesh is large enough to
+ * give work to all threads. */
 static void memory_of_other_threads_runs_out(void **state) {
   (void)state;
   set_nodes(45);
@@ -150,12 +153,12 @@ static void memory_of_other_threads_runs_out(void **state) {
     for (; n_failed < 3 && n_tries < 2000; ++n_tries)
       n_failed += try_one(s, &expected, MEMORY_OF_WORKERS, 1 + n_tries % 3, 0, 1);
     printf("%s: %lld failures in %lld tries\n", s->name, (long long)n_failed, (long long)n_tries);
-    /* A walk is short, so on a busy machine TBB's other threads may come too late every time. */
+    /* A walk is short, so on a busy machine TBB's other threads may always come too late. */
     if (n_failed < 1 && s->search != RIIS_SEARCH_PAPER) fail_msg("%s: no other thread allocated", s->name);
   }
 }
 
-/* There is no memory at all, not even for the C++ library's exceptions or for the message. */
+/* All allocations fail, even those for the C++ library's exceptions and for the message. */
 static void all_memory_runs_out(void **state) {
   (void)state;
   if (!memory_of_all_can_fail()) skip();
@@ -174,7 +177,7 @@ static void all_memory_runs_out(void **state) {
   riis_valve_destroy(&valve);
 }
 
-/* The requests are sound, but no machine has enough memory for them. */
+/* The requests are valid, but no machine has enough memory for them. */
 static void requests_beyond_any_memory_are_refused(void **state) {
   (void)state;
   const int64_t n = INT64_C(1) << 56;

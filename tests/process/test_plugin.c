@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A program that does not link riis opens and closes a plug-in that does. Threads that marked for the plug-in outlive it,
- * so their code must stay. */
+ * A program that does not link riis loads and unloads a plug-in that does. Threads that marked nodes for the plug-in outlive
+ * it, so their code must stay in memory. */
 #ifndef _GNU_SOURCE
-#define _GNU_SOURCE /* usleep */
+#define _GNU_SOURCE /* for usleep */
 #endif
 #include <dlfcn.h>
 #include <stdint.h>
@@ -12,7 +12,7 @@
 
 typedef int64_t mark_function(int32_t n_threads);
 
-/* Opens the plug-in, marks and closes it. Threads that wait for work run their code within the pause after it. */
+/* Loads the plug-in, marks and unloads it. The pause afterwards lets waiting threads run their code. */
 static int64_t mark_by_plugin(const char *path, int32_t n_threads) {
   void *const plugin = dlopen(path, RTLD_NOW | RTLD_LOCAL);
   mark_function *mark = NULL;

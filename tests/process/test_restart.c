@@ -23,7 +23,7 @@ static laws laws_at_start(void) {
   return state;
 }
 
-/* Systole first: the aortic valve opens, and closes as the flow reverses; then the mitral valve opens. */
+/* Systole comes first: the aortic valve opens, and closes as the flow reverses. Then the mitral valve opens. */
 static void advance(laws *state, double time) {
   riis_opening_switch by_switch;
   riis_opening_angle by_angle;
@@ -41,7 +41,7 @@ static void advance(laws *state, double time) {
   CHECK_OK(riis_opening_angle_advance(&by_angle, &state->mitral, time, 0.1 * wave, 20 * wave, &state->mitral));
 }
 
-/* A valve now, and in the step before. */
+/* A valve now and one step before. */
 typedef struct moving_valve {
   riis_valve *now, *before;
   riis_surface *surface;
@@ -81,7 +81,7 @@ static void add_resistance(const moving_valve *valve, const riis_mesh *mesh, rii
   CHECK_OK(add_resistance_to(result, &resistance, n_nodes, fields, fields + n_nodes));
 }
 
-/* Goes on from the state before the first of the steps to the last step. `fields` has K and K u_surface of every step. */
+/* Runs from the state before the step `first` to the step `last`. `fields` gets K and K u_surface of every step. */
 static void run(laws *state, int first, int last, double *fields, const double *xyz) {
   const int n = n_owned();
   const moving_valve aortic = valve_at("aortic", state->aortic.opening, 0.8),
@@ -124,7 +124,7 @@ static void a_restart_in_mid_cycle_has_the_same_resistance_to_the_end(void **unu
   laws at_once = laws_at_start(), state = laws_at_start();
   run(&at_once, 1, n_steps, whole, xyz);
   run(&state, 1, n_before, restarted, xyz);
-  assert_true(state.aortic.opening > 0.1 && state.aortic.opening < 0.9); /* in the middle of their motion */
+  assert_true(state.aortic.opening > 0.1 && state.aortic.opening < 0.9); /* both valves are in motion */
   assert_true(state.mitral.opening > 0.1 && state.mitral.opening < 0.9);
   state = through_a_file(&state);
   run(&state, n_before + 1, n_steps, restarted, xyz);
@@ -136,7 +136,7 @@ static void a_restart_in_mid_cycle_has_the_same_resistance_to_the_end(void **unu
     for (int k = 0; k < n_nodes; ++k) most = fmax(most, a[k]);
     for (int k = n_nodes; k < 4 * n_nodes; ++k) fastest = fmax(fastest, fabs(a[k]));
     assert_true(most > 1e5);
-    if (i == n_before + 1) assert_true(fastest > 1e5); /* the compared values come from a motion */
+    if (i == n_before + 1) assert_true(fastest > 1e5); /* the compared values come from a moving valve */
     if (memcmp(a, b, (size_t)4 * n_nodes * sizeof *a) != 0) fail_msg("step %d after a restart differs", i);
   }
 }

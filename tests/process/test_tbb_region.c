@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Marking from tasks of the caller's own TBB gives the same bits as outside, and the caller's settings stay. */
+ * Marking inside tasks of the caller's TBB gives the same bits as marking outside. The caller's settings stay. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -18,11 +18,11 @@ typedef struct work {
   const riis_surface *surface;
   const riis_mesh *mesh;
   const riis_marks *expected;
-  int32_t n_threads; /* 0: each of the counts, task by task */
+  int32_t n_threads; /* 0: each task uses another number of threads */
   int is_wrong[n_tasks];
 } work;
 
-/* Marks with a result of its own, first new and then used. Asserts nothing, because any thread runs it. */
+/* Marks twice into a result of its own. This function asserts nothing, because it may run on any thread. */
 static void mark(void *data, int task) {
   work *w = data;
   riis_mark_options options = {0};
@@ -52,12 +52,12 @@ static void expect_same_as_outside(int region) {
   int most_at_once = 0;
   for (int count = 0; count < 4; ++count)
     for (int repeat = 0; repeat < fewer_if_sanitized(3); ++repeat) {
-      /* The mesh is new each time, so one of the tasks prepares it. */
+      /* The mesh is new each time, so one of the tasks has to prepare it. */
       free_one_owned(mesh);
       mesh = mesh_from(&nodes);
       work w = {.surface = surface, .mesh = mesh, .expected = expected};
       w.n_threads = count < 3 ? thread_counts[count] : 0;
-      for (int task = 0; task < n_tasks; ++task) w.is_wrong[task] = 1; /* until it has run */
+      for (int task = 0; task < n_tasks; ++task) w.is_wrong[task] = 1; /* wrong until the task has run */
       const tbb_seen seen = tbb_run(region, n_tasks, mark, &w);
       for (int task = 0; task < n_tasks; ++task)
         if (w.is_wrong[task]) fail_msg("task %d, n_threads %d: wrong", task, (int)w.n_threads);
@@ -96,11 +96,11 @@ int main(void) {
       cmocka_unit_test(in_the_callers_arena_of_one),
       cmocka_unit_test(under_the_callers_limit_of_one),
   };
-  /* Nothing may be printed. If TBB is asked for more than it can give, it reports this on stderr. */
+  /* Nothing may be printed. TBB reports on stderr if it is asked for more threads than it can give. */
   FILE *captured = tmpfile();
   const int terminal = dup(STDERR_FILENO);
   if (!captured || terminal < 0 || dup2(fileno(captured), STDERR_FILENO) < 0) return 1;
-  int n_failed = cmocka_run_group_tests(tests, NULL, NULL); /* cmocka also writes there */
+  int n_failed = cmocka_run_group_tests(tests, NULL, NULL); /* cmocka also writes to stderr */
   char line[256];
   dup2(terminal, STDERR_FILENO);
   for (rewind(captured); fgets(line, sizeof line, captured);) {

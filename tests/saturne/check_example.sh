@@ -1,8 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_example.sh SOURCE_DIR BUILD_DIR WORK_DIR CMAKE PYTHON
-# Runs the closed valve of examples/code_saturne on 1 and 2 ranks with the riis of a build tree. It checks the drop and the marks.
-# Then it shows that bad input stops the solver with a message that names the time step, and that check.py refuses bad records.
+# Runs the closed valve of examples/code_saturne on 1 and 2 ranks with the riis of a build tree. The script checks the pressure
+# drop and the marks. Then it shows that bad input stops the solver with a message that names the time step, and that check.py
+# refuses bad records.
 set -euo pipefail
 source=$1 build=$2 work=$3 cmake=$4 python=$5
 here=$source/tests/saturne
@@ -32,7 +33,7 @@ quietly saturne_closed 8 20 1 2
 check=("$python" -B "$source/examples/code_saturne/check.py")
 "${check[@]}" "$study" closed || problem "a check of the closed valve failed"
 
-# refused CASE NAME TEXT [VARIABLE=VALUE...]: the solver must stop, and say why.
+# refused CASE NAME TEXT [VARIABLE=VALUE...]: the solver must stop and print TEXT.
 refused() {
   local case=$1 name=$2 text=$3
   shift 3
@@ -44,14 +45,14 @@ refused() {
 
 for case in c fortran; do
   refused "$case" valve_outside "riis: time step 1: the valve leaves the mesh: its z is from" VALVE_Z=0.03
-  step=$([[ $case == c ]] && echo 9 || echo 21) # the first one after the checkpoint
+  step=$([[ $case == c ]] && echo 9 || echo 21) # the first step after the checkpoint
   refused "$case" another_kind "riis: time step $step: the checkpoint is of another kind of valve" RUN_STEPS=30 \
     VALVE_KIND=bileaflet RUN_RESTART="$study/$case/RESU/closed_1/checkpoint"
   cp "$here/cs_user_physical_properties.c" "$study/$case/SRC"
   refused "$case" pressures_of_nan "riis: time step 3: RIIS_INVALID_ARGUMENT: pressure_difference is nan"
   rm "$study/$case/SRC/cs_user_physical_properties.c"
 done
-# A valve of the same kind whose cusps are 0.1 mm lower.
+# Uses a valve of the same kind whose cusps are 0.1 mm lower.
 sed -i 's/^  if (cs_restart_present())/  check(riis_valve_set_scalar(valve, "leaflet_height", 1.19));\n&/' \
   "$study/c/SRC/cs_user_valve.c"
 sed -i "s/^    if (isuite == 1)/    call valve%set('leaflet_height', 1.19d0)\n&/" "$study/fortran/SRC/cs_user_valve.f90"
@@ -62,8 +63,8 @@ done
 refused c bad_setting "VALVE_HALF_THICKNESS is '2 mm', but must be a number from" VALVE_HALF_THICKNESS="2 mm"
 refused reference no_table "cannot read REFERENCE_CELLS, 'nowhere'" REFERENCE_CELLS=nowhere
 
-# The checks must refuse bad records. Each is a copy with one thing wrong.
-# judged STATUS TEXT FILE SED: check.py must end so and say so.
+# check.py must refuse bad records. Each is a copy with one fault.
+# judged STATUS TEXT FILE SED: check.py must end with STATUS and print TEXT.
 judged() {
   local status=0 said
   rm -rf "$work/bad"
@@ -79,6 +80,6 @@ judged 2 "is no list of cells" c/RESU/closed_2/cells_00008.0.csv '3s/,.*//'
 judged 1 "FAILED  C, head losses: the drop is" c/RESU/closed_1/history.csv '9s/^(([^,]*,){9})([^,]*)/\11\3/'
 judged 1 "FAILED  C, head losses, 2 ranks: the same cells are marked in 7 of 8" c/RESU/closed_2/history.csv \
   '4s/^(([^,]*,){5})[^,]*/\10000000000000000/'
-# K of a cell, with the centre as it was.
+# Changes K of a cell and leaves its centre.
 judged 1 "FAILED  C, head losses, 2 ranks: " c/RESU/closed_2/cells_00008.0.csv '3s/[^,]*$/0x1p+3/'
 echo "check.py refuses bad records"

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """check_columns.py FILE...: no line is too long. Files of other kinds are left alone.
 
-Code has at most 130 columns, Fortran of fixed form 72, documents 100. In a document, blocks of code may have 130. Tables,
-links on a line of their own, HTML comments, and blocks that show output (marked text, or indented) may be longer.
+Code has at most 130 columns, fixed-form Fortran 72, documents 100. In a document, blocks of code may have 130. Tables, links on a
+line of their own, HTML comments, and blocks of output (```text, or indented) may be longer.
 """
 
 import re
@@ -16,8 +16,8 @@ _LINK = re.compile(r"\s*([-*]|\d+\.)? *\(?(!?\[[^]]*\]\([^)]*\)|\[[^]]*\]: \S+|<
 
 
 def limit_of(path, text):
-    """The limit of a file, None if it has none."""
-    if path.endswith(".template.md"):  # its lines are filled anew, with numbers in place of names
+    """Returns a file's limit, or None if it has none."""
+    if path.endswith(".template.md"):  # its lines are wrapped again after numbers have replaced the names
         return CODE
     if path.endswith(".md"):
         return DOCUMENT
@@ -28,7 +28,7 @@ def limit_of(path, text):
 
 
 def limits_of_document(lines, most):
-    """The limit of each line, None for a line that has none; `most` is that of text."""
+    """Yields the limit of each line, or None for a line without a limit. `most` is the limit of text."""
     fence, is_comment, is_output, previous = None, False, False, ""
     for line in lines:
         mark = re.match(r"\s*```+\s*(\w*)", line)
@@ -48,7 +48,7 @@ def limits_of_document(lines, most):
 
 
 def too_long(path):
-    """Number, length and limit of each line that is too long; None for a file without a limit."""
+    """Returns the number, length and limit of each line that is too long, or None for a file without a limit."""
     try:
         with open(path, encoding="utf-8") as file:
             text = file.read()

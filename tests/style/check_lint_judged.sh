@@ -6,7 +6,7 @@ set -euo pipefail
 lint=$(readlink -f "$(dirname "$0")")/lint.sh
 sources=$(readlink -f "$1") scratch=$2
 
-# A project of one file of each language. Long lines that are allowed are there too.
+# plant: makes a project with one file of each language. It contains long lines that are allowed.
 plant() {
   local long
   rm -rf "$scratch"
@@ -42,7 +42,7 @@ refuses() {
   plant
 }
 
-# A program that is missing is named, and so is its package.
+# A missing program is named together with its package.
 mkdir -p "$scratch"
 other_version=$(
   # shellcheck disable=SC2317 # lint.sh calls it

@@ -1,20 +1,20 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # lint.sh SOURCE_FOLDER PART...
-# Checks the style of all files that git tracks, or of all files if the folder is no work tree. The parts:
-#   format   clang-format 14 lays out C and C++ so; the public headers are laid out by hand
-#   shell    shellcheck has nothing to say; a script without #! is read by another one
+# Checks the style of all files that git tracks, or of all files if the folder is not a git work tree. The parts:
+#   format   C and C++ is laid out as clang-format 14 does; the public headers are laid out by hand
+#   shell    shellcheck reports nothing; a script without #! is checked as part of the script that reads it
 #   columns  no line is too long (check_columns.py)
-#   python   pyflakes has nothing to say
-#   tidy     clang-tidy 14 has nothing to say (.clang-tidy) of the files of build-lint/compile_commands.json
-#   tools    the other parts' programs are there; status 77 if one is missing or of another version
+#   python   pyflakes reports nothing
+#   tidy     clang-tidy 14 (.clang-tidy) reports nothing in the files of build-lint/compile_commands.json
+#   tools    the programs for the other parts are installed; status 77 if one is missing or of another version
 # shellcheck disable=SC2317 # the parts are called by their names
 set -euo pipefail
 here=$(dirname "$(readlink -f "$0")")
 cd "$1"
 shift
 python=python3
-[[ ! -x /usr/bin/python3 ]] || python=/usr/bin/python3 # Debian's own has the packages
+[[ ! -x /usr/bin/python3 ]] || python=/usr/bin/python3 # Debian's own Python has the packages
 
 # needs PACKAGE VERSION COMMAND...: the command must print the version.
 needs() {
@@ -40,7 +40,7 @@ while IFS= read -r -d '' file; do
 done < <(if [[ -e .git ]]; then git ls-files -z; else
   find . \( -path './build*' -o -path ./out \) -prune -o -type f -printf '%P\0'; fi)
 
-# ending REGEX: sets found to the files with such a name.
+# ending REGEX: sets `found` to the files whose names match.
 ending() {
   local file
   found=()
@@ -71,7 +71,7 @@ shell() {
       status=1
     fi
   done
-  # The scripts that run reads are judged with it, because they use its variables.
+  # Scripts that `run` reads are checked together with it, because they use its variables.
   [[ ! -e run ]] || shellcheck --check-sourced -x -P . run || status=1
   shellcheck -x -P . "${scripts[@]}" || status=1
   found=("${scripts[@]}")
@@ -91,7 +91,7 @@ python() {
 tidy() {
   local status=0 said
   mapfile -t found < <(sed -nE 's/^ *"file": "(.*)",?$/\1/p' build-lint/compile_commands.json | sort -u)
-  # A batch of files of a unity build includes them, so they count as headers.
+  # In a unity build a batch file includes the sources, so clang-tidy treats them as headers.
   said=$(printf '%s\0' "${found[@]}" |
     xargs -0 -P "$(nproc)" -n 1 clang-tidy-14 -p build-lint --quiet --header-filter="^$PWD/(src|include)/" 2>/dev/null) ||
     status=$?

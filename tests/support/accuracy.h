@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Makes points of known distance (bench/accuracy), for tests in C. */
+ * C wrappers of the points of known distance that bench/accuracy makes. */
 #ifndef RIIS_TEST_ACCURACY_H
 #define RIIS_TEST_ACCURACY_H
 
@@ -11,7 +11,7 @@ extern "C" {
 
 typedef struct known_points {
   int64_t n;
-  double *xyz, *distance; /* (3, n), (n) */
+  double *xyz, *distance; /* xyz (3, n), distance (n) */
 } known_points;
 typedef struct known_truth {
   known_points on, off;
@@ -19,7 +19,7 @@ typedef struct known_truth {
   double most_from_fine;
 } known_truth;
 
-/* Makes points of known distance to patches from arrays. If patches is NULL, takes leaflet 0 of the valve of the given kind.
+/* Makes points whose distance to the patches is known. If patches is NULL, takes leaflet 0 of the valve of the given kind.
  * Returns 0, or 1 with the reason on stderr. */
 int truth_of(const riis_patches *patches, const char *kind, int64_t n, uint64_t seed, double fine_tolerance,
              known_truth *truth);
@@ -30,7 +30,7 @@ enum { n_offsets = 6 };
 double truth_offset(int64_t i);
 double truth_largest_share_of_radius(void);
 
-/* A point of patch 0. */
+/* Gives the point (u, v) of patch 0. */
 int smooth_point(const riis_patches *patches, double u, double v, double *point, double *normal, double *curvature);
 
 #ifdef __cplusplus

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Walks of src/riis/parallel by several callers. The interface is C, because a failed assertion leaves by longjmp, which must
- * not cross TBB's frames. A walk here visits 32 numbers and adds 32 more. It is correct if it visits each number once. */
+ * C wrappers of the walks of src/riis/parallel, for several callers at the same time. The assertions stay in C, because a
+ * failed one leaves by longjmp, which must not cross TBB's stack frames. A walk here visits 32 numbers and adds 32 more. It is
+ * correct if it visits each number once. */
 #ifndef RIIS_TEST_ARENAS_H
 #define RIIS_TEST_ARENAS_H
 
@@ -8,7 +9,7 @@
 extern "C" {
 #endif
 
-/* Each handle of the library has such a keeper. Arenas exist while there is a keeper. */
+/* Each handle of the library contains such a keeper. Arenas exist as long as any keeper does. */
 typedef struct arenas_keeper arenas_keeper;
 arenas_keeper *arenas_keep(void);
 void arenas_let_go(arenas_keeper **keeper);
@@ -24,15 +25,15 @@ typedef struct walk_seen {
 walk_seen walk_once(int n_threads);
 /* Walks while the caller limits the process to `limit` threads. */
 walk_seen walk_under_limit(int limit, int n_threads);
-/* Every body throws. Returns 1 if the caller gets the exception. */
+/* Makes a walk in which every body throws. Returns 1 if the caller gets the exception. */
 int walk_that_throws(int n_threads);
-/* The caller has n_callers threads, and each makes n_walks walks with 2 and 3 threads by turns. All are inside their first
+/* Starts n_callers threads. Each makes n_walks walks, alternately with 2 and 3 threads. All threads are inside their first
  * walk, which has 2 threads, at the same time. Returns 1 if all walks are correct. */
 int walk_at_once(int n_callers, int n_walks);
-/* The caller's own TBB has n_tasks tasks in an arena of four threads, and each task makes a walk. Returns 1 if all walks are
+/* Runs n_tasks tasks of the caller's own TBB in an arena of four threads. Each task makes a walk. Returns 1 if all walks are
  * correct and the tasks stay in their arena. */
 int walk_in_tasks(int n_tasks);
-/* Returns 1 if TBB can be ended. TBB refuses this while there are arenas. */
+/* Returns 1 if TBB can be shut down. TBB refuses this while an arena exists. */
 int end_tbb(void);
 
 #ifdef __cplusplus

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The bileaflet valve in closed form: the places of a leaflet's points at an angle, and the distance of a point from a leaflet.
- * Include after riis.h, test_support.h and handles.h. */
+ * The bileaflet valve in closed form: the positions of a leaflet's points at an angle, and the distance of a point from a
+ * leaflet. Include after riis.h, test_support.h and handles.h. */
 #ifndef RIIS_TEST_BILEAFLET_ORACLE_H
 #define RIIS_TEST_BILEAFLET_ORACLE_H
 
@@ -58,13 +58,13 @@ static inline double angle_of(const bileaflet *of, double opening) {
   return degree * (of->closed_angle + opening * (of->open_angle - of->closed_angle));
 }
 
-/* Turns a point by half a turn round the axis, from one leaflet to the other. */
+/* Turns a point by half a turn about the axis, from one leaflet to the other. */
 static inline void half_turn(int32_t leaflet_id, double *p) {
   if (leaflet_id != RIIS_LEAFLET_NEGATIVE) return;
   p[0] = -p[0], p[1] = -p[1];
 }
 
-/* A point in the frame of a leaflet: slope, the distance from the hinge along the leaflet away from the axis; y; off, the
+/* A point in a leaflet's frame. `slope` is the distance from the hinge along the leaflet, away from the axis. `off` is the
  * height over the leaflet's plane. */
 typedef struct in_leaflet {
   double slope, y, off;
@@ -85,16 +85,16 @@ static inline void from_leaflet(const bileaflet *of, int32_t leaflet_id, double 
   half_turn(leaflet_id, p);
 }
 
-/* The squared distance from a point of the plane to the rim at an angle round the axis. `stretch` is the stretch along the
- * slope. */
+/* Returns the squared distance from a point of the leaflet's plane to the point of the rim at an angle about the axis.
+ * `stretch` is the rim's stretch along the slope. */
 static inline double to_rim_sq(const bileaflet *of, double stretch, double x, double y, double around) {
   const double dx = stretch * (of->radius * cos(around) - x), dy = of->radius * sin(around) - y;
   return dx * dx + dy * dy;
 }
 
-/* The distance of a point outside a leaflet to the leaflet's outline, in the leaflet's plane. (x, y) is the point's place on
- * the closed leaflet, seen along the axis. The middle edge is a segment. The rim is an ellipse, which is searched by golden
- * sections between samples. */
+/* Returns the distance, within the leaflet's plane, from a point outside the leaflet to its outline. (x, y) is the point's
+ * position on the closed leaflet, seen along the axis. The middle edge is a segment. The rim is an ellipse, which is searched
+ * by golden sections between samples. */
 static inline double to_outline(const bileaflet *of, double x, double y) {
   const double stretch = 1 / cos(degree * of->closed_angle), x0 = of->gap / 2, R = of->radius;
   const double y_end = sqrt(R * R - x0 * x0), whole = atan2(y_end, x0);
@@ -127,20 +127,20 @@ static inline double to_bileaflet_leaflet(const bileaflet *of, int32_t leaflet_i
   return is_over ? fabs(at.off) : hypot(at.off, to_outline(of, x, at.y));
 }
 
-/* The distance of a point from both leaflets. */
+/* Returns the distance of a point from the nearer leaflet. */
 static inline double to_bileaflet(const bileaflet *of, const double *p) {
   return fmin(to_bileaflet_leaflet(of, RIIS_LEAFLET_POSITIVE, p), to_bileaflet_leaflet(of, RIIS_LEAFLET_NEGATIVE, p));
 }
 
-/* The distance from a half disc, the half x >= 0 of a disc of this radius. The disc's plane holds the hinge, which is at slope
- * 0, and its centre is at slope -offset. */
+/* Returns the distance from a half disc: the half x >= 0 of a disc of this radius. The disc's plane contains the hinge at
+ * slope 0, and its centre is at slope -offset. */
 static inline double to_half_disc(double radius, double offset, in_leaflet at) {
   const double x = at.slope + offset, from_centre = hypot(x, at.y);
   if (x >= 0) return hypot(at.off, fmax(from_centre - radius, 0));
   return hypot(at.off, hypot(x, fmax(fabs(at.y) - radius, 0)));
 }
 
-/* The area of both leaflets: two segments of a disc, stretched along the slope. */
+/* Returns the area of both leaflets. Each is a segment of a disc, stretched along the slope. */
 static inline double bileaflet_area(const bileaflet *of) {
   const double R = of->radius, x0 = of->gap / 2;
   return 2 * (R * R * acos(x0 / R) - x0 * sqrt(R * R - x0 * x0)) / cos(degree * of->closed_angle);

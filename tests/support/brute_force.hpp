@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The oracle of every search, for tests and benchmarks: a loop over all triangles with the library's decision kernel.
+// The reference for every search, in tests and benchmarks: a loop over all triangles with the library's decision kernel.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ inline ClosestTriangle closest_by_brute_force(const TriangleSet &set, Vec3 p) {
   for (std::int64_t i = 0; i < set.n_triangles(); ++i) {
     const auto [a, b, c] = set.corners(i);
     const double distance_sq = closest_point_on_triangle(p, a, b, c).distance_sq;
-    // Positions ascend, so the first of equally near ones is the lowest.
+    // Positions ascend, so this finds the lowest of several equally near triangles.
     if (distance_sq < best.distance_sq) best = {distance_sq, i};
   }
   return best;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Calls of riis with plain arguments in place of structs, and functions that return the content of handles as structs. Calls
- * return the status of riis. */
+ * Calls of riis with plain arguments instead of structs, which return riis's status. Other functions return the content of a
+ * handle as a struct. */
 #ifndef RIIS_TEST_CALLS_H
 #define RIIS_TEST_CALLS_H
 
@@ -88,7 +88,7 @@ static inline riis_status find_passage_between(const riis_surface *surface, cons
   return riis_find_passage(surface, mesh, &ends, options, passage, struct_size);
 }
 
-/* Gives the list without its arrays. */
+/* Finds crossings and gives the list without its arrays. */
 static inline riis_status find_crossings_in(const riis_surface *surface, const riis_crossing_options *options,
                                             riis_crossing_list *list) {
   riis_crossings *crossings = NULL;
@@ -100,7 +100,7 @@ static inline riis_status find_crossings_in(const riis_surface *surface, const r
   return status;
 }
 
-/* Gives the list without its arrays. */
+/* Finds leaks and gives the list without its arrays. */
 static inline riis_status find_leaks_in(const riis_surface *surface, const riis_mesh *mesh, const riis_marks *marks,
                                         const riis_mark_options *options, riis_leak_list *list) {
   riis_leaks *leaks = NULL;
@@ -112,7 +112,7 @@ static inline riis_status find_leaks_in(const riis_surface *surface, const riis_
   return status;
 }
 
-/* The triangles of a surface; none if riis refuses to give them. */
+/* Returns the triangles of a surface, or none if riis refuses to give them. */
 static inline riis_triangles triangles_of(const riis_surface *surface) {
   riis_triangles triangles;
   memset(&triangles, 0, sizeof triangles);
@@ -120,7 +120,7 @@ static inline riis_triangles triangles_of(const riis_surface *surface) {
   return triangles;
 }
 
-/* A list of the marks; n_nodes is -1 if riis refuses to give it. */
+/* Returns a list of the marks. Its n_nodes is -1 if riis refuses to give it. */
 static inline riis_mark_list list_of(const riis_marks *marks, int32_t which) {
   riis_mark_list list;
   memset(&list, 0, sizeof list);

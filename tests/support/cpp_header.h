@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: Apache-2.0
- * Programs that use riis.hpp, for test_cpp_header.c. */
+/* SPDX-License-Identifier: Apache-2.0 C wrappers of code that uses riis.hpp, for test_cpp_header.c. */
 #ifndef RIIS_TEST_CPP_HEADER_H
 #define RIIS_TEST_CPP_HEADER_H
 
@@ -10,11 +9,12 @@
 extern "C" {
 #endif
 
-/* Marks nodes, xyz (3, n), around a mitral valve. Returns how many, and writes their ids (n); -1 after an exception. */
+/* Marks nodes, xyz (3, n), around a mitral valve. Returns the number of marked nodes and writes their ids (n). Returns -1
+ * after an exception. */
 int64_t cpp_mark(int64_t n, const double *xyz, double half_thickness, int64_t *node_id);
-/* Makes a valve. Returns the status of the exception and writes its text, or returns 0. */
+/* Makes a valve. Returns 0, or the status of the exception, whose message it writes to `text`. */
 int32_t cpp_refusal(const char *kind, char *text, size_t length);
-/* These return "", or a description of the fault. */
+/* These functions return "", or a description of the fault that they found. */
 const char *cpp_wrong_with_handles(void);
 const char *cpp_wrong_with_defaults(void);
 const char *cpp_wrong_with_spans(void);

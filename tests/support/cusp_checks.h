@@ -25,7 +25,7 @@ static inline void free_edge_lengths(const riis_surface *surface, double *length
     }
 }
 
-/* Returns the area of a disc about the axis that no triangle covers, seen along the axis. It uses a grid of n x n squares. */
+/* Returns the area of a disc around the axis that no triangle covers, seen along the axis. It uses a grid of n x n squares. */
 static inline double orifice_area(const riis_surface *surface, double radius, int n) {
   const riis_triangles all = triangles_of(surface);
   const double h = 2 * radius / n;
@@ -64,7 +64,7 @@ static inline double orifice_area(const riis_surface *surface, double radius, in
 }
 
 /* Returns how far a cusp reaches out of its sector, the wedge between its two commissures. The wedges are convex, so cusps
- * that stay in theirs do not cross. */
+ * that stay in their wedges do not cross. */
 static inline double reach_out_of_sectors(const riis_surface *surface, const double *turn, const double *half_angle) {
   const riis_triangles all = triangles_of(surface);
   double worst = 0;
@@ -97,8 +97,8 @@ static inline double least_uprightness(const riis_surface *surface, const double
   return least;
 }
 
-/* Checks 101 openings. Free edges keep their length at opening 0 up to a share, the orifice grows, and cusps neither cross nor
- * fold. Returns the orifice at opening 1. */
+/* Checks 101 openings. Free edges must keep their length at opening 0 up to a fraction of it. The orifice must grow, and cusps
+ * must neither cross nor fold. Returns the orifice at opening 1. */
 static inline double check_opening(riis_valve *valve, double radius, const double *turn, const double *half_angle,
                                    double share, const char *name) {
   double at_rest[3] = {0, 0, 0}, least[3] = {1, 1, 1}, most[3] = {1, 1, 1}, orifice = -1;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The content of objects as a number. Content with equal bits has an equal number. Include after searches.h. */
+ * Digests of the content of objects. Contents with equal bits have equal digests. Include after searches.h. */
 #ifndef RIIS_TEST_DIGESTS_H
 #define RIIS_TEST_DIGESTS_H
 
@@ -36,7 +36,7 @@ static inline uint64_t add_valve(uint64_t digest, riis_valve *valve) {
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5 * half));
     const riis_status status = riis_surface_create(valve, &coarse, &surface);
     own(surface);
-    digest = add_bytes(digest, &status, sizeof status); /* it may have no open state */
+    digest = add_bytes(digest, &status, sizeof status); /* the valve may have no open state, which gives a status */
     if (!status) digest = add_surface(digest, surface);
     free_one_owned(surface);
   }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A set of edges as an oracle for adjacencies, and the library's builder for cells with other limits. */
+ * A set of edges as a reference for adjacencies, and the library's builder of rows with other limits. */
 #ifndef RIIS_TEST_EDGE_SET_H
 #define RIIS_TEST_EDGE_SET_H
 
@@ -13,7 +13,7 @@ extern "C" {
 typedef struct wide_rows {
   int64_t n_rows;
   int64_t *offsets, *columns;
-  int column_bits; /* width of the rows as they were made */
+  int column_bits; /* bits of the columns in the original rows */
 } wide_rows;
 void wide_rows_free(wide_rows *rows);
 /* Returns 1 if the rows are the same, in any width. */
@@ -26,8 +26,9 @@ void edge_set_add(edge_set *set, int64_t a, int64_t b);
 wide_rows edge_set_rows(const edge_set *set, int64_t n_nodes);
 void edge_set_free(edge_set **set);
 
-/* Makes rows as riis_adjacency_create_from_cells does, but with limits for 32 bits: one for the entries, which are the nodes of
- * all cells, and one for the nodes. A negative limit stands for the library's own. Use complete structs only. */
+/* Makes rows as riis_adjacency_create_from_cells does, but with other limits for the use of 32-bit integers. n_entries limits
+ * the entries, the nodes of all cells together. n_nodes limits the nodes. A negative limit stands for the library's own. Pass
+ * complete structs only. */
 riis_status rows_with_limits(const riis_mesh_cells *cells, int n_threads, int64_t n_entries, int64_t n_nodes,
                              wide_rows *rows);
 

@@ -26,13 +26,13 @@ struct Object {
   bool has(std::uintptr_t address) const { return address >= begin && address < end; }
 };
 
-// Returns the object that has the function of this name.
+// Returns the object that contains the function of this name.
 Object object_of(const char *function) {
   struct Sought {
     std::uintptr_t address;
     Object found;
   } sought{reinterpret_cast<std::uintptr_t>(dlsym(RTLD_DEFAULT, function)), {}};
-  // A static library exports nothing: it is in the same object as this function.
+  // A static library exports nothing, so its functions are in the same object as this one.
   if (!sought.address) sought.address = reinterpret_cast<std::uintptr_t>(&object_of);
   dl_iterate_phdr(
       [](dl_phdr_info *info, std::size_t, void *data) {
@@ -63,11 +63,12 @@ struct Objects {
     return library.has(address) ? Owner::library : embree.has(address) ? Owner::embree : Owner::other;
   }
 };
-std::atomic<const Objects *> objects{nullptr};  // null until the program starts: earlier allocations have no owner
+std::atomic<const Objects *> objects{nullptr};  // null until the program starts; earlier allocations have no owner
 alignas(Objects) char objects_place[sizeof(Objects)];
 [[gnu::constructor]] void find_objects() { objects = new (objects_place) Objects; }
 
-// Returns the owner of the first caller outside the C++ library: std::string allocates inside it for its users.
+// Returns the owner of the first caller outside the C++ library. Code of that library, such as std::string, allocates on behalf
+// of its callers.
 Owner owner_behind_standard_library() {
   struct Walk {
     bool was_in_it = false;
@@ -102,13 +103,13 @@ std::atomic<bool> fails_on{false};
 std::atomic<const void *> calling_thread{nullptr};
 std::atomic<std::int64_t> live_of_library{0}, live_of_embree{0}, live_bytes_of_embree{0};
 
-// Its address identifies this thread.
+// Returns an address that identifies this thread.
 const void *this_thread() {
   thread_local char mark;
   return &mark;
 }
 
-// Counts an allocation of the failing owner. Returns true if this one has to fail.
+// Counts an allocation by the owner under test. Returns true if this allocation has to fail.
 bool is_to_fail() {
   const std::int64_t left = n_left.fetch_sub(1);
   if (left > 1 || (left < 1 && !fails_on)) return false;
@@ -116,9 +117,9 @@ bool is_to_fail() {
   return true;
 }
 
-// This header is in front of every object of operator new.
+// Precedes every object that operator new returns.
 struct alignas(16) Header {
-  std::uint32_t offset;  // place of the object in its block
+  std::uint32_t offset;  // position of the object in its block
   Owner owner;
 };
 
@@ -130,7 +131,7 @@ void *allocate(std::size_t size, std::size_t alignment, void *return_address) no
     return nullptr;
   const std::size_t offset = std::max(alignment, sizeof(Header));
 #if defined(IS_SANITIZED)
-  constexpr std::size_t most = std::size_t{1} << 38;  // the sanitizer ends the process at a larger request
+  constexpr std::size_t most = std::size_t{1} << 38;  // for larger requests the sanitizer would end the process
 #else
   constexpr std::size_t most = PTRDIFF_MAX;
 #endif
@@ -191,7 +192,7 @@ void operator delete[](void *p, std::align_val_t, const std::nothrow_t &) noexce
 
 extern "C" {
 
-// Replaces Embree's function of this name. It is the same in both versions, so neither header is needed.
+// Replaces Embree's function of this name. Its declaration is the same in both versions of Embree, so neither header is needed.
 void *rtcNewDevice(const char *config) {
   const auto find = [](const char *name) {
     void *const function = dlsym(RTLD_NEXT, name);
@@ -209,7 +210,7 @@ void *rtcNewDevice(const char *config) {
         device,
         [](void *, ssize_t bytes, bool post) {
           const bool refused = bytes > 0 && failing == MEMORY_OF_EMBREE && is_to_fail();
-          // A report after the allocation counts whatever the answer, because the memory is allocated already.
+          // A report after the allocation counts even if it is refused, because the memory is already allocated.
           if (!refused || post) live_bytes_of_embree += bytes;
           return !refused;
         },

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Open regions by a serial flood fill, random graphs, and meshes in a tube. Include after searches.h and random_meshes.h. */
+ * A serial flood fill that labels open regions, random graphs, and meshes in a tube. Include after searches.h and
+ * random_meshes.h. */
 #ifndef RIIS_TEST_FLOOD_FILL_H
 #define RIIS_TEST_FLOOD_FILL_H
 
-/* Makes the rows in both directions, without ghosts. The test owns the arrays. */
+/* Returns the mesh with rows in both directions and without ghost nodes. The test owns the arrays. */
 static inline test_mesh both_ways(const test_mesh *mesh) {
   test_mesh made = {.n = mesh->n, .xyz = mesh->xyz};
   int64_t *pairs = malloc((size_t)(2 * mesh->offsets[mesh->n] + 1) * sizeof *pairs), n_pairs = 0;
@@ -15,8 +16,8 @@ static inline test_mesh both_ways(const test_mesh *mesh) {
   return made;
 }
 
-/* Walks from each node that is open and not yet labelled, in ascending order. rows must have both directions of each edge.
- * Returns the number of regions. */
+/* Labels the open regions: walks from each open node that has no label yet, in ascending order. rows must have both directions
+ * of each edge. Returns the number of regions. */
 static inline int64_t flood_fill(const test_mesh *rows, const uint8_t *is_open, int64_t *label) {
   int64_t *stack = malloc((size_t)(rows->n + 1) * sizeof *stack), n_regions = 0;
   for (int64_t i = 0; i < rows->n; ++i) label[i] = -1;
@@ -37,8 +38,8 @@ static inline int64_t flood_fill(const test_mesh *rows, const uint8_t *is_open, 
   return n_regions;
 }
 
-/* Random nodes in a cube, and random rows. Edges have one or both directions. Rows have repeats, the node itself and ghosts up
- * to n + 5. */
+/* Makes random nodes in a cube, and random rows. Edges have one or both directions. Rows may contain repeats, the node itself,
+ * and ghost nodes up to n + 5. */
 static inline test_mesh random_graph(int64_t n, double edges_per_node) {
   test_mesh mesh = {.n = n};
   mesh.xyz = own(malloc((size_t)n * 3 * sizeof *mesh.xyz));
@@ -56,7 +57,7 @@ static inline test_mesh random_graph(int64_t n, double edges_per_node) {
   return mesh;
 }
 
-/* Borrows coordinates and rows, which may name ghosts up to n + 5. */
+/* Makes a mesh that borrows coordinates and rows, which may name ghost nodes up to n + 5. */
 static inline riis_mesh *mesh_of_graph(const test_mesh *graph) {
   riis_mesh *mesh = mesh_of(graph->n, graph->xyz);
   riis_csr csr = csr_of(graph);
@@ -65,7 +66,7 @@ static inline riis_mesh *mesh_of_graph(const test_mesh *graph) {
   return mesh;
 }
 
-/* A few triangles in the cube, with a random half thickness. */
+/* Makes a surface of a few triangles in the cube, with a random half thickness. */
 static inline riis_surface *random_surface(void) {
   static const int32_t ids[18] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17};
   double xyz[54];
@@ -77,7 +78,7 @@ static inline riis_surface *random_surface(void) {
   return surface_from(&arrays, &options);
 }
 
-/* A lattice along z, cut to a tube about the z axis. */
+/* Makes a lattice along z, cut to a tube around the z axis. */
 static inline test_mesh tube(double radius, double from, double to, double spacing) {
   const int64_t across = 1 + 2 * (int64_t)ceil(radius / spacing), along = 1 + (int64_t)ceil((to - from) / spacing);
   const int64_t counts[3] = {across, across, along};

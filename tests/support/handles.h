@@ -27,14 +27,14 @@ static inline riis_valve *new_valve(const char *kind) {
   return own(valve);
 }
 
-/* options may be NULL. */
+/* Makes the surface of a valve. options may be NULL. */
 static inline riis_surface *new_surface(const riis_valve *valve, const riis_surface_options *options) {
   riis_surface *surface = NULL;
   CHECK_OK(riis_surface_create(valve, options, &surface));
   return own(surface);
 }
 
-/* The default valve of a kind; options may be NULL. */
+/* Makes the surface of the default valve of a kind. options may be NULL. */
 static inline riis_surface *surface_of_kind(const char *kind, const riis_surface_options *options) {
   riis_valve *valve = new_valve(kind);
   riis_surface *surface = new_surface(valve, options);
@@ -42,12 +42,12 @@ static inline riis_surface *surface_of_kind(const char *kind, const riis_surface
   return surface;
 }
 
-/* The default aortic valve; options may be NULL. */
+/* Makes the surface of the default aortic valve. options may be NULL. */
 static inline riis_surface *aortic_surface(const riis_surface_options *options) {
   return surface_of_kind("aortic", options);
 }
 
-/* Triangles from arrays: xyz(3, n_vertices), ids(3, n_triangles). */
+/* Describes triangles from arrays: xyz(3, n_vertices), ids(3, n_triangles). */
 static inline riis_surface_arrays triangle_arrays(int64_t n_vertices, const double *xyz, int64_t n_triangles,
                                                   const int32_t *ids) {
   riis_surface_arrays arrays;
@@ -68,7 +68,7 @@ static inline riis_surface *surface_from(const riis_surface_arrays *arrays, cons
   return own(surface);
 }
 
-/* Borrows the coordinates, (3, n). */
+/* Makes a mesh that borrows the coordinates, (3, n). */
 static inline riis_mesh *mesh_of(int64_t n, const double *xyz) {
   riis_mesh *mesh = NULL;
   CHECK_OK(riis_mesh_create(n, xyz, xyz + 1, xyz + 2, 3, &mesh));
@@ -81,7 +81,7 @@ static inline riis_surface_info info_of(const riis_surface *surface) {
   return info;
 }
 
-/* Tells whether two surfaces have the same information (but for times), vertices, triangles and ids, to the last bit. */
+/* Returns whether two surfaces have the same information (except times), vertices, triangles and ids, to the last bit. */
 static inline int is_same_content(const riis_surface *a, const riis_surface *b) {
   const riis_triangles s = triangles_of(a), t = triangles_of(b);
   const riis_surface_info of_a = info_of(a), of_b = info_of(b);
@@ -95,7 +95,7 @@ static inline int is_same_content(const riis_surface *a, const riis_surface *b) 
          memcmp(s.patch_id, t.patch_id, n * sizeof *s.patch_id) == 0;
 }
 
-/* (3, n_vertices); NULL unless the last update gave velocities. */
+/* Returns the velocities (3, n_vertices), or NULL unless the last update gave velocities. */
 static inline const double *velocity_of(const riis_surface *surface) { return triangles_of(surface).velocity; }
 
 static inline riis_closest closest_to(const riis_surface *surface, double x, double y, double z) {
@@ -105,7 +105,7 @@ static inline riis_closest closest_to(const riis_surface *surface, double x, dou
   return closest;
 }
 
-/* n random triangles in [-1,1]^3, none without area: xyz (9 n), ids (3 n). */
+/* Makes n random triangles in [-1,1]^3, all with an area: xyz (9 n), ids (3 n). */
 static inline void random_soup(random_source *random, int64_t n, double size, double **xyz, int32_t **ids) {
   *xyz = own(malloc((size_t)n * 9 * sizeof **xyz));
   *ids = own(malloc((size_t)n * 3 * sizeof **ids));

@@ -56,7 +56,7 @@ T *room(std::size_t n) {
   return static_cast<T *>(std::malloc(std::max<std::size_t>(n, 1) * sizeof(T)));
 }
 
-// A curve of n cubics, 12 numbers each.
+// Makes a curve of n cubics, 12 numbers each.
 Curve chain(std::int64_t n_pieces, const double *control) {
   Vector<Bezier> pieces;
   for (std::int64_t i = 0; i < n_pieces; ++i) pieces.push_back(curve(3, control + 12 * i));
@@ -341,7 +341,7 @@ riis_status wall_meets(const char *exception) {
       std::atomic<bool> has_failed{false};
       parallel_for(2, 2, [&](std::int64_t block, int) {
         const auto start = std::chrono::steady_clock::now();
-        // With a single thread no other block fails meanwhile, so the wait is limited.
+        // The wait is limited: with a single thread no other block can fail meanwhile.
         while (block == 0 && !has_failed && std::chrono::steady_clock::now() - start < std::chrono::milliseconds(500))
           std::this_thread::yield();
         if (block == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));

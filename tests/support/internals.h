@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The stages behind the public interface, for tests in C. Points are arrays of 3 doubles. The caller owns results that are
+ * C wrappers of the stages behind the public interface. Points are arrays of 3 doubles. The caller owns results that are
  * returned by pointer and frees them with free(). A refusal is returned as its status, with the message in riis_last_error(). */
 #ifndef RIIS_TEST_INTERNALS_H
 #define RIIS_TEST_INTERNALS_H
@@ -16,20 +16,20 @@ void bezier_derivative(int degree, const double *control, double t, double *vect
 double bezier_arc_length(int degree, const double *control, double t0, double t1);
 void bezier_split(int degree, const double *control, double t, double *left, double *right);
 double bezier_flatness(int degree, const double *control);
-/* t has one entry per point, and errors has one entry less. */
+/* t has one entry per point, and errors has one entry fewer. */
 riis_status bezier_flatten(int degree, const double *control, double max_error, int64_t *n_points, double **points,
                            double **t, double **errors);
 
-/* Curves of n cubics that follow each other in the same direction: control[12 * n]. */
+/* Curves of n cubics that continue each other's direction: control[12 * n]. */
 riis_status chain_flatten(int64_t n_pieces, const double *control, double max_error, int64_t *n_points, double **points,
                           double **t, double **errors);
 double chain_length(int64_t n_pieces, const double *control);
 void chain_at(int64_t n_pieces, const double *control, double share, double *point, double *tangent);
-/* part has room for 12 * n_pieces. Returns the number of pieces in it. */
+/* `part` has room for 12 * n_pieces numbers. Returns the number of pieces in it. */
 int64_t chain_between(int64_t n_pieces, const double *control, double share0, double share1, int reversed,
                       double *part);
 
-/* O(u) of a patch of arcs from a base to an edge, and the bound on its deviation from linear. */
+/* Gives the offset O(u) of a patch of arcs between a base and an edge, and the bound on its deviation from a linear function. */
 void bulge_at(int64_t n_base, const double *base, int64_t n_edge, const double *edge, double factor, double u,
               double *offset);
 double bulge_linear_error(int64_t n_base, const double *base, int64_t n_edge, const double *edge, double factor,
@@ -37,10 +37,10 @@ double bulge_linear_error(int64_t n_base, const double *base, int64_t n_edge, co
 
 /* Polylines. */
 double polyline_make(int64_t n, const double *points, int64_t *n_kept,
-                     double *t); /* t has room for n; returns the length */
+                     double *t); /* t has room for n; returns the length of the polyline */
 void polyline_evaluate(int64_t n, const double *points, double t, double *point);
 
-/* Coons patches of four polylines: n[4] points each, sides in the order v0, v1, u0, u1. */
+/* A Coons patch of four polylines with n[4] points, on the sides v0, v1, u0 and u1. */
 typedef struct quad_grid {
   int64_t n_u, n_v;
   double *u, *v, *points; /* points[3 * (j * n_u + i)] */
@@ -51,13 +51,13 @@ void quad_grid_free(quad_grid *grid);
 double quad_kappa(const double *p00, const double *p10, const double *p11, const double *p01);
 double quad_split_error(const double *p00, const double *p10, const double *p11, const double *p01);
 
-/* The decision kernel: returns the squared distance. */
+/* The decision kernel, which returns the squared distance to a triangle. */
 double kernel_point_triangle(const double *p, const double *abc, double *point, double *barycentric);
 
 /* Returns 1 if the segment from a to b and the triangle have a point in common. */
 int segment_triangle_meet(const double *a, const double *b, const double *abc);
 
-/* The aortic valve's curves and patches at its default parameters, changed by one (name may be NULL). */
+/* The aortic valve's curves and patches at its default parameters, of which one may be changed (name may be NULL). */
 typedef struct patch_set {
   int64_t n_curves, n_patches, n_images;
   int32_t *degree;                           /* one entry per curve */
@@ -68,12 +68,12 @@ typedef struct patch_set {
   double *frame;                             /* 12 numbers per image: rows of its rotation, then its translation */
 } patch_set;
 riis_status aortic_patches(const char *name, double value, patch_set *set);
-/* Transforms a point of the cusp's frame as an image does. */
+/* Maps a point of the cusp's frame to an image of its patch. */
 void patch_image_place(const patch_set *set, int64_t image, const double *p, double *placed);
 void patch_set_free(patch_set *set);
 
-/* The placed quads of every patch's first image, with the bound on each quad's distance from its smooth patch at equal (u, v).
- * The valve has the given kind and the given parameters, one value each. */
+/* The placed quads of every patch's first image. Each has the bound on its distance from its smooth patch at equal (u, v). The
+ * valve has the given kind and the given parameters, one value each. */
 typedef struct bounded_quad {
   int32_t patch_id;
   double u[2], v[2], error;
@@ -82,113 +82,113 @@ typedef struct bounded_quad {
 riis_status bounded_quads(const char *kind, int n_parameters, const char *const *names, const double *values,
                           double max_error, int64_t *n_quads, bounded_quad **quads);
 
-/* The triangles and the bound of a valve of the given kind whose curves are `deviation` from their shape. A fixed triangulation
- * is planned for this state alone. bound_of_patches is that of the patches for other distances. */
+/* The triangles and the bound of a valve of the given kind, if its curves deviate from their shape by `deviation`. A fixed
+ * triangulation is planned for this state alone. bound_of_patches is the bound for the other methods of measuring, which use
+ * patches. */
 typedef struct deviating {
   int64_t n_triangles;
   double bound, bound_of_patches;
-  int is_within; /* 1 if the plan keeps its bound, or without a plan */
+  int is_within; /* 1 if the planned triangulation keeps its bound, or if there is no plan */
 } deviating;
 riis_status triangulate_deviating(const char *kind, double deviation, double max_error, int is_fixed, deviating *made);
 
 /* Finds the closest triangle to each point twice: by the Embree scene of the triangles xyz(9, n_triangles), with every
- * instruction set that there is, and by a loop over all of them with the same kernel. Returns how often the squared distance
- * (bits) or the triangle differ. Points beyond the limit must give none. */
+ * available instruction set, and by a loop over all triangles with the same kernel. Returns how often the squared distances
+ * (bit by bit) or the triangles differ. Points beyond the limit must give no triangle. */
 int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t n_points, const double *points,
                                 double limit);
 
-/* The kernels that are compiled for each instruction set (kernels/kernels.hpp): 0 baseline, 1 AVX2, 2 AVX-512. 3 is the
- * baseline of processors that have none of these sets, and exists also on other processors. */
+/* The kernels compiled for each instruction set (kernels/kernels.hpp): 0 is the baseline, 1 AVX2, 2 AVX-512. 3 is portable
+ * code for processors without these sets, which runs on any processor. */
 enum { baseline_set = 0, portable_set = 3, n_kernel_sets = 4 };
 int kernels_there(int set);
-/* Tells whether this build's flags keep fused multiply-add instructions out of the baseline. */
+/* Returns whether this build's flags keep fused multiply-add instructions out of the baseline. */
 int kernels_baseline_rounds_twice(void);
 const char *kernels_name(int set);
 
-/* Computes squares of distances of pairs of a point and a triangle, given by their positions. distance_sq must have room for n +
- * 7. */
+/* Computes squared distances of pairs of a point and a triangle. The pairs are given by positions in the arrays. distance_sq
+ * must have room for n + 7. */
 void kernels_decide(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
                     const double *corners, double *distance_sq);
 
-/* Does the same for at most 8 pairs, and gives the closest points (3, n) and their barycentrics (3, n). */
+/* Does the same for at most 8 pairs, and gives the closest points (3, n) and their barycentric coordinates (3, n). */
 void kernels_locate(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
                     const double *corners, double *distance_sq, double *closest, double *barycentric);
 
-/* Collects the corners (9, n) of triangles that are given by ids of vertices (3, n), and bounds them. */
+/* Collects the corners (9, n) of triangles that are given by vertex ids (3, n), and computes their bounds. */
 void kernels_take_corners(int set, const double *vertices, const int64_t *vertex_id, int64_t n, double *corners,
                           double *lower, double *upper);
-/* Transforms n triangles, up to 16, to a frame: framed(16, 9). */
+/* Transforms up to 16 triangles into a frame: framed(16, 9). */
 void kernels_frame_group(int set, const double *centre, double scale, const double *corners, const int32_t *triangle,
                          int32_t n, double *framed);
-/* For fields: mixes the numbers (8, n_vertices) at the vertices (3, 8) of 8 triangles by weights (3, 8); mixed(8, 8). */
+/* For fields: interpolates the numbers (8, n_vertices) at the vertices (3, 8) of 8 triangles by weights (3, 8); mixed(8, 8). */
 void kernels_mix_at_vertices(int set, int64_t n_vertices, const double *numbers, const int64_t *vertex_id,
                              const double *barycentric, double *mixed);
 /* For fields: computes on which side of planes 8 points (3, 8) lie. The planes go through points (3, 8) and have normals (3,
  * 8). */
-/* key and n_less have room for 64. */
+/* Ranks keys by their size. key and n_less have room for 64. */
 void kernels_rank(int set, const int32_t *key, int32_t n, int32_t *n_less);
 void kernels_find_sides(int set, const double *points, const double *on, const double *normals, int32_t *side);
-/* Measures n triangles, up to 8: measures(6, n) has the normal, twice the area, and the products of the edges at the first and at
+/* Measures up to 8 triangles: measures(6, n) has the normal, twice the area, and the products of the edges at the first and at
  * the second corner. */
 void kernels_measure_triangles(int set, const double *vertices, const int64_t *vertex_id, int32_t n, double *measures);
-/* Places n points (3, n) by two maps, each given by the columns of its matrix and an offset (3, 4), with a scale before the
- * second offset. */
+/* Maps n points (3, n) by two affine maps. Each is given by the columns of its matrix and an offset (3, 4). The points are
+ * scaled before the second offset is added. */
 void kernels_place_points(int set, const double *first, const double *second, double scale, int64_t n,
                           const double *points, double *placed);
-/* Returns 0 if one of n triangles, up to 8, may have no area, either now or after its corners move by up to an eighth of
- * `shift`. */
+/* Returns 0 if one of up to 8 triangles may have no area, either now or after its corners move by up to an eighth of `shift`. */
 int kernels_have_area(int set, const double *vertices, const int64_t *vertex_id, int32_t n, double shift);
 
-/* Makes a group of n <= 16 triangles corners(9, n), in the surface's frame, with one instruction set. The caller frees it. */
+/* Makes a group of n <= 16 triangles, corners(9, n), in the surface's frame, with one instruction set. The caller frees it. */
 typedef struct kernel_group kernel_group;
 kernel_group *kernels_group(int set, int n, const double *corners);
 void kernels_group_free(kernel_group *group);
-/* Returns 1 if all bits of two groups and of their bounds are the same. */
+/* Returns 1 if two groups and their bounds are equal in all bits. */
 int kernels_groups_equal(const kernel_group *a, const kernel_group *b);
-/* Gives the squares of distances of a point to the group's 16 lanes, in single precision. */
+/* Gives the squared distances of a point to the group's 16 lanes, in single precision. */
 void kernels_group_distances(int set, const kernel_group *group, const float *point, double margin, float *distance_sq);
 
-/* Returns the library's bound of the error. Points are scaled by `ratio`, moved by `shift`, and at most `reach` from the
+/* Returns the library's bound on the error. Points are scaled by `ratio`, moved by `shift`, and are at most `reach` from the
  * surface. */
 double kernels_error(double ratio, double shift, double reach, double longest_edge);
 
-/* A search's work on one leaf: up to 32 nodes (3, n_nodes) in the mesh's frame, and the groups that they are near, with a limit
- * in the surface's frame. */
+/* A search's work on one leaf: up to 32 nodes (3, n_nodes) in the mesh's frame, and the groups of triangles near them, with a
+ * limit in the surface's frame. */
 typedef struct kernel_pair {
-  int32_t node, triangle; /* 16 * group + position in it */
+  int32_t node, triangle; /* triangle: 16 * group + position in the group */
 } kernel_pair;
 typedef struct kernel_filter {
   double ratio, shift[3], limit;
-  uint32_t wanted; /* one bit for each node */
+  uint32_t wanted; /* one bit for each node that takes part */
   int n_groups;
   const kernel_group *const *groups;
   int n_nodes;
   const float *nodes;
 } kernel_filter;
-/* Returns all pairs that the filter leaves, with room for `room` pairs at a time. *n_calls is the number of calls that it took.
- * The caller frees the pairs. */
+/* Returns all pairs that the filter leaves, with a buffer for `room` pairs at a time. *n_calls gets the number of calls that
+ * this took. The caller frees the pairs. */
 int64_t kernels_filter(int set, const kernel_filter *filter, int32_t room, kernel_pair **pairs, int64_t *n_calls);
-/* Squares of the first bounds: from below by groups, lower_sq(32, n_groups), and from above, upper_sq(32). */
+/* Gives the squares of the first bounds: lower bounds by groups, lower_sq(32, n_groups), and upper bounds, upper_sq(32). */
 void kernels_first_bounds(int set, const kernel_filter *filter, float *lower_sq, float *upper_sq);
-/* Sets near(n_groups): a bit for each of up to 16 boxes, of one node each, that the group may be near. Returns the kernel's
- * result. */
+/* Sets near(n_groups). Each entry has a bit for each of up to 16 boxes, of one node each, that the group may be near. Returns
+ * the kernel's result. */
 int kernels_near_boxes(int set, const kernel_filter *filter, uint16_t *near);
 
-/* Gets the samples of a surface whose distances are by sampling, and returns their number n. The surface owns xyz(3, n). Their
- * order decides between equally near ones. */
+/* Gets the samples of a surface that measures distances by sampling. Returns their number n. The surface owns xyz(3, n). Their
+ * order decides between equally near samples. */
 int64_t samples_of(const riis_surface *surface, const double **xyz);
 
-/* Runs Powell's method from (0.5, 0.5) on [0,1]^2, with line searches that are accurate to `step`. Returns the final value, and
- * its place in uv. */
+/* Runs Powell's method from (0.5, 0.5) on [0,1]^2, with line searches that are accurate to `step`. Returns the final value,
+ * and its position in uv. */
 double powell_minimum(double (*f)(double u, double v), double enough, double step, double *uv);
 
-/* Returns the status that the exception wall makes of an exception:
+/* Returns the status into which the exception wall turns an exception:
  *   "error"     a riis Error of RIIS_INVALID_MESH with the message "error 7"
  *   "memory"    std::bad_alloc
  *   "standard"  another standard exception, "boom"
  *   "other"     an int
  *   "worker"    an Error thrown by a worker thread of a parallel loop
- *   "workers"   two of them, the second block's first
+ *   "workers"   two such errors, the second block's first
  *   "nothing"   no exception */
 riis_status wall_meets(const char *exception);
 

@@ -29,12 +29,12 @@ const Kernels &of(int set) {
   return kernels(static_cast<InstructionSet>(set));
 }
 
-// Makes the filter's task as cluster_search.cpp does.
+// Makes the filter's input as cluster_search.cpp does.
 struct Filter {
   std::vector<TriangleGroup> groups;
   std::vector<GroupBounds> bounds;
   std::vector<std::int32_t> near_groups;
-  std::vector<Leaf> lower_bounds;  // for its alignment
+  std::vector<Leaf> lower_bounds;  // a Leaf, because of its alignment
   Leaf leaf;
   FilterTask task;
   LeafTask of_leaf;

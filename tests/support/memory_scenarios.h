@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Every public function that allocates, in at least one scenario each. Include after digests.h. */
+ * Scenarios that call every public function that allocates, each at least once. Include after digests.h. */
 #ifndef RIIS_TEST_MEMORY_SCENARIOS_H
 #define RIIS_TEST_MEMORY_SCENARIOS_H
 
-/* The objects of a scenario. Those that it does not need are NULL. */
+/* The objects of a scenario. Objects that the scenario does not need are NULL. */
 typedef struct world {
   riis_valve *valve, *open;
   riis_surface *surface;
@@ -13,7 +13,7 @@ typedef struct world {
   const struct scenario *scenario;
 } world;
 
-/* A scenario of one call. For each run a new world is made, the call runs, and the world is destroyed. */
+/* A scenario makes one call. For each run a new world is made, the call runs, and the world is destroyed. */
 typedef struct scenario {
   const char *name;
   void (*make)(world *w);
@@ -24,19 +24,20 @@ typedef struct scenario {
 } scenario;
 enum {
   MAKES_A_SCENE = 1,
-  ON_WORKERS = 2,     /* other threads than the calling one also allocate */
-  ALLOCATES_NONE = 4, /* the library's own code does not allocate */
-  IS_FIRST = 8        /* the first call of its kind in this process makes the shared data of its kind */
+  ON_WORKERS = 2,     /* threads other than the calling one also allocate */
+  ALLOCATES_NONE = 4, /* the library's own code allocates nothing */
+  IS_FIRST = 8        /* the first such call in this process also makes data that later calls share */
 };
 
-/* --- What is the same for all ---------------------------------------------------------------------------------------- */
+/* --- Objects that all scenarios share
+ * ---------------------------------------------------------------------------------------- */
 
 static test_mesh nodes, fewer_nodes;
 static uint8_t *mask, *marks; /* one entry per node */
 static int64_t *labels;
 static int32_t *side;
 
-/* A lattice of n * n * n nodes around the aortic valve. */
+/* Makes a lattice of n * n * n nodes around the aortic valve. */
 static test_mesh lattice_of(int64_t n) {
   const int64_t counts[3] = {n, n, n};
   const double lower[3] = {-1.5, -1.5, -1.2}, upper[3] = {1.5, 1.5, 1.6};
@@ -53,7 +54,7 @@ static void set_nodes(int64_t n) {
   for (int64_t i = 0; i < nodes.n; ++i) mask[i] = i % 7 != 0;
 }
 
-/* A handle is written only on success. */
+/* Stands in a handle before a call, which may overwrite it only on success. */
 static char no_object;
 #define MADE(type, handle, create)                                                                    \
   do {                                                                                                \
@@ -69,14 +70,14 @@ static char no_object;
 static riis_status make_aortic(world *w) { MADE(riis_valve, w->valve, riis_valve_create("aortic", &made)); }
 static riis_status make_mitral(world *w) { MADE(riis_valve, w->valve, riis_valve_create("mitral", &made)); }
 
-/* Two patches side by side, lifted by z in the middle: 7 curves, straight and bent. */
+/* Makes a valve of two patches side by side, lifted by z in the middle. It has 7 straight and bent curves. */
 static riis_status patches_valve(double z, riis_valve **valve) {
   static const int32_t degree[7] = {2, 2, 2, 2, 1, 1, 1}, curve_id[8] = {0, 1, 4, 5, 2, 3, 5, 6};
   double control[54];
   int n = 0;
   riis_patches patches;
   for (int i = 0; i < 7; ++i) {
-    /* 0 to 3 run along x from 0 or 1, at y 0 or 1; 4 to 6 along y at x = 0, 1, 2. */
+    /* Curves 0 to 3 run along x from x = 0 or 1, at y = 0 or 1. Curves 4 to 6 run along y at x = 0, 1, 2. */
     for (int k = 0; k <= degree[i]; ++k) {
       control[n++] = i < 4 ? i / 2 + 0.5 * k : i - 4;
       control[n++] = i < 4 ? i % 2 : k;
@@ -111,7 +112,7 @@ static void patches_and_open(world *w) {
   CHECK_OK(make_patches(w));
   CHECK_OK(patches_valve(0.8, &w->open));
 }
-/* The valve already has an open state and gets another one. */
+/* The valve already has an open state and gets a new one. */
 static void patches_opened(world *w) {
   patches_and_open(w);
   CHECK_OK(open_valve(w));
@@ -146,7 +147,7 @@ static riis_status measure(world *w, int32_t distance) {
 static riis_status by_sampling(world *w) { return measure(w, RIIS_MEASURE_SAMPLING); }
 static riis_status by_minimization(world *w) { return measure(w, RIIS_MEASURE_MINIMIZATION); }
 
-/* The faces of a pyramid in 64 bits. The base is a quad, and one face has no area. */
+/* The faces of a pyramid, with 64-bit ids. The base is a quad, and one face has no area. */
 static const double corners[5][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}};
 static const int32_t faces[15] = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 0, 0, 4};
 static const int64_t quads[8] = {0, 1, 2, 3, 4, 4, 4, 4};
@@ -199,7 +200,7 @@ static riis_status update_from_triangles(world *w) {
   return riis_surface_update_from_arrays(w->surface, &arrays, &options);
 }
 
-/* The first query of a side on a surface. */
+/* The first query with a side on this surface. */
 static riis_status closest_point(world *w) {
   const double point[3] = {0.1, 0.2, 0.3};
   riis_closest closest, before;
@@ -225,7 +226,7 @@ static riis_status closest_points(world *w) {
   return status;
 }
 
-/* The right cusp is turned, so that it crosses its neighbours. */
+/* The right cusp is turned, so that it crosses the other cusps. */
 static void crossing(world *w) {
   const double turned[3] = {0, 0, 60};
   aortic(w);
@@ -318,7 +319,7 @@ static riis_status mark_masked_and_wide(world *w) {
   options.node_mask = mask;
   return riis_mark_nodes(w->surface, w->mesh, &options, w->result);
 }
-/* An earlier marking used the result. Now the result needs more room than it has, or it has enough room after many markings. */
+/* The result was used by earlier markings. Now it needs more memory than it has, or it has enough after many markings. */
 static void marked_before(world *w) {
   ready_to_mark(w);
   CHECK_OK(mark(w));
@@ -327,7 +328,7 @@ static void marked_often(world *w) {
   ready_to_mark(w);
   for (int i = 0; i < 3; ++i) CHECK_OK(mark(w));
 }
-/* The leaflets of a closed valve meet, so a marking with velocities keeps ties. */
+/* The leaflets of a closed valve meet, so a marking with velocities stores ties. */
 static void tied_and_ready(world *w) {
   riis_valve *closed = NULL, *open = NULL;
   ready_to_mark(w);
@@ -343,7 +344,7 @@ static riis_status mark_velocities(world *w) {
   options.fields = RIIS_FIELD_VELOCITY;
   return riis_mark_nodes(w->surface, w->mesh, &options, w->result);
 }
-/* The surface's distances are by sampling. */
+/* The surface measures distances by sampling. */
 static void sampled_and_ready(world *w) {
   ready_to_mark(w);
   CHECK_OK(by_sampling(w));
@@ -352,12 +353,12 @@ static void minimized_and_ready(world *w) {
   ready_to_mark(w);
   CHECK_OK(by_minimization(w));
 }
-/* The mesh has its balls or clusters, and they must be computed again. */
+/* The mesh already has balls or clusters, and they must be computed again. */
 static void marked_and_moved(world *w) {
   marked_often(w);
   CHECK_OK(riis_mesh_update(w->mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
 }
-/* The result has marked a smaller mesh, so all memory that is as long as the mesh is too short. */
+/* The result has marked a smaller mesh, so all its arrays with one entry per node are too short. */
 static void marked_little(world *w) {
   const riis_csr fewer = csr_of(&fewer_nodes);
   ready_to_mark(w);
@@ -393,7 +394,7 @@ static riis_status label_regions(world *w) {
   const riis_mark_options options = options_of(w, RIIS_AUTO);
   return riis_label_open_regions(w->mesh, w->result, &options, nodes.n, labels, NULL);
 }
-/* From the first node to the last one, which are corners. */
+/* The passage leads from the first node to the last one, which are corners of the lattice. */
 static riis_status find_passage(world *w) {
   const riis_mark_options options = options_of(w, RIIS_AUTO);
   const int64_t from = 0, to = nodes.n - 1;
@@ -404,7 +405,8 @@ static riis_status find_passage(world *w) {
   return status;
 }
 
-/* Leaves out objects that the call only reads, because digests of those take most of the time. */
+/* Returns a digest of the world. Objects that the call only reads are left out, because their digests would take most of the
+ * time. */
 static uint64_t digest_of(const world *w) {
   uint64_t digest = UINT64_C(0xcbf29ce484222325);
   const int which = (w->valve != NULL) + 2 * (w->surface != NULL) + 4 * (w->mesh != NULL) + 8 * (w->adjacency != NULL) +

@@ -17,8 +17,9 @@ typedef struct cubic {
 
 struct mitral_oracle {
   cubic annulus[6], anterior, scallop[3];
-  real u_pm, u_al, triangle, bulge; /* bulge: tan(surface_angle) / 2 */
-  real cleft; /* blended parameter at which a third of a closed anterior edge's length lies behind */
+  real u_pm, u_al, triangle, bulge; /* bulge is tan(surface_angle) / 2 */
+  /* The parameter, blended between the states, of the point with a third of the closed anterior edge's length behind it. */
+  real cleft;
   real translation[3];
 };
 
@@ -55,7 +56,7 @@ static real speed(const cubic *c, real t) {
   return norm(derivative);
 }
 
-/* Length of a short piece by Boole's rule. */
+/* Returns the length of a short piece by Boole's rule. */
 static real piece(const cubic *c, real a, real b) {
   const real h = (b - a) / 4;
   return (b - a) / 90 *
@@ -70,8 +71,8 @@ static void measure(cubic *c) {
 
 static real length(const cubic *c) { return c->length_to[STEPS]; }
 
-/* Returns the parameter at arc length s: Newton's method in one step of the table, or bisection where Newton would leave the
- * bracket. */
+/* Returns the parameter at arc length s. It uses Newton's method within one step of the table, or bisection if Newton's method
+ * would leave the bracket. */
 static real parameter_at(const cubic *c, real s) {
   int first = 0, last = STEPS;
   while (last - first > 1) {
@@ -90,14 +91,15 @@ static real parameter_at(const cubic *c, real s) {
     else
       low = t;
     real next = t - excess / speed(c, t);
-    if (!(next >= low && next <= high)) next = (low + high) / 2; /* also where the curve's speed is 0 */
+    if (!(next >= low && next <= high)) next = (low + high) / 2; /* also if the curve's speed is 0 */
     if (fabsl(next - t) < 1e-16L) return next;
     t = next;
   }
   return t;
 }
 
-/* Gives the control points of the curve between parameters a and b, by its blossom at (a,a,a), (a,a,b), (a,b,b), (b,b,b). */
+/* Gives the control points of the curve's part between the parameters a and b. They are the blossom's values at (a,a,a),
+ * (a,a,b), (a,b,b), (b,b,b). */
 static void restrict_to(const cubic *c, real a, real b, real part[4][3]) {
   for (int i = 0; i < 4; ++i)
     for (int k = 0; k < 3; ++k) {
@@ -112,7 +114,7 @@ static void restrict_to(const cubic *c, real a, real b, real part[4][3]) {
 
 /* ---- The annulus ---- */
 
-/* Endpoints P and tangents T of "Annulus", with P^5 as row 1 mends it. The open annulus lies in the plane z = 0. */
+/* Endpoints P and tangents T of "Annulus", with P^5 as corrected in row 1. The open annulus lies in the plane z = 0. */
 static void annulus_curves(const mitral_parameters *p, int is_open, cubic annulus[6]) {
   const real ap = p->AP_diameter, alpm = p->ALPM_diameter, ratio = p->ALPM_position_ratio, it = p->IT_distance;
   const real id = p->indent_depth, z = is_open ? 0 : 1, h_at = z * p->anterior_horn_height;
@@ -139,7 +141,7 @@ static real annulus_length(const cubic annulus[6]) {
   return sum;
 }
 
-/* A(u) and the unit vector along A'(u): "resampled uniformly" is by arc length. */
+/* Gives A(u) and the unit vector along A'(u). The paper's "resampled uniformly" means by arc length. */
 static void annulus_at(const cubic annulus[6], real u, real *point, real *tangent) {
   real s = u * annulus_length(annulus);
   int i = 0;
@@ -153,8 +155,8 @@ static void annulus_at(const cubic annulus[6], real u, real *point, real *tangen
 
 /* ---- The leaflets' free edges ---- */
 
-/* Rows 2 to 4: U(u, x) is x away from A(u), inwards at angle 0 and down at 90 degrees. The closed state is angle 0 with A's z
- * dropped ("Closed valve"). The open annulus has no z, so both states start from z = 0. */
+/* Rows 2 to 4: U(u, x) is at the distance x from A(u), inwards at angle 0 and down at 90 degrees. The closed state has angle 0
+ * and leaves out A's z ("Closed valve"). The open annulus has no z, so both states start from z = 0. */
 static void reach(const cubic annulus[6], real u, double x, double inward_angle, real *point) {
   real a[3], tangent[3];
   annulus_at(annulus, u, a, tangent);
@@ -168,8 +170,8 @@ static real twice_area(const real *a, const real *b, const real *c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/* "Leaflets" up to the matrix M, rows 5 to 8. M is affine on the arc's plane and takes S^0, S^3, S^tip to start, end, tip. So a
- * point keeps its barycentric coordinates. (S^cen follows, because it is a mean.) */
+/* The section "Leaflets" up to the matrix M, rows 5 to 8. M is affine on the arc's plane and maps S^0, S^3 and S^tip to start,
+ * end and tip. So a point keeps its barycentric coordinates. (S^cen follows, because it is a mean.) */
 static void leaflet_curve(const real *start, const real *tip, const real *end, double arc_angle, real curve[4][3]) {
   const real a = radians(arc_angle), k = 4.0L / 3 * tanl(a / 4);
   const real S[4][2] = {{1, 0}, {1, k}, {cosl(a) + k * sinl(a), sinl(a) - k * cosl(a)}, {cosl(a), sinl(a)}};
@@ -183,7 +185,7 @@ static void leaflet_curve(const real *start, const real *tip, const real *end, d
 
 static real u_pm_of(const mitral_parameters *p) { return 0.5L - (real)p->anterior_ratio / 2; }
 
-/* L_at; row 9: one commissure parameter at both ends. */
+/* The curve L_at. Row 9: one commissure parameter at both ends. */
 static void anterior_curve(const mitral_parameters *p, const cubic annulus[6], double inward_angle, real curve[4][3]) {
   const real u_pm = u_pm_of(p);
   real start[3], tip[3], end[3];
@@ -193,7 +195,8 @@ static void anterior_curve(const mitral_parameters *p, const cubic annulus[6], d
   leaflet_curve(start, tip, end, p->leaflet_arc_angle, curve);
 }
 
-/* The open scallops from pm to al, rows 10 to 12. Their ends are h_pm long and 2 u_pm / 3 apart, their tips half way. */
+/* The open scallops from pm to al, rows 10 to 12. Their ends have the height h_pm and are 2 u_pm / 3 apart. Their tips are
+ * half way between the ends. */
 static void open_scallop(const mitral_parameters *p, const cubic annulus[6], int scallop, real curve[4][3]) {
   const real third = u_pm_of(p) / 3, ends[4] = {3 * third, third, 1 - third, 1 - 3 * third};
   const real tips[3] = {2 * third, 0, 1 - 2 * third};
@@ -218,7 +221,7 @@ typedef struct states { /* on the heap, because it has tables of 14 curves */
   cubic cleft_annulus[6], cleft_anterior;
 } states;
 
-/* The parameter of the set's closed anterior edge with a third of the length behind it. */
+/* Returns the parameter of the point of the closed anterior edge with a third of the edge's length behind it. */
 static real cleft_of(const mitral_parameters *p, cubic annulus[6], cubic *anterior) {
   annulus_curves(p, 0, annulus);
   anterior_curve(p, annulus, 0, anterior->point);
@@ -263,13 +266,13 @@ static void by_length(const cubic *c, real share, real *point) {
   evaluate(c, parameter_at(c, share * length(c)), point);
 }
 
-/* L_po(v) for v in [0, 1] from pm to al. Row 13: each scallop has a third of v. */
+/* Gives L_po(v) for v in [0, 1] from pm to al. Row 13: each scallop has a third of v. */
 static void posterior(const mitral_oracle *o, real v, real *point) {
   const int scallop = 3 * v < 1 ? 0 : 3 * v < 2 ? 1 : 2;
   by_length(&o->scallop[scallop], 3 * v - scallop, point);
 }
 
-/* L(u), by the cases of "Leaflet surfaces". 1 - r_at = 2 u_pm. */
+/* Gives L(u), by the cases of "Leaflet surfaces". 1 - r_at = 2 u_pm. */
 static void leaflet_at(const mitral_oracle *o, real u, real *point) {
   const real first = o->u_pm + o->triangle, last = o->u_al - o->triangle;
   if (u < o->u_pm)
@@ -280,8 +283,8 @@ static void leaflet_at(const mitral_oracle *o, real u, real *point) {
     by_length(&o->anterior, u <= first ? 0 : u >= last ? 1 : (u - first) / (last - first), point);
 }
 
-/* A(u), K(u), L(u). Rows 14 and 15: K is tan(surface_angle) |L - A| / 2 off the chord's middle, along (L - A) x A'. If these two
- * vectors are parallel, there is no such direction and no offset. */
+/* Gives A(u), K(u) and L(u). Rows 14 and 15: K is the chord's middle, moved by tan(surface_angle) |L - A| / 2 along (L - A) x
+ * A'. If these two vectors are parallel, there is no such direction and no offset. */
 static void curve_at(const mitral_oracle *o, real u, real *a, real *k, real *l) {
   real t[3], e[3], n[3];
   annulus_at(o->annulus, u, a, t);
@@ -292,7 +295,7 @@ static void curve_at(const mitral_oracle *o, real u, real *a, real *k, real *l) 
   for (int i = 0; i < 3; ++i) k[i] = (a[i] + l[i]) / 2 + offset * n[i];
 }
 
-/* D(u, v) before the translation. */
+/* Gives D(u, v) before the translation. */
 static void quadratic(const real *a, const real *k, const real *l, real v, real *point) {
   for (int i = 0; i < 3; ++i) point[i] = (1 - v) * (1 - v) * a[i] + 2 * v * (1 - v) * k[i] + v * v * l[i];
 }
@@ -381,7 +384,7 @@ double mitral_oracle_scallop_length(const mitral_oracle *oracle, int scallop) {
 
 double mitral_oracle_area(const mitral_oracle *oracle, int n_u, int n_v) {
   real u[MITRAL_ORACLE_BREAKS], sum = 0;
-  real curve[2][3][3]; /* the curves at the last u but one and at the last u */
+  real curve[2][3][3]; /* the curves at the last two u */
   breaks(oracle, u);
   for (int b = 0; b + 1 < MITRAL_ORACLE_BREAKS; ++b)
     for (int i = 0; i <= n_u; ++i) {

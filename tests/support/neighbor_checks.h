@@ -3,7 +3,7 @@
 #ifndef RIIS_TEST_NEIGHBOR_CHECKS_H
 #define RIIS_TEST_NEIGHBOR_CHECKS_H
 
-/* Marks with both searches and compares. The neighbour search uses the result, or a new one if it is NULL. */
+/* Marks with both searches and compares the results. The neighbour search uses `result`, or a new one if it is NULL. */
 static inline riis_mark_stats check_same_as_exhaustive(const riis_surface *surface, const riis_mesh *mesh,
                                                        riis_mark_options options, riis_marks *result) {
   const int owned_before = n_owned();
@@ -39,7 +39,7 @@ static inline riis_marks *marked_by(const riis_surface *surface, const riis_mesh
   return result;
 }
 
-/* A band of that half thickness around the default aortic valve. */
+/* Makes the surface of the default aortic valve with this half thickness. */
 static inline riis_surface *aortic_band(double half_thickness) {
   riis_surface_options options = surface_options();
   options.half_thickness = half_thickness;

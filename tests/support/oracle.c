@@ -19,7 +19,7 @@ static real length_minus(const real *r, real s, const real *e, real t, const rea
   return sqrtl(sum);
 }
 
-/* C. Ericson, "Real-Time Collision Detection", 5.1.5: finds the vertex, edge or face region that p projects into. */
+/* Finds the vertex, edge or face region into which p projects: C. Ericson, "Real-Time Collision Detection", 5.1.5. */
 long double oracle_point_triangle(const double *p, const double *abc) {
   const double *a = abc, *b = abc + 3, *c = abc + 6;
   real ab[3], ac[3], bc[3], ap[3], bp[3], cp[3];

@@ -6,11 +6,11 @@
 
 #include <stdint.h>
 
-/* Distance from p to the triangle a b c (abc[9]). */
+/* Returns the distance from p to the triangle a b c (abc[9]). */
 long double oracle_point_triangle(const double *p, const double *abc);
 
-/* Smallest distance from p to n triangles, given by vertex_id (3, n) into xyz. *triangle is the position of the first triangle
- * with this distance. */
+/* Returns the smallest distance from p to n triangles, given by vertex_id (3, n) into xyz. *triangle gets the position of the
+ * first triangle with this distance. */
 long double oracle_distance(const double *p, int64_t n, const int64_t *vertex_id, const double *xyz, int64_t *triangle);
 
 #endif

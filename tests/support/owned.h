@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The objects of a test. Its teardown frees them, also after a failed assertion. Each thread has its own list: a thread
- * that the test starts frees its objects by free_owned_after. Include after riis.h and test_support.h; handles.h
+ * Records the objects of a test. The test's teardown frees them, even after a failed assertion. Each thread has its own list.
+ * A thread that the test starts frees its objects by free_owned_after. Include after riis.h and test_support.h; handles.h
  * includes it. */
 #ifndef RIIS_TEST_OWNED_H
 #define RIIS_TEST_OWNED_H
@@ -28,7 +28,7 @@ static inline void own_object(void *object, void (*destroy)(void *)) {
 
 static inline int n_owned(void) { return owned.n; }
 
-/* Frees all objects after the first n, the last one first. */
+/* Frees all objects except the first n, in reverse order. */
 static inline void free_owned_after(int n) {
   while (owned.n > n) {
     const owned_object last = owned.at[--owned.n];
@@ -36,7 +36,7 @@ static inline void free_owned_after(int n) {
   }
 }
 
-/* Takes an object off the list; its destroy is NULL if it was not there. */
+/* Takes an object off the list and returns it. Its `destroy` is NULL if it was not on the list. */
 static inline owned_object disown(void *object) {
   int i = owned.n - 1;
   while (i >= 0 && owned.at[i].object != object) --i;
@@ -47,7 +47,7 @@ static inline owned_object disown(void *object) {
   return found;
 }
 
-/* Frees one object before its test ends; NULL is allowed. */
+/* Frees one object before its test ends. NULL is allowed. */
 static inline void free_one_owned(void *object) {
   if (!object) return;
   const owned_object found = disown(object);
@@ -62,7 +62,7 @@ static inline int free_owned(void **state) {
   return 0;
 }
 
-/* For the end of a group's setup: the objects made so far last until free_owned_of_group, the group's teardown. */
+/* Call this at the end of a group's setup. The objects made so far then last until free_owned_of_group, the group's teardown. */
 static inline void keep_owned_for_group(void) { owned.n_of_group = owned.n; }
 
 static inline int free_owned_of_group(void **state) {
@@ -107,7 +107,7 @@ DEFINE_OWN(crossings)
 #define riis_leaks_destroy destroy_and_disown_leaks
 #define riis_crossings_destroy destroy_and_disown_crossings
 
-/* Returns its argument: a handle, or memory from malloc. */
+/* Records its argument, a handle or memory from malloc, and returns it. */
 #define own(object) \
   _Generic((object),                       \
       riis_valve *: own_valve,             \
@@ -119,7 +119,7 @@ DEFINE_OWN(crossings)
       riis_crossings *: own_crossings,     \
       void *: own_memory)(object)
 
-/* Every test of a file that includes this one has the teardown. */
+/* In a file that includes this one, every test has the teardown. */
 #undef cmocka_unit_test
 #define cmocka_unit_test(function) cmocka_unit_test_teardown(function, free_owned)
 

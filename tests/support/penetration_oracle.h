@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The penetration depth and the common segment of two triangles in 113 bits. The depth is the distance from the origin to the
- * hull of the nine differences of corners. A plane through each three of them is tried. The segment ends at the two farthest
- * points at which an edge goes through the other triangle. The library instead compares overlaps along normals, and clips. */
+ * The penetration depth and the common segment of two triangles, with 113 bits of precision. The depth is the distance from
+ * the origin to the convex hull of the nine differences of corners. All planes through three of these differences are tried.
+ * The segment ends at the two points, farthest apart, where an edge passes through the other triangle. The library instead
+ * compares overlaps along normals, and clips. */
 #ifndef RIIS_TEST_PENETRATION_ORACLE_H
 #define RIIS_TEST_PENETRATION_ORACLE_H
 
@@ -10,7 +11,7 @@
 #if defined(__SIZEOF_FLOAT128__)
 __extension__ typedef __float128 quad;
 #else
-typedef long double quad; /* also has 113 bits where the other type is missing */
+typedef long double quad; /* also has 113 bits on systems that lack __float128 */
 #endif
 
 typedef struct quad3 {
@@ -33,7 +34,7 @@ static inline quad quad_root(quad x) {
 }
 static inline quad quad_length(quad3 a) { return quad_root(quad_dot(a, a)); }
 
-/* Corners relative to the first corner of the first triangle. */
+/* Both triangles' corners, relative to the first corner of the first triangle. */
 typedef struct quad_pair {
   quad3 a[3], b[3];
   quad longest;
@@ -67,7 +68,7 @@ static inline int is_beside(const quad3 *points, const quad3 *triangle) {
   return n_above == 3 || n_below == 3;
 }
 
-/* Lowers *depth if the points are on one side of the plane through three of them. It becomes 0 if the origin is outside. */
+/* Lowers *depth if all points are on one side of the plane through three of them. *depth becomes 0 if the origin is outside. */
 static inline void try_plane(const quad3 *p, int i, int j, int k, quad size, quad *depth) {
   const quad3 n = quad_cross(quad_difference(p[j], p[i]), quad_difference(p[k], p[i]));
   const quad of_n = quad_length(n), tiny = (quad)1e-24 * of_n * size;
@@ -100,7 +101,7 @@ static inline double oracle_depth(const double *a, const double *b) {
   return (double)depth;
 }
 
-/* Adds the point at which the edge from p to q goes through the triangle. */
+/* Adds the point at which the edge from p to q passes through the triangle. */
 static inline int add_piercing(quad3 p, quad3 q, const quad3 *t, quad3 *points, int n) {
   const quad3 normal = quad_cross(quad_difference(t[1], t[0]), quad_difference(t[2], t[0]));
   const quad at_p = quad_dot(normal, quad_difference(p, t[0])), at_q = quad_dot(normal, quad_difference(q, t[0]));
@@ -116,7 +117,7 @@ static inline int add_piercing(quad3 p, quad3 q, const quad3 *t, quad3 *points, 
   return n + 1;
 }
 
-/* The length and the middle of the common segment of two triangles whose depth is above 0. */
+/* Returns the length of the common segment of two triangles whose depth is above 0, and gives its middle. */
 static inline double oracle_segment(const double *a, const double *b, double *middle) {
   const quad_pair pair = quad_pair_of(a, b);
   quad3 points[6], first = {{0, 0, 0}}, last = first;

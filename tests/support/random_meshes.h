@@ -23,7 +23,7 @@ static inline int64_t *pairs_of_rows(const test_mesh *mesh, int64_t *n_pairs) {
   return pairs;
 }
 
-/* Keeps the wanted nodes, and the pairs of wanted nodes. */
+/* Keeps only the wanted nodes and the pairs of wanted nodes. */
 static inline void keep(test_mesh *mesh, const uint8_t *wanted) {
   int64_t n_pairs, m = 0, n = 0, *number = own(malloc((size_t)mesh->n * sizeof *number)),
                    *pairs = pairs_of_rows(mesh, &n_pairs);
@@ -54,7 +54,8 @@ static inline void shuffle(test_mesh *mesh) {
   mesh->xyz = xyz;
 }
 
-/* Joins each node to the k nearest nodes of the cells around its own. Neighbours in a Delaunay mesh are mostly such nodes. */
+/* Joins each node to the k nearest nodes in its own and the adjacent grid cells. Neighbours in a Delaunay mesh are mostly such
+ * nodes. */
 static inline void join_near_nodes(test_mesh *mesh, const double *lower, const double *upper, int k) {
   int64_t counts[3], n_cells = 1;
   double size = 1;
@@ -96,7 +97,7 @@ static inline void join_near_nodes(test_mesh *mesh, const double *lower, const d
   set_rows(mesh, n_pairs, pairs);
 }
 
-/* Cuts each cube into six tetrahedra, whose edges the library's builder gives. */
+/* Cuts each cube into six tetrahedra and joins nodes along their edges, which the library finds. */
 static inline void join_by_tetrahedra(test_mesh *mesh, const int64_t *counts) {
   static const int corners[6][4][3] = {
       {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}, {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {1, 1, 1}},
@@ -129,7 +130,7 @@ static inline void join_by_tetrahedra(test_mesh *mesh, const int64_t *counts) {
   for (int64_t k = 0; k < offsets[mesh->n]; ++k) mesh->columns[k] = columns[k];
 }
 
-/* Makes about n_wanted nodes in the box; *spacing becomes the length of most edges. */
+/* Makes about n_wanted nodes in the box. *spacing gets the length of most edges. */
 static inline test_mesh random_mesh(int kind, int64_t n_wanted, const double *lower, const double *upper,
                                     double *spacing) {
   int64_t counts[3];
@@ -139,7 +140,7 @@ static inline test_mesh random_mesh(int kind, int64_t n_wanted, const double *lo
   for (int c = 0; c < 3; ++c) counts[c] = 2 + (int64_t)((upper[c] - lower[c]) / *spacing);
   test_mesh mesh = lattice(counts, lower, upper);
   if (kind == tetrahedra || (kind == jittered && one_in(2))) join_by_tetrahedra(&mesh, counts);
-  if (kind == graded) { /* finer towards one place, up to a hundred times */
+  if (kind == graded) { /* up to a hundred times finer near one point */
     double centre[3];
     for (int c = 0; c < 3; ++c) centre[c] = random_between(&rng, 0, 1);
     const double power = random_between(&rng, 1.2, 4);

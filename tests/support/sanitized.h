@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Defines IS_SANITIZED if the address or the thread sanitizer owns the memory; gcc and clang report this differently. A
- * sanitizer checks memory and undefined operations, and a third of the random trials is enough for that. */
+ * Defines IS_SANITIZED if the address or the thread sanitizer replaces the allocator; gcc and clang report this differently. A
+ * sanitizer checks memory and undefined operations. A third of the random trials is enough for that. */
 #ifndef RIIS_TEST_SANITIZED_H
 #define RIIS_TEST_SANITIZED_H
 
@@ -20,7 +20,7 @@ static inline int is_sanitized(void) {
 #endif
 }
 
-/* Returns the number of trials to make in place of n. */
+/* Returns how many of n trials to make. */
 static inline int fewer_if_sanitized(int n) { return is_sanitized() ? (n + 2) / 3 : n; }
 
 #endif

@@ -39,13 +39,13 @@ static inline int same_nodes(found_nodes a, found_nodes b) {
          memcmp(a.leaflet_id, b.leaflet_id, m * sizeof *a.leaflet_id) == 0;
 }
 
-/* Returns 1 if both have the same nodes, marked and within the limit, with the same bits. Asserts nothing, so any thread may call
- * it. */
+/* Returns 1 if two results have the same nodes, marked and within the limit, with the same bits. It asserts nothing, so any
+ * thread may call it. */
 static inline int same_results(const riis_marks *a, const riis_marks *b) {
   return same_nodes(marked_in(a), marked_in(b)) && same_nodes(within_in(a), within_in(b));
 }
 
-/* Nodes and their neighbours: n + 1 offsets and their columns, from 0. The test owns the arrays. */
+/* Nodes and their neighbours. The rows have n + 1 offsets and count from 0. The test owns the arrays. */
 typedef struct test_mesh {
   int64_t n;
   double *xyz;
@@ -70,7 +70,7 @@ static inline void set_rows(test_mesh *mesh, int64_t n_pairs, const int64_t *pai
   free(next);
 }
 
-/* counts[0] * counts[1] * counts[2] nodes between two corners, each with up to 6 neighbours. */
+/* Makes counts[0] * counts[1] * counts[2] nodes between two corners, each with up to 6 neighbours. */
 static inline test_mesh lattice(const int64_t *counts, const double *lower, const double *upper) {
   const int64_t step[3] = {1, counts[0], counts[0] * counts[1]};
   test_mesh mesh = {.n = step[2] * counts[2]};
@@ -90,7 +90,7 @@ static inline test_mesh lattice(const int64_t *counts, const double *lower, cons
   return mesh;
 }
 
-/* A lattice with about the given spacing, as wide as the surface and a margin around it. */
+/* Makes a lattice with about the given spacing, as wide as the surface with a margin around it. */
 static inline test_mesh lattice_around(const riis_surface *surface, double spacing, double margin) {
   const riis_surface_info info = info_of(surface);
   double lower[3], upper[3];
@@ -112,7 +112,7 @@ static inline riis_csr csr_of(const test_mesh *mesh) {
   return csr;
 }
 
-/* The mesh borrows all arrays. */
+/* Makes a mesh that borrows all arrays. */
 static inline riis_mesh *mesh_from(const test_mesh *from) {
   riis_mesh *mesh = mesh_of(from->n, from->xyz);
   const riis_csr csr = csr_of(from);

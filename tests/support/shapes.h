@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Patches that tests change before they make valves and surfaces of them. Include after handles.h. */
+ * Patches that tests can change before they make valves and surfaces from them. Include after handles.h. */
 #ifndef RIIS_TEST_SHAPES_H
 #define RIIS_TEST_SHAPES_H
 
 enum { max_curves = 12, max_patches = 3 };
 
-/* Patches with room to change anything. */
+/* Patches with spare room for changes. */
 typedef struct {
   int64_t n_curves, n_patches;
   int32_t degree[max_curves], curve_id[4 * max_patches], reversed[4 * max_patches], leaflet_id[max_patches];
   double control[max_curves][4][3];
 } shape;
 
-/* The arrays of a shape as the library takes them: control points close together. */
+/* The arrays of a shape in the form that the library takes, without gaps between control points. */
 typedef struct {
   riis_patches patches;
   double control[max_curves * 4 * 3];
@@ -38,7 +38,7 @@ static inline riis_valve *valve_from(const shape *from) {
   arrays_from(from, &arrays);
   CHECK_OK(riis_valve_create_from_patches(&arrays.patches, &valve));
   own(valve);
-  memset(&arrays, -1, sizeof arrays); /* the valve borrows nothing */
+  memset(&arrays, -1, sizeof arrays); /* the valve must not refer to the arrays any more */
   return valve;
 }
 
@@ -65,7 +65,7 @@ static inline void add_patch(shape *to, int32_t v0, int32_t v1, int32_t u0, int3
   sides[0] = v0, sides[1] = v1, sides[2] = u0, sides[3] = u1;
 }
 
-/* The unit square 0 <= x <= 1, 0 <= y <= 1 at z = 0. */
+/* Makes the unit square 0 <= x <= 1, 0 <= y <= 1 at z = 0. */
 static inline shape unit_square(void) {
   shape square = {0};
   add_line(&square, 0, 0, 0, 1, 0, 0);
@@ -76,7 +76,7 @@ static inline shape unit_square(void) {
   return square;
 }
 
-/* Both surfaces are destroyed. */
+/* Compares the surfaces and destroys both. */
 static inline void check_same_surfaces(riis_surface *a, riis_surface *b) {
   const int same = is_same_content(a, b);
   free_one_owned(a);

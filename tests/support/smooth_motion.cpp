@@ -13,7 +13,8 @@ using namespace riis;
 
 namespace {
 
-// A curve with the share of its length as parameter. Gauss's sums of five terms give the length up to 64 places of each piece.
+// A curve whose parameter is the fraction of its length. Five-point Gauss quadrature gives the length up to 64 points of each
+// piece.
 class MeasuredCurve {
  public:
   explicit MeasuredCurve(const Curve &curve) : pieces_(curve.pieces().begin(), curve.pieces().end()) {
@@ -21,7 +22,7 @@ class MeasuredCurve {
       for (int k = 0; k < n_cells; ++k) ends_.push_back((ends_.empty() ? 0 : ends_.back()) + length_of(piece, k));
   }
 
-  // The point, and the unit vector along the curve.
+  // Returns the point, and the unit vector along the curve.
   std::array<Vec3, 2> at(double share) const {
     const double total = ends_.back();
     if (!(total > 0)) return {pieces_[0].control[0], Vec3{0, 0, 0}};

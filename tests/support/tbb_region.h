@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * TBB as a caller of the library uses it. The interface is C, because a failed assertion leaves by longjmp, which must not
- * cross TBB's frames. */
+ * C wrappers that use TBB as a caller of the library would. The assertions stay in C, because a failed one leaves by longjmp,
+ * which must not cross TBB's stack frames. */
 #ifndef RIIS_TEST_TBB_REGION_H
 #define RIIS_TEST_TBB_REGION_H
 
@@ -8,13 +8,13 @@
 extern "C" {
 #endif
 
-/* The caller's parallel_for runs in its thread's own arena, in a task_arena(4), in a task_arena(1), or under a limit of 1 thread.
- * The task_arena(4) has a limit of 4 threads, so that tasks run at once on any machine. */
+/* The caller's parallel_for runs in its thread's own arena, in a task_arena(4), in a task_arena(1), or under a limit of 1
+ * thread. The task_arena(4) has a limit of 4 threads, so that tasks run at the same time on any machine. */
 enum tbb_region { TBB_OWN_ARENA, TBB_ARENA_OF_FOUR, TBB_ARENA_OF_ONE, TBB_LIMIT_OF_ONE };
 
 typedef struct tbb_seen {
-  int n_changed; /* changed settings: the allowed threads, compared around the whole and in the region, and the arena,
-                    compared around the whole, in the region and around each task */
+  int n_changed;    /* how many settings changed: the limit on threads, compared around the whole call and in the
+                    region; and the arena, compared around the whole call, in the region and around each task */
   int most_at_once; /* the largest number of tasks that ran at the same time */
 } tbb_seen;
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The common parts of all tests: CMocka with its headers in order, checks on doubles (CMocka 1.1.5 compares floats), and random
- * numbers with a printed seed. */
+ * The common parts of all tests: CMocka's headers in the right order, checks on doubles (CMocka 1.1.5 compares floats), and
+ * random numbers with a printed seed. */
 #ifndef RIIS_TEST_SUPPORT_H
 #define RIIS_TEST_SUPPORT_H
 
@@ -16,7 +16,7 @@
 
 #include <cmocka.h>
 
-/* |a - b| <= tolerance, and neither is NaN. */
+/* Checks that |a - b| <= tolerance and that neither is NaN. */
 #define CHECK_NEAR(a, b, tolerance)                                                                                   \
   do {                                                                                                                \
     const double check_a = (a), check_b = (b), check_t = (tolerance);                                                 \
@@ -31,7 +31,7 @@
     if (!(check_a <= check_l)) fail_msg("%s = %.17g is more than %s = %.17g", #a, check_a, #limit, check_l); \
   } while (0)
 
-/* a and b have the same bits. */
+/* Checks that a and b have the same bits. */
 #define CHECK_SAME(a, b)                                                               \
   do {                                                                                 \
     const double check_a = (a), check_b = (b);                                         \
@@ -46,7 +46,7 @@
     if (check_s != RIIS_OK) fail_msg("%s: %s: %s", #call, riis_status_name(check_s), riis_last_error()); \
   } while (0)
 
-/* Checks that the call is refused with this status and a message that holds every part (up to three, separated by '|'). */
+/* Checks that the call is refused with this status and that its message contains every part (up to three, separated by '|'). */
 static inline void check_refused(riis_status expected, riis_status got, const char *parts, const char *call) {
   char copy[256];
   if (got != expected)
@@ -73,7 +73,7 @@ static inline random_source random_start(const char *name) {
   return random;
 }
 
-/* RIIS_TEST_LONG=1 asks tests of random input for many more trials. */
+/* Returns whether RIIS_TEST_LONG=1 asks for many more random trials. */
 static inline int is_long_test(void) {
   const char *given = getenv("RIIS_TEST_LONG");
   return given && strcmp(given, "1") == 0;
@@ -90,7 +90,7 @@ static inline double random_between(random_source *random, double low, double hi
   return low + (high - low) * ((double)(random_bits(random) >> 11) * 0x1p-53);
 }
 
-/* 10^x, with x uniform. */
+/* Returns 10^x, with x uniform. */
 static inline double random_power_of_ten(random_source *random, double from, double to) {
   return pow(10, random_between(random, from, to));
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * An independent velocity of the surface near p, by a loop over all triangles in extended precision, leaflet by leaflet.
- * Include after riis.h, test_support.h, handles.h and oracle.h. */
+ * An independent computation of the surface's velocity near p. It loops over all triangles in extended precision, leaflet by
+ * leaflet. Include after riis.h, test_support.h, handles.h and oracle.h. */
 #ifndef RIIS_TEST_TIE_ORACLE_H
 #define RIIS_TEST_TIE_ORACLE_H
 
@@ -13,9 +13,9 @@ typedef struct tied_place {
 } tied_place;
 
 typedef struct tied_velocity {
-  int n_leaflets, n_places; /* counts of the equally near leaflets and places */
+  int n_leaflets, n_places; /* number of equally near leaflets, and of equally near points */
   double mean[3];           /* mean velocity of the leaflets */
-  int is_clear;             /* 0 if rounding decides which places these are */
+  int is_clear;             /* 0 if rounding decides which points count as equally near */
 } tied_velocity;
 
 /* Writes the weights of the closest point of the triangle a b c, and returns its distance. */
@@ -51,19 +51,21 @@ static inline long double closest_weights(const double *p, const double *abc, lo
   return sqrtl(best);
 }
 
-/* The largest component of the velocities of all vertices. The velocities of a part at rest are only rounding. */
+/* Returns the largest component of the velocities of all vertices. If a part is at rest, its velocities are only rounding
+ * errors. */
 static inline double largest_velocity(const riis_triangles *s, const double *velocity) {
   double largest = 0;
   for (int64_t i = 0; i < 3 * s->n_vertices; ++i) largest = fmax(largest, fabs(velocity[i]));
   return largest;
 }
 
-/* Places of one patch at distances that differ by less than this may change by rounding. */
+/* Returns the rounding error of distances near p. Points of one patch may change their order if their distances differ by
+ * less. */
 static inline long double rounding_near(const double *p, double half_thickness) {
   return 1e-13L * (half_thickness + fabs(p[0]) + fabs(p[1]) + fabs(p[2]));
 }
 
-/* Finds the closest point of each patch that is at most `reach` away. Sets *is_clear to 0 if a patch has two closest points. */
+/* Finds the closest point of each patch within `reach`. Sets *is_clear to 0 if a patch has two closest points. */
 static inline int places_near(const riis_triangles *s, const double *velocity, const double *p, double reach,
                               double half_thickness, tied_place *places, int *is_clear) {
   const long double rounding = rounding_near(p, half_thickness);
@@ -103,7 +105,7 @@ static inline int places_near(const riis_triangles *s, const double *velocity, c
   return n;
 }
 
-/* The velocity of the surface near p, which is at the given distance. */
+/* Returns the velocity of the surface near p, which is at the given distance. */
 static inline tied_velocity tied_velocity_at(const riis_triangles *s, const double *velocity, const double *p,
                                              double distance, double half_thickness) {
   const long double rounding = rounding_near(p, half_thickness), of_leaflets = 1e-6L * half_thickness,

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The points of known distance that ./run bench accuracy measures with. They are tested on surfaces whose distances are
- * formulas, a parabolic cylinder and two sheets that face each other, and on the leaflets that the benchmark takes. */
+ * Tests the points of known distance that ./run bench accuracy uses. The surfaces are a parabolic cylinder and two parallel
+ * sheets, whose distances are known in closed form, and the benchmark's leaflets. */
 #include "accuracy.h"
 #include "test_support.h"
 
 enum { n_points = 600 };
 static const double half = 0.1; /* half thickness */
 
-/* Returns n patches with four curves of their own each. The arrays are borrowed. */
+/* Returns n patches, each with four curves of its own. The arrays are borrowed. */
 static riis_patches sheets(int64_t n, const int32_t *degree, const double *control, const int32_t *curve_id) {
   riis_patches patches;
   CHECK_OK(riis_patches_init(&patches, sizeof patches));
@@ -19,7 +19,7 @@ static riis_patches sheets(int64_t n, const int32_t *degree, const double *contr
   return patches;
 }
 
-/* A parabolic cylinder z = x^2 / (4 focal), |x| <= 2 focal, 0 <= y <= 1. Curves of degree 2 hold it exactly. */
+/* The parabolic cylinder z = x^2 / (4 focal), |x| <= 2 focal, 0 <= y <= 1. Curves of degree 2 represent it exactly. */
 static const double focal = 0.05;
 
 static riis_patches parabola(void) {
@@ -33,7 +33,7 @@ static riis_patches parabola(void) {
 }
 
 /* Returns the distance from (x, z) to the parabola. Newton's method starts from every local minimum among many points of the
- * parabola. The nearest of these points need not be beside the true nearest point. */
+ * parabola. The nearest of these points may be far from the true nearest point. */
 static double distance_to_parabola(double x, double z) {
   enum { n = 2000 };
   double at[n + 1], best = INFINITY;
@@ -92,7 +92,7 @@ static void distances_to_a_parabola_are_true(void **state) {
     const double share = fabs(truth_offset(i)) * half * curvature_of_parabola(p[0]);
     n_curved += share > truth_largest_share_of_radius() * (1 + 1e-3);
   }
-  assert_true(n_curved > n_points / 20); /* points at offset 1 near the vertex, where the radius is 0.1 */
+  assert_true(n_curved > n_points / 20); /* points at offset 1 near the vertex, where the radius of curvature is 0.1 */
   assert_true(truth.n_curved >= n_curved && truth.n_curved < n_curved + n_points / 20);
   for (int64_t i = 0; i < truth.off.n; ++i) {
     const double *p = truth.off.xyz + 3 * i;
@@ -101,7 +101,8 @@ static void distances_to_a_parabola_are_true(void **state) {
   truth_free(&truth);
 }
 
-/* Two unit squares, at z = 0 and z = 0.15. A point a whole half thickness from one, towards the other, is nearer to the other. */
+/* Two unit squares lie at z = 0 and z = 0.15. A point one half thickness from one square, towards the other, is nearer to the
+ * other. */
 static void points_nearer_to_another_sheet_are_left_out(void **state) {
   (void)state;
   static const double gap = 0.15;
@@ -141,7 +142,7 @@ static void points_nearer_to_another_sheet_are_left_out(void **state) {
   truth_free(&truth);
 }
 
-/* The smooth leaflets and their triangles agree, or truth_of fails. */
+/* The smooth leaflets agree with their triangles. Otherwise truth_of fails. */
 static void leaflets_agree_with_their_triangles(void **state) {
   (void)state;
   static const char *const kinds[2] = {"aortic", "mitral"};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The open state that an aortic valve's own parameters make (docs/theory.md, section 3). */
+ * The open state that is defined by an aortic valve's own parameters (docs/theory.md, section 3). */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -43,7 +43,7 @@ static void set_own(riis_valve *valve, const char *cusp, const char *name, doubl
   CHECK_OK(riis_valve_set_scalar(valve, full, value));
 }
 
-/* A second valve whose own state is the first's open state, by the formulas of docs/theory.md. */
+/* Returns a second valve whose state is the first valve's open state, by the formulas of docs/theory.md. */
 static riis_valve *state_by_hand(const riis_valve *valve, double radius_ratio, double expansion) {
   riis_valve *open = copy_of(valve);
   double R, h_l, h_b, third_leaflet[3], third_bending[3];
@@ -70,7 +70,7 @@ static riis_valve *state_by_hand(const riis_valve *valve, double radius_ratio, d
   return open;
 }
 
-/* At any opening the surface is that of a valve that was given the same open state. */
+/* At any opening the surface equals that of a valve to which the same open state was given. */
 static void state_is_the_one_of_the_formulas(void **state) {
   (void)state;
   random_source random = random_start("test_aortic_opening");
@@ -112,7 +112,7 @@ static void open_free_edges_are_parabolas(void **state) {
     const double x = p[0] * cos(a) + p[1] * sin(a), y = p[1] * cos(a) - p[0] * sin(a);
     const double end_x = 1.05 * radius_out[cusp] * cos(half_angle[cusp] * cusp_degree),
                  end_y = 1.05 * radius_out[cusp] * sin(half_angle[cusp] * cusp_degree);
-    /* Vertices that a quad was split at lie on chords of the curve. */
+    /* Vertices from split quads lie on chords of the curve. */
     CHECK_NEAR(x, 0.75 * 1.29 + (end_x - 0.75 * 1.29) * (y / end_y) * (y / end_y), 0.005);
     CHECK_NEAR(p[2], 0.02, 1e-14);
     ++n;
@@ -120,8 +120,8 @@ static void open_free_edges_are_parabolas(void **state) {
   assert_true(n > 50);
 }
 
-/* Returns 1 if every vertex of each surface lies on the other, to within the sum of their error bounds. The triangles may differ,
- * because some vertices depend on the motion to the open state. */
+/* Returns 1 if each surface's vertices lie on the other surface, to within the sum of their error bounds. The triangles may
+ * differ, because some vertices depend on the motion to the open state. */
 static int have_same_shape(const riis_valve *a, const riis_valve *b) {
   riis_surface_options options = surface_options();
   options.tolerance = 0.005;
@@ -142,7 +142,7 @@ static void opening_0_is_the_papers_state(void **state) {
   riis_valve *valve = new_valve("aortic"), *other = new_valve("aortic"), *given = new_valve("aortic");
   CHECK_OK(riis_valve_set_scalar(other, "open_radius_ratio", 0.9));
   CHECK_OK(riis_valve_set_scalar(other, "commissure_expansion", 0.3));
-  CHECK_OK(riis_valve_set_open_state(given, valve)); /* both ends the paper's */
+  CHECK_OK(riis_valve_set_open_state(given, valve)); /* both states are the paper's */
   assert_true(have_same_shape(valve, other));
   assert_true(have_same_shape(valve, given));
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5));
@@ -170,7 +170,7 @@ static void a_given_open_state_wins(void **state) {
   CHECK_OK(riis_valve_set_open_state(valve, open));
   assert_true(have_same_shape(valve, open));
   riis_surface *surface = new_surface(valve, NULL);
-  CHECK_OK(riis_valve_set_scalar(valve, "open_radius_ratio", 0.9)); /* no longer has an effect */
+  CHECK_OK(riis_valve_set_scalar(valve, "open_radius_ratio", 0.9)); /* the parameter no longer has an effect */
   assert_true(is_same_content(surface, new_surface(valve, NULL)));
 }
 
@@ -195,8 +195,8 @@ static void copies_and_moving_updates(void **state) {
   assert_true(n > 0);
 }
 
-/* With fixed triangles, a vertex's velocity is its displacement divided by the time. Only lines that end between two vertices of
- * a side differ slightly, because they end on chords. */
+/* With fixed triangles, a vertex's velocity is its displacement divided by the time. It differs slightly only on grid lines
+ * that end between two vertices of a side, because they end on chords. */
 static void fixed_triangulations(void **state) {
   (void)state;
   const riis_surface_options options = fixed_options();
@@ -216,7 +216,7 @@ static void fixed_triangulations(void **state) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "has an open state|fixed for none", riis_surface_update(surface, other, NULL));
 }
 
-/* Such values still make a surface at opening 0, as they did before valves had an open state. */
+/* Absurd values of the open state are refused, but still make a surface at opening 0. */
 static void absurd_open_states_are_refused(void **state) {
   (void)state;
   riis_valve *valve = new_valve("aortic");

@@ -5,7 +5,7 @@
 
 static const double degree_in_radians = 3.14159265358979323846 / 180;
 
-/* Positions of the curves of half a cusp, in the order in which they are made. */
+/* The indices of the curves of half a cusp, in the order in which the library makes them. */
 enum { root, symmetry_below, symmetry_above, bending, leaflet, sinus_below, sinus_above, n_of_cusp };
 
 static patch_set set;
@@ -43,17 +43,17 @@ static void right_cusp_meets_the_table(void **state) {
   check_point(q + 6, L[0] - 0.5 * 1.58 * (L[0] - 0.24) / L[1], L[1] - 0.5, 1.02);
 }
 
-/* The two pieces of the symmetry curve are one cubic that passes through b at s. xq and zq place its first inner control
- * point. */
+/* The two pieces of the symmetry curve are one cubic, which passes through b at s. Its first inner control point is given by
+ * xq and zq. */
 static void symmetry_curve_is_one_cubic(void **state) {
   (void)state;
   const double s = 0.71 / 1.02;
   const double *below = control(0, symmetry_below), *above = control(0, symmetry_above);
-  /* Splitting at s leaves (1-s) D0 + s D1 as the first part's second control point. */
+  /* After a split at s, (1-s) D0 + s D1 is the first part's second control point. */
   double d1[3];
   for (int c = 0; c < 3; ++c) d1[c] = (below[3 + c] - (1 - s) * below[c]) / s;
   check_point(d1, (1.29 + 0.4) / 2 - 0.2 * (1.29 - 0.4), 0, 0.71 / 2 - 0.2 * 0.71);
-  /* The joint is smooth: the tangents are parallel, in the ratio of the parameters. */
+  /* The joint is smooth: the tangents are parallel, and their lengths have the ratio of the parameters. */
   for (int c = 0; c < 3; ++c) CHECK_NEAR((below[9 + c] - below[6 + c]) / s, (above[3 + c] - above[c]) / (1 - s), 1e-13);
   for (int i = 0; i < 4; ++i) assert_true(below[3 * i + 1] == 0 && above[3 * i + 1] == 0);
 }
@@ -74,7 +74,7 @@ static void cusps_are_mirror_images_and_turned(void **state) {
         patch_image_place(&set, other, control(cusp, leaflet), same);
         for (int c = 0; c < 3; ++c) CHECK_NEAR(same[c], middle[c], 0);
       }
-    /* ... and the edge's end is at the leaflet's angle to either side of the middle. */
+    /* ... and the edge's ends are at the leaflet's angle on either side of the middle. */
     static const double leaflet_angle[3] = {61, 58.5, 60.5}, leaflet_radius_out[3] = {1.365, 1.495, 1.38};
     patch_image_place(&set, image, last(cusp, leaflet), end);
     const double to = (angle[cusp] + (set.mirrored[image] ? -1 : 1) * leaflet_angle[cusp]) * degree_in_radians;
@@ -120,7 +120,7 @@ static void power_one_is_a_straight_profile(void **state) {
   patch_set straight;
   CHECK_OK(aortic_patches("right.leaflet_power", 1, &straight));
   const double *q = straight.control + 12 * leaflet;
-  double out[3]; /* distance of the inner control points from the chord, in the plane */
+  double out[3]; /* distance of the inner control points from the chord, in the curve's plane */
   const double dx = q[9] - q[0], dy = q[10] - q[1];
   for (int i = 1; i < 3; ++i) out[i] = (q[3 * i] - q[0]) * dy - (q[3 * i + 1] - q[1]) * dx;
   patch_set_free(&straight);
@@ -139,7 +139,8 @@ static void parameters_that_do_not_go_together_are_refused(void **state) {
   IS_REFUSED("right.leaflet_radius_out", 1e-9, "right.leaflet_radius_out is 1e-09|from 0.05");
   IS_REFUSED("leaflet_radius_in", 129, "right.leaflet_radius_in is 129");
   IS_REFUSED("root_radius", 200, "leaflet_height is 1.02|root_radius, which is 200");
-  /* These values are sound one by one but absurd together. The message names the curve, its reach and its parameters. */
+  /* Each of these values is valid alone, but the combination is absurd. The message names the curve, its extent and its
+   * parameters. */
   IS_REFUSED("leaflet_angle", 5, "left cusp's leaflet curve reaches|leaflet_angle");
   IS_REFUSED("bending_height", 0.06, "right cusp's symmetry curve reaches|bending_height, leaflet_height, xq, zq");
   IS_REFUSED("non_coronary.bending_radius_out", 12, "non_coronary cusp's|reaches");

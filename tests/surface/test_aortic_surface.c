@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The aortic valve as triangles: the published numbers, the shape, the triangles' data, and the placement. */
+ * The triangles of the aortic valve: the published numbers, the shape, the triangles' data, and the placement. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -8,7 +8,8 @@
 
 static void numbers_of_the_model(void **state) {
   (void)state;
-  /* The area and bounds that the model must have. Triangles lie on chords, so both approach from below as the tolerance falls. */
+  /* The area and bounds that the model must have. Triangles lie on chords, so area and bounds approach these from below as the
+   * tolerance falls. */
   const double tolerance[3] = {0.05, 0.005, 0.0005}, area_error[3] = {2e-2, 2e-3, 4e-4};
   double last_area = 0;
   for (int i = 0; i < 3; ++i) {
@@ -43,7 +44,7 @@ static void default_half_thickness_follows_the_scale(void **state) {
   CHECK_SAME(info_of(surface).half_thickness, 0.0005);
 }
 
-/* Checks all data of the triangles, one by one. */
+/* Checks all data of every triangle. */
 static void triangles_carry_patch_leaflet_u_and_v(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -60,7 +61,7 @@ static void triangles_carry_patch_leaflet_u_and_v(void **state) {
   assert_int_equal(n_uv, n_vertices);
   assert_int_equal(n_triangles, info_of(surface).n_triangles);
   assert_int_equal(n_vertices, info_of(surface).n_vertices);
-  assert_true(info_of(surface).n_zero_area >= 6); /* the root point of every half cusp */
+  assert_true(info_of(surface).n_zero_area >= 6); /* triangles at the root points of the half cusps */
   for (int64_t i = 0; i < n_triangles; ++i) {
     double p[3][3], n[3], longest = 0;
     assert_int_equal(triangle_id[i], i);
@@ -72,7 +73,7 @@ static void triangles_carry_patch_leaflet_u_and_v(void **state) {
       assert_true(id >= 0 && id < n_vertices);
       memcpy(p[k], xyz + 3 * id, sizeof p[k]);
       for (int c = 0; c < 2; ++c) assert_true(uv[2 * id + c] >= 0 && uv[2 * id + c] <= 1);
-      /* v = 1 of a top patch is the free edge; v = 0 of a bottom patch the root point's height. */
+      /* v = 1 of a top patch is the free edge. v = 0 of a bottom patch has the root point's height. */
       if (patch_id[i] % 2 == 1 && uv[2 * id + 1] == 1) CHECK_NEAR(p[k][2], 0.02, 1e-12);
       if (patch_id[i] % 2 == 0 && uv[2 * id + 1] == 0) CHECK_NEAR(p[k][2], -1, 1e-12);
     }
@@ -88,7 +89,7 @@ static void triangles_carry_patch_leaflet_u_and_v(void **state) {
     assert_true(sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) > 1e-12 * longest * longest);
   }
   for (int i = 0; i < 12; ++i) assert_true(per_patch[i] > 50);
-  for (int i = 0; i < 12; i += 4) { /* mirror images have as many triangles */
+  for (int i = 0; i < 12; i += 4) { /* mirror images have equally many triangles */
     assert_int_equal(per_patch[i], per_patch[i + 2]);
     assert_int_equal(per_patch[i + 1], per_patch[i + 3]);
   }
@@ -114,7 +115,7 @@ static void normals_point_downstream(void **state) {
       assert_int_equal(below.leaflet_id, cusp);
       assert_int_equal(below.side, -downstream);
     }
-    /* This holds for whole cusps: the area vector of each points outwards and upwards. */
+    /* The same holds for whole cusps: each cusp's area vector points outwards and upwards. */
     double outwards[3] = {0, 0, 0}, upwards[3] = {0, 0, 0};
     const double *xyz = triangles_of(surface).xyz;
     const int64_t n = triangles_of(surface).n_triangles;
@@ -137,14 +138,14 @@ static void normals_point_downstream(void **state) {
   }
 }
 
-/* The same triangles are scaled, then rotated, then moved. */
+/* The triangles are scaled, then rotated, then moved. */
 static void placement_is_applied_last(void **state) {
   (void)state;
   riis_surface_options options = surface_options();
   options.scale = 0.01;
-  options.rotation_axis[0] = 3; /* x, any length */
+  options.rotation_axis[0] = 3; /* the x axis, of any length */
   options.rotation_axis[2] = 0;
-  options.rotation_angle = 90; /* y -> z, z -> -y */
+  options.rotation_angle = 90; /* maps y to z, and z to -y */
   options.translation[0] = 5;
   options.translation[1] = -7;
   options.translation[2] = 11;
@@ -169,10 +170,11 @@ static void three_cusps_are_three_pieces(void **state) {
   const int64_t n = triangles_of(surface).n_triangles;
   const int64_t *id = triangles_of(surface).vertex_id;
   const int32_t *leaflet_id = triangles_of(surface).leaflet_id;
-  /* No vertex of one cusp touches another's: the radii differ at the commissures. Smallest gap at each. */
+  /* No vertex of one cusp touches another cusp, because the radii differ at the commissures. Measures the smallest gap at each
+   * commissure. */
   double gap = INFINITY;
   int32_t *of_vertex = own(malloc((size_t)n_vertices * sizeof *of_vertex));
-  for (int64_t i = 0; i < n_vertices; ++i) of_vertex[i] = -1; /* vertices that only triangles without area had */
+  for (int64_t i = 0; i < n_vertices; ++i) of_vertex[i] = -1; /* marks vertices that only triangles without area had */
   for (int64_t i = 0; i < 3 * n; ++i) of_vertex[id[i]] = leaflet_id[i / 3];
   for (int64_t i = 0; i < n_vertices; ++i)
     for (int64_t j = i + 1; j < n_vertices; ++j)
@@ -186,8 +188,9 @@ static void three_cusps_are_three_pieces(void **state) {
 
 static int compare_edges(const void *a, const void *b) { return memcmp(a, b, 6 * sizeof(double)); }
 
-/* The two halves of each cusp meet in its symmetry plane to the last bit, however the cusp is turned and moved. Every edge there
- * (u = 0 at both ends) belongs to exactly two triangles. Sides depend on this where the cusp is folded. */
+/* The two halves of each cusp meet in its symmetry plane to the last bit, however the cusp is turned and moved. Every edge in
+ * that plane (u = 0 at both ends) belongs to exactly two triangles. The sides of points depend on this where the cusp is
+ * folded. */
 static void halves_meet_to_the_last_bit(void **state) {
   (void)state;
   const double turned[3] = {10, -20, 77}, moved[3] = {0.3, 0.2, -0.1};
@@ -195,7 +198,7 @@ static void halves_meet_to_the_last_bit(void **state) {
   for (int trial = 0; trial < 3; ++trial) {
     const int owned_before = n_owned();
     riis_surface_options options = surface_options();
-    if (trial == 1) { /* as sharply folded as it gets */
+    if (trial == 1) { /* the sharpest fold that the parameters allow */
       CHECK_OK(riis_valve_set_scalar(valve, "leaflet_power", 1));
       CHECK_OK(riis_valve_set_scalar(valve, "bending_power", 1));
       CHECK_OK(riis_valve_set_scalar(valve, "leaflet_angle", 20));
@@ -219,7 +222,7 @@ static void halves_meet_to_the_last_bit(void **state) {
       const int64_t a = id[i], b = id[i % 3 == 2 ? i - 2 : i + 1];
       if (uv[2 * a] != 0 || uv[2 * b] != 0) continue;
       const int swap = memcmp(xyz + 3 * a, xyz + 3 * b, 3 * sizeof *xyz) > 0;
-      for (int c = 0; c < 3; ++c) { /* + 0: no negative zeros */
+      for (int c = 0; c < 3; ++c) { /* + 0 turns -0 into 0 */
         edges[n_edges][c] = xyz[3 * (swap ? b : a) + c] + 0.0;
         edges[n_edges][3 + c] = xyz[3 * (swap ? a : b) + c] + 0.0;
       }
@@ -244,8 +247,8 @@ static void parameters_change_the_surface_and_update_keeps_the_handle(void **sta
   CHECK_OK(riis_valve_create("aortic", &valve));
   CHECK_OK(riis_surface_create(valve, &options, &surface));
   CHECK_NEAR(info_of(surface).lower[2], -2, 1e-12);
-  CHECK_OK(riis_valve_set(valve, "translation", 3, translation)); /* all cusps */
-  CHECK_OK(riis_surface_update(surface, valve, NULL));            /* keeps the scale */
+  CHECK_OK(riis_valve_set(valve, "translation", 3, translation)); /* moves all cusps */
+  CHECK_OK(riis_surface_update(surface, valve, NULL));            /* the update keeps the scale */
   CHECK_NEAR(info_of(surface).lower[2], 8, 1e-12);
   CHECK_OK(riis_valve_set_scalar(valve, "leaflet_height", 1.5));
   CHECK_OK(riis_surface_update(surface, valve, NULL));
@@ -267,7 +270,7 @@ static void parameters_change_the_surface_and_update_keeps_the_handle(void **sta
   assert_null(valve);
 }
 
-/* Every parameter but root_height changes the triangles. All names and defaults of the paper's table exist. */
+/* Every parameter but root_height changes the triangles. All parameters of the paper's table exist, with their defaults. */
 static void every_parameter_by_name(void **state) {
   (void)state;
   static const struct {
@@ -317,7 +320,7 @@ static void every_parameter_by_name(void **state) {
   int64_t n = 0;
   riis_valve *valve = new_valve("aortic");
   CHECK_OK(riis_valve_get_n_parameters(valve, &n));
-  assert_int_equal(n, n_scalars + n_vectors + 1); /* and the opening */
+  assert_int_equal(n, n_scalars + n_vectors + 1); /* + 1 is the opening */
   for (int i = 0; i < n_scalars + n_vectors; ++i) {
     const char *name = i < n_scalars ? table[i].name : vectors[i - n_scalars].name;
     const int n_values = i < n_scalars ? 1 : 3;
@@ -325,7 +328,7 @@ static void every_parameter_by_name(void **state) {
     double values[3];
     CHECK_OK(riis_valve_get(valve, name, n_values, values));
     for (int k = 0; k < n_values; ++k) CHECK_SAME(values[k], expected[k]);
-    /* Changed a little, the surface changes; put back, it is the same again. */
+    /* If a parameter changes a little, the surface changes. If the old value is restored, the surface is the same again. */
     const int owned_before = n_owned();
     riis_surface *before = new_surface(valve, NULL);
     for (int k = 0; k < n_values; ++k) values[k] += 0.01;
@@ -335,7 +338,7 @@ static void every_parameter_by_name(void **state) {
                         info_of(before).upper[2] != info_of(after).upper[2] ||
                         info_of(before).upper[0] != info_of(after).upper[0];
     free_owned_after(owned_before);
-    /* At opening 0 the open state does not matter. */
+    /* At opening 0 the parameters of the open state do not matter. */
     const int matters =
         strcmp(name, "root_height") && strcmp(name, "open_radius_ratio") && strcmp(name, "commissure_expansion");
     if (changed != matters) fail_msg("%s: the surface %s", name, changed ? "changed" : "did not change");

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The shape of the bileaflet valve against its closed form: distances, areas, rims, images, the ring, and what is refused. */
+ * The shape of the bileaflet valve is compared with its closed form: distances, areas, rims, images and the ring. Wrong
+ * parameters are refused. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -34,7 +35,7 @@ static void defaults_are_as_documented(void **state) {
   }
 }
 
-/* At closed angle 0 without a gap, the leaflets are the halves of a disc, and a closed valve is the disc. */
+/* If the closed angle and the gap are 0, the leaflets are the halves of a disc, and the closed valve is that disc. */
 static void half_discs_have_their_distances(void **state) {
   (void)state;
   const double tolerance[3] = {0.05, 1e-3, 1e-5};
@@ -63,10 +64,10 @@ static void half_discs_have_their_distances(void **state) {
     }
     free_owned_after(owned_before);
   }
-  for (int t = 0; t < 3; ++t) assert_true(largest[t] > 0.1); /* the bound is no wild guess */
+  for (int t = 0; t < 3; ++t) assert_true(largest[t] > 0.1); /* the bound must be reached nearly */
 }
 
-/* Half ellipses, slits, any opening. */
+/* Leaflets that are half ellipses, with slits between them, at any opening. */
 static void leaflets_have_their_distances(void **state) {
   (void)state;
   for (int trial = 0; trial < 30; ++trial) {
@@ -119,8 +120,8 @@ static void areas_are_those_of_ellipses(void **state) {
   }
 }
 
-/* The rim of closed leaflets is on the housing, and their middle edges are straight and half a gap from the plane x = 0. A
- * closed valve's x has not been turned, so that it is exactly 0 without a gap. */
+/* The rim of closed leaflets lies on the housing. Their middle edges are straight and half a gap from the plane x = 0. A
+ * closed valve's x was not rotated, so it is exactly 0 if there is no gap. */
 static void closed_leaflets_fill_the_housing(void **state) {
   (void)state;
   for (int trial = 0; trial < 40; ++trial) {
@@ -133,14 +134,14 @@ static void closed_leaflets_fill_the_housing(void **state) {
       const double *p = c.xyz + 3 * i, from_axis = hypot(p[0], p[1]), v = c.uv[2 * i + 1];
       CHECK_AT_MOST(from_axis, of.radius * (1 + 1e-8));
       if (v == 0) CHECK_NEAR(from_axis, of.radius, 1e-8 * of.radius);
-      if (v == 1) CHECK_NEAR(fabs(p[0]), of.gap / 2, 1e-15 * of.gap); /* 0 exactly without a gap */
+      if (v == 1) CHECK_NEAR(fabs(p[0]), of.gap / 2, 1e-15 * of.gap); /* exactly 0 if there is no gap */
       CHECK_NEAR(p[2], of.hinge_height + (fabs(p[0]) - of.hinge_offset) * slope, 1e-13 * (1 + slope) * (1 + of.radius));
     }
     free_owned_after(owned_before);
   }
 }
 
-/* Four images of one half leaflet, in the order of patches. Closed leaflets without a gap meet in the same bits. */
+/* The patches are four images of one half leaflet. Closed leaflets without a gap meet in the same bits. */
 static void images_are_images(void **state) {
   (void)state;
   static const double sign[4][2] = {{1, 1}, {1, -1}, {-1, -1}, {-1, 1}};
@@ -164,7 +165,7 @@ static void images_are_images(void **state) {
   }
 }
 
-/* The corners of the middle edges leave the housing as the leaflets open: docs/theory.md, section 14. */
+/* As the leaflets open, the corners of their middle edges leave the housing: docs/theory.md, section 14. */
 static void open_leaflets_reach_beyond_the_housing(void **state) {
   (void)state;
   for (int trial = 0; trial < 20; ++trial) {
@@ -179,7 +180,7 @@ static void open_leaflets_reach_beyond_the_housing(void **state) {
     const double expected = sqrt(of.radius * of.radius + h * h * (1 - q) / (1 + q));
     double farthest = 0;
     for (int64_t i = 0; i < c.n_vertices; ++i) farthest = fmax(farthest, hypot(c.xyz[3 * i], c.xyz[3 * i + 1]));
-    /* Vertices are within the bound of the outline, and the farthest point may be between two of them. */
+    /* Vertices are within the error bound of the outline, and the outline's farthest point may be between two vertices. */
     CHECK_AT_MOST(farthest, expected + 1e-8 * of.radius);
     CHECK_NEAR(farthest, expected, 20 * info_of(surface).error_bound);
     if (!trial) CHECK_NEAR(farthest / of.radius, 1.016, 5e-4);
@@ -196,7 +197,8 @@ static void area_vector(const riis_triangles *c, int64_t triangle, double *norma
   for (int k = 0; k < 3; ++k) normal[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
-/* Every triangle's normal is that of its plane, which points downstream on the closed valve and to the axis on the open one. */
+/* Every triangle's normal is its plane's normal. It points downstream on the closed valve, and towards the axis on the open
+ * one. */
 static void normals_point_downstream(void **state) {
   (void)state;
   for (int trial = 0; trial < 20; ++trial) {
@@ -214,7 +216,7 @@ static void normals_point_downstream(void **state) {
       CHECK_NEAR(n[1] / size, 0, 1e-6);
       CHECK_NEAR(n[2] / size, cos(angle), 1e-6);
     }
-    assert_int_equal(info_of(surface).n_zero_area, 4); /* at the corner of every half leaflet */
+    assert_int_equal(info_of(surface).n_zero_area, 4); /* one at the corner of every half leaflet */
     free_owned_after(owned_before);
   }
   riis_surface *closed = surface_of_kind("bileaflet", NULL);
@@ -224,7 +226,7 @@ static void normals_point_downstream(void **state) {
   assert_int_equal(closest_to(closed, -0.5, 0.3, -0.5).leaflet_id, RIIS_LEAFLET_NEGATIVE);
 }
 
-/* The ring is a cylinder that stays, half of it on each side of the orifice plane, and closed in itself. */
+/* The ring is a closed cylinder that does not move, half of it on each side of the orifice plane. */
 static void a_ring_is_the_housing(void **state) {
   (void)state;
   for (int trial = 0; trial < 10; ++trial) {
@@ -268,8 +270,8 @@ static void a_ring_is_the_housing(void **state) {
   }
 }
 
-/* Arcs are cubic curves, and so not quite round: a surface whose tolerance is as small as that deviation is refused, and the
- * bound of others has it. */
+/* Arcs are approximated by cubic curves and deviate from circles. The error bound includes this deviation. A tolerance as
+ * small as the deviation is refused. */
 static void the_bound_counts_that_arcs_are_cubics(void **state) {
   (void)state;
   riis_valve *valve = new_valve("bileaflet");
@@ -294,7 +296,7 @@ static void the_bound_counts_that_arcs_are_cubics(void **state) {
   CHECK_AT_MOST(bound, 4e-9);
 }
 
-/* One parameter that does not go together with the defaults of the others. */
+/* Expects that one value is refused because it does not fit the defaults of the other parameters. */
 static void expect_refused(const char *name, double value, const char *parts) {
   riis_valve *valve = new_valve("bileaflet");
   riis_surface *surface = NULL;

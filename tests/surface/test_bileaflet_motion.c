@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The bileaflet valve as it opens: velocities against rotations in closed form, whether it seals, fixed triangles, second
- * states, copies. */
+ * The bileaflet valve as it opens. Velocities are compared with rotations in closed form. Other tests cover sealing, fixed
+ * triangles, second states and copies. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -31,7 +31,7 @@ static void moving_update(riis_surface *surface, riis_valve *valve, double now, 
   free_one_owned(earlier);
 }
 
-/* The mean velocity of the point of a leaflet that is at p now. */
+/* Gives the mean velocity, over the step, of the leaflet's point that is at p now. */
 static void chord_velocity(const bileaflet *of, int32_t leaflet_id, const double *p, double now, double before,
                            double seconds, double *velocity) {
   double q[3];
@@ -39,7 +39,7 @@ static void chord_velocity(const bileaflet *of, int32_t leaflet_id, const double
   for (int c = 0; c < 3; ++c) velocity[c] = (p[c] - q[c]) / seconds;
 }
 
-/* omega x r at p, where omega is along -y for the leaflet at x > 0: its rim goes downstream as it opens. */
+/* Gives omega x r at p. For the leaflet at x > 0, omega is along -y: its rim goes downstream as the valve opens. */
 static void spin_velocity(const bileaflet *of, int32_t leaflet_id, const double *p, double angular_speed,
                           double *velocity) {
   double r[3] = {p[0], p[1], p[2]};
@@ -91,18 +91,19 @@ static void vertices_and_closest_points_turn_exactly(void **state) {
     assert_int_equal(found.n, n_points);
     for (int64_t i = 0; i < n_points; ++i) {
       if (found.leaflet_id[i] == RIIS_LEAFLET_HOUSING) continue;
-      /* Leaflets that are equally near give a mean: test_ties. Rounding decides ties that are not clear. */
+      /* If leaflets are equally near, the velocity is their mean (test_ties). Ties that rounding decides are skipped. */
       const tied_velocity tied = tied_velocity_at(&c, velocity, xyz + 3 * i, found.distance[i], half_thickness);
       if (tied.n_leaflets > 1 || !tied.is_clear) continue;
       chord_velocity(&of, found.leaflet_id[i], fields.point + 3 * i, now, before, seconds, expected);
-      /* Equally near patches of one leaflet also give a mean. Beside a seam their closest points lie apart. */
+      /* If patches of one leaflet are equally near, the velocity is also a mean. Their closest points may lie apart, next to a
+       * seam. */
       CHECK_AT_MOST(distance(tied.n_places > 1 ? tied.mean : expected, fields.velocity + 3 * i), 10 * rounding);
     }
     free_owned_after(owned_before);
   }
 }
 
-/* The largest difference from omega x r over a step of the opening. */
+/* Returns the largest difference from omega x r over a step of the opening. */
 static double from_spin(const bileaflet *of, riis_valve *valve, riis_surface *surface, double opening, double step) {
   const double per_opening =
       degree * (of->open_angle - of->closed_angle); /* radians a second, if the opening rises by 1 a second */
@@ -118,7 +119,8 @@ static double from_spin(const bileaflet *of, riis_valve *valve, riis_surface *su
   return largest;
 }
 
-/* A backward difference is of first order: its error is the step times half the acceleration, omega^2 |r|. */
+/* The velocity is a backward difference, which is of first order. Its error is half the step times the acceleration, omega^2
+ * |r|. */
 static void velocities_tend_to_omega_cross_r(void **state) {
   (void)state;
   const bileaflet of = bileaflet_defaults();
@@ -130,13 +132,13 @@ static void velocities_tend_to_omega_cross_r(void **state) {
     const double opening = 0.25 * i;
     for (double step = 0.1; step > 1e-4; step /= 10) {
       const double error = from_spin(&of, valve, surface, opening, step);
-      /* The chord of the angle a = omega step, over the step, is off by omega a / 2 for each unit of radius, to second order. */
+      /* A chord of the angle a = omega step, divided by the step, is off by omega a / 2 per unit of radius, to second order. */
       CHECK_NEAR(error / (0.5 * omega * omega * farthest * step), 1, 0.01 * step + 1e-6);
     }
   }
 }
 
-/* Flood fill from the lowest layer over nodes that are not marked, inside the housing. Returns 1 if it reaches the top. */
+/* Fills from the lowest layer of grid nodes inside the housing, over unmarked nodes. Returns 1 if the fill reaches the top. */
 static int leaks(const bileaflet *of, double spacing, double half_thickness) {
   const int owned_before = n_owned();
   const double height = of->radius * (1.2 + tan(degree * of->closed_angle)) + fabs(of->hinge_height);
@@ -171,8 +173,8 @@ static int leaks(const bileaflet *of, double spacing, double half_thickness) {
   return has_leaked;
 }
 
-/* An edge of the grid that crosses a leaflet has an end within half its length. So a half thickness of 0.55 of the spacing seals:
- * half of the spacing, plus the tolerance. */
+/* If an edge of the grid crosses a leaflet, one of its ends is within half its length. So a half thickness of 0.55 spacings
+ * seals: half a spacing plus the tolerance. */
 static void a_closed_valve_seals_its_housing(void **state) {
   (void)state;
   static const double angle[4] = {0, 25, 30, 45};
@@ -183,7 +185,7 @@ static void a_closed_valve_seals_its_housing(void **state) {
     of.hinge_height = trial < 4 ? 0 : random_between(&rng, -0.3, 0.3);
     const double spacing = 2.2 / random_between(&rng, 50, 60);
     assert_false(leaks(&of, spacing, 0.55 * spacing));
-    /* A slit of four spacings leaks, and so does a valve that is open by three tenths. */
+    /* A slit of four spacings leaks, and so does a valve at opening 0.3. */
     of.gap = 4 * spacing;
     assert_true(leaks(&of, spacing, 0.55 * spacing));
     of.gap = 0, of.opening = 0.3;
@@ -191,7 +193,7 @@ static void a_closed_valve_seals_its_housing(void **state) {
   }
 }
 
-/* Returns 1 if the closest point is on the rim, else 0. */
+/* Returns 1 if the closest point is on the rim, or else 0. */
 static int rim_at(const riis_surface *surface, const double *p) {
   riis_mark_options mark = mark_options();
   mark.fields = RIIS_FIELD_RIM | RIIS_FIELD_SIDE;
@@ -204,7 +206,7 @@ static int rim_at(const riis_surface *surface, const double *p) {
   return fields.rim[0];
 }
 
-/* Closed leaflets meet in an edge that is no rim, so that a cut band has no slit there. */
+/* Where closed leaflets meet, their edge is not a rim, so a band that is cut at rims has no slit there. */
 static void leaflets_that_meet_have_no_rim_there(void **state) {
   (void)state;
   bileaflet of = bileaflet_defaults();
@@ -218,7 +220,7 @@ static void leaflets_that_meet_have_no_rim_there(void **state) {
     assert_int_equal(rim_at(closed, (double[3]){0, y, z}), 0);
     assert_int_equal(closest_to(closed, 0, y, z).side, -1);
     assert_int_equal(rim_at(closed, (double[3]){random_between(&rng, 0.3, 0.8), 0, 0.3}), 0);
-    /* The ring has no seam where its quarters meet, only a rim above and below. */
+    /* The ring's quarters meet without a rim. Only its upper and lower edges are rims. */
     assert_int_equal(rim_at(closed, (double[3]){1.3 * cos(around), 1.3 * sin(around), 0.1}), 0);
     assert_int_equal(rim_at(closed, (double[3]){1.3 * cos(around), 1.3 * sin(around), i % 2 ? -0.3 : 0.3}), 1);
     of.gap = 0.01;
@@ -262,7 +264,8 @@ static void fixed_triangles_stay(void **state) {
   }
 }
 
-/* A second state moves all numbers: the outline's, and the angle from one's closed angle to the other's open angle. */
+/* A second state changes all numbers: the outline's numbers, and the angle, which goes from the first state's closed angle to
+ * the second state's open angle. */
 static void numbers_blend_to_a_second_state(void **state) {
   (void)state;
   for (int trial = 0; trial < 10; ++trial) {
@@ -283,7 +286,7 @@ static void numbers_blend_to_a_second_state(void **state) {
     for (int i = 0; i < n_bileaflet_fields; ++i)
       memcpy((char *)&between + bileaflet_fields[i].at,
              &(double){(1 - s) * *bileaflet_field(&from, i) + s * *bileaflet_field(&to, i)}, sizeof(double));
-    /* The oracle's angle goes from its closed to its open angle; its outline follows its closed angle. */
+    /* The oracle's angle goes from its closed to its open angle, and its outline depends on the closed angle. */
     const double angle = (1 - s) * from.closed_angle + s * to.open_angle;
     between.open_angle = 90;
     between.opening = (angle - between.closed_angle) / (90 - between.closed_angle);
@@ -313,7 +316,7 @@ static void second_states_are_refused(void **state) {
                 riis_valve_set_open_state(valve, open));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "ring_height is 0 in the valve and 0.5 in valve_before",
                 riis_surface_update_moving(surface, valve, open, 1, NULL, NULL));
-  /* The ring may go after the second state was set. */
+  /* The open state's ring may be removed after the second state was set. */
   CHECK_OK(riis_valve_set_scalar(open, "ring_height", 0));
   CHECK_OK(riis_valve_set_open_state(valve, open));
   CHECK_OK(riis_valve_set_scalar(valve, "ring_height", 0.5));

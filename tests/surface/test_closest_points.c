@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Closest points through the Embree scene, compared with the independent oracle and with plain loops, for every triangle, place
- * and limit. */
+ * Closest points through the Embree scene, compared with the independent oracle and with plain loops, for every triangle,
+ * placement and limit. */
 #include <riis/riis.h>
 
 #include "oracle.h"
@@ -35,7 +35,7 @@ static void aortic_valve_equals_the_oracle(void **state) {
   riis_surface_options options = surface_options();
   for (int trial = 0; trial < 4; ++trial) {
     const int owned_before = n_owned();
-    /* Near the origin, 300 cm away, in metres and turned. */
+    /* The surface is near the origin, 300 cm away, in metres, or turned. */
     options.scale = trial < 2 ? 1 : 0.01;
     options.rotation_angle = 77 * trial;
     for (int c = 0; c < 3; ++c) options.translation[c] = trial % 2 ? random_between(&rng, -300, 300) : 0;
@@ -64,7 +64,7 @@ static void random_soups_equal_the_oracle(void **state) {
   }
 }
 
-/* Points so far away that single precision does not separate the triangles. */
+/* The points are so far away that single precision does not separate the triangles. */
 static void far_points_equal_the_oracle(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -79,7 +79,8 @@ static void far_points_equal_the_oracle(void **state) {
   }
 }
 
-/* A grid of coplanar, repeated and mirrored triangles has equal distances everywhere. The lowest id wins, whatever the order. */
+/* A grid of coplanar, repeated and mirrored triangles gives equal distances everywhere. The lowest id must win, whatever the
+ * order. */
 static void ties_go_to_the_lowest_id(void **state) {
   (void)state;
   enum { copies = 50 };
@@ -135,7 +136,7 @@ static void batches_equal_single_queries(void **state) {
       assert_int_equal(side[i], one.side);
     }
   }
-  /* With a limit, near points are unchanged and far points are marked as far. */
+  /* With a limit, results of near points are unchanged, and far points are marked as far. */
   options.distance_limit = 0.3;
   options.far_distance = -5;
   static double limited[n];
@@ -156,11 +157,11 @@ static void batches_equal_single_queries(void **state) {
   options.far_distance = RIIS_FAR_DISTANCE;
   CHECK_OK(closest_points_of(surface, n, x, y, z, 1, &options, &few));
   assert_memory_equal(limited, distance, sizeof limited);
-  CHECK_OK(closest_points_of(surface, 0, NULL, NULL, NULL, 1, NULL, &few)); /* nothing to do */
+  CHECK_OK(closest_points_of(surface, 0, NULL, NULL, NULL, 1, NULL, &few)); /* n = 0: nothing to do */
 }
 
-/* The results of a single query fit together: the point is on the triangle and at the distance, the normal is the triangle's, and
- * the side is the sign of the height. */
+/* The results of a single query are consistent: the point is on the triangle and at the distance, the normal is the
+ * triangle's, and the side is the sign of the height. */
 static void closest_is_consistent(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -185,7 +186,7 @@ static void closest_is_consistent(void **state) {
     }
     CHECK_NEAR(c.distance, sqrt(distance_sq), 1e-15);
     CHECK_NEAR(unit, 1, 1e-14);
-    /* Above the inside of a triangle, the line to the closest point runs along the normal. */
+    /* If the closest point is inside a triangle, the line to it runs along the normal. */
     if (c.barycentric[0] > 1e-6 && c.barycentric[1] > 1e-6 && c.barycentric[2] > 1e-6 && c.distance > 1e-6) {
       CHECK_NEAR(fabs(height), c.distance, 1e-9);
       assert_int_equal(c.side, height > 0 ? 1 : -1);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The log warns of leaflets that go through each other: once for each shape that the user chose. The test compares the warnings
- * with the pairs of riis_find_crossings. Without a log function nobody searches, which the allocations show. */
+ * The log warns of leaflets that go through each other: once for each shape that the user chose. The test compares the
+ * warnings with the pairs of riis_find_crossings. If no log function is set, the library does not search; the number of
+ * allocations shows this. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -9,14 +10,14 @@
 #include "handles.h"
 #include "sanitized.h"
 
-/* These functions replace operator new for the process, because an executable's symbols go before those of the libraries. A
- * sanitizer's allocator must be the only one. */
+/* These functions replace operator new for the process, because an executable's symbols take precedence over those of
+ * libraries. Sanitizers are left out, because their allocator must be the only one. */
 static int64_t n_allocations;
 #ifndef IS_SANITIZED
 void *new_one(size_t size) __asm__("_Znwm");
 void *new_one(size_t size) {
   void *p = malloc(size ? size : 1);
-  if (!p) abort(); /* C cannot throw */
+  if (!p) abort(); /* C cannot throw, so this aborts */
   __atomic_fetch_add(&n_allocations, 1, __ATOMIC_RELAXED);
   return p;
 }
@@ -55,7 +56,7 @@ static void update(riis_surface *surface, const riis_valve *valve) {
   CHECK_OK(riis_surface_update(surface, valve, NULL));
 }
 
-/* Checks that the last warning has the numbers of the search. */
+/* Checks that the last warning has the numbers of a search by riis_find_crossings. */
 static void expect_pairs_of(riis_surface *surface) {
   riis_crossing_list found;
   char part[64];
@@ -84,7 +85,7 @@ static void a_shape_is_named_once(void **state) {
       CHECK_OK(riis_surface_update_moving(surface, valve, valve, 0.1, NULL, NULL));
   }
   assert_int_equal(warnings.n, 1);
-  /* The shape is another one, then the first again. A copy is the same shape. */
+  /* The shape changes, and then changes back. A copy of the valve has the same shape. */
   set(valve, "opening", 0);
   set(valve, "leaflet_height", 1.29);
   update(surface, valve);
@@ -96,12 +97,12 @@ static void a_shape_is_named_once(void **state) {
   own(copy);
   update(surface, copy);
   assert_int_equal(warnings.n, 2);
-  /* Another surface has not searched yet. */
+  /* A new surface has not searched yet. */
   new_surface(valve, NULL);
   assert_int_equal(warnings.n, 3);
 }
 
-/* A valve that begins open closes later. Each range of the opening is searched until a crossing is found. */
+/* A valve that is open at first closes later. Each new range of the opening is searched until a crossing is found. */
 static void a_valve_that_begins_open_is_named(void **state) {
   (void)state;
   riis_valve *valve = new_valve("trileaflet");
@@ -118,8 +119,8 @@ static void a_valve_that_begins_open_is_named(void **state) {
 
 static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet"};
 
-/* Default shapes do not cross at any opening. Neither do other sound shapes: the closed mitral leaflets touch, and their fixed
- * triangles go through each other by less than leaflets that cross. */
+/* Default shapes do not cross at any opening. Neither do other sound shapes. Closed mitral leaflets touch. Their fixed
+ * triangles go through each other by less than the depth that counts as a crossing. */
 static void sound_shapes_are_not_named(void **state) {
   (void)state;
   for (int kind = 0; kind < 4; ++kind)
@@ -140,7 +141,7 @@ static void sound_shapes_are_not_named(void **state) {
   riis_crossing_list found;
   CHECK_OK(find_crossings_in(surface, NULL, &found));
   assert_true(found.n_pairs > 0);
-  /* Hinges reach into the housing. */
+  /* A bileaflet valve's hinges reach into its housing. */
   valve = new_valve("bileaflet");
   set(valve, "ring_height", 0.5);
   set(valve, "opening", 0.5);
@@ -150,7 +151,8 @@ static void sound_shapes_are_not_named(void **state) {
   assert_int_equal(warnings.n, 0);
 }
 
-/* One unit square lies at z = 0, and an upright one at y = 0.5 cuts through it. Both are of one leaflet, or each has its own. */
+/* One unit square lies at z = 0. An upright one at y = 0.5 cuts through it. Both belong to one leaflet, or each is a leaflet
+ * of its own. */
 static void patches_are_a_shape_of_the_user(void **state) {
   (void)state;
   for (int32_t second = 0; second < 2; ++second) {
@@ -177,7 +179,7 @@ static void patches_are_a_shape_of_the_user(void **state) {
   }
 }
 
-/* The state to open to is a part of the shape. */
+/* The open state is a part of the shape. */
 static void an_open_state_makes_another_shape(void **state) {
   (void)state;
   riis_valve *valve = new_valve("trileaflet"), *open = new_valve("trileaflet");
@@ -190,7 +192,7 @@ static void an_open_state_makes_another_shape(void **state) {
   assert_int_equal(warnings.n, 2);
 }
 
-/* Counts the allocations of ten updates, each of another shape, in a surface that has made room. */
+/* Counts the allocations of ten updates to different shapes, in a surface that has already allocated its memory. */
 static int64_t allocations_of_updates(double height) {
   riis_valve *valve = new_valve("trileaflet");
   riis_surface *surface = new_surface(valve, NULL);
@@ -218,7 +220,7 @@ static void nobody_searches_in_silence(void **state) {
 #ifndef IS_SANITIZED
   assert_true(heard_all > in_silence + 10);
 #endif
-  /* A log function that is set later gets the warning of a shape that was there before. */
+  /* A log function that is set later gets the warning about an earlier shape. */
   riis_set_log(NULL, NULL);
   riis_valve *valve = new_valve("trileaflet");
   set(valve, "leaflet_height", 1.3);

@@ -14,8 +14,8 @@ static double distance_between(const double *p, const double *q) {
   return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]);
 }
 
-/* Makes patches from the control points of their curves v = 0 and v = 1, patch after patch. Their curves u = 0 and u = 1 are
- * straight. */
+/* Makes patches from the control points of their curves v = 0 and v = 1, one patch after the other. The curves u = 0 and u = 1
+ * are straight. */
 static riis_valve *patches_between(int32_t n_patches, int32_t degree, const double *v0_and_v1) {
   enum { most = 2 };
   int32_t degrees[4 * most], sides[4 * most], leaflet_ids[most];
@@ -46,7 +46,7 @@ static riis_valve *patches_between(int32_t n_patches, int32_t degree, const doub
   return own(valve);
 }
 
-/* [0,2] x [0,1] in z = 0. */
+/* The rectangle [0,2] x [0,1] in z = 0. */
 static riis_valve *rectangle(void) {
   const double sides[12] = {0, 0, 0, 2, 0, 0, 0, 1, 0, 2, 1, 0};
   return patches_between(1, 1, sides);
@@ -57,7 +57,7 @@ static double distance_to_rectangle(const double *p) {
   return hypot(hypot(x, y), p[2]);
 }
 
-/* A cylinder over a plane curve that turns by less than half a circle, from y = 0 to y = 1. */
+/* A cylinder over a plane curve, from y = 0 to y = 1. The curve turns by less than half a circle. */
 static const double profile[12] = {-1, 0, 0, -0.4, 0, 0.8, 0.5, 0, 0.7, 1, 0, -0.1};
 
 static riis_valve *cylinder(void) {
@@ -73,7 +73,8 @@ static double distance_to_profile(const double *p, double t) {
   return hypot(x, z);
 }
 
-/* Follows every minimum of a fine net. Near the middle between two minima, the least of the net need not lead to the true one. */
+/* Follows every local minimum of a fine net of samples. Near the middle between two minima, the net's least sample may lead to
+ * the wrong one. */
 static double distance_to_cylinder(const double *p) {
   enum { n = 400 };
   double at[n + 1], nearest = INFINITY;
@@ -102,7 +103,7 @@ static riis_surface *measured(const riis_valve *valve, int32_t distance, double 
   return new_surface(valve, &options);
 }
 
-/* A hairpin that leans as v grows. At the middle of v the arm at x = 1 is nearest to the point. At v = 1 the other arm is
+/* A hairpin that leans as v grows. At the middle of v its arm at x = 1 is nearest to the point. At v = 1 the other arm is
  * nearest. */
 static const double between_arms[3] = {0.2, 1, 1};
 static riis_valve *hairpin(void) {
@@ -115,7 +116,7 @@ static void random_point(random_source *rng, const riis_surface *surface, double
   for (int c = 0; c < 3; ++c) p[c] = random_between(rng, info.lower[c] - margin, info.upper[c] + margin);
 }
 
-/* A point of the surface's triangles. */
+/* Gives a random point of the surface's triangles. */
 static void random_point_on(random_source *rng, const riis_surface *surface, double *p) {
   const riis_triangles all = triangles_of(surface);
   const int64_t *id = all.vertex_id + 3 * (random_bits(rng) % (uint64_t)all.n_triangles);
@@ -125,7 +126,7 @@ static void random_point_on(random_source *rng, const riis_surface *surface, dou
     p[c] = (1 - a - b) * all.xyz[3 * id[0] + c] + a * all.xyz[3 * id[1] + c] + b * all.xyz[3 * id[2] + c];
 }
 
-/* Checks properties of an answer that hold for both methods and any surface. */
+/* Checks properties of an answer that hold for both methods and for any surface. */
 static void check_answer(const riis_closest *answer, const double *p) {
   CHECK_NEAR(answer->distance, distance_between(p, answer->point), 1e-14 * (1 + answer->distance));
   assert_int_equal(answer->triangle_id, -1);
@@ -135,12 +136,12 @@ static void check_answer(const riis_closest *answer, const double *p) {
   if (size != 0) CHECK_NEAR(size, 1, 1e-14);
 }
 
-/* Distances that are known up to an error of `known_to`. The points are in a box or at the surface, where the error of samples is
- * largest. */
+/* A surface whose distances are known up to an error of `known_to`. Query points are in a box, or near the surface, where the
+ * error of samples is largest. */
 typedef struct reference {
   const char *name;
   riis_valve *valve;
-  double (*distance)(const double *p); /* NULL: the distance to `fine` */
+  double (*distance)(const double *p); /* if NULL, the distance to `fine` is used */
   riis_surface *fine;
   double known_to;
 } reference;
@@ -197,8 +198,8 @@ static void sampling_is_within_its_bound(void **state) {
     }
 }
 
-/* The rule gives the number of samples: on a rectangle they form squares with half the diagonal equal to the bound. No more
- * samples are made, so points between them reach the bound. */
+/* The rule gives the number of samples. On a rectangle they form squares whose half diagonal equals the bound, so points
+ * between them reach the bound. */
 static char last_message[512];
 static void keep_message(void *user_data, int32_t level, const char *message) {
   (void)user_data, (void)level;
@@ -209,7 +210,8 @@ static void samples_are_as_many_as_the_rule_says(void **state) {
   (void)state;
   riis_valve *valve = rectangle();
   riis_set_log(keep_message, NULL);
-  riis_surface *surface = measured(valve, RIIS_MEASURE_SAMPLING, 0.5); /* 0.05, steps of sqrt(2) 0.05 */
+  /* The tolerance is 0.05, so the steps are sqrt(2) 0.05. */
+  riis_surface *surface = measured(valve, RIIS_MEASURE_SAMPLING, 0.5);
   riis_set_log(NULL, NULL);
   assert_string_equal(last_message, "distances by sampling: 480 samples of 1 patches"); /* (29 + 1) (15 + 1) */
   const double step[2] = {2.0 / 29, 1.0 / 15};
@@ -222,7 +224,7 @@ static void samples_are_as_many_as_the_rule_says(void **state) {
   assert_int_equal(answer.leaflet_id, 7);
 }
 
-/* The tree of boxes leaves out no sample: the nearest of all is found, and the first of equally near ones. */
+/* The tree of boxes misses no sample: the nearest sample is found, and the first of several equally near ones. */
 static void nearest_samples_are_found(void **state) {
   (void)state;
   random_source rng = random_start("nearest_samples_are_found");
@@ -236,7 +238,7 @@ static void nearest_samples_are_found(void **state) {
       double p[3];
       random_point(&rng, surface, pow(10, random_between(&rng, -2, 4)), p);
       if (n % 10 == 0) memcpy(p, xyz + 3 * (random_bits(&rng) % (uint64_t)n_samples), sizeof p);
-      /* Samples of the rectangle are 1/16 apart, so this point is equally near to four. */
+      /* The rectangle's samples are 1/16 apart, so this point is equally near to four samples. */
       for (int c = 0; c < 2 && of == 0; ++c) p[c] = (double)(2 * (random_bits(&rng) % 16) + 1) / 32;
       double least = INFINITY;
       int64_t nearest = -1;
@@ -253,7 +255,7 @@ static void nearest_samples_are_found(void **state) {
   }
 }
 
-/* The distances of two points differ by at most the distance between them. The neighbour search's proof rests on this. */
+/* The distances of two points differ by at most the distance between the points. The neighbour search's proof relies on this. */
 static void sampling_is_lipschitz(void **state) {
   (void)state;
   random_source rng = random_start("sampling_is_lipschitz");
@@ -277,7 +279,7 @@ static double outside(double u, double v) { return (u + 1) * (u + 1) + (v - 2) *
 static double on_a_side(double u, double v) { return 1 + (u - 2) * (u - 2) + 3 * (v - u / 4) * (v - u / 4); }
 static double flat(double u, double v) { return u * 0 + v * 0 + 2; }
 
-/* Minima inside, where the directions have to turn, at a corner and on a side are found exactly. */
+/* Powell's method finds minima exactly: inside the square, where its directions must turn, at a corner and on a side. */
 static void powell_finds_minima(void **state) {
   (void)state;
   const struct {
@@ -298,12 +300,12 @@ static void powell_finds_minima(void **state) {
   }
 }
 
-/* Minimisation never gives too small a distance. It is right on a rectangle, where the square of the distance has one minimum.
- * Elsewhere it may end in a local minimum: most answers are right, and the test prints how many are not. */
+/* Minimisation never gives a distance that is too small. It is exact on a rectangle, where the squared distance has one
+ * minimum. Elsewhere it may end in a local minimum. Most answers are right, and the test prints how many are wrong. */
 static void minimisation_is_never_below(void **state) {
   (void)state;
   random_source rng = random_start("minimisation_is_never_below");
-  const double tolerances[] = {0.01, 0.001}; /* the paper's */
+  const double tolerances[] = {0.01, 0.001}; /* the tolerances of the paper */
   for (int i = 0; i < n_references; ++i)
     for (int k = 0; k < 2; ++k) {
       const int owned_before = n_owned();
@@ -334,7 +336,8 @@ static void minimisation_is_never_below(void **state) {
     }
 }
 
-/* The known failure: from the middle the search goes to the wrong arm and stays there. The distance and the mark are wrong. */
+/* A known failure: from the middle the search goes to the wrong arm of the hairpin and stays there. The distance and the mark
+ * are wrong. */
 static void minimisation_ends_in_local_minima(void **state) {
   (void)state;
   riis_valve *valve = hairpin();
@@ -362,10 +365,10 @@ static void minimisation_ends_in_local_minima(void **state) {
   assert_int_equal(n_marked[RIIS_MEASURE_MINIMIZATION], 0);
 }
 
-/* The patch with the nearest box need not have the nearest point. Here that box holds the query's point. */
+/* The patch with the nearest box may not have the nearest point. Here that box contains the query's point. */
 static void all_near_patches_are_asked(void **state) {
   (void)state;
-  /* A slope through [0,1]^3, and a floor below it. */
+  /* A slope through [0,1]^3, and a floor below the slope. */
   const double sides[24] = {0, 0, 0, 1, 0, 1, 0, 1, 0, 1, 1, 1, 0, 0, -0.3, 1, 0, -0.3, 0, 1, -0.3, 1, 1, -0.3};
   riis_valve *valve = patches_between(2, 1, sides);
   riis_surface *surface = measured(valve, RIIS_MEASURE_MINIMIZATION, 0.001);
@@ -376,7 +379,7 @@ static void all_near_patches_are_asked(void **state) {
   assert_int_equal(above.leaflet_id, 7);
 }
 
-/* Surfaces are placed, turned over or mirrored. The normals are the triangles', and distances are in proportion to the scale. */
+/* Surfaces are placed, flipped or mirrored. The normals are the triangles', and distances are proportional to the scale. */
 static void placement_and_normals(void **state) {
   (void)state;
   random_source rng = random_start("placement_and_normals");
@@ -403,7 +406,7 @@ static void placement_and_normals(void **state) {
         const double cosine = a.normal[0] * b.normal[0] + a.normal[1] * b.normal[1] + a.normal[2] * b.normal[2];
         n_same += a.leaflet_id == b.leaflet_id && cosine > 0.9 && b.distance <= 0.04 * 1.0;
       }
-      CHECK_AT_MOST(0.95 * n_points, n_same); /* but for some beside the bending curves */
+      CHECK_AT_MOST(0.95 * n_points, n_same); /* except for some points next to the bending curves */
       free_owned_after(owned_before);
     }
 }
@@ -441,7 +444,7 @@ static void searches_agree(void **state) {
         riis_marks *expected = new_result(), *result = new_result();
         mark(surface, mesh, RIIS_SEARCH_EXHAUSTIVE, 1, limit, which, expected);
         assert_int_equal(stats_of(expected).instructions, RIIS_INSTRUCTIONS_BASELINE);
-        /* One query per node gives the expected result. */
+        /* A query of every node gives the expected result. */
         const found_nodes within = within_in(expected);
         const double farthest = limit < 0 ? half_thickness : limit;
         int64_t n = 0;
@@ -458,8 +461,8 @@ static void searches_agree(void **state) {
         assert_int_equal(n, within.n);
         assert_true(marked_in(expected).n > 50 && marked_in(expected).n < nodes.n / 2);
         for (int32_t n_threads = 1; n_threads <= 3; ++n_threads) {
-          /* The first marking starts anew, and the second starts from the last marked nodes. The third leaves the search to the
-           * library. */
+          /* The first marking starts without marks, and the second starts from the last marked nodes. In the third, the
+           * library chooses the search. */
           for (int repeat = 0; repeat < 2; ++repeat) {
             mark(surface, mesh, RIIS_SEARCH_NEIGHBOR, n_threads, limit, which, result);
             assert_true(same_results(expected, result));
@@ -486,8 +489,8 @@ static void searches_agree(void **state) {
     }
 }
 
-/* Two nodes lie in a ball. From the ball's middle, minimisation goes to the wrong arm, at twice the distance of the ball's
- * radius. This must not dismiss the node that minimisation finds near. */
+/* Two nodes form a ball. From the ball's middle, minimisation goes to the wrong arm, at a distance of twice the ball's radius.
+ * The search must not dismiss the node that minimisation itself finds near. */
 static void local_minima_dismiss_no_group(void **state) {
   (void)state;
   const double xyz[6] = {-0.1, 1, 0.9, 0.6, 1, 0.9};
@@ -507,7 +510,7 @@ static void local_minima_dismiss_no_group(void **state) {
   assert_true(marked.n == 1 && marked.node_id[0] == 0);
 }
 
-/* Batches give the results of single points, for any number of threads, and mark far points as far. */
+/* Batches give the results of single points, for any number of threads, and report far points as far. */
 static void batches_agree(void **state) {
   (void)state;
   random_source rng = random_start("batches_agree");
@@ -564,12 +567,12 @@ static void what_has_no_meaning_is_refused(void **state) {
 
   riis_valve *valve = rectangle();
   surface = measured(valve, RIIS_MEASURE_SAMPLING, 0.1);
-  /* The options that the surface keeps are refused for arrays, and leave the surface as it was. */
+  /* Options that only a valve's surface uses are refused for arrays, and leave the surface as it was. */
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.measure is 1",
                 riis_surface_update_from_arrays(surface, &triangle, NULL));
   options = surface_options();
   options.measure = RIIS_MEASURE_SAMPLING;
-  options.measure_tolerance = 1e-4; /* 2 / 1e-10 */
+  options.measure_tolerance = 1e-4; /* the ratio is 2 / 1e-10 */
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "16777216 samples|1e-05, which is measure_tolerance * half_thickness",
                 riis_surface_update(surface, valve, &options));
   CHECK_NEAR(closest_to(surface, 1, 0.5, 3).distance, 3, 0.01);
@@ -604,7 +607,7 @@ static void what_has_no_meaning_is_refused(void **state) {
                 riis_mark_nodes(surface, mesh, &marking, result));
 }
 
-/* A surface keeps its method when its valve moves. */
+/* A surface keeps its method of measuring when its valve moves. */
 static void options_stay_and_default(void **state) {
   (void)state;
   riis_valve *valve = valve_of("mitral");
@@ -623,7 +626,7 @@ static void options_stay_and_default(void **state) {
   riis_surface_options options = surface_options();
   CHECK_OK(riis_surface_update(surface, valve, &options));
   assert_true(closest_to(surface, 0, 0, 0).triangle_id >= 0);
-  /* RIIS_AUTO stands for the tolerance. */
+  /* RIIS_AUTO means the surface's tolerance. */
   options = surface_options();
   assert_true(options.measure == RIIS_MEASURE_TRIANGLES && options.measure_tolerance == RIIS_AUTO);
   options.measure = RIIS_MEASURE_SAMPLING;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Triangulations that stay the same while a valve opens: ids, neighbours and places on the patches, the bound at every
- * opening, refusals that leave the surface as it was. test_tolerance compares them with the smooth mitral valve. */
+ * Triangulations that stay the same while a valve opens. Ids, neighbours and positions on the patches stay, the bound holds at
+ * every opening, and a refusal leaves the surface as it was. test_tolerance compares these triangulations with the smooth
+ * mitral valve. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -33,7 +34,7 @@ static riis_valve *opening_aortic(void) {
   return valve;
 }
 
-/* A patch whose side at u = 1 grows from a point. */
+/* A patch whose side at u = 1 grows from a point to a curve. */
 static riis_valve *fan(void) {
   shape made[2] = {{0}, {0}};
   for (int k = 0; k < 2; ++k) {
@@ -50,7 +51,7 @@ static riis_valve *fan(void) {
   return valve;
 }
 
-/* A copy of the arrays that stay: it outlives the next update. */
+/* A copy of the arrays that must stay the same, to compare after the next update. */
 typedef struct topology {
   int64_t n_vertices, n_triangles;
   int64_t vertex_id[3 * 20000], triangle_id[20000];
@@ -83,8 +84,8 @@ static void check_same_topology(const topology *a, const topology *b) {
   assert_memory_equal(a->patch_id, b->patch_id, n * sizeof *a->patch_id);
 }
 
-/* Checks 101 openings, whether the lines were chosen at them or not. The triangles are the same and within the bound. Their
- * number is at most 1.5 times the largest number of adapted triangles. */
+/* Checks 101 openings, including openings at which the grid lines were not chosen. The triangles stay the same and within the
+ * bound. There are at most 1.5 times as many as the largest number of adapted triangles. */
 static void check_triangles_stay(riis_valve *valve, const char *name) {
   const riis_surface_options options = fixed_options();
   set_opening(valve, 0.5);
@@ -103,7 +104,7 @@ static void check_triangles_stay(riis_valve *valve, const char *name) {
   }
   printf("%s: %lld fixed triangles, %lld adapted ones at most\n", name, (long long)first.n_triangles, (long long)most);
   CHECK_AT_MOST(largest, 0.005);
-  assert_true(largest > 0.001); /* the bound is used */
+  assert_true(largest > 0.001); /* the bound must not be far too large */
   assert_true(2 * first.n_triangles <= 3 * most);
 }
 
@@ -115,7 +116,7 @@ static void triangles_stay_at_every_opening(void **state) {
   check_triangles_stay(new_valve("trileaflet"), "trileaflet");
 }
 
-/* Distances to both triangulations differ by no more than the sum of their bounds. */
+/* Distances to both triangulations differ by at most the sum of their bounds. */
 static void check_distances(riis_valve *valve) {
   riis_surface_options options = fixed_options();
   riis_surface *fixed = new_surface(valve, &options);
@@ -142,8 +143,8 @@ static void distances_are_within_the_bound(void **state) {
   check_distances(fan());
 }
 
-/* The triangles depend on the valve and on its opening now, not on the opening at which the surface began. A restart has the same
- * bits. */
+/* The triangles depend on the valve and on its present opening, not on the opening at which the surface was made. So a restart
+ * gives the same bits. */
 static void a_restart_has_the_same_bits(void **state) {
   (void)state;
   riis_valve *valves[3] = {new_valve("mitral"), opening_aortic(), fan()};
@@ -157,8 +158,8 @@ static void a_restart_has_the_same_bits(void **state) {
   }
 }
 
-/* The lines of a valve without joints stay. So a vertex's velocity is the difference of its places over the time. Only lines that
- * end between two vertices of a side differ slightly, because they end on chords. */
+/* If the curves have no joints, the grid lines stay, and a vertex's velocity is its displacement divided by the time. It
+ * differs slightly only on grid lines that end between two vertices of a side, because they end on chords. */
 static void velocity_is_that_of_the_vertices(void **state) {
   (void)state;
   rng = random_start("test_fixed_triangulation");
@@ -219,7 +220,7 @@ static void a_triangle_without_area_keeps_its_id(void **state) {
   check_same_topology(&first, &now);
 }
 
-/* Without a surface angle the leaflets are Coons patches, which share their edges at opening 0 only. */
+/* If the surface angle is 0, the leaflets are Coons patches, which share their edges only at opening 0. */
 static void flat_mitral_leaflets_stay_within_the_bound(void **state) {
   (void)state;
   rng = random_start("test_fixed_triangulation");
@@ -229,7 +230,8 @@ static void flat_mitral_leaflets_stay_within_the_bound(void **state) {
   check_distances(valve);
 }
 
-/* Patches have rough sides that differ between both states. The openings that the lines were chosen at are never refused. */
+/* The patches have rough sides that differ between the two states. The openings at which the grid lines were chosen are never
+ * refused. */
 static void openings_of_the_choice_are_never_refused(void **state) {
   (void)state;
   rng = random_start("test_fixed_triangulation");
@@ -275,7 +277,7 @@ static void openings_of_the_choice_are_never_refused(void **state) {
   }
 }
 
-/* Coordinates that round too much are refused as they are without a fixed triangulation. */
+/* Coordinates so large that rounding matters are refused, as they are without a fixed triangulation. */
 static void coordinates_too_large_are_refused(void **state) {
   (void)state;
   shape square = unit_square();
@@ -300,7 +302,7 @@ static void a_surface_of_arrays_forgets_the_choice(void **state) {
   CHECK_OK(riis_surface_update(surface, opening_aortic(), &fixed));
 }
 
-/* A patch has a side that nearly stops. All of the patch moves by 1e-6 in 1e-6 seconds. */
+/* On one side of the patch, the curve's speed nearly falls to zero. The whole patch moves by 1e-6 in 1e-6 seconds. */
 static void near_cusps_move_with_their_valve(void **state) {
   (void)state;
   shape made[2] = {{0}, {0}};
@@ -360,13 +362,13 @@ static void other_changes_are_refused(void **state) {
   options.tolerance = 0.01;
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "patch |of the fixed triangulation may be off by |at most 0.001",
                 riis_surface_update(surface, valve, &options));
-  check_same_surfaces(surface, same); /* and frees both */
+  check_same_surfaces(surface, same); /* compares and frees both */
   surface = new_surface(valve, NULL);
   options = fixed_options();
   CHECK_OK(riis_surface_update(surface, valve, &options));
   options.tolerance = 0.01;
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "fixed triangulation", riis_surface_update(surface, valve, &options));
-  /* Without the option the surface forgets, and may be fixed anew. */
+  /* Without the option the surface drops its fixed triangulation, and may get a new one later. */
   options.triangulation = RIIS_TRIANGULATION_ADAPTED;
   CHECK_OK(riis_surface_update(surface, valve, &options));
   options.triangulation = RIIS_TRIANGULATION_FIXED;

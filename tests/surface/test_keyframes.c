@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Surfaces from frames in time: places and velocities against closed forms, periods, refusals. */
+ * Surfaces from frames in time. Positions and velocities are compared with closed forms. Other tests cover periods and
+ * refusals. */
 #include <riis/riis.h>
 
 #include <math.h>
@@ -24,7 +25,7 @@ static riis_surface_arrays square(void) {
   return faces;
 }
 
-/* A square that swings: at key k its height is height[k]. */
+/* A square that moves up and down: at key k its height is height[k]. */
 typedef struct swing {
   double time[most_keys], xyz[3 * n_vertices * most_keys];
   riis_keyframe_arrays frames;
@@ -74,15 +75,15 @@ static void linear_frames_have_right_hand_and_mean_velocities(void **state) {
   swing s;
   make_swing(&s, 3, time, height);
   riis_keyframes *keyframes = keyframes_of(&s);
-  memset(s.xyz, 0, sizeof s.xyz); /* they were copied */
+  memset(s.xyz, 0, sizeof s.xyz); /* the arrays were copied, so they may change */
   riis_surface *surface = NULL;
   CHECK_OK(riis_surface_create_from_keyframes(keyframes, 0.25, 0, NULL, &surface));
   check_height(surface, 0.5, 2);
   CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, 1, 0, NULL));
   check_height(surface, 2, -0.5);
-  CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, 2, 2 - 0.5, NULL)); /* across a key */
+  CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, 2, 2 - 0.5, NULL)); /* the step crosses a key */
   check_height(surface, 1.5, 0.5 / 1.5);
-  CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, 0.5, 0.5 - 2, NULL)); /* time goes back */
+  CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, 0.5, 0.5 - 2, NULL)); /* time goes backwards */
   check_height(surface, 1, (1 - 1.5) / (0.5 - 2));
   CHECK_OK(riis_surface_update_from_keyframes(surface, keyframes, 9, 0, NULL));
   check_height(surface, 1, 0);
@@ -93,7 +94,7 @@ static void linear_frames_have_right_hand_and_mean_velocities(void **state) {
   assert_null(keyframes);
 }
 
-/* Adding periods to a key's time rounds it. */
+/* At a key the velocity is that of the interval after it, in every period. Adding periods to the key's time rounds the time. */
 static void frames_have_the_velocity_after_them_in_every_period(void **state) {
   (void)state;
   const double time[] = {-0.08, 0.15, 0.24, 0.42, 0.65}, height[] = {0, 2, 1, 3, 0.5};
@@ -140,7 +141,7 @@ static void frames_repeat_and_are_placed(void **state) {
         CHECK_NEAR(xyz[2], t < 0.25 ? 0.4 * t : t < 0.5 ? 0.1 + 0.8 * (t - 0.25) : 0.6 * (1 - t), 1e-14);
         continue;
       }
-      /* The rate of the cubic is its derivative. */
+      /* With cubic interpolation, the rate is the cubic's derivative. */
       const double h = 1e-6, rate = velocity[2];
       CHECK_OK(riis_surface_update_from_keyframes(a, keyframes, t + h, t + h - (t - h), NULL));
       velocity = triangles_of(a).velocity;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The velocity of the mitral valve's surface against the oracle in extended precision: the point with the same patch, u and v now
- * and before, and the derivative in time. */
+ * The velocity of the mitral valve's surface is compared with the oracle in extended precision: with the displacement of the
+ * point with the same patch, u and v, and with the derivative in time. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -41,7 +41,7 @@ enum { n_scalars = sizeof scalars / sizeof *scalars };
 
 static double *scalar_of(mitral_parameters *p, int i) { return (double *)(void *)((char *)p + scalars[i].at); }
 
-/* A valve and the state that it opens to. */
+/* A valve and its open state. */
 typedef struct states {
   mitral_parameters closed, open;
 } states;
@@ -66,7 +66,7 @@ static riis_valve *valve_of(const states *s) {
   return valve;
 }
 
-/* The smooth valve, and the places on its annulus where each patch begins and ends. */
+/* The smooth valve, and the positions on its annulus where each patch begins and ends. */
 typedef struct smooth {
   mitral_oracle *oracle;
   double from[10], to[10];
@@ -95,7 +95,7 @@ static void smooth_point(const smooth *s, int patch, double u, double v, double 
   mitral_oracle_point(s->oracle, s->from[patch] + u * (s->to[patch] - s->from[patch]), v, p);
 }
 
-/* The mean velocity from one state to another, at the same patch, u and v. */
+/* Gives the mean velocity between two states of the point with a given patch, u and v. */
 static void mean_velocity(const smooth *now, const smooth *before, double seconds, int patch, const double *uv,
                           double *velocity) {
   double p[3], q[3];
@@ -118,13 +118,15 @@ static double largest_speed(const riis_surface *surface) {
   return largest;
 }
 
-/* One surface from one state to another, compared at its vertices and at random closest points. */
+/* The results of comparing one surface between two states, at its vertices and at random closest points. */
 typedef struct compared {
   double vertices, points; /* the largest difference from the mean velocity of the oracle */
-  double sides;            /* the same where v is 0 or 1, on the annulus and on the free edges */
-  double exact;           /* the share of vertices that differ by rounding only: all but some on sides of split quads */
-  double from_derivative; /* at vertices, from the velocity of a short while around now; -1: not compared */
-  double sum, speed;      /* mean difference at random points; largest speed */
+  double sides;            /* the same at vertices with v = 0 or 1, on the annulus and on the free edges */
+  /* The fraction of vertices that differ only by rounding: all except some on sides of split quads. */
+  double exact;
+  /* The largest difference from the derivative at the present time, at vertices; -1: not compared. */
+  double from_derivative;
+  double sum, speed; /* sum: mean difference at random points; speed: largest speed */
 } compared;
 
 static const int32_t *patches_of_vertices(const riis_triangles *c) {
@@ -161,7 +163,7 @@ static compared compare(const states *now, const states *before, double seconds,
     n_exact += off <= 1e-13 + 1e-13 / fabs(seconds);
   }
   made.exact = (double)n_exact / (double)(c.n_vertices - n_left_out);
-  assert_true(2 * n_left_out < c.n_vertices); /* those of grids whose quads were split */
+  assert_true(2 * n_left_out < c.n_vertices); /* vertices of grids with split quads are left out */
   const double h = 1e-4;
   const int is_same_valve = memcmp(&now->open, &before->open, sizeof now->open) == 0;
   if (is_same_valve && now->closed.opening >= h && now->closed.opening <= 1 - h) {
@@ -193,7 +195,7 @@ static compared compare(const states *now, const states *before, double seconds,
     assert_int_equal(fields.n_nodes, n_points);
     const double *at_vertices = velocity_of(surface), half_thickness = info_of(surface).half_thickness;
     for (int64_t i = 0; i < n_points; ++i) {
-      /* Leaflets that are equally near give a mean: test_ties. */
+      /* If leaflets are equally near, the velocity is their mean (test_ties). */
       if (tied_velocity_at(&c, at_vertices, xyz + 3 * i, within_in(result).distance[i], half_thickness).n_leaflets > 1)
         continue;
       mean_velocity(&s, &t, seconds, fields.patch_id[i], fields.uv + 2 * i, expected);
@@ -207,7 +209,7 @@ static compared compare(const states *now, const states *before, double seconds,
   return made;
 }
 
-/* Some quads of the mitral valve are split, where the velocity is between those of the quad's corners. */
+/* Some quads of the mitral valve are split. A vertex from a split has a velocity between those of the quad's corners. */
 static void vertices_move_as_the_oracles(void **state) {
   (void)state;
   double share = 0;
@@ -226,8 +228,8 @@ static void vertices_move_as_the_oracles(void **state) {
   printf("at random points the velocity is off by %.3f of tolerance, per unit of opening, at most\n", share);
 }
 
-/* The mean velocity over a step is that of the step's middle. So its error at the end falls with the first power of the time
- * between. */
+/* The mean velocity over a step is the velocity at the step's middle. So its error at the step's end is proportional to the
+ * time between. */
 static void the_error_falls_with_the_time_between(void **state) {
   (void)state;
   double last = 0;
@@ -282,7 +284,7 @@ static void steps_into_and_out_of_the_closed_state(void **state) {
     }
 }
 
-/* If a vertex's place on its patch jumped from step to step, its speed would be the jump divided by the time between. */
+/* If a vertex's position on its patch jumped between steps, its speed would be the jump divided by the time between. */
 static void no_vertex_is_an_outlier(void **state) {
   (void)state;
   const states at = paper_at(0);
@@ -302,8 +304,8 @@ static void no_vertex_is_an_outlier(void **state) {
   CHECK_AT_MOST(0.98 * 2.581, largest);
 }
 
-/* A patch without a bulge is a Coons patch with the same labels. Arcs that are nearly straight have few triangles. Between their
- * vertices the velocity is linear, so the rate of the bend shows only where the arcs are bent. */
+/* A patch without a bulge is a Coons patch with the same labels. Arcs that are nearly straight have few triangles. Between
+ * vertices the velocity is linear, so the bend's rate appears only where the arcs are bent. */
 static void a_bulge_goes_through_zero(void **state) {
   (void)state;
   static const struct {
@@ -327,7 +329,7 @@ static void a_bulge_goes_through_zero(void **state) {
     CHECK_AT_MOST(c.vertices, 0.01);
     CHECK_AT_MOST(c.points, 0.05);
   }
-  for (int i = 0; i < 2; ++i) { /* without a bulge at all, and from none */
+  for (int i = 0; i < 2; ++i) { /* no bulge in both states; then from no bulge to one */
     states now = paper_at(0.7), before = paper_at(0.65);
     if (i == 0) now.closed.surface_angle = now.open.surface_angle = 0;
     before.closed.surface_angle = before.open.surface_angle = 0;
@@ -347,7 +349,7 @@ static void any_parameter_moves(void **state) {
     states now = paper_at(random_between(&rng, 0.05, 0.95)), before;
     before = now;
     if (i == n_scalars) before.closed.translation[random_bits(&rng) % 3] += 0.1;
-    for (int k = 0; k < n_scalars; ++k) { /* one of them; in the last round all */
+    for (int k = 0; k < n_scalars; ++k) { /* changes one of them, or all in the last round */
       if (i != k && i != n_scalars + 1) continue;
       *scalar_of(&before.closed, k) *= random_between(&rng, 0.95, 0.99);
       *scalar_of(&before.open, k) *= random_between(&rng, 0.95, 0.99);

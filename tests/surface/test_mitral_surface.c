@@ -57,7 +57,8 @@ static void parameters_are_the_papers(void **state) {
   double values[3];
   riis_valve *valve = new_valve("mitral");
   CHECK_OK(riis_valve_get_n_parameters(valve, &n));
-  assert_int_equal(n, n_scalars + 1); /* 18, as the paper says: its table's parameters, its t and the translation */
+  /* 18 parameters, as the paper says: those of its table, its t and the translation. */
+  assert_int_equal(n, n_scalars + 1);
   for (int i = 0; i < n_scalars; ++i) {
     riis_parameter parameter;
     CHECK_OK(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
@@ -70,7 +71,7 @@ static void parameters_are_the_papers(void **state) {
   assert_true(values[0] == 0 && values[1] == 0 && values[2] == 1);
 }
 
-/* Each parameter changes the closed, open or half open surface. The old value gives the old surface again. */
+/* Each parameter changes the closed, the open or the half-open surface. The old value restores the old surface. */
 static void every_parameter_matters(void **state) {
   (void)state;
   for (int i = 0; i <= n_scalars; ++i) {
@@ -92,7 +93,7 @@ static void every_parameter_matters(void **state) {
   }
 }
 
-/* Length of all edges with v = 0. */
+/* Returns the length of all edges with v = 0. */
 static double annulus_length(const riis_triangles *c) {
   double sum = 0;
   for (int64_t t = 0; t < c->n_triangles; ++t)
@@ -103,7 +104,7 @@ static double annulus_length(const riis_triangles *c) {
   return sum;
 }
 
-/* The surface is fine enough for the digits that are given. The oracle gives more digits. */
+/* The surface is fine enough for the digits in docs/theory.md. The oracle gives more digits. */
 static void numbers_of_the_model(void **state) {
   (void)state;
   const struct {
@@ -172,7 +173,7 @@ static void leaflets_and_patches(void **state) {
         const int64_t id = c.vertex_id[3 * t + k];
         memcpy(p[k], c.xyz + 3 * id, sizeof p[k]);
         for (int a = 0; a < 2; ++a) assert_true(c.uv[2 * id + a] >= 0 && c.uv[2 * id + a] <= 1);
-        /* Half the valve is not mirrored. */
+        /* Half of the patches are mirror images. */
         const int is_mirror_image = (patch >= 3 && patch <= 5) || patch >= 8;
         assert_true(is_mirror_image ? p[k][0] <= 0 : p[k][0] >= 0);
       }
@@ -187,13 +188,13 @@ static void leaflets_and_patches(void **state) {
       assert_true(n_of_patch[patch] > 20);
       assert_int_equal(n_of_patch[patch], n_of_patch[mirrored[patch]]);
     }
-    assert_true(info_of(surface).n_zero_area > 0); /* where the triangles end in the commissures */
+    assert_true(info_of(surface).n_zero_area > 0); /* at the commissures, where triangles shrink to points */
     free_owned_after(owned_before);
   }
 }
 
-/* An edge that only one triangle has lies on the annulus or on the free edge of an open valve. Other such edges lie inside
- * another triangle's edge, to rounding. There quads of different levels or polylines of different patches meet. */
+/* An edge of only one triangle lies on the annulus or on the free edge of an open valve, or else, up to rounding, inside
+ * another triangle's edge. The latter occurs where quads of different levels or polylines of different patches meet. */
 static void has_no_cracks(void **state) {
   (void)state;
   for (int i = 0; i <= 2; ++i) {
@@ -241,7 +242,7 @@ static void has_no_cracks(void **state) {
   }
 }
 
-/* Closed leaflets meet in one polyline. Both have its vertices to the last bit. */
+/* Closed leaflets meet in one polyline. Both leaflets have its vertices to the last bit. */
 static void closed_leaflets_share_their_edge(void **state) {
   (void)state;
   riis_surface *surface = mitral_surface(0, 0.05);
@@ -259,12 +260,13 @@ static void closed_leaflets_share_their_edge(void **state) {
           break;
         }
     }
-  /* At the other corners, a line of one leaflet ends inside a chord of the other. */
+  /* At the other corners, a grid line of one leaflet ends inside a chord of the other leaflet. */
   printf("closed edge: %d of %d corners are also the other leaflet's\n", n_shared, n_of_edge);
   assert_true(n_shared >= 6 && 3 * n_shared >= n_of_edge);
 }
 
-/* The least distance between two neighbouring lines of a patch, as a share of the longer of the sides that they join. */
+/* Returns the least distance between two neighbouring grid lines of a patch, as a fraction of the longer of the sides that
+ * they join. */
 static double least_step(const riis_triangles *c, int32_t patch, double *longer) {
   double length_of[2] = {0, 0}, *u = own(malloc((size_t)c->n_triangles * 2 * sizeof *u));
   size_t n = 0;
@@ -273,7 +275,7 @@ static double least_step(const riis_triangles *c, int32_t patch, double *longer)
       const int64_t p = c->vertex_id[3 * t + k], q = c->vertex_id[3 * t + (k + 1) % 3];
       const double v = c->uv[2 * p + 1];
       if (c->patch_id[t] != patch || c->uv[2 * q + 1] != v || (v != 0 && v != 1)) continue;
-      /* At most one edge of a triangle is on a side. */
+      /* At most one edge of a triangle is on the side. */
       length_of[(int)v] += distance(c->xyz + 3 * p, c->xyz + 3 * q);
       u[n++] = c->uv[2 * p];
       u[n++] = c->uv[2 * q];
@@ -287,10 +289,10 @@ static double least_step(const riis_triangles *c, int32_t patch, double *longer)
   return least;
 }
 
-/* No lines of a grid nearly coincide, for valves of many shapes. Lines that two sides need are one line if they are within 0.02
- * of the tolerance (docs/theory.md, section 2). A joint of the annulus, where O has a kink, has a line beside it only if the
- * tolerance needs it. The least of 3,840 valves was 0.4. (The triangles can still be flat: the quads are sheared where a
- * leaflet's arcs meet its free edge at a small angle.) */
+/* In valves of many shapes, no two grid lines nearly coincide. If both sides need a line, and the two are within 0.02 of the
+ * tolerance, they become one line (docs/theory.md, section 2). At a joint of the annulus O has a kink. Next to it there is a
+ * line only if the tolerance needs one. The least ratio of 3,840 valves was 0.4. (Triangles can still be flat: quads are
+ * sheared where a leaflet's arcs meet its free edge at a small angle.) */
 static void has_no_slivers(void **state) {
   (void)state;
   random_source rng = random_start("test_mitral_surface");
@@ -317,7 +319,7 @@ static void has_no_slivers(void **state) {
   CHECK_AT_MOST(0.1, least);
 }
 
-/* Downstream is the ventricle, which is below the closed valve and around the open one. */
+/* Downstream is the ventricle: below the closed valve, and around the open one. */
 static void normals_point_downstream(void **state) {
   (void)state;
   riis_surface *closed = mitral_surface(0, 0.05), *open = mitral_surface(1, 0.05);
@@ -330,8 +332,8 @@ static void normals_point_downstream(void **state) {
   assert_int_equal(closest_to(open, 2.4, 0, -0.5).side, 1);
 }
 
-/* No point of the valve moves by more than about 2.6 times a change of the opening (the oracle's number). So at an opening 1e-9
- * from either end, the surface has nearly the vertices of the surface at that end. */
+/* No point of the valve moves by more than about 2.6 times the change of the opening; the number is the oracle's. So at an
+ * opening 1e-9 from either end, the surface has nearly the vertices of the surface at that end. */
 static void opens_continuously(void **state) {
   (void)state;
   const double ends[2] = {0, 1}, near[2] = {1e-9, 1 - 1e-9};
@@ -373,7 +375,7 @@ static double area_of(const riis_valve *valve) {
   return area;
 }
 
-/* With a second state, opening 0 is the first state and opening 1 the second. */
+/* If there is a second state, opening 0 is the first state and opening 1 the second. */
 static void opens_from_one_state_to_another(void **state) {
   (void)state;
   const char *kinds[2] = {"aortic", "mitral"}, *names[2] = {"leaflet_radius_in", "AP_diameter"};
@@ -382,12 +384,12 @@ static void opens_from_one_state_to_another(void **state) {
     const int owned_before = n_owned();
     riis_valve *valve = new_valve(kinds[i]), *first = new_valve(kinds[i]), *second = new_valve(kinds[i]);
     CHECK_OK(riis_valve_set_scalar(second, names[i], values[i]));
-    const double shift[3] = {0.25, 0, 1}; /* also blended */
+    const double shift[3] = {0.25, 0, 1}; /* the translation is interpolated too */
     CHECK_OK(riis_valve_set(second, "translation", 3, shift));
     CHECK_OK(riis_valve_set_open_state(valve, second));
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
     CHECK_OK(riis_valve_set_scalar(first, "opening", 0));
-    /* Vertices of the aortic valve follow its motion, which the states at the ends alone do not have. */
+    /* Vertices of the aortic valve depend on its motion between the states, so a valve of one state has other vertices. */
     const double off = i == 0 ? 1e-3 : 0;
     CHECK_NEAR(area_of(valve), area_of(first), off);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5));
@@ -399,7 +401,7 @@ static void opens_from_one_state_to_another(void **state) {
     if (i == 1) CHECK_OK(riis_valve_set_scalar(second, "opening", 1));
     CHECK_NEAR(area_of(valve), area_of(second), off);
     assert_true(half_open != area_of(valve) && half_open != area_of(first));
-    /* The second state was copied. */
+    /* The second state was copied, so later changes of it do not matter. */
     const double open = area_of(valve);
     free_one_owned(second);
     CHECK_SAME(area_of(valve), open);
@@ -435,7 +437,7 @@ static void refusals(void **state) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "anterior_length is 20|5 times AP_diameter, which is 3",
                 riis_surface_create(valve, NULL, &surface));
   CHECK_OK(riis_valve_set_scalar(valve, "anterior_length", 2.12));
-  /* A flat annulus whose tangent points to the commissure's end of the free edge. */
+  /* A flat annulus whose tangent points to the end of the free edge at the commissure. */
   riis_valve *flat = mitral_valve(0);
   CHECK_OK(riis_valve_set_scalar(flat, "anterior_horn_height", 0));
   CHECK_OK(riis_valve_set_scalar(flat, "posterior_horn_height", 0));
@@ -452,7 +454,7 @@ static void refusals(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "open is NULL", riis_valve_set_open_state(aortic, NULL));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'tricuspid'|aortic, bileaflet, mitral, trileaflet",
                 riis_valve_create("tricuspid", &aortic));
-  /* The message names which of the two states it is. */
+  /* The message names which of the two states is wrong. */
   riis_valve *open = mitral_valve(1);
   CHECK_OK(riis_valve_set_scalar(open, "anterior_length", 20));
   CHECK_OK(riis_valve_set_open_state(valve, open));
@@ -461,7 +463,7 @@ static void refusals(void **state) {
   CHECK_OK(riis_valve_set_scalar(open, "anterior_length", 2));
   CHECK_OK(riis_valve_set_open_state(valve, open));
   free_one_owned(open);
-  /* Refused states leave no trace. */
+  /* A refused state leaves the surface unchanged. */
   surface = new_surface(valve, NULL);
 }
 

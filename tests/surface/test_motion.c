@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Surfaces with a velocity: the triangles of a plain update, the velocities of motions that are known, and refusals that
- * leave the surface as it was. The mitral valve's own motion is in test_mitral_motion.c. */
+ * Surfaces with a velocity. Their triangles equal those of an update without velocities. Their velocities are compared with
+ * known motions. A refusal leaves the surface as it was. The mitral valve's own motion is in test_mitral_motion.c. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -16,7 +16,8 @@ static double distance(const double *p, const double *q) { return hypot(hypot(p[
 
 /* --- Valves ---------------------------------------------------------------------------------------------------------- */
 
-/* Three patches in a row: curves 0 to 2 below, 3 to 5 above, 6 to 9 from below to above, of which the last is a point. */
+/* A strip of three patches. Curves 0 to 2 are below and 3 to 5 above. Curves 6 to 9 run from below to above, and the last is a
+ * point. */
 enum { n_curves = 10, n_patches = 3, n_control = 32 };
 static const int32_t degrees[n_curves] = {3, 2, 1, 2, 3, 3, 1, 3, 2, 1};
 static const int32_t is_reversed[n_curves] = {0, 0, 0, 0, 1, 0, 0, 1, 0, 0};
@@ -66,7 +67,7 @@ static riis_valve *valve_of(const strip *from) {
   return own(valve);
 }
 
-/* The strip at a time t, when x has become (1 + growth t) x + drift t. */
+/* Returns the strip at time t: each point x has become (1 + growth t) x + drift t. */
 static strip strip_at(const strip *from, double t, double growth, const double *drift) {
   strip made;
   for (int i = 0; i < n_control; ++i)
@@ -80,7 +81,7 @@ static riis_valve *copy_of(const riis_valve *valve) {
   return own(copy);
 }
 
-/* Makes a valve of any kind, with a state to open to. */
+/* Makes a valve of any kind with an open state. */
 static riis_valve *random_valve(int64_t kind) {
   riis_valve *valve = NULL, *open = NULL;
   if (kind == 2) {
@@ -153,7 +154,7 @@ static void triangles_are_those_of_a_plain_update(void **state) {
     const int64_t n = triangles_of(plain).n_vertices;
     assert_memory_equal(velocity_of(one), velocity_of(moving), (size_t)n * 3 * sizeof(double));
     for (int64_t i = 0; i < 3 * n; ++i) assert_true(isfinite(velocity_of(one)[i]));
-    if (any_of(2)) { /* the next goes on with a surface that has none */
+    if (any_of(2)) { /* the next update starts from a surface without velocity */
       CHECK_OK(riis_surface_update(moving, valve, &options));
       assert_null(velocity_of(moving));
       assert_true(is_same_content(moving, plain));
@@ -173,13 +174,13 @@ static void arrays_have_no_velocity(void **state) {
   assert_non_null(velocity_of(surface));
   CHECK_OK(riis_surface_update_from_arrays(surface, &arrays, NULL));
   assert_null(velocity_of(surface));
-  CHECK_OK(riis_surface_update_moving(surface, valve, valve, 1, NULL, NULL)); /* and back */
+  CHECK_OK(riis_surface_update_moving(surface, valve, valve, 1, NULL, NULL)); /* a valve that does not move */
   assert_non_null(velocity_of(surface));
 }
 
 /* --- Known motions --------------------------------------------------------------------------------------------------- */
 
-/* The largest speed of the vertices of triangles with that leaflet, or with all for -1. */
+/* Returns the largest speed of the vertices of a leaflet's triangles, or of all triangles for -1. */
 static double largest_speed(const riis_surface *surface, int32_t leaflet_id) {
   static const double zero[3] = {0, 0, 0};
   const riis_triangles c = triangles_of(surface);
@@ -215,7 +216,7 @@ static void nothing_moves_where_nothing_changed(void **state) {
   }
 }
 
-/* One cusp of three, and one scallop of the mitral valve. */
+/* One of three cusps moves, or one scallop of the mitral valve. */
 static void parts_at_rest_have_no_velocity(void **state) {
   (void)state;
   static const double turned[3] = {5, 3, 121};
@@ -262,7 +263,8 @@ static placed placed_by(const riis_surface_options *o) {
   return made;
 }
 
-/* Finds the former place of a point x of now: the inverse of scale times rotation is its transpose over the scale's square. */
+/* Finds the earlier position of a point that is at x now: the inverse of scale times rotation is its transpose divided by the
+ * square of the scale. */
 static void before_of(const riis_surface_options *now, const riis_surface_options *then, const double *x,
                       long double *was) {
   const placed a = placed_by(now), b = placed_by(then);
@@ -276,7 +278,7 @@ static void before_of(const riis_surface_options *now, const riis_surface_option
   }
 }
 
-/* A valve at rest that is translated, turned, scaled, or all of it. */
+/* A valve at rest is translated, turned, scaled, or all three. */
 static void placements_move(void **state) {
   (void)state;
   double worst = 0;
@@ -287,7 +289,8 @@ static void placements_move(void **state) {
     if (trial % 2) random_placement(&now);
     now.flip_normals = trial % 5 == 0;
     then = now;
-    then.tolerance = 7, then.n_threads = -3, then.flip_normals = 9, then.half_thickness = NAN; /* these do not count */
+    /* These options of the earlier placement are ignored. */
+    then.tolerance = 7, then.n_threads = -3, then.flip_normals = 9, then.half_thickness = NAN;
     const int what = trial / 3 % 4;
     for (int c = 0; c < 3 && (what == 0 || what == 3); ++c) then.translation[c] += now.scale * between(-1, 1);
     if (what == 1 || what == 3) then.rotation_angle += between(-30, 30);
@@ -298,7 +301,7 @@ static void placements_move(void **state) {
     CHECK_OK(riis_surface_update_moving(surface, valve, valve, seconds, &now, &then));
     const riis_triangles c = triangles_of(surface);
     const double *velocity = velocity_of(surface);
-    double size = 5 * (now.scale + then.scale); /* of coordinates */
+    double size = 5 * (now.scale + then.scale); /* the size of the coordinates */
     for (int i = 0; i < 3; ++i) size += fabs(now.translation[i]) + fabs(then.translation[i]);
     for (int64_t i = 0; i < c.n_vertices; ++i) {
       long double was[3];
@@ -315,8 +318,8 @@ static void placements_move(void **state) {
   printf("off by %.2g of the coordinates over the time\n", worst);
 }
 
-/* Control points are scaled by 1 + growth t and drift. Every point does the same, also by arc length. The state before may be
- * earlier or later. */
+/* Control points are scaled by 1 + growth t and moved by drift t. Every point of the surface moves likewise, also with arc
+ * length as parameter. The other state may be earlier or later. */
 static void patches_grow_and_drift(void **state) {
   (void)state;
   double worst = 0;
@@ -333,7 +336,7 @@ static void patches_grow_and_drift(void **state) {
     CHECK_OK(riis_surface_update_moving(surface, valve, before, dt, NULL, NULL));
     const riis_triangles c = triangles_of(surface);
     const double *velocity = velocity_of(surface);
-    /* A vertex is a point of the polylines, which are within the tolerance of the curves. */
+    /* A vertex lies on the polylines, which are within the tolerance of the curves. */
     const double allowed = fabs(growth) * options.tolerance * 0.1 + 1e-10 / fabs(dt);
     for (int64_t i = 0; i < c.n_vertices; ++i)
       for (int k = 0; k < 3; ++k) {
@@ -346,7 +349,7 @@ static void patches_grow_and_drift(void **state) {
   printf("off by %.3f of what the tolerance allows\n", worst);
 }
 
-/* The same two states with the opposite sign of the time move the other way, to the last bit. */
+/* The same two states with a negative time give the opposite velocities, to the last bit. */
 static void time_goes_back(void **state) {
   (void)state;
   for (int trial = 0; trial < 15; ++trial) {
@@ -366,7 +369,7 @@ static void time_goes_back(void **state) {
   }
 }
 
-/* A vertex, taken back by its velocity, is a point of the surface before, on the same patch at the same u and v. */
+/* A vertex moved back by its velocity is a point of the earlier surface, on the same patch at the same u and v. */
 static void vertices_come_from_their_place_before(void **state) {
   (void)state;
   double worst = 0, worst_uv = 0;
@@ -376,7 +379,7 @@ static void vertices_come_from_their_place_before(void **state) {
     riis_surface_options options = surface_options(), then;
     options.tolerance = 0.05;
     then = options;
-    if (trial == 0) /* any number of parameters at once */
+    if (trial == 0) /* changes any number of parameters at once */
       CHECK_OK(riis_valve_set_scalar(valve, "bending_height", 0.7));
     CHECK_OK(riis_valve_set_scalar(valve, "opening", trial % 4 ? between(0, 1) : 0));
     CHECK_OK(riis_valve_set_scalar(before, "opening", trial % 4 == 1 ? 1 : between(0, 1)));
@@ -394,14 +397,14 @@ static void vertices_come_from_their_place_before(void **state) {
       const riis_closest closest = closest_to(was, p[0], p[1], p[2]);
       worst = fmax(worst, closest.distance);
       const int64_t t = closest.triangle_id;
-      if (w.patch_id[t] != c.patch_id[k / 3]) { /* on a border, or where patches touch */
+      if (w.patch_id[t] != c.patch_id[k / 3]) { /* the vertex is on a border, or where patches touch */
         assert_true(closest.distance < 0.02);
         continue;
       }
       double place[2] = {0, 0};
       for (int x = 0; x < 6; ++x)
         place[x % 2] += closest.barycentric[x / 2] * w.uv[2 * w.vertex_id[3 * t + x / 2] + x % 2];
-      /* At the root, u means nothing. */
+      /* At the root point, u is not defined. */
       const double off =
           fmax(fabs(place[1] - c.uv[2 * i + 1]), c.uv[2 * i + 1] > 0.2 ? fabs(place[0] - c.uv[2 * i]) : 0);
       worst_uv = fmax(worst_uv, off);
@@ -413,7 +416,7 @@ static void vertices_come_from_their_place_before(void **state) {
   CHECK_AT_MOST(worst_uv, 0.1);
 }
 
-/* Steps of a thousandth are as fast as steps of a fiftieth, in which rounding and jumps hardly show. */
+/* Speeds in steps of a thousandth equal those in steps of a fiftieth, where rounding and jumps hardly matter. */
 static void no_vertex_of_the_aortic_valve_is_an_outlier(void **state) {
   (void)state;
   riis_valve *valve = random_valve(0), *before = copy_of(valve);
@@ -445,7 +448,7 @@ static void a_copy_is_a_valve_of_its_own(void **state) {
     CHECK_OK(riis_surface_update(b, copy, NULL));
     assert_true(is_same_content(a, b));
     free_one_owned(valve);
-    CHECK_OK(riis_surface_update(b, copy, NULL)); /* with its own second state */
+    CHECK_OK(riis_surface_update(b, copy, NULL)); /* the copy has its own second state */
     assert_true(is_same_content(a, b));
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "copy is NULL", riis_valve_copy(copy, NULL));
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve is NULL", riis_valve_copy(NULL, &none));
@@ -470,7 +473,7 @@ static kept keep(const riis_surface *surface) {
   return made;
 }
 
-/* Checks that the arrays are in the same place with the same values. */
+/* Checks that the arrays are at the same address with the same values. */
 static void check_kept(const kept *k) {
   const riis_triangles c = triangles_of(k->surface);
   assert_ptr_equal(velocity_of(k->surface), k->velocity);
@@ -511,7 +514,7 @@ static void refusals_leave_the_surface_as_it_was(void **state) {
   MOVING_REFUSED(RIIS_INVALID_PARAMETER, "valve_before is of the kind patches|aortic", aortic, patches, 1, NULL, NULL);
   MOVING_REFUSED(RIIS_INVALID_PARAMETER, "valve_before is of the kind aortic|mitral", mitral, aortic, 1, NULL, NULL);
 
-  /* A state before that is no valve. */
+  /* An earlier state that is not a valid valve. */
   riis_valve *bad = copy_of(before);
   CHECK_OK(riis_valve_set_scalar(bad, "bending_height", 1));
   MOVING_REFUSED(RIIS_INVALID_PARAMETER, "in valve_before: bending_height is 1;", aortic, bad, 1, NULL, NULL);
@@ -524,7 +527,7 @@ static void refusals_leave_the_surface_as_it_was(void **state) {
   MOVING_REFUSED(RIIS_INVALID_PARAMETER, "in valve_before: in the open state, the left cusp", aortic, bad, 1, NULL,
                  NULL);
 
-  /* Options are refused. Those of the state before are named as such. */
+  /* Wrong options are refused. The message tells whether they are the earlier placement's. */
   riis_surface_options options = surface_options();
 #define BEFORE_REFUSED(change, parts)                                             \
   do {                                                                            \
@@ -545,10 +548,10 @@ static void refusals_leave_the_surface_as_it_was(void **state) {
   options.scale = 0;
   MOVING_REFUSED(RIIS_INVALID_ARGUMENT, "options.scale is 0;", aortic, before, 1, &options, NULL);
   options = surface_options();
-  options.half_thickness = 1e-3, options.tolerance = 1e-6; /* found after the curves are made */
+  options.half_thickness = 1e-3, options.tolerance = 1e-6; /* this fault is found after the curves are made */
   MOVING_REFUSED(RIIS_LIMIT_EXCEEDED, "16777216 triangles", aortic, before, 1, &options, NULL);
 
-  /* Patches of another build. */
+  /* Patches with different curves. */
   CHECK_OK(riis_surface_update_moving(surface, patches, patches, 1, NULL, NULL));
   all = keep(surface);
   static const int32_t degree[4] = {1, 1, 1, 1}, sides[4] = {0, 1, 2, 3};
@@ -561,7 +564,8 @@ static void refusals_leave_the_surface_as_it_was(void **state) {
   own(bad);
   MOVING_REFUSED(RIIS_INVALID_PARAMETER, "valve_before has 4 curves and 1 patches|10 and 3", patches, bad, 1, NULL,
                  NULL);
-  CHECK_OK(riis_surface_update_moving(surface, patches, patches, 1, NULL, NULL)); /* as good as new */
+  /* The surface still works after the refusals. */
+  CHECK_OK(riis_surface_update_moving(surface, patches, patches, 1, NULL, NULL));
 }
 
 int main(void) {

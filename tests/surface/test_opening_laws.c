@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Laws of opening against values by hand, closed forms and their own order of accuracy; restarts go on with the same bits. */
+ * Laws of opening are compared with values computed by hand, with closed forms, and with their own order of accuracy. A
+ * restart continues with the same bits. */
 #include <riis/riis.h>
 
 #include <float.h>
@@ -11,7 +12,7 @@
 
 static random_source rng;
 
-/* Table. */
+/* Makes a law from a table of keys. */
 
 static riis_opening_table table_of(int64_t n, const double *time, const double *opening) {
   riis_opening_table table;
@@ -46,7 +47,7 @@ static void a_linear_table_has_its_keys_and_right_hand_rates(void **state) {
 static void a_periodic_table_repeats(void **state) {
   (void)state;
   const double time[] = {0, 0.25, 1}, opening[] = {0.2, 1, 0.2};
-  for (int64_t n = 2; n <= 3; ++n) { /* with and without the last key, which is the first again */
+  for (int64_t n = 2; n <= 3; ++n) { /* with and without the last key, which repeats the first */
     for (int32_t interpolation = 0; interpolation <= 1; ++interpolation) {
       riis_opening_table table = table_of(n, time, opening);
       table.period = 1;
@@ -76,14 +77,14 @@ static void rounding_of_a_period_does_not_matter(void **state) {
   check_table(&table, 0.8 + 0.15, 0.5, 1 / 0.3);
 }
 
-/* Returns the distance of a time from a key n_periods later, in units of rounding of the largest of time, key and period. */
+/* Returns the distance of a time from a key n_periods later. The unit is the rounding of the largest of time, key and period. */
 static double units_from_key(double time, double key, double period, int n_periods) {
   const long double distance = fabsl((long double)time - key - (long double)period * n_periods);
   return (double)(distance / (DBL_EPSILON * fmaxl(fmaxl(fabsl(time), fabsl(key)), period)));
 }
 
-/* Checks the doubles around each key of periods -2 to 1000. Times within 8 units of rounding have the key's opening and the rate
- * after it, to the last bit. Returns the number of these times. */
+/* Checks the doubles around each key in periods -2 to 1000. Times within 8 units of rounding of a key have the key's opening
+ * and the rate after it, to the last bit. Returns the number of these times. */
 static int64_t check_keys_of_periods(const riis_opening_table *table) {
   const int64_t n = table->n_keys;
   int64_t n_at_keys = 0;
@@ -131,7 +132,7 @@ static void a_key_has_the_rate_after_it_in_every_period(void **state) {
   }
 }
 
-/* A last key may miss the end of the period by a billionth. It still counts as the first key. */
+/* A last key counts as the first key of the next period, even if it misses the period's end by a billionth. */
 static void a_last_key_is_the_first_one_of_the_next_period(void **state) {
   (void)state;
   const double opening[] = {0.5, 1, 0.5};
@@ -227,7 +228,7 @@ static void bad_tables_are_refused(void **state) {
   CHECK_NEAR(got, 7, 0);
 }
 
-/* Times. */
+/* Makes a law from times. */
 
 static riis_opening_times some_times(void) {
   riis_opening_times times;
@@ -257,7 +258,7 @@ static void a_valve_opens_and_closes_at_its_times(void **state) {
     }
   }
   double opening;
-  CHECK_OK(riis_opening_from_times(&times, -0.5, &opening, NULL)); /* a period before: open */
+  CHECK_OK(riis_opening_from_times(&times, -0.5, &opening, NULL)); /* one period earlier, when the valve is open */
   CHECK_NEAR(opening, 1, 1e-12);
   times.period = 0;
   times.closed = 0.1;
@@ -291,7 +292,7 @@ static void bad_times_are_refused(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "times.open is 1.5", riis_opening_from_times(&times, 0, &got, NULL));
 }
 
-/* Switch. */
+/* Makes a law with a switch. */
 
 static riis_opening_switch some_switch(void) {
   riis_opening_switch law;
@@ -320,21 +321,22 @@ static void a_switch_opens_by_pressure_and_closes_by_flow(void **state) {
   CHECK_OK(riis_opening_switch_advance(&law, &now, 0.04, 1, 3, &now));
   CHECK_NEAR(now.opening, 0.5, 1e-12);
   CHECK_NEAR(now.rate, 1.875 / 0.04, 1e-9);
-  CHECK_OK(riis_opening_switch_advance(&law, &now, 0.30, -1, 3, &now)); /* pressure alone does not close it */
+  /* The pressure alone does not close the valve. */
+  CHECK_OK(riis_opening_switch_advance(&law, &now, 0.30, -1, 3, &now));
   assert_int_equal(now.phase, RIIS_PHASE_OPENING);
   CHECK_NEAR(now.opening, 1, 0);
   CHECK_OK(riis_opening_switch_advance(&law, &now, 0.31, -1, -0.1, &now));
   assert_int_equal(now.phase, RIIS_PHASE_CLOSING);
   CHECK_OK(riis_opening_switch_advance(&law, &now, 0.35, -1, -0.1, &now));
   CHECK_NEAR(now.opening, 0.5, 1e-12);
-  CHECK_OK(riis_opening_switch_advance(&law, &now, 0.36, 2, 0, &now)); /* it turns half way, without a jump */
+  /* The valve turns round half way, without a jump. */
+  CHECK_OK(riis_opening_switch_advance(&law, &now, 0.36, 2, 0, &now));
   const double where = now.opening;
   CHECK_OK(riis_opening_switch_advance(&law, &now, 0.36 + 1e-9, 2, 0, &now));
   CHECK_NEAR(now.opening, where, 1e-6);
 }
 
-/* The steps of a solver do not end exactly on the ramp's end: steps of 2 ms, added up to 0.04 s, end a rounding error before it.
- * */
+/* A solver's steps may not hit the ramp's end exactly: steps of 2 ms that add up to 0.04 s end a rounding error before it. */
 static void an_opening_rounds_to_at_most_one(void **state) {
   (void)state;
   const riis_opening_switch law = some_switch();
@@ -368,10 +370,10 @@ static void a_filter_and_a_dwell_keep_noise_out(void **state) {
   assert_true(turns >= 5 && turns <= 10);
 }
 
-/* Advances a law to a time, driven by functions of it. */
+/* Advances a law to a time. Its pressures and flows are functions of time. */
 typedef void driven_step(void *state, double time);
 
-/* A law goes on from a copy of its state half way, as after a restart. The end has the same bits. */
+/* A law continues from a copy of its state, made half way, as after a restart. It ends with the same bits. */
 static void check_restart(driven_step *advance, void *state, void *kept, size_t size) {
   enum { n_steps = 600, half = n_steps / 2 };
   for (int i = 1; i <= n_steps; ++i) {
@@ -395,7 +397,7 @@ static void a_restart_of_the_switch_has_the_same_bits(void **state) {
   check_restart(step_of_the_switch, &one, &kept, sizeof one);
 }
 
-/* Angle. */
+/* Makes the angle law of an aortic valve. */
 
 static riis_opening_angle aortic_angle(void) {
   riis_opening_angle law;
@@ -426,7 +428,8 @@ static void without_a_drive_friction_stops_the_leaflet(void **state) {
   CHECK_NEAR(now.rate, now.angle_rate / 75, 1e-15);
 }
 
-/* The drives are constant. Small steps of explicit Euler in long double are an independent answer, right to their own order. */
+/* The pressure and the flow are constant. Explicit Euler with small steps in long double gives an independent answer, accurate
+ * to first order. */
 static void the_angle_follows_the_published_equation(void **state) {
   (void)state;
   for (int trial = 0; trial < 6; ++trial) {
@@ -459,7 +462,7 @@ static double driven(int n) {
     const double t = end * i / n;
     CHECK_OK(riis_opening_angle_advance(&law, &now, t, 0.05 * cos(200 * t), 20 + 30 * sin(250 * t), &now));
   }
-  assert_true(now.angle > 1 && now.angle < 74); /* no stop was touched */
+  assert_true(now.angle > 1 && now.angle < 74); /* the leaflet did not reach a stop */
   return now.angle;
 }
 
@@ -491,7 +494,7 @@ static void the_angle_stays_between_its_stops(void **state) {
   CHECK_NEAR(now.opening, 0, 0);
 }
 
-/* Two drives: one shuts the valve, one opens it. */
+/* One pressure and flow closes the valve, the other opens it. */
 static void a_first_state_is_closed_whatever_the_law(void **state) {
   (void)state;
   for (int sign = -1; sign <= 1; sign += 2) {
@@ -503,7 +506,7 @@ static void a_first_state_is_closed_whatever_the_law(void **state) {
     CHECK_OK(riis_opening_angle_advance(&law, &closed, 0.01, 0.1 * sign, 10 * sign, &from_closed));
     assert_memory_equal(&from_first, &from_closed, sizeof from_first);
     assert_true(sign < 0 ? from_first.angle == 5 : from_first.angle > 5);
-    CHECK_OK(riis_opening_angle_advance(&law, &first, 0, 0, 0, &from_first)); /* no time passes */
+    CHECK_OK(riis_opening_angle_advance(&law, &first, 0, 0, 0, &from_first)); /* a step of length 0 */
     CHECK_NEAR(from_first.angle, 5, 0);
     CHECK_NEAR(from_first.opening, 0, 0);
   }
@@ -559,7 +562,7 @@ static void bad_laws_and_states_are_refused(void **state) {
   angle.angle_min = 5;
   at.angle = 4;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "before.angle is 4", riis_opening_angle_advance(&angle, &at, 1, 0, 0, &then));
-  at.angle = at.pressure_difference = at.flow = 0; /* no first state */
+  at.angle = at.pressure_difference = at.flow = 0; /* a state that was never initialized */
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "before.angle is 0", riis_opening_angle_advance(&angle, &at, 1, 0, 0, &then));
   at = angle_at_rest();
   angle = aortic_angle();

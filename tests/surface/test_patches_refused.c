@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Valves from the caller's patches: every refusal by code and message. */
+ * Valves from the caller's patches: every refusal is tested by status and message. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -93,7 +93,7 @@ static void curves_are_checked(void **state) {
   CHANGED_IS_REFUSED(square.degree[2] = 4, RIIS_INVALID_PARAMETER, "degree of curve 2 is 4;");
   CHANGED_IS_REFUSED(square.degree[0] = -1, RIIS_INVALID_PARAMETER, "degree of curve 0 is -1;");
   CHANGED_IS_REFUSED(square.degree[3] = INT32_MAX, RIIS_INVALID_PARAMETER, "degree of curve 3 is 2147483647;");
-  /* Six numbers a line. */
+  /* These arrays have six numbers for each straight line. */
   CHANGED_IS_REFUSED(arrays.control[23] = NAN, RIIS_INVALID_PARAMETER,
                      "z of control point 1 of curve 3 is nan;|at most 1e+30");
   CHANGED_IS_REFUSED(arrays.control[0] = -INFINITY, RIIS_INVALID_PARAMETER, "x of control point 0 of curve 0 is -inf;");
@@ -120,7 +120,7 @@ static void sides_are_checked(void **state) {
   CHANGED_IS_REFUSED(square.reversed[3] = -1, RIIS_INVALID_PARAMETER, "reversed of side u = 1 of patch 0 is -1;");
   CHANGED_IS_REFUSED(square.leaflet_id[0] = -1, RIIS_INVALID_PARAMETER,
                      "leaflet_id of patch 0 is -1; it must be at least 0");
-  /* A later patch is also named. */
+  /* A fault in a later patch names that patch. */
   CHANGED_IS_REFUSED((add_patch(&square, 0, 1, 2, 7), arrays.patches.n_patches = 2), RIIS_INVALID_PARAMETER,
                      "side u = 1 of patch 1 is curve 7");
 }
@@ -138,7 +138,7 @@ static void sides_have_to_meet(void **state) {
                      "side v = 1 ends in (1, 1, 0), side u = 1 ends in (3, 1, 0)");
   CHANGED_IS_REFUSED(square.reversed[1] = 1, RIIS_INVALID_PARAMETER,
                      "side v = 1 begins in (1, 1, 0), side u = 0 ends in (0, 1, 0)");
-  /* A gap of up to 1e-9 of the size, which is sqrt(2) here, counts as the caller's rounding. */
+  /* A gap of up to 1e-9 of the valve's size, which is sqrt(2) here, counts as rounding by the caller. */
   CHANGED_IS_REFUSED(arrays.control[5] = 2e-9, RIIS_INVALID_PARAMETER, "patch 0 does not close");
   shape nearly = unit_square();
   nearly.control[0][1][2] = 1e-9;
@@ -179,7 +179,7 @@ static void open_states_are_built_alike(void **state) {
   OPEN_IS_REFUSED((other.reversed[0] = 1, other.reversed[1] = 1, other.curve_id[2] = 3, other.curve_id[3] = 2),
                   "patch 0 has other sides in the open state");
 #undef OPEN_IS_REFUSED
-  /* The open state that it had is still there. */
+  /* The valve's earlier open state is still there. */
   surface = new_surface(valve, NULL);
   CHECK_SAME(info_of(surface).lower[2], 1);
 }
@@ -212,7 +212,7 @@ static void opening_is_the_only_parameter(void **state) {
 
 static void patches_without_area_make_no_surface(void **state) {
   (void)state;
-  shape flat = unit_square(); /* to a line, to a point, to nearly nothing */
+  shape flat = unit_square(); /* shrinks to a line, to a point, or to nearly nothing */
   for (int attempt = 0; attempt < 3; ++attempt) {
     const int owned_before = n_owned();
     const double scale[3][2] = {{1, 0}, {0, 0}, {1e-200, 1e-200}};
@@ -228,13 +228,13 @@ static void patches_without_area_make_no_surface(void **state) {
   }
 }
 
-/* A crescent much thinner than the tolerance does not vanish: its sides become finer, not the same chord. */
+/* A crescent that is much thinner than the tolerance does not vanish: its sides are refined until they are not the same chord. */
 static void a_patch_thinner_than_the_tolerance_stays(void **state) {
   (void)state;
   for (double sagitta = 0.04; sagitta > 1e-6; sagitta /= 10) {
     const int owned_before = n_owned();
     shape made = unit_square();
-    const double y = 4; /* away from the square, which uses the whole tolerance */
+    const double y = 4; /* away from the square, whose triangles may use the whole tolerance */
     const int32_t straight = (int32_t)made.n_curves;
     add_line(&made, 0, y, 0, 1, y, 0);
     const int32_t bent = (int32_t)made.n_curves;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Pairs of a surface's triangles that go through each other, against all pairs in extended precision. Triangles are in general
- * position, touch in every way, lie in a plane, or go through each other by a given depth. RIIS_TEST_LONG=1 tries fifty times as
- * many. */
+ * Pairs of a surface's triangles that go through each other are compared with a check of all pairs in extended precision.
+ * Triangles are in general position, touch in every way, lie in one plane, or go through each other by a given depth.
+ * RIIS_TEST_LONG=1 tries fifty times as many. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -58,7 +58,7 @@ static void add_random(soup *s) {
   }
 }
 
-/* The triangles share corners and sides, lie in planes, and cross there exactly. */
+/* These triangles have small whole coordinates, so they share corners and sides, lie in planes, and cross there exactly. */
 static void add_whole_numbers(soup *s) {
   const int64_t largest = random_integer(1, 4);
   const int in_plane = one_in(3);
@@ -69,13 +69,13 @@ static void add_whole_numbers(soup *s) {
   }
 }
 
-/* Returns a point of the triangle: a corner, on a side or inside. */
+/* Gives a point of the triangle: a corner, a point of a side, or an inner point. */
 static void point_of(const double *t, int kind, double *point) {
   const double u = kind == 0 ? 0 : random_between(&rng, 0, 1), v = kind == 2 ? random_between(&rng, 0, 1 - u) : 0;
   for (int i = 0; i < 3; ++i) point[i] = t[i] + u * (t[3 + i] - t[i]) + v * (t[6 + i] - t[i]);
 }
 
-/* The second triangle has a corner, or the middle of a side, on the first, up to a shift of any size. */
+/* The second triangle has a corner, or the middle of a side, on the first triangle, up to a shift of any size. */
 static void add_touching(soup *s) {
   double t[9], other[9], point[3];
   for (int k = 0; k < 8; ++k) {
@@ -86,7 +86,8 @@ static void add_touching(soup *s) {
     const double shift = one_in(2) ? 0 : ldexp(random_between(&rng, -1, 1), -(int)random_integer(2, 50));
     for (int i = 0; i < 3; ++i) {
       other[i] = point[i] + shift;
-      if (one_in(3) && k % 2) other[i] = 2 * point[i] - other[3 + i]; /* on some axes only: then merely near */
+      /* On some axes only, so that the triangles are only near each other. */
+      if (one_in(3) && k % 2) other[i] = 2 * point[i] - other[3 + i];
     }
     if (k % 4 == 0)
       for (int i = 0; i < 3; ++i) other[i] = 2 * point[i] - other[3 + i] + shift;
@@ -109,7 +110,7 @@ static void add_in_plane(soup *s) {
   }
 }
 
-/* A sheet with waves. Each triangle has its own vertices, or neighbours share them. */
+/* A wavy sheet. Each triangle has its own vertices, or neighbours share them. */
 static void add_sheet(soup *s, int side, int32_t leaflet_id, int shares) {
   const double height = random_between(&rng, -0.1, 0.1), tilt = random_between(&rng, -0.5, 0.5);
   const int64_t first = s->n_vertices;
@@ -142,7 +143,7 @@ static void add_sheets(soup *s) {
   for (int32_t k = 0; k < 2; ++k) add_sheet(s, side, one_in(3) ? 0 : k, shares);
 }
 
-/* Another unit and place. */
+/* Changes the soup's unit and position. */
 static void move(soup *s) {
   const double unit = ldexp(1, (int)random_integer(-120, 120)), far = one_in(2) ? 0 : random_between(&rng, -50, 50);
   for (int64_t i = 0; i < 3 * s->n_vertices; ++i) s->xyz[i] = unit * (s->xyz[i] + far);
@@ -156,7 +157,7 @@ static riis_surface *surface_of_soup(const soup *s, double half_thickness) {
   return surface_from(&arrays, &options);
 }
 
-/* The list's arrays last as long as the test. The memory is reused where the test gives crossings. */
+/* Returns the crossings. The list's arrays last as long as the test. If the test passes `crossings`, its memory is reused. */
 static riis_crossing_list crossings_in(const riis_surface *surface, double depth, int32_t n_threads,
                                        riis_crossings *crossings) {
   riis_crossing_options options;
@@ -207,14 +208,14 @@ typedef struct tally {
   int64_t n_crossing, n_touching, n_undecided;
 } tally;
 
-/* Checks the numbers of a pair that was found. */
+/* Checks the numbers of a pair. */
 static void check_pair(const riis_crossing_list *pairs, int64_t at, const double *a, const double *b, double depth,
                        double largest) {
   const double longest = fmax(longest_edge(a), longest_edge(b));
   double middle[3];
   const double length = oracle_segment(a, b, middle);
   CHECK_NEAR(pairs->depth[at], depth, 0x1p-24 * longest + 0x1p-48 * largest);
-  /* The planes' angle is at least depth / longest. The segment is ill conditioned by that much. */
+  /* The angle between the planes is at least depth / longest. The segment is ill-conditioned by this ratio. */
   const double error = 0x1p-44 * (longest + largest) * longest / depth;
   CHECK_NEAR(pairs->length[at], length, error);
   for (int i = 0; i < 3; ++i) CHECK_NEAR(pairs->point[3 * at + i], middle[i], error);
@@ -307,7 +308,7 @@ static void pairs_equal_those_of_all_triangles(void **state) {
     print_message("kind %d: %lld cross, %lld touch, %lld are too close to call\n", kind,
                   (long long)tallies[kind].n_crossing, (long long)tallies[kind].n_touching,
                   (long long)tallies[kind].n_undecided);
-    /* Random triangles are the kind with the fewest pairs: 157 in 100 trials here, and 85 with the least of 81 seeds. */
+    /* Random triangles are the kind with the fewest pairs: 157 in 100 trials here, and 85 for the worst of 81 seeds. */
     if (kinds[kind] == add_in_plane)
       assert_int_equal(tallies[kind].n_crossing, 0);
     else
@@ -316,7 +317,7 @@ static void pairs_equal_those_of_all_triangles(void **state) {
   }
 }
 
-/* There are many groups of triangles, so that threads share the work, and boxes of groups have several levels. */
+/* There are so many groups of triangles that threads share the work, and the tree of boxes has several levels. */
 static int same_summary(const riis_crossing_list *a, const riis_crossing_list *b) {
   const size_t from = offsetof(riis_crossing_list, total_length), to = offsetof(riis_crossing_list, seconds);
   return a->n_pairs == b->n_pairs && memcmp((const char *)a + from, (const char *)b + from, to - from) == 0;
@@ -345,8 +346,9 @@ static void threads_find_the_same(void **state) {
   }
 }
 
-/* Unit squares at right angles meet along a whole side's length. Each triangle of one square meets one of the other. The shortest
- * way out for the corner of a triangle is across its diagonal: half a side times sin 45 degrees. */
+/* Unit squares at right angles cross along a segment of a whole side's length. Each triangle of one square crosses one of the
+ * other. The shortest way to separate two triangles is to move a corner across the other's diagonal: half a side times sin 45
+ * degrees. */
 static void unit_squares_cross_along_one_unit(void **state) {
   (void)state;
   const double xyz[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0, -0.5, 0.5, 1, -0.5, 0.5, 1, 0.5, 0.5, 0, 0.5};
@@ -372,7 +374,7 @@ static void unit_squares_cross_along_one_unit(void **state) {
   }
 }
 
-/* A tip goes through a floor by a depth that is known. The limit is in half thicknesses. */
+/* A tip goes through a floor by a known depth. The limit is given in half thicknesses. */
 static void a_tip_crosses_beyond_the_limit(void **state) {
   (void)state;
   for (int i = -2; i <= 2; ++i) {
@@ -391,7 +393,7 @@ static void a_tip_crosses_beyond_the_limit(void **state) {
   }
 }
 
-/* Skipped triangles keep their ids. An update of the surface and a refused search leave the pairs as they were. */
+/* Triangles without area keep their ids. An update of the surface and a refused search leave the pairs as they were. */
 static void pairs_stay_until_the_next_search(void **state) {
   (void)state;
   const double xyz[] = {-1, -1, 0, 1, -1, 0, 0, 1, 0, 0, 0, -1, -1, 0, 1, 1, 0, 1};
@@ -449,7 +451,7 @@ static void bad_arguments_are_refused_by_name(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "list is NULL", riis_crossings_get_list(crossings, NULL, sizeof list));
 }
 
-/* The states that come with the library do not cross, as each kind of valve opens. */
+/* The library's default states do not cross at any opening, for any kind of valve. */
 static void valves_do_not_cross(void **state) {
   (void)state;
   static const char *const kinds[] = {"aortic", "trileaflet", "bileaflet", "mitral"};
@@ -491,7 +493,8 @@ static void fixed_triangles_cross_within_their_error(void **state) {
   }
 }
 
-/* A cusp that is turned by 60 degrees goes through its neighbours. The other methods for distances have the same triangles. */
+/* A cusp that is turned by 60 degrees goes through its neighbours. Other methods of measuring distances use the same
+ * triangles. */
 static void a_turned_cusp_crosses(void **state) {
   (void)state;
   riis_valve *valve = new_valve("aortic");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * A surface that is updated in its old memory equals a new surface, in every bit of its content, of closest points and of
- * marks. This holds whatever it was before, and for any number of threads. A refused update leaves no trace and gives the same
- * message as with one thread. */
+ * marks. This holds whatever the surface was before, and for any number of threads. A refused update leaves no trace and gives
+ * the same message as with one thread. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -13,7 +13,8 @@ static random_source rng;
 
 static int64_t any_of(int64_t n) { return (int64_t)(random_bits(&rng) % (uint64_t)n); }
 
-/* Triangles from arrays. At an update they move, change their order, or are replaced by as many or another number. */
+/* Triangles from arrays. At an update they move, change their order, or are replaced by others, of which there may be more or
+ * fewer. */
 enum { max_triangles = 600 };
 static double soup[9 * max_triangles];
 static int32_t soup_ids[3 * max_triangles];
@@ -33,7 +34,7 @@ static void change_soup(void) {
   const int64_t kind = n_soup ? any_of(5) : 4;
   const double by = pow(10, random_between(&rng, -6, 0));
   for (int64_t i = 0; i < 9 * n_soup && kind < 2; ++i) soup[i] += by * random_between(&rng, -1, 1);
-  for (int64_t i = n_soup - 1; i > 0 && kind == 2; --i) /* the same triangles with other numbers */
+  for (int64_t i = n_soup - 1; i > 0 && kind == 2; --i) /* reorders the same triangles */
     for (int64_t j = any_of(i + 1), k = 0; k < 3; ++k) {
       const int32_t id = soup_ids[3 * i + k];
       soup_ids[3 * i + k] = soup_ids[3 * j + k];
@@ -43,9 +44,9 @@ static void change_soup(void) {
   if (kind == 4) new_soup(1 + any_of(max_triangles), 0);
 }
 
-/* The source of a surface. */
+/* The source of a surface: arrays, patches or a valve. */
 typedef struct content {
-  riis_valve *valve; /* or */
+  riis_valve *valve; /* or a valve */
   riis_surface_arrays arrays;
   riis_surface_options options;
 } content;
@@ -76,7 +77,8 @@ static content random_content(riis_valve *const *valves) {
     if (any_of(4) == 0) c.options.tolerance = 1;
     if (any_of(8) == 0) c.options.tolerance = 0.01;
     if (any_of(6) == 0) c.options.measure = RIIS_MEASURE_SAMPLING, c.options.measure_tolerance = 0.2;
-    if (any_of(6) == 0) c.options.tolerance = c.options.half_thickness = 1e-5; /* too fine */
+    /* A tolerance so fine that it is refused. */
+    if (any_of(6) == 0) c.options.tolerance = c.options.half_thickness = 1e-5;
   } else {
     change_soup();
     static int32_t ids[3 * max_triangles];
@@ -89,7 +91,7 @@ static content random_content(riis_valve *const *valves) {
   return c;
 }
 
-/* Checks that closest points have the same bits. Some are at vertices, where pseudonormals decide the sides. */
+/* Checks that closest points have the same bits. Some query points are at vertices, where pseudonormals decide the sides. */
 static void check_closest(const riis_surface *updated, const riis_surface *fresh) {
   const riis_triangles all = triangles_of(fresh);
   for (int i = 0; i < 30; ++i) {
@@ -119,15 +121,16 @@ static void check_marks(const riis_surface *updated, const riis_surface *fresh, 
   CHECK_OK(riis_mark_nodes(updated, mesh, &options, result));
   assert_true(same_results(result, expected));
   options.search = RIIS_SEARCH_CLUSTERS;
-  if (riis_mark_nodes(updated, mesh, &options, result) == RIIS_OK) /* refused for samples */
-    assert_true(same_results(result, expected));
+  /* The search over clusters is refused for distances by sampling. */
+  if (riis_mark_nodes(updated, mesh, &options, result) == RIIS_OK) assert_true(same_results(result, expected));
   free_owned_after(owned_before);
 }
 
 static void an_updated_surface_is_a_fresh_one(void **state) {
   (void)state;
   riis_valve *valves[2] = {new_valve("aortic"), new_valve("mitral")}, *open = new_valve("aortic");
-  riis_surface *updated = NULL, *last = NULL; /* `last` is a new surface with the content that `updated` should have */
+  /* `last` is a new surface with the same content that `updated` should have. */
+  riis_surface *updated = NULL, *last = NULL;
   riis_marks *result = new_result();
   CHECK_OK(riis_valve_set_scalar(open, "leaflet_angle", 40));
   CHECK_OK(riis_valve_set_open_state(valves[0], open));

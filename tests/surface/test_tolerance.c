@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * tolerance * half thickness bounds the distance between the triangles and the smooth surface. It is measured on independent
- * evaluations of the smooth surface. For the aortic valve these are Coons patches of its Bézier curves by exact arc length; for
- * the mitral valve, tests/support/mitral_oracle.h. */
+ * tolerance * half thickness bounds the distance between the triangles and the smooth surface. The distance is measured with
+ * independent evaluations of the smooth surface. For the aortic valve these are Coons patches of its Bézier curves by exact
+ * arc length. For the mitral valve they come from tests/support/mitral_oracle.h. */
 #include "internals.h"
 #include "test_support.h"
 
@@ -34,7 +34,7 @@ static void tabulate(void) {
     }
 }
 
-/* The point of curve i at a share of its length. */
+/* Gives the point of curve i at a fraction of its length. */
 static void at_share(int64_t i, double share, double *point) {
   const double *table = tables[i], target = share * table[table_size];
   int low = 0, high = table_size;
@@ -69,8 +69,8 @@ static void aortic_point(int32_t patch_id, double u, double v, double *placed) {
 
 static mitral_oracle *mitral;
 
-/* The places of the mitral valve's patches on the annulus. Each patch goes from one u down to the next. The other patches are
- * mirror images. */
+/* Gives a point of the smooth mitral valve. The table has each patch's positions on the annulus: from one u down to the next.
+ * The other patches are mirror images. */
 static void mitral_point(int32_t patch_id, double u, double v, double *point) {
   double at[MITRAL_ORACLE_BREAKS];
   mitral_oracle_breaks(mitral, at);
@@ -93,7 +93,7 @@ static double distance_between(const double *p, const double *q) {
   return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]);
 }
 
-/* Makes Gauss-Newton steps from a first guess of (u, v), and returns the least distance on the way. */
+/* Makes Gauss-Newton steps from a first guess of (u, v), and returns the least distance met on the way. */
 static double distance_on_way(const smooth_valve *smooth, int32_t patch_id, double u, double v, const double *p) {
   double nearest = INFINITY;
   for (int step = 0; step < 4; ++step) {
@@ -115,8 +115,8 @@ static double distance_on_way(const smooth_valve *smooth, int32_t patch_id, doub
   return nearest;
 }
 
-/* Returns the distance of p from the patch, never below the truth. The steps can end in another minimum, or leave the patch where
- * it folds. So the search for a distance that is too large is repeated from all over the patch. */
+/* Returns the distance of p from the patch, never below the truth. The steps can end in another minimum, or leave the patch
+ * where it folds. So if a distance is too large, the search is repeated from start points all over the patch. */
 static double distance_to_smooth(const smooth_valve *smooth, int32_t patch_id, const double *guess, const double *p,
                                  double enough) {
   double nearest = distance_on_way(smooth, patch_id, guess[0], guess[1], p);
@@ -126,7 +126,7 @@ static double distance_to_smooth(const smooth_valve *smooth, int32_t patch_id, c
 }
 
 typedef struct {
-  double to_triangles, to_smooth; /* distances as shares of the bound */
+  double to_triangles, to_smooth; /* distances as fractions of the bound */
   int64_t n_triangles;
 } deviation;
 
@@ -211,8 +211,8 @@ static void mitral_deviation_stays_within_the_bound(void **state) {
   }
 }
 
-/* Compares each quad with the smooth patch at equal (u, v), all over the quad. Each is within its own bound, and some quad comes
- * near its bound. */
+/* Compares each quad with the smooth patch at equal (u, v), all over the quad. Each quad is within its own bound, and some
+ * quad comes near its bound. Returns the largest fraction of the bound. */
 static double largest_share_of_bound(const smooth_valve *smooth, int n_parameters, const char *const *names,
                                      const double *values, double max_error) {
   int64_t n;
@@ -231,7 +231,7 @@ static double largest_share_of_bound(const smooth_valve *smooth, int n_parameter
           bilinear[c] = (1 - t) * ((1 - s) * quad->corners[0][c] + s * quad->corners[1][c]) +
                         t * ((1 - s) * quad->corners[3][c] + s * quad->corners[2][c]);
         const double off = distance_between(exact, bilinear);
-        /* The aortic evaluation is right to 1e-7. */
+        /* The reference for the aortic valve is accurate to 1e-7. */
         if (!(off <= quad->error + 1e-6))
           fail_msg("patch %d, u %.5f to %.5f, v %.5f to %.5f: off by %.3g, the bound is %.3g", (int)quad->patch_id,
                    quad->u[0], quad->u[1], quad->v[0], quad->v[1], off, quad->error);
@@ -274,7 +274,7 @@ static void every_quad_stays_within_its_own_bound(void **state) {
   assert_true(of_aortic > 0.5 && of_mitral > 0.5);
 }
 
-/* Valves of many shapes: each parameter with a single value changes by a third up or down, one at a time. */
+/* Valves of many shapes: each parameter that is a single number changes by a third up or down, one at a time. */
 static void so_it_does_for_other_aortic_valves(void **state) {
   (void)state;
   random_source rng = random_start("test_tolerance");
@@ -308,13 +308,13 @@ static void so_it_does_for_other_aortic_valves(void **state) {
   assert_true(n_tried > fewer_if_sanitized(20));
 }
 
-/* A valve between two states. All parameters of each change at once by up to a quarter. */
+/* Makes a valve between two states. In each state, all parameters change at once by up to a quarter. */
 static riis_valve *random_mitral(mitral_parameters *parameters, random_source *rng) {
   riis_valve *valves[2];
   for (int k = 0; k < 2; ++k) {
     parameters[k] = mitral_defaults();
     valves[k] = new_valve("mitral");
-    double *values = &parameters[k].anterior_ratio; /* doubles all, in the table's order */
+    double *values = &parameters[k].anterior_ratio; /* all fields are doubles, in the table's order */
     for (int i = 0; i < 16; ++i) {
       riis_parameter parameter;
       CHECK_OK(riis_valve_get_parameter(valves[k], i, &parameter, sizeof parameter));
@@ -352,7 +352,7 @@ static void so_it_does_for_other_mitral_valves(void **state) {
       worst = fmax(worst, fmax(d.to_triangles, d.to_smooth));
       ++n_tried;
     } else {
-      assert_int_equal(status, RIIS_INVALID_PARAMETER); /* values that do not go together */
+      assert_int_equal(status, RIIS_INVALID_PARAMETER); /* values that do not fit each other */
     }
     free_owned_after(owned_before);
   }
@@ -360,7 +360,7 @@ static void so_it_does_for_other_mitral_valves(void **state) {
   assert_true(n_tried > fewer_if_sanitized(40));
 }
 
-/* One triangulation for all openings is tested at openings that it was not chosen at. */
+/* A fixed triangulation is tested at openings that were not used to choose it. */
 static void so_does_a_fixed_triangulation(void **state) {
   (void)state;
   random_source rng = random_start("test_tolerance");
@@ -376,7 +376,7 @@ static void so_does_a_fixed_triangulation(void **state) {
     riis_surface *surface = NULL;
     const riis_status status = riis_surface_create(valve, &options, &surface);
     if (status != RIIS_OK) {
-      assert_int_equal(status, RIIS_INVALID_PARAMETER); /* values that do not go together at some opening */
+      assert_int_equal(status, RIIS_INVALID_PARAMETER); /* values that do not fit each other at some opening */
       free_owned_after(owned_before);
       continue;
     }
@@ -404,7 +404,7 @@ static void so_does_a_fixed_triangulation(void **state) {
   assert_true(n_tried > fewer_if_sanitized(20) && n_refused <= 4);
 }
 
-/* Curves that are off by a deviation leave the rest of the tolerance to the triangles. The bound counts both. */
+/* If curves deviate from their shape, the triangles get the rest of the tolerance. The bound includes both. */
 static void a_deviation_of_curves_is_part_of_the_bound(void **state) {
   (void)state;
   static const char *const kinds[3] = {"aortic", "mitral", "bileaflet"};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The Embree scene only culls. Its answers equal those of a loop over all triangles with the same kernel, bit for bit. This
- * holds for every place and shape of the surface, near the limit and at it. */
+ * The Embree scene only decides which triangles to skip. So its answers equal those of a loop over all triangles with the same
+ * kernel, bit for bit. This holds for every position and shape of the surface, and for distances at the limit. */
 #include "internals.h"
 #include "test_support.h"
 
@@ -28,7 +28,7 @@ static void equals_the_loop_bit_for_bit(void **state) {
                  limit = scale * pow(10, random_between(&rng, -4, 1));
     for (int64_t i = 0; i < n_points; ++i) {
       const double *corner = xyz + 9 * (random_bits(&rng) % (uint64_t)n);
-      for (int c = 0; c < 3; ++c) /* some on corners and edges, where distances tie */
+      for (int c = 0; c < 3; ++c) /* some points are at corners or on edges, where several distances are equal */
         points[3 * i + c] = i % 5 == 0   ? corner[c]
                             : i % 5 == 1 ? 0.5 * (corner[c] + corner[3 + c])
                                          : scale * (centre[c] + reach * random_between(&rng, -1, 1));
@@ -41,7 +41,7 @@ static void equals_the_loop_bit_for_bit(void **state) {
   printf("%lld point-triangle pairs\n", (long long)n_pairs);
 }
 
-/* The limit is inclusive, and the distance decides: limits are equal to it, one bit below it and one bit above. */
+/* The limit is inclusive. Limits are equal to the distance, one bit below it and one bit above it. */
 static void limit_is_inclusive_to_the_last_bit(void **state) {
   (void)state;
   const double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The trileaflet valve: three equal cusps that meet in the same bits, close a vessel, and open (docs/theory.md, section 3). */
+ * The trileaflet valve has three equal cusps that meet in the same bits, close a vessel, and open (docs/theory.md, section 3). */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -9,7 +9,7 @@
 #include "cusp_checks.h"
 
 static const double turn[3] = {0, 120, -120}, half_angle[3] = {60, 60, 60};
-/* Defaults: R, the commissures' radius, the free edges' height before and after the translation. */
+/* Defaults: the root radius R, the commissures' radius, and the free edges' height before and after the translation. */
 static const double root = 1.25, commissure = 1.25, edge_height = 1.2, edge_z = 0;
 
 static riis_valve *copy_of(const riis_valve *valve) {
@@ -20,7 +20,7 @@ static riis_valve *copy_of(const riis_valve *valve) {
 
 static double distance(const double *p, const double *q) { return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]); }
 
-/* --- The closed state ------------------------------------------------------------------------------------------------- */
+/* --- The closed state -------------------------------------------------------------------------------------------------- */
 
 /* Free edges lie on the lines from the axis to the commissures. */
 static void closed_free_edges_are_straight(void **state) {
@@ -35,18 +35,18 @@ static void closed_free_edges_are_straight(void **state) {
     const double along = p[0] * cos(a) + p[1] * sin(a), across = p[1] * cos(a) - p[0] * sin(a);
     CHECK_NEAR(across, 0, 1e-15);
     CHECK_NEAR(p[2], edge_z, 1e-15);
-    /* The share of the way is u, because both curves of the patch are parametrised by arc length. */
+    /* The position along the edge is proportional to u, because both curves of the patch are parametrised by arc length. */
     CHECK_NEAR(along, all.uv[2 * v] * commissure, 1e-12);
     farthest = fmax(farthest, along), nearest = fmin(nearest, along);
   }
   CHECK_NEAR(farthest, commissure, 1e-15);
-  CHECK_SAME(fabs(nearest), 0); /* fmin may take 0 or -0 */
+  CHECK_SAME(fabs(nearest), 0); /* fmin may return 0 or -0 */
 }
 
 static int64_t n_of_pairs, n_of_places;
 
-/* Vertices of different cusps that are nearer than 1e-9 have the same bits, up to the sign of zero. Counts such pairs, and those
- * on the axis. */
+/* If vertices of different cusps are nearer than 1e-9, they must have the same bits, up to the sign of zero. Counts such
+ * pairs, and those on the axis. */
 static void check_common_vertices(const riis_surface *surface, double scale) {
   const riis_triangles all = triangles_of(surface);
   int32_t *cusp = own(malloc((size_t)all.n_vertices * sizeof *cusp));
@@ -65,7 +65,7 @@ static void check_common_vertices(const riis_surface *surface, double scale) {
   free_one_owned(cusp);
 }
 
-/* For both triangulations, for placed surfaces and after moving updates. */
+/* This holds for both triangulations, for placed surfaces and after moving updates. */
 static void cusps_meet_in_the_same_bits(void **state) {
   (void)state;
   random_source random = random_start("test_trileaflet");
@@ -101,7 +101,7 @@ static void cusps_meet_in_the_same_bits(void **state) {
   }
 }
 
-/* Turned by 120 degrees about the axis the valve is itself, and each cusp is its mirror image. */
+/* The valve does not change when it is turned by 120 degrees about the axis. Each cusp is its own mirror image. */
 static void cusps_are_equal(void **state) {
   (void)state;
   for (int i = 0; i <= 4; ++i) {
@@ -148,14 +148,14 @@ static void triangles_have_an_area(void **state) {
       assert_true(hypot(hypot(n[0], n[1]), n[2]) > 1e-6 * longest * longest);
       n_at_root += at_root;
     }
-    /* Each quad at a root point keeps one of its two triangles. */
+    /* Each quad at a root point has only one triangle with area. */
     assert_int_equal(info_of(surface).n_zero_area, n_at_root);
   }
 }
 
 /* --- Sealing ----------------------------------------------------------------------------------------------------------- */
 
-/* Nodes of a grid in a cylinder about the axis, from z = -2 to 1. */
+/* The nodes of a grid in a cylinder around the axis, from z = -2 to 1. */
 enum { n_across = 67, n_up = 76, n_nodes = n_across * n_across * n_up };
 static double nodes[3 * n_nodes];
 static uint8_t is_closed[n_nodes];
@@ -165,7 +165,7 @@ static double place_on_grid(int64_t i, int c, double radius) {
   return c == 2 ? -2 + 3.0 * (double)i / (n_up - 1) : radius * (2.0 * (double)i / (n_across - 1) - 1);
 }
 
-/* Marks the nodes near the surface, then floods from below over all 26 neighbours. Returns whether the flood comes out above. */
+/* Marks the nodes near the surface, then fills from below over all 26 neighbours. Returns whether the fill reaches the top. */
 static int leaks_through(riis_valve *valve, double radius, double half_thickness) {
   riis_surface_options options = surface_options();
   options.half_thickness = half_thickness;
@@ -211,10 +211,10 @@ static void closes_cylinders(void **state) {
     assert_true(leaks_through(valve_at("trileaflet", 0.25), radii[i], 0.1));
     assert_true(leaks_through(new_valve("aortic"), radii[i], 0.1)); /* the paper's state does not close */
   }
-  assert_true(leaks_through(new_valve("trileaflet"), 1.6, 0.1)); /* round the outside of the valve */
+  assert_true(leaks_through(new_valve("trileaflet"), 1.6, 0.1)); /* around the outside of the valve */
 }
 
-/* The attachment is near the wall of a cylinder. Prints it for makers of meshes. */
+/* The attachment is near the wall of a cylinder. The test prints its deviation, for users who make meshes. */
 static void attachment_is_near_a_cylinder(void **state) {
   (void)state;
   riis_surface_options options = surface_options();
@@ -239,7 +239,7 @@ static void attachment_is_near_a_cylinder(void **state) {
 
 /* --- Opening ----------------------------------------------------------------------------------------------------------- */
 
-/* The length of both halves of the free edge, from its control points. */
+/* Returns the length of both halves of the free edge, from its control points. */
 static double edge_by_formula(double t) {
   const double sine = sin(60 * cusp_degree), closed = commissure, open = 1.1 * commissure, r = 0.8 * root;
   double control[4][2], length = 0, last[2] = {0, 0};
@@ -282,9 +282,9 @@ static void opens_by_itself(void **state) {
   CHECK_AT_MOST(orifice_area(new_surface(new_valve("trileaflet"), NULL), 1.23, 600), 0);
 }
 
-/* With fixed triangles, a vertex's velocity is its displacement divided by the time. Only lines that end between two vertices of
- * a side differ slightly, because they end on chords. Where closed cusps meet, each vertex has the velocity of its own cusp:
- * outwards. */
+/* With fixed triangles, a vertex's velocity is its displacement divided by the time. It differs slightly only on grid lines
+ * that end between two vertices of a side, because they end on chords. Where closed cusps meet, each vertex has the velocity
+ * of its own cusp: outwards. */
 static void velocity_is_that_of_the_vertices(void **state) {
   (void)state;
   riis_surface_options options = surface_options();
@@ -300,13 +300,13 @@ static void velocity_is_that_of_the_vertices(void **state) {
     const double *velocity = velocity_of(surface);
     assert_int_equal(a.n_vertices, b.n_vertices);
     for (int64_t i = 0; i < 3 * a.n_vertices; ++i) CHECK_NEAR(velocity[i], (a.xyz[i] - b.xyz[i]) / seconds, 0.01);
-    /* In a unit of opening the edge's middle moves by 0.8 root radii, the commissure by a tenth of its radius. */
+    /* Per unit of opening, the edge's middle moves by 0.8 root radii, and the commissure by a tenth of its radius. */
     for (int64_t i = 0; i < 3 * a.n_triangles; ++i) {
       const int64_t v = a.vertex_id[i];
       const int32_t patch = a.patch_id[i / 3];
       const double *w = velocity + 3 * v, share = a.uv[2 * v], middle = turn[a.leaflet_id[i / 3]] * cusp_degree;
       if (patch % 2 == 0 || a.uv[2 * v + 1] != 1) continue;
-      assert_true(w[0] * cos(middle) + w[1] * sin(middle) > 0.05); /* outwards in its own cusp */
+      assert_true(w[0] * cos(middle) + w[1] * sin(middle) > 0.05); /* outwards, in the direction of its own cusp */
       if (share == 0 || share == 1) {
         const double speed = share == 0 ? 0.8 * root : 0.1 * commissure;
         const double way = middle + share * (patch % 4 == 1 ? 60 : -60) * cusp_degree;
@@ -317,7 +317,7 @@ static void velocity_is_that_of_the_vertices(void **state) {
   }
 }
 
-/* A closed free edge is no rim, because the neighbour continues there. An open free edge is a rim. */
+/* A closed free edge is not a rim, because the neighbouring cusp continues there. An open free edge is a rim. */
 static void closed_free_edges_are_no_rims(void **state) {
   (void)state;
   const double probe[3] = {0.5 * cos(60 * cusp_degree), 0.5 * sin(60 * cusp_degree), 0.05};
@@ -339,7 +339,7 @@ static void closed_free_edges_are_no_rims(void **state) {
   }
 }
 
-/* With a second valve, the closed curves are those of the first valve, and the open curves are those of the second. */
+/* With a second valve, the closed curves come from the first valve, and the open curves from the second. */
 static void opens_to_another_valves_open_state(void **state) {
   (void)state;
   riis_valve *valve = new_valve("trileaflet"), *other = new_valve("trileaflet"), *plain = new_valve("trileaflet");
@@ -390,7 +390,7 @@ static void every_parameter_by_name(void **state) {
     CHECK_OK(riis_valve_get(valve, table[i].name, table[i].n_values, values));
     assert_memory_equal(values, table[i].values, sizeof values);
     assert_memory_equal(parameter.default_values, table[i].values, sizeof values);
-    /* Changed a little, the surface changes. */
+    /* If the open state changes a little, the surface changes. */
     riis_valve *changed = valve_at("trileaflet", 0.5);
     for (int k = 0; k < table[i].n_values; ++k) values[k] += 0.01;
     CHECK_OK(riis_valve_set(changed, table[i].name, table[i].n_values, values));

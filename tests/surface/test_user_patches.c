@@ -25,11 +25,11 @@ static void square_has_its_area_and_normal(void **state) {
   assert_int_equal(above.side, 1);
   assert_int_equal(above.leaflet_id, 5);
   const riis_triangles all = triangles_of(surface);
-  for (int64_t i = 0; i < all.n_vertices; ++i) /* u is x and v is y */
+  for (int64_t i = 0; i < all.n_vertices; ++i) /* here u is x and v is y */
     for (int c = 0; c < 2; ++c) CHECK_SAME(all.uv[2 * i + c], all.xyz[3 * i + c]);
   free_one_owned(surface);
 
-  square.n_patches = 0; /* u and v change places */
+  square.n_patches = 0; /* here u and v are swapped */
   add_patch(&square, 2, 3, 0, 1);
   surface = surface_of(&square, NULL);
   above = closest_to(surface, 0.3, 0.6, 2);
@@ -37,7 +37,8 @@ static void square_has_its_area_and_normal(void **state) {
   assert_int_equal(above.side, -1);
 }
 
-/* A wavy patch with curves of every degree. Coordinates are small multiples of 1/8: blending does not round. */
+/* A wavy patch with curves of every degree. Coordinates are small multiples of 1/8, so interpolation between states does not
+ * round. */
 static shape wavy(void) {
   static const double v0[4][3] = {{0, 0, 0}, {0.375, -0.25, 0.5}, {0.75, 0.25, -0.25}, {1.25, 0, 0.125}};
   static const double v1[3][3] = {{0, 1, 0.25}, {0.5, 1.5, 0.75}, {1, 1.25, 0}};
@@ -73,7 +74,7 @@ static void line_of_any_degree_gives_the_same_surface(void **state) {
   (void)state;
   const shape from = wavy();
   const double *a = from.control[3][0], *b = from.control[3][1];
-  /* The degree, and the places of the inner control points on the line: even and uneven ones. */
+  /* The degree, and the positions of the inner control points on the line, evenly and unevenly spaced. */
   const struct {
     int32_t degree;
     double at[2];
@@ -88,7 +89,7 @@ static void line_of_any_degree_gives_the_same_surface(void **state) {
   }
 }
 
-/* A point of a Bezier curve by Bernstein polynomials. */
+/* Gives a point of a Bézier curve by Bernstein polynomials. */
 static void bezier_point(const shape *from, int64_t curve, double t, double *p) {
   static const double binomial[4][4] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}};
   const int n = from->degree[curve];
@@ -99,7 +100,7 @@ static void bezier_point(const shape *from, int64_t curve, double t, double *p) 
 
 enum { n_steps = 4000, n_dense = 120 };
 
-/* Makes points at shares 0, 1 / n_dense, 2 / n_dense, ... of the curve's length, measured along n_steps chords. */
+/* Gives the points at the fractions 0, 1 / n_dense, 2 / n_dense, ... of the curve's length, measured along n_steps chords. */
 static void points_by_length(const shape *from, int side, double (*points)[3]) {
   static double fine[n_steps + 1][3], length[n_steps + 1];
   const int64_t curve = from->curve_id[side];
@@ -147,7 +148,7 @@ static riis_surface *dense_surface(const shape *from) {
   return surface_from(&arrays, &options);
 }
 
-/* The largest distance to a surface from the vertices and middles of another surface's triangles. */
+/* Returns the largest distance to a surface from the vertices and middles of another surface's triangles. */
 static double largest_distance(const riis_surface *to, const riis_surface *from) {
   const riis_triangles all = triangles_of(from);
   double largest = 0;
@@ -165,7 +166,7 @@ static double largest_distance(const riis_surface *to, const riis_surface *from)
   return largest;
 }
 
-/* The dense surface is itself right to about 1e-4. */
+/* The dense surface itself is accurate to about 1e-4. */
 static void check_against_dense(const shape *from, double tolerance) {
   const int owned_before = n_owned();
   riis_surface_options options = surface_options();
@@ -198,7 +199,7 @@ static void random_patches_are_coons_patches(void **state) {
   for (int trial = 0; trial < fewer_if_sanitized(6); ++trial) {
     shape from = {0};
     const double corner[4][2] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
-    double p[4][3]; /* the corners, moved */
+    double p[4][3]; /* the corners are moved */
     const int ends[4][2] = {{0, 1}, {2, 3}, {0, 2}, {1, 3}};
     for (int k = 0; k < 4; ++k)
       for (int c = 0; c < 3; ++c) p[k][c] = (c < 2 ? corner[k][c] : 0) + random_between(&rng, -0.3, 0.3);
@@ -219,8 +220,8 @@ static void random_patches_are_coons_patches(void **state) {
   }
 }
 
-/* Two patches on both sides of a shared curve from (0, 0, 0) to (0, 1, z), which is u = 1 of both. The second patch is turned by
- * half a circle, so its v runs backwards along the curve. */
+/* Makes two patches that share a curve from (0, 0, 0) to (0, 1, z), which is u = 1 of both. The second patch is turned by half
+ * a circle, so its v runs backwards along the curve. */
 static shape pair_of_patches(double z) {
   const double shared[4][3] = {{0, 0, 0}, {0.5, 0.25, z}, {-0.25, 0.75, 3 * z}, {0, 1, z}};
   const double far[3][3] = {{2, 1, 0}, {2.5, 0.5, 2 * z}, {2, 0, z}};
@@ -230,7 +231,7 @@ static shape pair_of_patches(double z) {
   add_line(&pair, -1, 1, 0, 0, 1, z);
   add_line(&pair, -1, 0, 0, -1, 1, 0);
   add_line(&pair, 2, 1, 0, 0, 1, z);
-  add_line(&pair, 0, 0, 0, 2, 0, z); /* also backwards */
+  add_line(&pair, 0, 0, 0, 2, 0, z); /* this curve also runs backwards */
   add_curve(&pair, 2, far);
   add_patch(&pair, 1, 2, 3, 0);
   add_patch(&pair, 4, 5, 6, 0);
@@ -239,7 +240,7 @@ static shape pair_of_patches(double z) {
   return pair;
 }
 
-/* The vertices at u = 1 of a patch in the order of v, each once. The second patch's v is reversed. */
+/* The vertices at u = 1 of a patch, each once, in the order of v. For the second patch v is reversed. */
 typedef struct {
   double v, p[3];
 } boundary_vertex;
@@ -269,7 +270,7 @@ static int boundary(const riis_triangles *all, int32_t patch, boundary_vertex *o
   return n_kept;
 }
 
-/* The distance of a vertex from a polyline. */
+/* Returns the distance of a vertex from a polyline. */
 static double distance_to_polyline(const double *p, const boundary_vertex *line, int n) {
   double smallest = INFINITY;
   for (int i = 0; i + 1 < n; ++i) {
@@ -288,8 +289,8 @@ static double distance_to_polyline(const double *p, const boundary_vertex *line,
   return smallest;
 }
 
-/* A patch with the shared curve at u = 1 and the same curve, moved, at u = 0. Its quads are plane and never split, so its
- * vertices at u = 1 are the curve's polyline. */
+/* Makes a patch with the shared curve at u = 1 and a moved copy of it at u = 0. The patch's quads are planar and never split,
+ * so its vertices at u = 1 are the curve's polyline. */
 static shape strip_along_shared_curve(const shape *pair) {
   shape strip = {0};
   double moved[4][3];
@@ -316,7 +317,7 @@ static void shared_curves_leave_no_cracks(void **state) {
   for (int is_plane = 0; is_plane < 2; ++is_plane) {
     const int owned_before = n_owned();
     shape pair = pair_of_patches(is_plane ? 0 : 0.25);
-    if (is_plane) { /* the far side is also straight, so all grid lines come from the shared curve */
+    if (is_plane) { /* the far side is straight too, so all grid lines come from the shared curve */
       pair.degree[6] = 1;
       memcpy(pair.control[6][1], pair.control[6][2], sizeof pair.control[6][1]);
     }
@@ -334,10 +335,10 @@ static void shared_curves_leave_no_cracks(void **state) {
       check_holds(a, n_a, &of_curve[i]);
       check_holds(b, n_b, &of_curve[i]);
     }
-    /* A vertex that only one patch has lies on the other patch's edges, to rounding. */
+    /* If only one patch has a vertex, it lies on the other patch's edges, up to rounding. */
     for (int i = 0; i < n_a; ++i) CHECK_AT_MOST(distance_to_polyline(a[i].p, b, n_b), 1e-15);
     for (int i = 0; i < n_b; ++i) CHECK_AT_MOST(distance_to_polyline(b[i].p, a, n_a), 1e-15);
-    /* The normals of both are along S_u x S_v. */
+    /* The normals of both patches point along S_u x S_v. */
     assert_int_equal(closest_to(surface, -0.5, 0.5, 5).side, 1);
     assert_int_equal(closest_to(surface, 1.5, 0.5, 5).side, 1);
     free_owned_after(owned_before);
@@ -351,11 +352,11 @@ static void collapsed_sides_leave_no_triangles_without_area(void **state) {
   for (int which = 0; which < 2; ++which) {
     shape from = {0};
     add_line(&from, 0, 0, 0, 1, 0, 0);
-    if (which == 0) { /* a triangle: v = 1 is collapsed */
+    if (which == 0) { /* a triangle: the side v = 1 is a point */
       add_line(&from, 0, 1, 0, 0, 1, 0);
       add_line(&from, 0, 0, 0, 0, 1, 0);
       add_line(&from, 1, 0, 0, 0, 1, 0);
-    } else { /* a chord and an arc: u = 0 and u = 1 are collapsed */
+    } else { /* a chord and an arc: the sides u = 0 and u = 1 are points */
       add_curve(&from, 3, up);
       add_line(&from, 0, 0, 0, 0, 0, 0);
       add_line(&from, 1, 0, 0, 1, 0, 0);
@@ -390,13 +391,13 @@ static void opening_blends_control_points(void **state) {
   for (int64_t i = 0; i < closed.n_curves; ++i)
     for (int k = 0; k <= closed.degree[i]; ++k)
       for (int c = 0; c < 3; ++c) {
-        /* The open state is sheared and lifted, so that sides still meet at the corners. */
+        /* The open state is sheared and lifted in a way that keeps sides meeting at the corners. */
         open.control[i][k][c] += c == 2 ? 0.5 + closed.control[i][k][0] : 0.25 * closed.control[i][k][2];
         middle.control[i][k][c] = 0.5 * (closed.control[i][k][c] + open.control[i][k][c]);
       }
   const shape *expected[3] = {&closed, &middle, &open};
   riis_valve *valve = valve_from(&closed), *other = valve_from(&open);
-  CHECK_OK(riis_valve_set_scalar(other, "opening", 0.25)); /* has no effect */
+  CHECK_OK(riis_valve_set_scalar(other, "opening", 0.25)); /* the open state's own opening has no effect */
   CHECK_OK(riis_valve_set_open_state(valve, other));
   free_one_owned(other);
   for (int step = 0; step <= 2; ++step) {

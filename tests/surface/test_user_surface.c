@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Surfaces from the caller's arrays: layouts, ids, zero-area triangles, winding. */
+ * Surfaces from the caller's arrays: layouts, ids, triangles without area, and winding. */
 #include <riis/riis.h>
 
 #include "test_support.h"
 
 #include "handles.h"
 
-/* A unit square in z = 0 of two triangles, and a third, 5 above. */
+/* A unit square in z = 0 of two triangles, and a third triangle 5 above it. */
 static const double xyz[21] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 5, 1, 0, 5, 0, 1, 5};
 static const int32_t ids[9] = {0, 1, 2, 0, 2, 3, 4, 5, 6};
 static const int32_t leaflets[3] = {7, 8, 9};
@@ -28,7 +28,7 @@ static void every_layout_gives_the_same_surface(void **state) {
     arrays.leaflet_id = leaflets;
     if (separate) arrays.x = x, arrays.y = y, arrays.z = z, arrays.stride = 1;
     riis_surface *surface = surface_from(&arrays, NULL);
-    memset(ids32, -1, sizeof ids32); /* the library must not keep borrowing the arrays */
+    memset(ids32, -1, sizeof ids32); /* the library must have copied the arrays */
     memset(ids64, -1, sizeof ids64);
     CHECK_NEAR(info_of(surface).area, 1.5, 1e-15);
     const riis_closest a = closest_to(surface, 0.9, 0.1, 1), b = closest_to(surface, 0.1, 0.9, -1),
@@ -72,7 +72,7 @@ static void listen(void *user_data, int32_t level, const char *message) {
 
 static void zero_area_is_refused_or_skipped_with_ids_kept(void **state) {
   (void)state;
-  /* Triangle 1 repeats a vertex, triangle 2 is collinear, triangle 3 a needle of height 1e-13. */
+  /* Triangle 1 repeats a vertex, triangle 2 is collinear, and triangle 3 is a needle of height 1e-13. */
   const double points[27] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0, 0.5, 1e-13, 0, 0, 0, 5, 1, 0, 5, 0, 1, 5};
   const int32_t with_bad[15] = {0, 1, 2, 0, 0, 3, 0, 1, 4, 0, 1, 5, 6, 7, 8};
   riis_surface_arrays arrays = triangle_arrays(9, points, 5, with_bad);
@@ -94,11 +94,11 @@ static void zero_area_is_refused_or_skipped_with_ids_kept(void **state) {
   assert_int_equal(triangle_id[0], 0);
   assert_int_equal(triangle_id[1], 4);
   assert_int_equal(closest_to(surface, 0.1, 0.1, 7).triangle_id,
-                   4); /* the caller's number, not the place in the queue */
+                   4); /* the caller's number of the triangle, not its position among the kept ones */
   free_one_owned(surface);
 
   arrays.n_faces = 3;
-  arrays.vertex_ids = with_bad + 3; /* only bad triangles */
+  arrays.vertex_ids = with_bad + 3; /* only triangles without area */
   CHECK_REFUSED(RIIS_INVALID_SURFACE, "none of the 3 faces",
                 riis_surface_create_from_arrays(&arrays, &options, &surface));
 }
@@ -131,7 +131,8 @@ static void winding_is_the_callers_unless_flipped(void **state) {
   assert_int_equal(closest_to(flipped, 0.9, 0.1, 1).side, -1);
 }
 
-/* Two triangles back to back. Their normals cancel at the common edges up to rounding, so the side is the reported triangle's. */
+/* Two triangles lie back to back. At the common edges the sum of their normals is 0 up to rounding, so the side is taken from
+ * the reported triangle alone. */
 static void side_of_folded_faces_is_the_triangles_own(void **state) {
   (void)state;
   const double points[9] = {0.1, 0.2, 0.3, 1.7, 0.4, 0.1, 0.3, 1.9, 0.7};
@@ -168,7 +169,7 @@ static void update_replaces_the_content(void **state) {
   CHECK_NEAR(closest_to(surface, 0.9, 0.1, 1).distance, 1, 0);
 }
 
-/* Vertices alone move the faces of the last arrays. The surface is that of faces and vertices together. */
+/* An update with vertices alone moves the faces of the last arrays. It equals an update with faces and vertices. */
 static void vertices_alone_keep_the_faces(void **state) {
   (void)state;
   enum { n = 30 };
@@ -207,7 +208,7 @@ static void vertices_alone_keep_the_faces(void **state) {
   }
 }
 
-/* A triangle that had no area for a while comes back. */
+/* A triangle that temporarily had no area is used again. */
 static void a_skipped_triangle_comes_back(void **state) {
   (void)state;
   const double open[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, shut[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0};
@@ -253,11 +254,11 @@ static void vertices_alone_are_refused_without_their_faces(void **state) {
                 riis_surface_update_from_arrays(surface, &vertices, NULL));
 }
 
-/* A closed body with sharp edges. The inside is also recognised where the closest point is on an edge or a corner. There the
- * plain normal of one face would be wrong. */
+/* A closed body with sharp edges. Inside points are recognised even if the closest point is on an edge or a corner, where the
+ * normal of one face would give the wrong side. */
 static void side_at_edges_and_corners_of_a_wedge(void **state) {
   (void)state;
-  /* A thin tetrahedron: dihedral angles far below and above 90 degrees. */
+  /* A thin tetrahedron, with dihedral angles far below and far above 90 degrees. */
   const double points[12] = {0, 0, 0, 4, 0, 0, 2, 0.5, 0, 2, 0.25, 0.3};
   const int32_t faces[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
   riis_surface_arrays arrays = triangle_arrays(4, points, 4, faces);
@@ -266,7 +267,7 @@ static void side_at_edges_and_corners_of_a_wedge(void **state) {
   int n_inside = 0, n_edge = 0;
   for (int trial = 0; trial < 50000; ++trial) {
     const double p[3] = {random_between(&rng, -1, 5), random_between(&rng, -0.5, 1), random_between(&rng, -0.5, 0.8)};
-    /* Inside all four planes. */
+    /* Whether the point is inside all four planes. */
     int inside = 1;
     for (int f = 0; f < 4; ++f) {
       const double *a = points + 3 * faces[3 * f], *b = points + 3 * faces[3 * f + 1],

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Velocities of valves that open, at vertices and inside triangles, compared with the smooth motion. The bound on their errors
- * is tested for any motion. */
+ * Velocities of opening valves, at vertices and inside triangles, are compared with the smooth motion. The bound on their
+ * errors is tested for any motion. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -38,7 +38,7 @@ static void interpolate(const double *values, int n_values, const int64_t *corne
   }
 }
 
-/* Differences from the velocity of the nearest place of the smooth valve, as shares of the largest speed. */
+/* Differences from the velocity of the smooth valve's nearest point, as fractions of the largest speed. */
 typedef struct compared {
   double vertices, inside;
 } compared;
@@ -62,8 +62,8 @@ static compared compare(const riis_surface *surface, const smooth_motion *motion
   return made;
 }
 
-/* The valve opens in steps of a thousandth. The first openings are those with the largest errors that were ever found.
- * RIIS_TEST_LONG takes all. */
+/* The valve opens in steps of a thousandth. The first openings in the list have the largest errors ever found. RIIS_TEST_LONG
+ * tests all openings. */
 static void velocities_follow_the_smooth_valve(void **state) {
   (void)state;
   static const int known[] = {957, 930, 950, 755, 1000};
@@ -118,7 +118,7 @@ static const struct {
   int n;
 } values_of[n_kinds] = {{aortic_values, 6}, {trileaflet_values, 6}, {mitral_values, 3}, {bileaflet_values, 2}};
 
-/* Sets the value at position `only` at random, or about half of the values if it is negative. */
+/* Changes the value at position `only` at random, or about half of all values if `only` is negative. */
 static void move(riis_valve *valve, int kind, int only) {
   for (int i = 0; i < values_of[kind].n; ++i)
     if (only < 0 ? random_bits(&rng) % 2 : i == only)
@@ -134,7 +134,7 @@ static void place(const riis_surface_options *by, const double *p, double *place
   placed[2] = by->scale * p[2] + by->translation[2];
 }
 
-/* The largest difference from the smooth motion at equal patch, u and v. */
+/* Returns the largest difference from the smooth motion at equal patch, u and v. */
 static double farthest_at_labels(const riis_surface *surface, const smooth_motion *motion,
                                  const riis_surface_options *now, const riis_surface_options *then, double seconds) {
   const riis_triangles c = triangles_of(surface);
@@ -167,7 +167,7 @@ static void the_bound_holds_for_any_motion(void **state) {
     move(valve, kind, -1);
     CHECK_OK(riis_valve_copy(valve, &before));
     own(before);
-    /* The motion is a step of the opening or a jump, of one value or of several. */
+    /* The motion is a step of the opening, or a jump of one or several values. */
     double opening;
     CHECK_OK(riis_valve_get(valve, "opening", 1, &opening));
     if (trial / n_kinds % 2)
@@ -197,14 +197,14 @@ static void the_bound_holds_for_any_motion(void **state) {
                off, bound, speed);
     if (off > 1e-6 * speed) least_ratio = fmin(least_ratio, bound / off);
     CHECK_OK(riis_surface_update(surface, valve, NULL));
-    assert_true(info_of(surface).velocity_error_bound == 0); /* a plain update drops the motion */
+    assert_true(info_of(surface).velocity_error_bound == 0); /* an update without velocity drops the motion */
     free_owned_after(owned_before);
   }
   printf("the bound is at least %.2f times what was found\n", least_ratio);
 }
 
-/* The bound is useful: in a motion that opens, it is a small share of the speed. Where few triangles bend much, it is near the
- * truth. */
+/* The bound is useful: for an opening motion it is a small fraction of the speed. If few triangles bend much, the bound is
+ * close to the true error. */
 static void the_bound_is_near(void **state) {
   (void)state;
   for (int kind = 0; kind < n_kinds; ++kind) {
@@ -217,7 +217,7 @@ static void the_bound_is_near(void **state) {
     printf("%s: the bound is %.3g of the largest speed\n", kinds[kind], bound / speed);
     CHECK_AT_MOST(bound, 0.06 * speed);
   }
-  /* Leaflets that are flat at the moment and bend. */
+  /* The leaflets are flat at this opening, and about to bend. */
   riis_valve *valve = new_valve("mitral"), *before = new_valve("mitral"), *open = new_valve("mitral");
   CHECK_OK(riis_valve_set_scalar(valve, "surface_angle", 25));
   CHECK_OK(riis_valve_set_scalar(open, "surface_angle", -25));
@@ -241,7 +241,7 @@ static void the_bound_is_near(void **state) {
   CHECK_AT_MOST(bound, 3 * off);
 }
 
-/* A motion that keeps everything in place has no error. Surfaces from arrays have none either. */
+/* A motion that keeps everything in place has no velocity error. Surfaces from arrays have none either. */
 static void no_motion_has_no_error(void **state) {
   (void)state;
   for (int kind = 0; kind < n_kinds; ++kind) {

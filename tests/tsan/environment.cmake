@@ -5,15 +5,16 @@ if(NOT RIIS_SANITIZE MATCHES "thread")
   return()
 endif()
 
-# Archer tells the sanitizer which accesses OpenMP orders. OpenMP's run-time looks for it only along the program's paths, where it
-# is not. Suppressions name functions, so a symbolizer has to find their names.
+# Archer tells the sanitizer which accesses OpenMP orders. OpenMP's run-time searches for Archer only in the program's paths,
+# where it is not. Suppressions name functions, so the sanitizer needs a symbolizer to find their names.
 file(REAL_PATH ${CMAKE_CXX_COMPILER} riis_clang)
 cmake_path(GET riis_clang PARENT_PATH riis_clang_dir)
 find_library(RIIS_ARCHER archer HINTS ${riis_clang_dir}/../lib REQUIRED)
 find_program(RIIS_SYMBOLIZER llvm-symbolizer HINTS ${riis_clang_dir} REQUIRED)
 
-# Embree, TBB and OpenMP's run-time are not compiled with the sanitizer, so their own accesses are left out. The history is the
-# longest: a race whose earlier access has left the history is not reported, as the planted ones were not with the default.
+# Embree, TBB and OpenMP's run-time are not compiled with the sanitizer, so accesses inside them are ignored. The history has the
+# greatest length, because a race is not reported once its earlier access has left the history. With the default length, the
+# planted races were not reported.
 set(riis_tsan_options ignore_noninstrumented_modules=1 history_size=7 external_symbolizer_path='${RIIS_SYMBOLIZER}'
   suppressions='${CMAKE_CURRENT_LIST_DIR}/suppressions.txt')
 list(JOIN riis_tsan_options " " riis_tsan_options)

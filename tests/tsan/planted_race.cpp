@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// planted_race loop|walk race|order. With race, the thread sanitizer has to report a race through one of the two seams. With
-// order, the seam orders the work and the sanitizer has to be silent. Exit status 3: no two threads took part, so nothing was
-// shown.
+// planted_race loop|walk race|order: runs the library's parallel loop or walk. With `race`, the thread sanitizer has to report a
+// race between its bodies. With `order`, the loop or walk orders the accesses, and the sanitizer has to be silent. Exit status 3
+// means that no two threads took part, so nothing was shown.
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -13,14 +13,14 @@
 
 namespace {
 
-// The report has to name this variable. It is alone on its line: the sanitizer remembers few accesses of each eight bytes, and
-// the flags have many.
+// The report has to name this variable. It has a cache line of its own, away from the often-used flags, because the sanitizer
+// remembers few accesses to each eight bytes.
 alignas(64) int planted = 0;
 alignas(64) std::atomic<int> n_come{0};
 std::atomic<bool> is_written{false}, is_written_again{false};
 
-// Waits by relaxed loads, which order nothing. It makes few of them, because a thread's history, from which a report is made, is
-// short. It gives up after a while if the other thread never comes.
+// Waits by relaxed loads, which order nothing. It makes few loads, because a long wait would push the other access out of the
+// thread's history. It gives up after a while if the other thread never comes.
 template <class Happened>
 bool wait_until(const Happened &happened) {
   const auto start = std::chrono::steady_clock::now();
@@ -31,9 +31,9 @@ bool wait_until(const Happened &happened) {
   return true;
 }
 
-// Called four times, twice on each of two threads. Both reach their first call, and one thread writes in it. The other thread
-// writes in its second call, long after the first's has returned. So the two writes never overlap, and only an order between
-// bodies that the seam does not promise could hide the race.
+// Is called four times, twice on each of two threads. Both threads reach their first call, and one of them writes in it. The
+// other thread writes in its second call, long after the first thread's call has returned. So the writes never overlap. Only an
+// order between bodies, which the library does not promise, could hide the race.
 void write_late() {
   thread_local int n_calls = 0, place = 0;
   ++n_calls;
@@ -66,7 +66,7 @@ bool race_in_walk() {
   return is_written_again;
 }
 
-// Each loop writes where another thread may have written in the loop before.
+// Each loop writes where another thread may have written in the previous loop.
 bool order_in_loop() {
   static int written[1000];
   int n_ran = 0;
@@ -75,7 +75,8 @@ bool order_in_loop() {
   return n_ran == 2 && written[0] == 50;
 }
 
-// An added body runs after its adder's earlier writes, on either thread. The first body waits until the other thread goes on.
+// If a body adds another body, that body runs after its adder's earlier writes, on either thread. The first body waits until the
+// other thread continues.
 bool order_in_walk() {
   static int written[1000];
   std::atomic<int> n_on_thread[2] = {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the edges of cells of higher order from the places of their nodes in VTK's unit cells.
+// Finds the edges of cells of higher order from the positions of their nodes in VTK's unit cells.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,7 +30,7 @@ using Edges = std::set<std::pair<int, int>>;
 
 struct Kind {
   int type, n_nodes, n_corners,
-      order;  // order 0: nodes in the middles of sides and perhaps of faces, but no complete lattice
+      order;  // 0 if nodes lie only in the middles of sides and perhaps of faces, without a complete lattice
 };
 constexpr Kind kinds[] = {{VTK_QUADRATIC_TETRA, 10, 4, 0},         {VTK_QUADRATIC_HEXAHEDRON, 20, 8, 0},
                           {VTK_QUADRATIC_WEDGE, 15, 6, 0},         {VTK_QUADRATIC_PYRAMID, 13, 5, 0},
@@ -49,7 +49,7 @@ const Kind *kind_of(int type, int n_nodes) {
   return nullptr;
 }
 
-// Joins nodes that are one step of the lattice apart. In a tetrahedron or a triangle, steps along every side count.
+// Joins nodes that are one step of the lattice apart. In a tetrahedron or a triangle, a step may go along any side.
 bool is_step(int n_corners, int order, const Place &a, const Place &b) {
   int d[3];
   for (std::size_t c = 0; c < 3; ++c) d[c] = static_cast<int>(std::lround(order * (a[c] - b[c])));
@@ -69,15 +69,15 @@ int node_at(const std::vector<Place> &places, const Place &wanted) {
   return -1;
 }
 
-// Joins corner and middle along each side. Around each corner of a face it joins the middles of the two sides that meet there. If
-// the face has a node in its middle, it joins each of them to that node instead.
+// Joins the corner and the middle along each side. Around each corner of a face, also joins the middles of the two sides that
+// meet there. If the face has a node in its middle, each side's middle is joined to that node instead.
 Edges edges_by_middles(int n_corners, const std::vector<Place> &places) {
   const auto place = [&](int i) { return places[static_cast<std::size_t>(i)]; };
   const auto middle = [&](int a, int b) {
     const Place p = place(a), q = place(b);
     return node_at(places, {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
   };
-  const auto opposite = [&](int corner, int a, int b) {  // the fourth corner of a parallelogram
+  const auto opposite = [&](int corner, int a, int b) {  // returns the fourth corner of a parallelogram
     const Place o = place(corner), p = place(a), q = place(b);
     return node_at(places, {p[0] + q[0] - o[0], p[1] + q[1] - o[1], p[2] + q[2] - o[2]});
   };
@@ -92,11 +92,11 @@ Edges edges_by_middles(int n_corners, const std::vector<Place> &places) {
         if (!on_an_edge(n_corners, c, b)) continue;
         const int d = opposite(c, a, b), n = middle(c, b);
         const bool is_quad = d >= 0 && d < n_corners, is_triangle = on_an_edge(n_corners, a, b) != 0;
-        if (!is_quad && !is_triangle) continue;  // opposite sides at a pyramid's apex
+        if (!is_quad && !is_triangle) continue;  // opposite sides of the base, at a pyramid's apex
         const int centre = is_quad ? middle(a, b) : -1;
         if (m >= 0 && n >= 0 && centre < 0) add(m, n);
         if (m >= 0 && n >= 0 && centre >= 0) add(m, centre), add(n, centre);
-        // Only two opposite sides of the quad have a middle.
+        // Here only two opposite sides of the quad have a node in the middle.
         if (is_quad && m >= 0 && n < 0) add(m, middle(b, d));
         if (is_quad && m < 0 && n >= 0) add(n, middle(a, d));
       }
@@ -109,7 +109,7 @@ Edges edges_in(vtkCell *cell, const Kind &kind) {
   std::vector<Place> places;
   for (int i = 0; i < kind.n_nodes; ++i) {
     const double *p = coordinates + 3 * i;
-    // VTK's unit pyramid is a cube whose upper end is one point.
+    // VTK's unit pyramid is a cube whose upper face shrinks to a point.
     const double width = kind.n_corners == 5 ? 1 - p[2] : 1;
     places.push_back({width * p[0], width * p[1], p[2]});
   }

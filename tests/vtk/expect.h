@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Checks that every test of a refusal needs: the status, and a message of one line that names the fault. */
+ * Checks a refusal: its status, and a message of one line that names the fault. */
 #ifndef RIIS_TESTS_EXPECT_H
 #define RIIS_TESTS_EXPECT_H
 

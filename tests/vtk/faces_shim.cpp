@@ -73,7 +73,8 @@ std::vector<Polygon> outside_by_vtk(vtkUnstructuredGrid *grid) {
   return polygons;
 }
 
-// Tells whether the middle of the cell lies in front of the face. The front is the side from which its corners run anticlockwise.
+// Returns whether the middle of the cell lies in front of the face. The front is the side from which the face's corners run
+// anticlockwise.
 bool looks_inwards(const Polygon &face, vtkCell *cell) {
   double normal[3] = {0, 0, 0}, middle[3] = {0, 0, 0}, to_middle[3];
   for (std::size_t i = 1; i + 1 < face.size(); ++i) {

@@ -7,7 +7,7 @@
 
 #include "scratch.h"
 
-/* The faces look out of the cell. */
+/* The faces' normals point out of the cell. */
 static const int hexahedron_faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
                                            {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
@@ -40,7 +40,8 @@ plain_mesh plain_hexahedra(int n, const double lower[3], const double upper[3]) 
   return mesh;
 }
 
-/* Returns the node in the middle of a and b. `middles` has the pairs that have one so far. */
+/* Returns the node in the middle of a and b, and makes it if necessary. `middles` lists the pairs that have a middle node
+ * already. */
 static int64_t middle_of(plain_mesh *mesh, int64_t (*middles)[2], int64_t first, int64_t a, int64_t b) {
   const int64_t low = a < b ? a : b, high = a < b ? b : a;
   for (int64_t i = first; i < mesh->n_nodes; ++i)
@@ -51,7 +52,7 @@ static int64_t middle_of(plain_mesh *mesh, int64_t (*middles)[2], int64_t first,
 }
 
 plain_mesh plain_quadratic_tetrahedra(const plain_mesh *hexahedra) {
-  /* The middle corners of the tetrahedra around the diagonal from corner 0 to corner 6. */
+  /* The middle corners, in order, of the tetrahedra around the diagonal from corner 0 to corner 6. */
   static const int ring[7] = {1, 2, 3, 7, 4, 5, 1};
   static const int sides[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
   const int64_t n_cells = 6 * hexahedra->n_cells, most = hexahedra->n_nodes + 6 * n_cells;
@@ -88,7 +89,8 @@ static void write_numbers(FILE *file, const char *name, int64_t n, const int64_t
 
 static int is_polyhedron(int64_t cell, enum plain_layout layout) { return layout != PLAIN_CELLS && cell % 3 != 2; }
 
-/* Each cell's stream: number of faces, then for each face its size and corners. The offsets are the ends, -1 for other cells. */
+/* Writes each cell's stream: the number of faces, then the size and the corners of each face. An offset is the end of a
+ * stream, or -1 for a cell without one. */
 static void write_streams(FILE *file, const plain_mesh *mesh, int64_t first, int64_t n, int64_t *numbers,
                           int64_t *ends) {
   int64_t at = 0;
@@ -113,7 +115,7 @@ static int is_same_face(const int64_t *a, const int64_t *b) {
   return n == 4;
 }
 
-/* Neighbours refer to the same face. */
+/* Neighbouring cells refer to the same face. */
 static void write_lists(FILE *file, const plain_mesh *mesh, int64_t first, int64_t n, int64_t *numbers, int64_t *ends) {
   int64_t *corners = numbers, *of_cells = numbers + 24 * n, n_faces = 0, at = 0;
   for (int64_t i = 0; i < n; ++i) {

@@ -7,7 +7,7 @@
 
 #include <stdint.h>
 
-/* Cells of one type, which is VTK's number. */
+/* Cells of one type, given by VTK's number. */
 typedef struct plain_mesh {
   int type, n_corners;
   int64_t n_nodes, n_cells;
@@ -15,19 +15,19 @@ typedef struct plain_mesh {
   int64_t *ids; /* (n_corners, n_cells) */
 } plain_mesh;
 
-/* A box of n x n x n nodes: hexahedra. */
+/* Makes a box of n x n x n nodes with hexahedra. */
 plain_mesh plain_hexahedra(int n, const double lower[3], const double upper[3]);
 /* Cuts each hexahedron into six tetrahedra around one of its diagonals, with a node in the middle of each side. */
 plain_mesh plain_quadratic_tetrahedra(const plain_mesh *hexahedra);
-/* Cuts each quadratic tetrahedron by its nodes into eight: one at each corner, and four around a line between the middles of
- * two opposite sides. With n_parts 4 the latter four are left out. */
+/* Cuts each quadratic tetrahedron at its nodes into eight: one at each corner, and four around a line between the middles of
+ * two opposite sides. If n_parts is 4, the latter four are left out. */
 plain_mesh plain_cut(const plain_mesh *quadratic, int n_parts);
 void plain_free(plain_mesh *mesh);
 
-/* The layout of hexahedra in the file: unchanged, or two of three as polyhedra. The faces of polyhedra are in a stream for each
- * cell, or in a list that all cells share. VTK writes such a list since 9.4. */
+/* The layout of hexahedra in the file. Either all are unchanged, or two of three are polyhedra. The faces of polyhedra are in
+ * a stream for each cell, or in one list for all cells. VTK writes such a list since 9.4. */
 enum plain_layout { PLAIN_CELLS, PLAIN_STREAMS, PLAIN_LISTS };
-/* Writes NAME into the scratch folder. Each piece has all nodes, and its share of the cells. */
+/* Writes NAME into the scratch folder. Each piece has all nodes, and a part of the cells. */
 void plain_write(const char *name, const plain_mesh *mesh, enum plain_layout layout, int n_pieces);
 
 #endif

@@ -54,7 +54,8 @@ static void remove_folder(const char *path) {
 
 int scratch_teardown(void **state) {
   (void)state;
-  scratch_end_watch(); /* a failed assertion leaves the watch on, so the file has CMocka's report, and this call prints it */
+  /* A failed assertion leaves the output in the file, with CMocka's report. This call prints it. */
+  scratch_end_watch();
   remove_folder(folder);
   return 0;
 }

@@ -7,7 +7,8 @@
 
 #include <stddef.h>
 
-/* These make and remove the folder, one at a time: CMocka's group set-up and tear-down. */
+/* Make and remove the folder. Only one folder exists at a time. CMocka calls these functions as a group's set-up and
+ * tear-down. */
 int scratch_setup(void **state);
 int scratch_teardown(void **state);
 
@@ -18,7 +19,7 @@ void scratch_write(const char *name, const void *bytes, size_t n_bytes);
 void scratch_write_text(const char *name, const char *text);
 /* Returns the file's bytes, followed by a 0 byte. The caller frees them. */
 char *scratch_read(const char *path, size_t *n_bytes);
-/* Tells whether two files of the folder have the same bytes. */
+/* Returns whether two files of the folder have the same bytes. */
 int scratch_is_same(const char *a, const char *b);
 /* Returns the number of files in the folder, including hidden ones. */
 int scratch_n_files(void);

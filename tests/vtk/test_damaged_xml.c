@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * XML files of meshes and surfaces that claim more than they hold. They are refused before memory is allocated for the claimed
- * data. Files with random damage are read or refused, each in a separate process with limited memory. */
+ * XML files of meshes and surfaces that claim more data than they contain. They are refused before memory is allocated for the
+ * claimed data. Files with random damage are read or refused, each in a separate process with limited memory. */
 #include <riis/riis_vtk.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -14,7 +14,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-enum { most_kilobytes = 400 * 1024 }; /* memory of a process that reads a file of at most a few hundred kilobytes */
+enum { most_kilobytes = 400 * 1024 }; /* enough for a process that reads a file of a few hundred kilobytes */
 
 static int is_surface(const char *name) { return strstr(name, ".vtp") != NULL; }
 
@@ -29,8 +29,8 @@ static riis_status read_any(const char *name) {
   return status;
 }
 
-/* Reads a file in another process. Fails the test unless the file is read, or refused by its name, in little memory. Returns 1
- * if it was read. */
+/* Reads a file in another process. Fails the test unless the file is read, or refused with a message that names it, in little
+ * memory. Returns 1 if it was read. */
 static int read_apart(const char *name, const char *what) {
   fflush(NULL);
   const pid_t child = fork();
@@ -51,7 +51,7 @@ static int read_apart(const char *name, const char *what) {
   return WEXITSTATUS(ended) == 0;
 }
 
-/* Writes a file again with a piece of its text replaced. */
+/* Writes a copy of a file with a piece of its text replaced. */
 static void replace_text(const char *name, const char *from, const char *to, const char *as) {
   size_t size = 0;
   char *text = scratch_read(scratch_path(name), &size), *at = strstr(text, from);
@@ -66,7 +66,7 @@ static void replace_text(const char *name, const char *from, const char *to, con
   free(text);
 }
 
-/* The numbers of points, cells, faces, components and tuples in the text. */
+/* Changes the numbers of points, cells, faces, components and tuples in the text. */
 static void test_promised_numbers(void **state) {
   (void)state;
   static const struct {
@@ -114,7 +114,7 @@ static int base64_value(char c) {
   return found ? (int)(found - digits) : -1;
 }
 
-/* Returns where the data of an array of the file begins. */
+/* Returns the position at which the data of an array of the file begins. */
 static size_t place_of(const char *text, size_t size, const char *array) {
   char name[64], *end;
   snprintf(name, sizeof name, "Name=\"%s\"", array);
@@ -128,7 +128,7 @@ static size_t place_of(const char *text, size_t size, const char *array) {
   return place;
 }
 
-/* Writes a number of 4 or 8 bytes into data that is base64 or raw, n_bytes behind its beginning. */
+/* Writes a number of 4 or 8 bytes into base64 or raw data, n_bytes after its beginning. */
 static void put_number(char *data, size_t n_bytes, int width, uint64_t number, int is_raw) {
   static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   for (int i = 0; i < width; ++i, ++n_bytes, number >>= 8) {
@@ -146,7 +146,7 @@ static void put_number(char *data, size_t n_bytes, int width, uint64_t number, i
   }
 }
 
-/* Writes a whole file, puts a number into the data of one array, and expects the refusal. */
+/* Writes a valid file, changes a number in the data of one array, and expects the refusal. */
 static void expect_number_refused(int encoding, int compressor, int bits, const char *array, size_t n_bytes, int width,
                                   uint64_t number, const char *text) {
   size_t size = 0;
@@ -161,7 +161,7 @@ static void expect_number_refused(int encoding, int compressor, int bits, const 
   expect_refused(status, RIIS_FILE_ERROR, "damaged.vtu: ");
 }
 
-/* The numbers before the data. Points are 125 * 24 bytes, two blocks of 1024 bytes and one of 952. */
+/* Changes the numbers that precede the data. Points have 125 * 24 bytes: two blocks of 1024 bytes and one of 952. */
 static void test_sizes_of_blocks(void **state) {
   (void)state;
   static const char *const arrays[3] = {"Points", "velocity", "time"};
@@ -190,7 +190,7 @@ static void test_sizes_of_blocks(void **state) {
                         "array Points claims 18446744073709551615 compressed");
 }
 
-/* The last offset is the number of values of another array. 389 cells: 384 tetrahedra and 5 polyhedra. */
+/* The last offset is the number of values of another array. The file has 389 cells: 384 tetrahedra and 5 polyhedra. */
 static void test_last_offsets(void **state) {
   (void)state;
   const uint64_t many = 1000000000000;

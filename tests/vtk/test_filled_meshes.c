@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The demo's meshes that valves fill, made by gmsh. The attachment lies on the wall, so closed valves separate inflow from
- * outflow. Flow is a flood fill over unmarked nodes. In the wider cylinders it passes around the outside. */
+ * The demo's meshes, made by gmsh, which valves fill. A valve's attachment lies on the wall, so a closed valve separates
+ * inflow from outflow. The flow is a flood fill over unmarked nodes. In wider cylinders the flow passes around the valve's
+ * outside. */
 #include <riis/riis_vtk.h>
 
 #include "../support/test_support.h"
@@ -20,7 +21,7 @@ typedef struct filled_mesh {
   const int64_t *offsets;
   const int32_t *columns;
   riis_mesh *mesh;
-  riis_surface *wall; /* with its two ends */
+  riis_surface *wall; /* the wall and the two ends of the mesh */
 } filled_mesh;
 
 /* --- Meshes ------------------------------------------------------------------------------------------------------------ */
@@ -100,7 +101,7 @@ static test_valve trileaflet_valve(double opening) { return valve_at("trileaflet
 static test_valve bileaflet_valve(double opening) { return valve_at("bileaflet", opening, housing); }
 static test_valve paper_valve(void) { return valve_at("aortic", 0, side_u1); }
 
-/* The inner radius of the default bileaflet valve's housing. */
+/* Returns the inner radius of the default bileaflet valve's housing. */
 static double housing_radius(void) {
   riis_valve *valve = new_valve("bileaflet");
   double radius;
@@ -138,7 +139,7 @@ static void range_of_z(const filled_mesh *in, double *lowest, double *highest) {
   }
 }
 
-/* Labels each unmarked node with the lowest id of its region, by a flood fill for each region. Others get -1. */
+/* Labels each unmarked node with the lowest id of its region, by a flood fill for each region. Marked nodes get -1. */
 static void flood_fill(const filled_mesh *in, const uint8_t *marks, int64_t *label) {
   int64_t *stack = own(malloc((size_t)in->n_nodes * sizeof *stack));
   for (int64_t i = 0; i < in->n_nodes; ++i) label[i] = -1;
@@ -156,7 +157,7 @@ static void flood_fill(const filled_mesh *in, const uint8_t *marks, int64_t *lab
   }
 }
 
-/* The nodes at a height. */
+/* Finds the nodes at a height. */
 static int64_t nodes_at(const filled_mesh *in, double z, int64_t *ids) {
   int64_t n = 0;
   for (int64_t i = 0; i < in->n_nodes; ++i)
@@ -165,8 +166,8 @@ static int64_t nodes_at(const filled_mesh *in, double z, int64_t *ids) {
   return n;
 }
 
-/* Tells whether unmarked nodes join the two ends of the mesh, and which half thickness closes the valve. The library's regions
- * and passage must agree with the flood fill. */
+/* Returns whether unmarked nodes join the two ends of the mesh, and finds the half thickness that closes the valve. The
+ * library's regions and passage must agree with the flood fill. */
 static int is_joined(const filled_mesh *in, const riis_surface *surface, const riis_mark_options *options,
                      const riis_marks *result, const uint8_t *marks, double *closing) {
   const size_t size = (size_t)in->n_nodes * sizeof(int64_t);
@@ -191,7 +192,7 @@ static int is_joined(const filled_mesh *in, const riis_surface *surface, const r
   return joined;
 }
 
-/* Returns the length of the longest edge with a node near the surface. */
+/* Returns the length of the longest edge that has a node near the surface. */
 static double longest_near(const filled_mesh *in, const double *distance) {
   double longest = 0;
   for (int64_t i = 0; i < in->n_nodes; ++i)
@@ -232,8 +233,8 @@ static flow flow_through(const filled_mesh *in, test_valve valve, const char *na
   return found;
 }
 
-/* The valve fills the mesh, and the edges are so short that the half thickness closes the gap at the wall. An edge in the gap
- * is at most `to_wall` from the attachment. So one of its nodes is at most to_wall plus half an edge away. */
+/* Expects that the valve fills the mesh, and that edges are short enough for the half thickness to close the gap at the wall.
+ * An edge in the gap is at most `to_wall` from the attachment. So one of its nodes is at most to_wall plus half an edge away. */
 static void expect_filled(flow found) {
   CHECK_AT_MOST(found.to_wall, 0.5 * half_thickness);
   CHECK_AT_MOST(found.to_wall + 0.5 * found.longest_edge, half_thickness);
@@ -261,8 +262,8 @@ static void closed_mitral_valve_seals_its_tube(void **state) {
   }
 }
 
-/* Its cusps end at different radii, 0.13 apart at a commissure. So no wall is near all ends, within half of the half thickness.
- * Flow passes through the middle. */
+/* The paper's cusps end at different radii, 0.13 apart at a commissure. So no wall is within half of the half thickness of all
+ * ends. Flow passes through the middle. */
 static void the_papers_valve_leaks_in_its_root(void **state) {
   (void)state;
   const filled_mesh root = mesh_by_gmsh(RIIS_DEMO "/aortic_root.geo", "-setnumber paper 1");
@@ -274,7 +275,7 @@ static void the_papers_valve_leaks_in_its_root(void **state) {
   assert_int_equal(flow_through(&root, reaching, "with cusps that reach the axis").passes, 0);
 }
 
-/* A cylinder as wide as the housing. */
+/* The cylinder is as wide as the housing. */
 static void closed_bileaflet_valve_seals_its_housing(void **state) {
   (void)state;
   char text[512];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * A film shows the present surface and mesh, and nothing of the previous frame. Its camera does not move. */
+ * Each frame of a film shows the present surface and mesh, and nothing of the previous frame. The camera does not move. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdlib.h>
@@ -32,7 +32,7 @@ static int destroy_all(void **state) {
   return scratch_teardown(state);
 }
 
-/* Moves the valve, and marks the mesh anew. */
+/* Moves the valve, and marks the mesh again. */
 static void open_valve(double opening) {
   riis_mesh *nodes = NULL;
   riis_marks *result = NULL;
@@ -55,7 +55,7 @@ static void open_valve(double opening) {
 static riis_vtk_film *make_film(const riis_vtk_mesh *of) {
   riis_vtk_film *film = NULL;
   riis_vtk_picture_options options;
-  /* The film copies the names. */
+  /* The film copies these names, so they may change. */
   char names[2][16] = {"front", "back"};
   const char *pointers[2] = {names[0], names[1]};
   expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
@@ -112,7 +112,7 @@ static void test_frames(void **state) {
   expect_drawn("open.png");
   assert_true(same_pixels("closed.png", "again.png", 0, 400));
   assert_false(same_pixels("closed.png", "open.png", 0, 400));
-  /* Axes, key and scale bar stay. */
+  /* Axes, colour key and scale bar stay. */
   assert_true(same_pixels("closed.png", "open.png", 0, 30));
   /* Another film draws the same picture, and nothing of the first film's frames. */
   film = make_film(mesh);

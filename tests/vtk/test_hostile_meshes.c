@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Meshes that cannot be read. Each gives an error whose message names the file. Nothing is printed or returned. No truncated
- * file is read as a smaller mesh. */
+ * Files of meshes that cannot be read. Each gives an error whose message names the file. Nothing is printed or returned. No
+ * truncated file is read as a smaller mesh. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -30,7 +30,7 @@ static void expect_file_error(const char *name, const char *part_of_text) {
   assert_int_equal(n_printed, 0);
 }
 
-/* Checks that the file is read without an error, or refused with the message `error` if that is not NULL. */
+/* Checks that the file is read, if `error` is NULL, or else that it is refused with this message. */
 static void expect_file(const char *name, const char *error) {
   if (error) {
     expect_file_error(name, error);
@@ -60,7 +60,7 @@ static void test_not_files(void **state) {
 
 static void test_unreadable(void **state) {
   (void)state;
-  if (geteuid() == 0) skip(); /* root may read everything */
+  if (geteuid() == 0) skip(); /* root may read every file, so the test is skipped */
   scratch_write_text("locked.vtu", "<VTKFile type=\"UnstructuredGrid\"></VTKFile>");
   assert_int_equal(chmod(scratch_path("locked.vtu"), 0), 0);
   expect_file_error("locked.vtu", "Permission denied");
@@ -167,7 +167,7 @@ static void test_broken_cells(void **state) {
   expect_file_error("types.vtk", "holds no cells (is it truncated?)");
 }
 
-/* The core checks coordinates, and the reader does not. */
+/* The reader accepts coordinates that are not numbers. The core checks coordinates. */
 static void test_not_a_number_passes(void **state) {
   (void)state;
   write_tetrahedron("nan.vtu", counts, "0 0 0  nan 0 0  0 1 0  0 0 1", "0 1 2 3", "4", "10", "");
@@ -182,8 +182,8 @@ static void test_not_a_number_passes(void **state) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* Tells whether a file may be read without its last bytes. These may be blanks. A legacy file has no end mark. So it may also
- * lack digits of its last number, and whole sections behind the cells. */
+/* Returns whether a file may be read without its last n bytes. The bytes may be blanks. A legacy file has no end mark. So
+ * digits of its last number may also be missing, or whole sections after the cells. */
 static int may_be_missing(const char *bytes, size_t n, int encoding) {
   size_t i = 0;
   if (encoding == SHIM_LEGACY_ASCII) i += strspn(bytes, "0123456789.e+-");
@@ -194,7 +194,7 @@ static int may_be_missing(const char *bytes, size_t n, int encoding) {
   return i == n || section;
 }
 
-/* Truncates a real file behind each of its bytes. The truncated file is refused, or it gives the whole mesh. */
+/* Truncates a valid file after each of its bytes. The truncated file must be refused, or give the whole mesh. */
 static void cut_everywhere(const char *whole, const char *cut, int encoding) {
   assert_int_equal(shim_write_box(scratch_path(whole), encoding, 2, lower, upper, 0), 1);
   size_t size = 0;
@@ -224,7 +224,7 @@ static void cut_everywhere(const char *whole, const char *cut, int encoding) {
   assert_true(n_refused > (int)(size / 2));
 }
 
-/* VTK looks for the number of keys that INFORMATION promises. After a word that is no number it never stops. It reads only the
+/* VTK searches for as many keys as INFORMATION announces, and never stops after a word that is not a number. It reads only the
  * beginning of a keyword. */
 static void test_endless_information(void **state) {
   (void)state;
@@ -259,8 +259,8 @@ static void test_endless_information(void **state) {
   }
 }
 
-/* Names are read as VTK reads them. The name of the missing array is in capitals, and a name of more than 255 characters counts
- * as two words. */
+/* Names are read as VTK reads them. NULL_ARRAY, in capitals, stands for a missing array. A name of more than 255 characters
+ * counts as two words. */
 static void test_names_of_arrays(void **state) {
   (void)state;
   char longest[256], too_long[257];
@@ -285,7 +285,7 @@ static void test_names_of_arrays(void **state) {
   }
 }
 
-/* Writes the whole numbers of a text, either as text or as four bytes each, high byte first. Returns the number of bytes. */
+/* Writes the whole numbers in a text, either as text or as four bytes each, high byte first. Returns the number of bytes. */
 static size_t put_numbers(unsigned char *to, const char *numbers, int is_binary) {
   if (!is_binary) return (size_t)sprintf((char *)to, "%s\n", numbers);
   size_t n = 0;
@@ -297,8 +297,8 @@ static size_t put_numbers(unsigned char *to, const char *numbers, int is_binary)
   return n;
 }
 
-/* VTK follows the faces of polyhedra unchecked while it reads them. The files are text or binary, with counts or, from version 5
- * on, with offsets. Type 298 is 42 in a byte. */
+/* VTK follows the faces of polyhedra without checks while it reads them. The files are text or binary. They have counts or,
+ * from version 5 on, offsets. The type 298 becomes 42 in a byte. */
 static void test_polyhedra(void **state) {
   (void)state;
   const char tetrahedron[] = "4 3 0 1 2 3 0 1 3 3 0 2 3 3 1 2 3";
@@ -365,7 +365,7 @@ static void test_cells_of_polyhedra(void **state) {
   }
 }
 
-/* Two tetrahedra as polyhedra that share a face, with their faces in one list, as VTK writes since 9.4. */
+/* Two polyhedra, each a tetrahedron, share a face. Their faces are in one list, as VTK writes since 9.4. */
 static void test_lists_of_faces(void **state) {
   (void)state;
   static const char *const corners = "0 1 2 0 1 3 0 2 3 1 2 3 1 2 4 1 3 4 2 3 4";
@@ -411,7 +411,7 @@ static void test_lists_of_faces(void **state) {
   }
 }
 
-/* VTK closes a file at a word that is not a number of its type, and continues. */
+/* If VTK meets a word that is not a number of the array's type, it closes the file and continues. */
 static void test_words_for_numbers(void **state) {
   (void)state;
   const struct {

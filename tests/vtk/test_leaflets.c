@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Leaflets of surface files from pieces and from arrays, marks with other names, and the length of a mesh's edges. Slow
- * computations check the pieces and the edges. */
+ * Leaflets of surface files from connected pieces and from arrays, marks with other names, and the length of a mesh's edges.
+ * Slow, simple computations check the pieces and the edges. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdio.h>
@@ -22,8 +22,8 @@ static int random_below(int n) {
 
 enum { most_faces = 60 };
 
-/* Random triangles on few points, so that some triangles meet. Each z is 0 or -0, which are the same place. The expected pieces
- * are found by passing on the lowest face's number until nothing changes. */
+/* Random triangles on few points, so that some triangles touch. Each z is 0 or -0, which are the same position. The expected
+ * pieces are found by spreading the lowest face's number to touching faces until nothing changes. */
 static int write_random_faces(const char *name, int n_faces, int n_lattice, int pieces[most_faces]) {
   static char text[most_faces * 200 + 100];
   int corners[most_faces][3];
@@ -84,7 +84,7 @@ static void test_pieces(void **state) {
   assert_true(most_pieces > 5);
 }
 
-/* Quads share vertices by their numbers. The pieces replace the array of leaflets. */
+/* The quads share vertices by their ids. Leaflets from pieces replace those of the array. */
 static const char *const quads =
     "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>\n"
     "<Piece NumberOfPoints=\"10\" NumberOfCells=\"3\"><CellData>\n"
@@ -138,7 +138,7 @@ static int ascending(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-/* The expected median comes from all edges of a box of tetrahedra, by their corners, sorted. */
+/* The expected median comes from the sorted lengths of all edges in a box of tetrahedra. */
 static void test_median_edge(void **state) {
   (void)state;
   enum { n_side = 9, n_points = n_side * n_side * n_side, n_cells = 6 * 8 * 8 * 8, n_edges = 6 * n_cells };
@@ -166,7 +166,7 @@ static void test_median_edge(void **state) {
   expect_refused(riis_vtk_mesh_get_median_edge(NULL, &length), RIIS_INVALID_ARGUMENT, "mesh is NULL");
   expect_refused(riis_vtk_mesh_get_median_edge(mesh, NULL), RIIS_INVALID_ARGUMENT, "length is NULL");
   riis_vtk_mesh_destroy(&mesh);
-  /* A uniform box with more cells than the median uses. Then cells without edges. */
+  /* First a uniform box with more cells than the median uses, then cells without edges. */
   assert_int_equal(shim_write_box(scratch_path("large.vtu"), SHIM_RAW, 22, lower, upper, 0), 1);
   expect_fine(riis_vtk_mesh_read(scratch_path("large.vtu"), &mesh));
   expect_fine(riis_vtk_mesh_get_median_edge(mesh, &length));
@@ -225,7 +225,7 @@ static void test_named_marks(void **state) {
   expect_refused(riis_vtk_mesh_has_point_array(mesh, "x", NULL), RIIS_INVALID_ARGUMENT, "has is NULL");
   assert_int_equal(has, 7);
   expect_array(mesh, "pressure", 1);
-  expect_array(mesh, "region", 0); /* "region" is a cell array */
+  expect_array(mesh, "region", 0); /* "region" is a cell array, not a point array */
   expect_array(mesh, "Left.1_marked", 0);
   expect_fine(riis_vtk_mesh_set_marks(mesh, result, -1, "Left.1"));
   expect_array(mesh, "Left.1_marked", 1);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The adjacency of meshes from files, compared with the edges of VTK's own cells, and with the edges of other cells with the
- * same nodes. */
+ * The adjacency of meshes from files, compared with the edges of VTK's own cells, and with the edges of other cells that have
+ * the same nodes. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>
@@ -27,7 +27,7 @@ static riis_vtk_mesh *read_mesh(const char *name) {
   return mesh;
 }
 
-/* Sets are_joined[i * n + j] by VTK. Returns the number of pairs. */
+/* Sets are_joined[i * n + j] from VTK's edges. Returns the number of pairs. */
 static int64_t join_by_vtk(const char *path, int64_t n_nodes, uint8_t *are_joined) {
   static int64_t edges[2 * 40000];
   int64_t n_pairs = 0;
@@ -106,7 +106,7 @@ static void test_every_cell(void **state) {
   expect_adjacency("zoo.vtu", n_shim_zoo, 100);
 }
 
-/* Cells of all types of higher order, drawn at random, and prisms of six sides. */
+/* The mesh has random cells of all types of higher order, and prisms with six sides. */
 static void test_curved_cells(void **state) {
   (void)state;
   enum { n_nodes = 300 };
@@ -128,7 +128,7 @@ static void test_curved_cells(void **state) {
   expect_adjacency("prism.vtk", 12, 36);
 }
 
-/* A node in the middle of a triangle is joined to all its other nodes. A node in the middle of the cell is joined to the
+/* In a triangle, the node in the middle is joined to all other nodes. In a cell, the node in the middle is joined to the
  * middles of the faces. */
 static void test_triquadratic_pyramid(void **state) {
   (void)state;
@@ -138,8 +138,8 @@ static void test_triquadratic_pyramid(void **state) {
   for (int k = 0; k < 19; ++k) sprintf(text + strlen(text), " %d", k);
   strcat(text, "\nCELL_TYPES 1\n37\n");
   scratch_write_text("pyramid.vtk", text);
-  /* The neighbours of a corner of the base, of the apex, and of these middles: of a side of the base, of a side to the apex, of
-   * the base, of a triangle, of the cell. */
+  /* These nodes and their numbers of neighbours are: a corner of the base, the apex, and the middles of a side of the base, of
+   * a side to the apex, of the base, of a triangle, and of the cell. */
   static const int nodes[7] = {1, 4, 5, 10, 13, 14, 18}, n_neighbors[7] = {5, 8, 4, 4, 5, 7, 5};
   riis_vtk_mesh *mesh = read_mesh("pyramid.vtk");
   riis_adjacency *adjacency = NULL;
@@ -153,7 +153,7 @@ static void test_triquadratic_pyramid(void **state) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* Tells whether both files have the same rows. */
+/* Returns whether the file has the expected rows. */
 static void expect_same_rows(const char *name, const riis_csr *expected) {
   riis_vtk_mesh *mesh = read_mesh(name);
   riis_adjacency *adjacency = NULL;
@@ -167,7 +167,7 @@ static void expect_same_rows(const char *name, const riis_csr *expected) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* Hexahedra have the same edges as polyhedra with the same faces, in either layout and in several pieces. */
+/* Hexahedra have the same edges as polyhedra with the same faces, in both layouts and in several pieces. */
 static void test_polyhedra(void **state) {
   (void)state;
   const double lower[3] = {0, 0, 0}, upper[3] = {1, 2, 3};
@@ -221,8 +221,8 @@ static void test_quadratic_tetrahedra(void **state) {
   plain_free(&corners);
 }
 
-/* Cells whose edges are not known are counted: a convex point set, a Lagrange tetrahedron with nodes beyond its lattice, and a
- * Lagrange wedge of 21 nodes. Faces and points are no cells of volume. */
+/* Cells whose edges riis does not know are counted: a convex point set, a Lagrange tetrahedron with nodes beyond its lattice,
+ * and a Lagrange wedge of 21 nodes. Faces and points do not count as volume cells. */
 static void test_unknown_cells(void **state) {
   (void)state;
   const struct {
@@ -249,7 +249,7 @@ static void test_unknown_cells(void **state) {
   }
 }
 
-/* Makes a triangle whose bounds are a box. */
+/* Makes a triangle whose bounding box is the given box. */
 static riis_surface *surface_in(const double lower[3], const double upper[3]) {
   const double xyz[9] = {lower[0], lower[1], lower[2], upper[0], upper[1], lower[2], upper[0], lower[1], upper[2]};
   const int32_t ids[3] = {0, 1, 2};
@@ -262,7 +262,7 @@ static riis_surface *surface_in(const double lower[3], const double upper[3]) {
   return surface;
 }
 
-/* Expects all pairs that VTK joins, that are long enough, and whose bounds meet the box. */
+/* Expects all pairs that VTK joins, that are long enough, and whose bounding box meets the given box. */
 static void expect_long_edges(const char *name, int64_t n_nodes, const double lower[3], const double upper[3],
                               double longer_than, int64_t n_left_out) {
   uint8_t *are_joined = malloc((size_t)(n_nodes * n_nodes));
@@ -301,7 +301,8 @@ static void test_long_edges(void **state) {
   assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, n_side, lower, upper, 0), 1);
   expect_long_edges("box.vtu", n_box, inner, outer, 0, 0);
   expect_long_edges("box.vtu", n_box, lower, upper, 0.126, 0);
-  expect_long_edges("box.vtu", n_box, lower, upper, 0.125 * sqrt(3), 0); /* equal within a billionth */
+  /* A limit equal to the length, up to a billionth. */
+  expect_long_edges("box.vtu", n_box, lower, upper, 0.125 * sqrt(3), 0);
   assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
   expect_long_edges("zoo.vtu", n_shim_zoo, inner, outer, 2, 0);
 }
@@ -343,7 +344,7 @@ static void test_voxel(void **state) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* Meshes without volume cells, or with cells whose edges are not known, have empty rows. The neighbour search still finds all
+/* Meshes without volume cells, or with cells whose edges are unknown, have empty rows. The neighbour search still finds all
  * nodes. */
 static void test_no_volume(void **state) {
   (void)state;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Meshes read from files and written again. Nodes keep the file's order, points are doubles, every array is kept, and marks are
- * the core's. */
+ * Meshes read from files and written again. Nodes keep the file's order, points are doubles, every array is kept, and marks
+ * equal those of the core. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -21,7 +21,7 @@ static riis_vtk_mesh *read_mesh(const char *name) {
   return mesh;
 }
 
-/* Checks that the arrays of two files are equal in type, shape and every value. */
+/* Checks that an array is equal in two files: in type, shape and every value. */
 static void expect_same_array(const char *before, const char *after, char where, const char *name, int has_numbers) {
   static double values[2][3 * n_cells];
   char type[2][32];
@@ -103,7 +103,7 @@ static void test_nodes_are_shuffled(void **state) {
   assert_true(n_descents > n_nodes / 4);
 }
 
-/* Every keyword of the legacy format that an unstructured grid may have, as older versions spell them. */
+/* The file has every keyword of the legacy format that an unstructured grid may have, as older versions spell them. */
 static void test_legacy_keywords(void **state) {
   (void)state;
   scratch_write_text(
@@ -137,7 +137,7 @@ static void test_legacy_keywords(void **state) {
   assert_true(rank[0] == 7 && rank[1] == 8);
 }
 
-/* Bits, and blocks of METADATA, which VTK's writer puts behind arrays whose range was queried. */
+/* The file has bit arrays and blocks of METADATA. VTK's writer puts such blocks after arrays whose range was queried. */
 static void test_legacy_metadata(void **state) {
   (void)state;
   for (int i = 0; i < 4; ++i) {
@@ -161,7 +161,7 @@ static void test_legacy_metadata(void **state) {
 
 #define LEGACY(version) "# vtk DataFile Version " version "\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
 
-/* Lines that end with a carriage return, a mesh without cells, and METADATA at places where VTK puts none. */
+/* Lines end with a carriage return, a mesh has no cells, or METADATA stands where VTK never puts it. */
 static void test_legacy_layouts(void **state) {
   (void)state;
   const char *texts[] = {
@@ -181,7 +181,7 @@ static void test_legacy_layouts(void **state) {
   }
 }
 
-/* The word "Array" in a name or a comment is not an array. */
+/* The word "Array" in a name or a comment does not begin an array. */
 static void test_word_array(void **state) {
   (void)state;
   scratch_write_text(
@@ -260,7 +260,7 @@ static void test_marks(void **state) {
   expect_same_mesh(scratch_path("in.vtu"), scratch_path("marked.vtu"));
   expect_same_array(scratch_path("in.vtu"), scratch_path("marked.vtu"), 'p', "pressure", 1);
 
-  /* Other values replace those of the same mesh, and those of a mesh that was read with marks. */
+  /* New marks replace earlier ones, both of the same mesh and of a mesh that was read with marks. */
   riis_marks *wider = mark(mesh, 0.25, 0.4);
   expect_fine(riis_vtk_mesh_set_marks(mesh, wider, -7, NULL));
   expect_fine(riis_vtk_mesh_write(mesh, scratch_path("again.vtu")));

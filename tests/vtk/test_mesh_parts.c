@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Parts of a mesh, fields as arrays, and the size of a file, read back by VTK. */
+ * Parts of a mesh, fields as arrays, and the size of a file. VTK reads the written files back. */
 #include <riis/riis_vtk.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,13 +22,13 @@ static int make_files(void **state) {
              : -1;
 }
 
-/* Extracts the nodes that are wanted, writes the part, and returns its path. */
+/* Extracts the wanted nodes, writes this part, and returns its path. */
 static const char *part_of(const char *name, int64_t n_ids, const int64_t *ids) {
   riis_vtk_mesh *mesh = NULL, *part = NULL;
   const char *path = scratch_path("part.vtu");
   expect_fine(riis_vtk_mesh_read(scratch_path(name), &mesh));
   expect_fine(riis_vtk_mesh_extract(mesh, n_ids, ids, &part));
-  riis_vtk_mesh_destroy(&mesh); /* the part does not borrow from the mesh */
+  riis_vtk_mesh_destroy(&mesh); /* the part must not borrow from the mesh */
   expect_fine(riis_vtk_mesh_write(part, path));
   riis_vtk_mesh_destroy(&part);
   return path;
@@ -43,7 +43,7 @@ static int64_t read_ids(const char *path, char where, const char *name, double *
   return n;
 }
 
-/* Each cell of the part has the same points as the cell of the whole mesh with the same id. Corners are compared by their
+/* Each cell of the part has the same points as the whole mesh's cell with the same id. Corners are compared by their
  * coordinates. */
 static void expect_cells(const char *whole, const char *part, int corners_per_cell) {
   static double xyz[2][3 * n_box], node_ids[n_box], cell_ids[most_values];
@@ -97,7 +97,7 @@ static void test_box(void **state) {
   assert_int_equal(shim_read_array(part, 'f', "time", NULL, NULL, NULL, NULL), 1);
 }
 
-/* Cells of many kinds, including polyhedra. VTK finds the same faces in the part as riis does. */
+/* The mesh has cells of many kinds, including polyhedra. VTK finds the same faces in the part as riis does. */
 static void test_kinds(void **state) {
   (void)state;
   int64_t ids[n_shim_zoo], n_points = 0, n_cells = 0, n_all = 0, n_faces[2] = {0, 0}, n_inwards = 0;
@@ -109,7 +109,7 @@ static void test_kinds(void **state) {
   assert_int_equal(shim_compare_outside(scratch_path("zoo.vtu"), &n_faces[0], &n_inwards), 0);
   assert_int_equal(shim_compare_outside(part, &n_faces[1], &n_inwards), 0);
   assert_true(n_faces[0] > 10 && n_faces[0] == n_faces[1]);
-  /* The part has fewer nodes. The reader of riis checks the faces of every polyhedron. */
+  /* The part has fewer nodes, so the faces' ids changed. The reader of riis checks the faces of every polyhedron. */
   riis_vtk_mesh *read = NULL;
   part = part_of("zoo.vtu", 2, ids);
   expect_fine(riis_vtk_mesh_read(part, &read));
@@ -117,7 +117,7 @@ static void test_kinds(void **state) {
   assert_int_equal(shim_compare_outside(part, &n_faces[1], &n_inwards), 0);
 }
 
-/* A node without cells stays in the part. Without nodes the part is an empty mesh. */
+/* A node without cells stays in the part. A part without nodes is an empty mesh. */
 static void test_few_nodes(void **state) {
   (void)state;
   const int64_t last = n_shim_zoo - 1;
@@ -170,7 +170,7 @@ typedef struct marking {
   riis_marks *result;
 } marking;
 
-/* Marks the box with all fields that the surface has, by a valve that opens from 0 to 0.1 in 2 seconds. */
+/* Marks the box with all fields that the surface has. The valve opens from 0 to 0.1 in 2 seconds. */
 static marking marked_box(const char *kind, double z, int32_t fields) {
   marking m = {NULL, NULL, NULL};
   riis_valve *now = NULL, *before = NULL;
@@ -263,7 +263,8 @@ static void test_fields(void **state) {
   forget(&m);
 }
 
-/* Only fields that the marking computed are available. Far from the valve all arrays exist, but contain no values. */
+/* Only fields that the marking computed are available. If the mesh is far from the valve, all arrays exist but contain no
+ * values. */
 static void test_fields_that_lack(void **state) {
   (void)state;
   marking m = marked_box("mitral", -0.6, RIIS_FIELD_SIDE);

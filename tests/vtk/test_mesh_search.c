@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The neighbour search on unstructured meshes from files, made by VTK's Delaunay filter and by gmsh. It finds the same nodes as
- * the exhaustive search, to the last bit. */
+ * The neighbour search gives the same result as the exhaustive search, to the last bit, on unstructured meshes from files.
+ * VTK's Delaunay filter and gmsh make the meshes. */
 #include <riis/riis_vtk.h>
 
 #include "../support/test_support.h"
@@ -17,7 +17,7 @@ static riis_surface *surface_of(const char *kind, double opening, double half_th
   riis_surface_options options = surface_options();
   if (half_thickness > 0) options.half_thickness = half_thickness;
   riis_valve *valve = new_valve(kind);
-  if (strcmp(kind, "aortic") == 0) { /* has no open state of its own */
+  if (strcmp(kind, "aortic") == 0) { /* the aortic valve has no open state of its own */
     riis_valve *open = new_valve(kind);
     CHECK_OK(riis_valve_set_scalar(open, "leaflet_angle", 50));
     CHECK_OK(riis_valve_set_open_state(valve, open));
@@ -29,8 +29,8 @@ static riis_surface *surface_of(const char *kind, double opening, double half_th
   return surface;
 }
 
-/* Marks by both searches, with new and used results, several limits and numbers of threads. Returns the number of nodes marked
- * first. */
+/* Marks by both searches, with new and used results, several limits and numbers of threads. Returns the number of nodes that
+ * the first marking marks. */
 static int64_t expect_same(const riis_surface *surface, const riis_mesh *mesh, riis_marks *warm) {
   const int owned_before = n_owned();
   riis_marks *expected = new_result(), *cold = new_result();
@@ -66,7 +66,7 @@ static void destroy_file(void *object) {
   riis_vtk_mesh_destroy(&file);
 }
 
-/* Tests that valve in the mesh of the file at every opening, thin and with its default thickness. */
+/* Tests a kind of valve in the mesh of the file at every opening, with a thin and with the default half thickness. */
 static void expect_same_in_file(const char *path, const char *kind, int64_t least_nodes) {
   riis_vtk_mesh *file = NULL;
   riis_adjacency *adjacency = NULL;
@@ -80,7 +80,8 @@ static void expect_same_in_file(const char *path, const char *kind, int64_t leas
   own(adjacency);
   CHECK_OK(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
   assert_in_range(n_nodes, least_nodes, 50000);
-  assert_true(((const int64_t *)csr.offsets)[n_nodes] > 10 * n_nodes); /* of tetrahedra: about 14 neighbours */
+  /* A mesh of tetrahedra has about 14 neighbours per node. */
+  assert_true(((const int64_t *)csr.offsets)[n_nodes] > 10 * n_nodes);
   riis_mesh *mesh = mesh_of(n_nodes, xyz);
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
   const double half_thickness[2] = {0.03, -1};
@@ -134,7 +135,7 @@ static void mitral_in_a_delaunay_mesh(void **state) {
 }
 
 #ifdef RIIS_GMSH
-/* A cylinder around the valve, with a mesh that is fine at one place and coarser away from it. */
+/* Makes a cylinder around the valve. Its mesh is fine near one point and coarser away from it. */
 static void graded_by_gmsh(const char *kind) {
   double lower[3], upper[3], fine[3];
   char text[2048], command[2048];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Motion read from files. The frames move as the closed form says, in every format. */
+ * Motions read from files. In every format, the frames move as the closed form says. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>
@@ -18,7 +18,7 @@
 enum { n_keys = 4 };
 static const double key_times[n_keys] = {0, 0.25, 0.5, 1};
 
-/* Takes the keyframes of a motion and destroys the motion. */
+/* Makes the keyframes of a motion and destroys the motion. */
 static riis_keyframes *keyframes_of(riis_vtk_motion *motion, double period, int32_t interpolation) {
   riis_surface_arrays faces;
   riis_keyframe_arrays frames;
@@ -59,7 +59,7 @@ static void expect_sheet(const riis_surface *surface, double time, double speed,
   }
 }
 
-/* Moves a surface by the frames. Compares it with the closed form at the keys, between them, before them and after them. */
+/* Moves a surface by the frames. Compares it with the closed form at, between, before and after the keys. */
 static void expect_motion(riis_vtk_motion *motion, int32_t one_leaflet) {
   static const double times[] = {0, 0.25, 0.5, 1, 0.1, 0.3, 0.7, 0.99};
   riis_keyframes *keyframes = keyframes_of(motion, 0, RIIS_INTERPOLATION_LINEAR);
@@ -78,7 +78,7 @@ static void expect_motion(riis_vtk_motion *motion, int32_t one_leaflet) {
   riis_keyframes_destroy(&keyframes);
 }
 
-/* Writes a collection of the sheet's frames. `place` stands before each file's name. */
+/* Writes a collection of the sheet's frames. `place` is a folder put before each file's name. */
 static void write_collection(const char *name, const char *place, const char *ending) {
   char text[4096] =
       "<?xml version=\"1.0\"?>\n<!-- <DataSet file=\"no\"/> -->\n<VTKFile type=\"Collection\" version=\"0.1\">"
@@ -104,7 +104,7 @@ static riis_vtk_motion *collection(const char *name) {
   return motion;
 }
 
-/* Checks that the motion was read from one file for each frame, each of which is there. */
+/* Checks that the motion names one file for each frame, and that each file exists. */
 static void expect_files(const riis_vtk_motion *motion, int64_t n_expected, const char *last) {
   int64_t n = 0;
   const char *const *paths = NULL;
@@ -135,7 +135,7 @@ static void test_collections(void **state) {
   free(here);
 }
 
-/* Reads a collection by its bare name, from its own folder. */
+/* Reads a collection in the working directory by its bare name. */
 static void test_collection_in_working_directory(void **state) {
   (void)state;
   char *here = getcwd(NULL, 0);
@@ -178,7 +178,7 @@ static void test_lists(void **state) {
   expect_motion(motion, 0);
 }
 
-/* For every interpolation and period, files and arrays give the same bits. */
+/* For every interpolation and period, frames from files and from arrays give the same bits. */
 static void test_same_as_arrays(void **state) {
   (void)state;
   const char *const endings[n_keys] = {".vtp", ".vtp", ".vtp", ".vtp"};
@@ -228,7 +228,7 @@ static void test_same_as_arrays(void **state) {
 static void write_displaced(const char *name, const char *const arrays[n_keys], const char *field) {
   static char text[65536];
   char *end = text;
-  /* The file has the displacements from the last to the first, among other arrays. */
+  /* The file has the displacements in reverse order, among other arrays. */
   for (int i = n_keys; i-- > 0;) end = sheet_displacement(end, arrays[i], key_times[i]);
   end = sheet_displacement(end, "displacement_mean", 7);
   sheet_displacement(end, "displacement_-1", 7);
@@ -258,7 +258,8 @@ static void test_displacements(void **state) {
   expect_motion(motion, -1);
 }
 
-/* A quad beside a triangle. The quad's inner diagonal changes during the motion, but it is cut as in the first file. */
+/* A quad lies beside a triangle. During the motion, the quad's shorter diagonal changes, but the quad is cut as in the first
+ * file. */
 static void test_quads_are_cut_once(void **state) {
   (void)state;
   const char *const fourth[2] = {"1 1 0", "0.2 0.2 0"}, *const names[2] = {"convex.vtp", "concave.vtp"};
@@ -292,7 +293,7 @@ static void test_quads_are_cut_once(void **state) {
   }
 }
 
-/* Corners in .stl files may meet during the motion, but they must not separate. */
+/* Corners in .stl files may come together during the motion, but must not separate. */
 static void test_corners_of_stl(void **state) {
   (void)state;
   const char *facets =
@@ -324,7 +325,7 @@ static void test_corners_of_stl(void **state) {
   riis_vtk_motion_destroy(&motion);
 }
 
-/* The velocities of a surface are written with it. */
+/* A surface is written with its velocities. */
 static void test_velocity_is_written(void **state) {
   (void)state;
   const char *const endings[n_keys] = {".vtp", ".vtp", ".vtp", ".vtp"};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Motion that cannot be read. Each refusal names the file or argument and the value. Nothing is printed or returned. Damaged
- * collections never end the process. */
+ * Files of motions that cannot be read. Each refusal names the file or argument and the value. Nothing is printed or returned.
+ * Damaged collections never end the process. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>
@@ -104,7 +104,7 @@ static void test_too_many_data_sets(void **state) {
   expect_collection("many.pvd", NULL, "many.pvd: ", "names 1000001 files, more than 1000000");
 }
 
-/* The text of one quad or two triangles, with a place for each value that a test changes. */
+/* Writes one quad or two triangles. Each value that a test changes is an argument. */
 static void write_square(const char *name, const char *points, const char *corners, const char *offsets, int n_points,
                          int n_polys) {
   char text[2048];
@@ -227,7 +227,7 @@ static void test_bad_displacements(void **state) {
   snprintf(text, sizeof text, "<Array type=\"String\" Name=\"d_0\" format=\"ascii\">%s</Array>", words);
   expect_displacements(text, NULL, 1, RIIS_FILE_ERROR, "point array d_0 holds no numbers");
   expect_displacements(two, NULL, 1, RIIS_INVALID_ARGUMENT, "n_times is 1; the file has 2 point arrays d_*");
-  /* A component of the last displacement becomes inf. */
+  /* One component of the last displacement becomes inf. */
   char *last = sheet_displacement(sheet_displacement(text, "d_0", 0), "d_1", 1);
   last -= strlen("</DataArray>\n") + 1;
   while (last[-1] != ' ') --last;
@@ -305,7 +305,7 @@ static int is_read_or_refused(const char *name) {
   return read || (status == RIIS_FILE_ERROR && strstr(riis_last_error(), ": "));
 }
 
-/* A collection that is truncated behind each of its bytes, and with each byte replaced by others. */
+/* A collection is truncated after each of its bytes, and each byte is replaced by others. */
 static void test_damaged_collections(void **state) {
   (void)state;
   static const unsigned char others[] = {0, '<', '"', '&', 0xff};
@@ -319,7 +319,7 @@ static void test_damaged_collections(void **state) {
     scratch_write("damaged.pvd", text, i);
     riis_vtk_motion *motion = NULL;
     const riis_status status = riis_vtk_motion_read_pvd(scratch_path("damaged.pvd"), NULL, &motion);
-    /* The last byte is a line break. */
+    /* Only the last byte, a line break, may be missing. */
     if ((status == RIIS_OK) != (i == size - 1)) fail_msg("cut to %zu bytes: %s", i, riis_status_name(status));
     riis_vtk_motion_destroy(&motion);
     for (size_t k = 0; k < sizeof others; ++k) {
@@ -333,8 +333,8 @@ static void test_damaged_collections(void **state) {
   assert_int_equal(scratch_end_watch(), 0);
 }
 
-/* Elements nested a million deep would overflow the stack of a reader that recurses. Entities that name entities would fill the
- * memory of a reader that replaces them all. */
+/* Elements nested a million deep would overflow the stack of a reader that recurses. XML entities that refer to other entities
+ * would fill the memory of a reader that expands them. */
 static void test_hostile_collections(void **state) {
   (void)state;
   const size_t n = 1000000;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The outside of a mesh in pictures has the faces that VTK's own filter finds. All faces look outwards. */
+ * The outside of a mesh, as pictures draw it, has the same faces that VTK's own filter finds. All faces point outwards. */
 #include <stdint.h>
 
 #include "expect.h"
@@ -19,7 +19,7 @@ static void test_box(void **state) {
   }
 }
 
-/* Cells of all linear types, cells of higher order, polyhedra, and tetrahedra that share most of their faces. */
+/* The meshes have cells of all linear types, cells of higher order, polyhedra, and tetrahedra that share most of their faces. */
 static void test_types(void **state) {
   (void)state;
   int64_t n_faces = 0, n_inwards = 0;

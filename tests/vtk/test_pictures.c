@@ -15,7 +15,7 @@
 static riis_surface *surface;
 static riis_vtk_mesh *mesh;
 
-/* A box of n x n x n nodes, marked. */
+/* Makes a marked box of n x n x n nodes. */
 static riis_vtk_mesh *marked_box(const char *name, int n, const double lower[3], const double upper[3]) {
   riis_vtk_mesh *box = NULL;
   riis_mesh *nodes = NULL;
@@ -67,7 +67,7 @@ static void draw(const char *name, const riis_vtk_mesh *drawn, int32_t view, int
   assert_int_equal(n_printed, 0);
 }
 
-/* Checks that the picture has this size, many colours, and colour on a good part of both halves. */
+/* Checks that the picture has this size and many colours, and that a large part of both halves is coloured. */
 static void expect_picture(const char *name, int expected_width, int expected_height) {
   int width = 0, height = 0, n_colours = 0, n_coloured[2] = {0, 0};
   assert_int_equal(shim_read_png(scratch_path(name), &width, &height, &n_colours, n_coloured), 1);
@@ -114,7 +114,7 @@ static void draw_texts(const char *name, const char *title, const char *const *n
   assert_int_equal(n_printed, 0);
 }
 
-/* The texts are visible. Letters outside ASCII are drawn as ?, and no text is read as a formula. */
+/* The texts are visible. Characters outside ASCII are drawn as ?, and no text is rendered as a formula. */
 static void test_texts(void **state) {
   (void)state;
   const char *names[3] = {"right", "left", "leaflet 2"};
@@ -159,14 +159,15 @@ static const unsigned char *pixel_at(const pixels *picture, int x, int y) {
   return picture->rgb + 3 * ((size_t)y * (size_t)picture->width + (size_t)x);
 }
 
-/* The heights of the bands of texts: two lines above the panels, axes and keys below. */
-enum { upper_band = 85, lower_band = 83 }; /* pixels of a picture 800 high */
+/* The heights of the bands of text, in pixels of a picture 800 high: two lines of text above the panels, axes and colour keys
+ * below. */
+enum { upper_band = 85, lower_band = 83 };
 
 static int is_red(const unsigned char *rgb) { return rgb[0] > 180 && rgb[1] < 40 && rgb[2] < 40; }
 static int is_skin(const unsigned char *rgb) {
   return rgb[0] == rgb[1] && rgb[1] == rgb[2] && rgb[0] > 200 && rgb[0] < 250;
 }
-/* These distinguish full colours from pale ones. */
+/* These functions distinguish full colours from pale ones. */
 static int is_full(const unsigned char *rgb) {
   const int most = rgb[0] > rgb[1] ? (rgb[0] > rgb[2] ? rgb[0] : rgb[2]) : (rgb[1] > rgb[2] ? rgb[1] : rgb[2]);
   const int least = rgb[0] < rgb[1] ? (rgb[0] < rgb[2] ? rgb[0] : rgb[2]) : (rgb[1] < rgb[2] ? rgb[1] : rgb[2]);
@@ -187,7 +188,7 @@ static int count_pixels(const char *name, int panel, int (*is_kind)(const unsign
   return n;
 }
 
-/* Each view of one scene equals the picture that a separate call draws. */
+/* If one scene draws several views, each equals the picture that a separate call draws. */
 static void test_one_scene(void **state) {
   (void)state;
   const int32_t views[4] = {RIIS_VTK_VIEW_TOP, RIIS_VTK_VIEW_SIDE, RIIS_VTK_VIEW_OBLIQUE, RIIS_VTK_VIEW_TOP};
@@ -211,7 +212,8 @@ static void test_one_scene(void **state) {
   assert_false(scratch_is_same("s0.png", "s1.png"));
 }
 
-/* A mesh that is too coarse for whole cells still shows the marked nodes. In a fine mesh whole cells are not covered. */
+/* If a mesh is so coarse that no whole cell is marked, the marked nodes are still shown. In a fine mesh, whole marked cells
+ * are shown. */
 static void test_partly_marked(void **state) {
   (void)state;
   const double lower[3] = {-1.7, -1.7, -1.3}, upper[3] = {1.7, 1.7, 0.4};
@@ -229,7 +231,7 @@ static void test_partly_marked(void **state) {
   riis_vtk_mesh_destroy(&coarse);
 }
 
-/* Finds the numbers of two nodes by their places. No two nodes of the mesh are at the same place. */
+/* Finds the numbers of the edge's two nodes by their positions. No two nodes of the mesh coincide. */
 static void two_nodes(int64_t edge[2]) {
   const double *xyz = NULL;
   int64_t n = 0;
@@ -276,7 +278,7 @@ static void test_leaks(void **state) {
   }
 }
 
-/* The longest run of dark pixels in the rows from..to of the right panel. */
+/* Returns the longest run of dark pixels in the rows from..to of the right panel. */
 static int longest_dark_run(const pixels *picture, int from, int to) {
   int longest = 0;
   for (int y = from; y < to; ++y) {
@@ -289,8 +291,8 @@ static int longest_dark_run(const pixels *picture, int from, int to) {
   return longest;
 }
 
-/* Seen from above, the mesh is 3.4 wide. This gives the number of pixels of the scale bar of length 1. No part of the mesh is
- * behind the texts. */
+/* Seen from above, the mesh is 3.4 wide. So the scale bar's length, 1, should have a known number of pixels. No part of the
+ * mesh is behind the texts. */
 static void test_scale_and_bands(void **state) {
   (void)state;
   draw("bands.png", mesh, RIIS_VTK_VIEW_TOP, 1600, 800);
@@ -309,7 +311,7 @@ static void test_scale_and_bands(void **state) {
   const double per_length = (right - left) / 3.4;
   const int bar = longest_dark_run(&picture, 0, lower_band);
   assert_true(bar > 0.98 * per_length && bar < 1.02 * per_length + 2);
-  /* A letter's edge may have any grey. */
+  /* The edges of letters may have any grey. */
   assert_true(n_skin_in_bands < 200);
   free(picture.rgb);
 }
@@ -329,8 +331,8 @@ static int most_changes_in_a_row(const pixels *picture, int *row) {
   return most;
 }
 
-/* In a tube 20 times as long as wide, the valve's neighbourhood looks as large as in a short tube. Dashes show where the tube is
- * cut. */
+/* In a tube 20 times as long as wide, the region around the valve is drawn as large as in a short tube. Dashes show where the
+ * tube is cut off. */
 static void test_long_mesh(void **state) {
   (void)state;
   const double lower[3] = {-1.7, -1.7, -30}, upper[3] = {1.7, 1.7, 38};
@@ -352,7 +354,7 @@ static void test_long_mesh(void **state) {
   riis_vtk_mesh_destroy(&tube);
 }
 
-/* Returns how many columns, or rows, of a picture with one panel have a pixel in a full colour between the bands of texts. */
+/* Returns how many columns, or rows, of a picture with one panel contain a pixel in a full colour, outside the bands of text. */
 static int count_coloured(const char *name, int by_rows) {
   pixels picture = read_pixels(name);
   const int y_end = picture.height - upper_band, n_lines = by_rows ? y_end : picture.width;
@@ -367,8 +369,9 @@ static int count_coloured(const char *name, int by_rows) {
   return n;
 }
 
-/* Flat leaflets that the view meets edge on: closed ones from the side, and open ones from above. They are lines of the size that
- * the camera is aimed at, 1/1.08 of the panel. The upper band takes another 20 rows of it. */
+/* Flat leaflets are seen edge on: closed ones from the side, and open ones from above. They appear as lines that fill 1/1.08
+ * of the panel, because the camera fits the leaflets with this margin. The upper band of text takes another 20 rows of the
+ * panel. */
 static void test_edge_on(void **state) {
   (void)state;
   const int32_t views[2] = {RIIS_VTK_VIEW_SIDE, RIIS_VTK_VIEW_TOP};
@@ -401,7 +404,7 @@ static void draw_unit(const char *name, const char *unit, const riis_vtk_mesh *d
   expect_fine(riis_vtk_draw(surface, drawn, &options, scratch_path(name)));
 }
 
-/* A unit follows the number at the scale bar unchanged. It replaces the words. */
+/* A unit follows the number at the scale bar unchanged. It replaces the words that stand there otherwise. */
 static void test_unit(void **state) {
   (void)state;
   for (int with_mesh = 0; with_mesh < 2; ++with_mesh) {
@@ -419,7 +422,7 @@ static void test_unit(void **state) {
   }
 }
 
-/* If files have room for only n_bytes, as on a full disk, no picture and no temporary file is left. */
+/* If a file may have only n_bytes, as on a full disk, neither a picture nor a temporary file is left. */
 static void test_full_disk(void **state) {
   (void)state;
   struct rlimit limit, small;

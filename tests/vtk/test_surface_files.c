@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Surfaces read and written. Written files hold the same surface as queries give. Surfaces that are read keep winding, order
- * and leaflets. */
+ * Surfaces read from files and written. Written files contain the surface that queries return. Surfaces that are read keep
+ * winding, order and leaflets. */
 #include <locale.h>
 #include <math.h>
 #include <riis/riis_vtk.h>
@@ -37,7 +37,7 @@ static double *numbers(int64_t n) {
   return values;
 }
 
-/* Checks that a cell array of the file has one value per triangle, of this type and equal to the expected ones. */
+/* Checks that a cell array of the file has the expected type and values, one per triangle. */
 static void expect_cell_array(const char *path, const char *name, const char *expected_type, int64_t n,
                               const int32_t *narrow, const int64_t *wide) {
   char type[32];
@@ -113,7 +113,7 @@ static riis_surface *surface_of_file(const char *name, const riis_surface_option
   return surface;
 }
 
-/* A valve that is written and read back is the same surface, because closest points have the same bits. */
+/* A valve's surface that is written and read back is the same surface: closest points have the same bits. */
 static void test_round_trip(void **state) {
   (void)state;
   riis_surface *valve = make_valve();
@@ -132,12 +132,12 @@ static void test_round_trip(void **state) {
   riis_surface_destroy(&valve);
 }
 
-/* Points in the plane z = 0: anticlockwise round the square, then some outside it. */
+/* Points in the plane z = 0: the square's corners anticlockwise, then points outside the square. */
 static const char *const plane_points = "0 0 0  1 0 0  1 1 0  0 1 0  2 0 0  2 1 0  0.5 1.5 0";
 
 static void write_polydata(const char *name, const char *verts, const char *polys, const char *strips,
                            const char *cell_data) {
-  /* The caller gives verts, polys and strips. Each has attributes, and a text with corners and offsets. */
+  /* The caller passes the piece's other attributes, and the content of CellData, Polys and Strips. */
   char text[4096];
   snprintf(text, sizeof text,
            "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"><PolyData>\n"
@@ -177,7 +177,7 @@ static void test_quads_stay_quads(void **state) {
   riis_vtk_surface_destroy(&file);
 }
 
-/* Checks areas and normals by the core: every triangle faces +z, the areas add up, and faces keep their leaflets. */
+/* Checks areas and normals through the core: every triangle faces +z, the areas add up, and faces keep their leaflets. */
 static void expect_faces(const char *name, int64_t n_triangles, double area, const int32_t *leaflets) {
   riis_surface_arrays arrays;
   riis_surface_info info;
@@ -199,15 +199,15 @@ static void expect_faces(const char *name, int64_t n_triangles, double area, con
 
 static void test_mixed_polygons(void **state) {
   (void)state;
-  /* A triangle, a quad, a pentagon, a strip of two triangles: 1 + 2 + 3 + 2 triangles. */
+  /* A triangle, a quad, a pentagon, and a strip of two triangles give 1 + 2 + 3 + 2 triangles. */
   write_polydata("mixed.vtp", "NumberOfPolys=\"3\" NumberOfStrips=\"1\"", CELLS("0 1 3 1 4 5 2 0 1 2 6 3", "3 7 12"),
                  CELLS("0 1 3 2", "4"), LEAFLETS("Float64", "4 1 0 2"));
   const int32_t leaflets[8] = {4, 1, 1, 0, 0, 0, 2, 2};
   expect_faces("mixed.vtp", 8, 0.5 + 1 + 1.25 + 1, leaflets);
 }
 
-/* Quads with an inward corner at 1 or 3, as the only cell and beside a triangle. They are cut inside, have an area of 0.2 each
- * and keep their winding. A quad with the inward corner at 0 or 2 keeps its order. */
+/* Quads with an inward corner at 1 or 3, as the only cell and beside a triangle, are cut along the diagonal that lies inside.
+ * They have an area of 0.2 each and keep their winding. A quad with the inward corner at 0 or 2 keeps its order. */
 static void test_concave_quads(void **state) {
   (void)state;
   const int32_t leaflets[3] = {0, 0, 0};
@@ -252,7 +252,10 @@ static void test_unstructured_grid(void **state) {
 }
 
 static const float stl_triangles[3][9] = {
-    {0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 1, 1, 0, 0, 1, 0}}; /* the second has no area */
+    /* The second triangle has no area. */
+    {0, 0, 0, 1, 0, 0, 0, 1, 0},
+    {1, 0, 0, 1, 0, 0, 0, 1, 0},
+    {1, 0, 0, 1, 1, 0, 0, 1, 0}};
 
 static void write_binary_stl(const char *name, uint32_t n_promised, int n_written) {
   unsigned char bytes[84 + 3 * 50] = "binary";
@@ -273,7 +276,7 @@ static void write_ascii_stl(const char *name, int n_written, int with_end) {
   scratch_write_text(name, text);
 }
 
-/* A triangle without area keeps its place, so that the ids of later triangles stay. */
+/* A triangle without area keeps its position, so the ids of later triangles stay. */
 static void expect_stl(const char *name) {
   riis_surface_options options;
   riis_surface_arrays arrays;
@@ -309,7 +312,8 @@ static void test_stl(void **state) {
   riis_vtk_surface_destroy(&file);
 }
 
-/* Letters, blanks and lines are as other programs write them. Keywords count only at the beginning of a line. */
+/* Upper and lower case, blanks and line breaks are as other programs write them. Keywords count only at the beginning of a
+ * line. */
 static void test_ascii_stl_layouts(void **state) {
   (void)state;
   const char *const facet =
@@ -321,7 +325,7 @@ static void test_ascii_stl_layouts(void **state) {
   expect_faces("upper.stl", 1, 0.75, leaflets);
 }
 
-/* The host program may have set a locale whose decimal separator is a comma. It keeps that locale. */
+/* The calling program may have set a locale whose decimal separator is a comma. That locale must stay. */
 static void test_decimal_comma(void **state) {
   (void)state;
   static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "it_IT.UTF-8", "es_ES.UTF-8"};
@@ -344,7 +348,7 @@ static void test_decimal_comma(void **state) {
   setlocale(LC_ALL, "C");
 }
 
-/* A surface from arrays with skipped triangles is written as queries give it, without uv. */
+/* A surface from arrays with skipped triangles is written as queries return it, without uv. */
 static void test_user_surface_is_written(void **state) {
   (void)state;
   riis_surface_options options;

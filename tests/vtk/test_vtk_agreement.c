@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Closest distances of random points, compared with VTK's searches on the same triangles. These are another implementation in
- * double precision. RIIS_TEST_SEED repeats a run. */
+ * Closest distances of random points are compared with VTK's searches on the same triangles. VTK's searches are another
+ * implementation in double precision. RIIS_TEST_SEED repeats a run. */
 #include <math.h>
 #include <riis/riis.h>
 #include <stdint.h>
@@ -36,7 +36,7 @@ static riis_surface *make_surface(double scale, double shift) {
   return surface;
 }
 
-/* Half of the points lie in the box around the surface, and half in a box ten times as large. */
+/* Puts half of the points into the box around the surface, and half into a box ten times as large. */
 static void scatter(const riis_surface *surface, double *points) {
   riis_surface_info info;
   expect_fine(riis_surface_get_info(surface, &info, sizeof info));

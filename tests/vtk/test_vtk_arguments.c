@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Refusals of NULL pointers, of structs that no init function filled, and of options out of range. The caller's floating-point
+ * NULL pointers, structs that no init function filled, and options out of range are refused. The caller's floating-point
  * environment does not change. */
 #include <fenv.h>
 #include <riis/riis_vtk.h>

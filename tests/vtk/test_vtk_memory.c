@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Memory runs out at every allocation of the component's own code. The status says so, no file is left half written, the
- * component leaks no memory, and the same call succeeds afterwards. Failures of VTK's own allocations are not tested. */
+ * Every allocation of riis_vtk's own code fails once. The call must then return RIIS_OUT_OF_MEMORY, leave no half-written file
+ * and leak no memory. The same call must succeed afterwards. Failures of VTK's own allocations are not tested. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-/* There is one object at a time. The call makes it, or it is made before. */
+/* One object exists at a time. The tested call makes it, or it is made before the call. */
 static riis_vtk_mesh *mesh;
 static riis_vtk_surface *read_surface;
 static riis_adjacency *adjacency;
@@ -53,7 +53,7 @@ static const struct {
   const char *name;
   void (*make)(void);
   riis_status (*call)(void);
-  const char *file; /* the file that the message names; "" if there is none */
+  const char *file; /* the file that the message must name; "" if none */
 } scenarios[] = {
     {"read .vtu", nothing, read_vtu, "box.vtu"},
     {"read .vtk", nothing, read_vtk, "box.vtk"},
@@ -84,7 +84,7 @@ static void the_components_memory_runs_out(void **state) {
   for (size_t i = 0; i < sizeof scenarios / sizeof scenarios[0]; ++i) {
     const char *name = scenarios[i].name;
     int64_t n_failed = 1, n = 0, n_named = 0;
-    scenarios[i].make(); /* makes the objects that VTK makes only once, and checks that the call succeeds */
+    scenarios[i].make(); /* VTK makes some objects only once, so this first call makes them, and must succeed */
     expect_fine(scenarios[i].call());
     destroy();
     const int n_files = scratch_n_files();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Files are complete or not there. A write that fails leaves the old file in its place and nothing beside it. */
+ * A written file is complete or does not exist. A write that fails leaves the old file as it was, and no other file. */
 #include <errno.h>
 #include <riis/riis_vtk.h>
 #include <signal.h>
@@ -65,7 +65,7 @@ static void test_places(void **state) {
 
 static void test_locked(void **state) {
   (void)state;
-  if (geteuid() == 0) skip(); /* root may write everywhere */
+  if (geteuid() == 0) skip(); /* root may write every file, so the test is skipped */
   assert_int_equal(mkdir(scratch_path("locked"), 0500), 0);
   expect_refused(riis_vtk_mesh_write(mesh, scratch_path("locked/out.vtu")), RIIS_FILE_ERROR, "Permission denied");
   scratch_write_text("locked.vtu", "kept");
@@ -74,7 +74,7 @@ static void test_locked(void **state) {
   expect_content("locked.vtu", "kept");
 }
 
-/* Runs a write while files have room for only n_bytes, as on a full disk. */
+/* Writes while a file may have only n_bytes, as on a full disk. */
 static riis_status write_in_little_room(rlim_t n_bytes, const char *name) {
   struct rlimit limit, small;
   getrlimit(RLIMIT_FSIZE, &limit);
@@ -112,7 +112,7 @@ static void test_full_disk(void **state) {
   assert_int_equal(n_points, 12 * 12 * 12);
 }
 
-/* A write replaces the file that a link points to, not the link. A file may be written over its own source. */
+/* If the file's name is a link, the write replaces the link's target, not the link. A file may be written over its own source. */
 static void test_links_and_sources(void **state) {
   (void)state;
   scratch_write_text("target.vtu", "old");
@@ -129,7 +129,7 @@ static void test_links_and_sources(void **state) {
   assert_int_equal(n_points, 12 * 12 * 12);
 }
 
-/* A link to a missing file stays a link, and the file is made. A circle of links is an error. */
+/* A link to a missing file stays a link, and its target is made. Links that form a circle are an error. */
 static void test_dangling_links(void **state) {
   (void)state;
   struct stat status;
@@ -158,14 +158,14 @@ static void test_permissions(void **state) {
   struct stat status;
   assert_int_equal(stat(scratch_path("mode.vtu"), &status), 0);
   assert_int_equal(status.st_mode & 0777, 0640);
-  /* A replaced file passes its permissions on. */
+  /* A new file gets the permissions of the file that it replaces. */
   assert_int_equal(chmod(scratch_path("mode.vtu"), 0606), 0);
   expect_fine(riis_vtk_mesh_write(mesh, scratch_path("mode.vtu")));
   assert_int_equal(stat(scratch_path("mode.vtu"), &status), 0);
   assert_int_equal(status.st_mode & 0777, 0606);
 }
 
-/* VTK's output window and its warnings are silent during each call. After the call they are the caller's again. */
+/* VTK's output window and its warnings are silent during each call. After the call, the caller's settings are restored. */
 static void test_output_window(void **state) {
   (void)state;
   riis_vtk_mesh *other = NULL;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * VTK for tests. It makes files and reads them back without any code of riis. The interface is C, because a failed assertion
- * leaves the test by longjmp. Every function has released its VTK objects when it returns. */
+ * C wrappers of VTK for tests. They make files and read them back without any code of riis. The assertions stay in C, because
+ * a failed one leaves the test by longjmp. Every function releases its VTK objects before it returns. */
 #ifndef RIIS_TESTS_VTK_SHIM_H
 #define RIIS_TESTS_VTK_SHIM_H
 
@@ -20,27 +20,27 @@ enum { SHIM_ASCII, SHIM_BINARY, SHIM_COMPRESSED, SHIM_RAW, SHIM_LEGACY_ASCII, SH
 int shim_write_box(const char *path, int encoding, int n, const double lower[3], const double upper[3],
                    int float_points);
 
-/* Writes a box as shim_write_box does, of tetrahedra and polyhedra (.vtu), or its outer triangles (.vtp), with these arrays of
- * numbers. The data is SHIM_ASCII, SHIM_BINARY, or appended in base64 (SHIM_COMPRESSED) or as it is (SHIM_RAW).
+/* Writes a box as shim_write_box does: its tetrahedra and polyhedra (.vtu), or its outer triangles (.vtp), with the numeric
+ * arrays of shim_write_box. The encoding is SHIM_ASCII, SHIM_BINARY, appended base64 (SHIM_COMPRESSED) or appended raw
+ * (SHIM_RAW).
  *   compressor   0 none, 1 zlib, 2 LZ4, 3 LZMA; blocks are small, so that there are several
  *   header_bits  32 or 64
  * Returns 1 on success. */
 int shim_write_blocks(const char *path, int encoding, int compressor, int header_bits);
 
-/* Writes a legacy file of version 42 or 51 with 40 points and one tetrahedron. It has the data that VTK's writer puts behind
+/* Writes a legacy file of version 42 or 51 with 40 points and one tetrahedron. It has the data that VTK's writer puts after
  * arrays: ranges, and the name of one component of "flow". Its last array is the bit array "bits". Returns 1 on success. */
 int shim_write_legacy(const char *path, int binary, int version);
 
-/* Reads the numbers of points and cells of a .vtu, .vtp or .vtk grid file. Writes the points as doubles to xyz (3, n) if it is
- * not NULL. point_type gets VTK's name of the points' type. Returns 0 if VTK cannot read the file. */
+/* Reads the numbers of points and cells of a .vtu, .vtp or .vtk grid file. Writes the points as doubles to xyz (3, n) unless
+ * xyz is NULL. point_type gets VTK's name of the points' type. Returns 0 if VTK cannot read the file. */
 int shim_read_points(const char *path, int64_t *n_points, int64_t *n_cells, char point_type[32], double *xyz);
 
 /* Reads the corners of all cells, one after the other. Returns their number, or -1. ids may be NULL. */
 int64_t shim_read_corners(const char *path, int64_t *ids);
 
-/* Writes a .vtu of cells of many types among n_shim_zoo nodes, several of each type, with nodes drawn at random. The types are
- * the linear volumes, vertices, lines, triangles, quads, pentagonal prisms, quadratic tetrahedra and polyhedra. Returns 1 on
- * success. */
+/* Writes a .vtu of random cells among n_shim_zoo nodes, several cells of each type. The types are the linear volumes,
+ * vertices, lines, triangles, quads, pentagonal prisms, quadratic tetrahedra and polyhedra. Returns 1 on success. */
 enum { n_shim_zoo = 60 };
 int shim_write_zoo(const char *path);
 
@@ -48,9 +48,9 @@ int shim_write_zoo(const char *path);
  * NULL. */
 int64_t shim_read_edges(const char *path, int cell_type, int64_t *edges);
 
-/* Writes a .vtu of cells of all types of higher order among n_nodes nodes, 64 or more, drawn at random. Returns 1 on success. */
+/* Writes a .vtu of random cells of all types of higher order, among n_nodes nodes, 64 or more. Returns 1 on success. */
 int shim_write_curved(const char *path, int n_nodes, uint32_t seed);
-/* Reads the edges of these cells from a .vtu, as pairs of nodes, which are found from the places of nodes in unit cells.
+/* Reads the edges of such cells from a .vtu, as pairs of nodes. The edges are found from the nodes' positions in unit cells.
  * Returns their number. edges may be NULL. */
 int64_t shim_read_curved_edges(const char *path, int64_t *edges);
 
@@ -58,24 +58,25 @@ int64_t shim_read_curved_edges(const char *path, int64_t *edges);
  * doubles. Returns 1 on success. */
 int shim_write_delaunay(const char *path, int64_t n, const double *xyz);
 
-/* Reads an array. `where` is 'p' for point, 'c' for cell or 'f' for field. Writes the values as doubles if values is not NULL.
- * Returns 0 if there is no such array. */
+/* Reads an array. `where` is 'p' for point, 'c' for cell or 'f' for field. Writes the values as doubles unless `values` is
+ * NULL. Returns 0 if there is no such array. */
 int shim_read_array(const char *path, char where, const char *name, char type[32], int64_t *n_components,
                     int64_t *n_tuples, double *values);
 
-/* Reads the width, the height, the number of different colours, and the numbers of strongly coloured pixels in the left and the
- * right half. */
+/* Reads the picture's width, height and number of different colours. Also counts the strongly coloured pixels in the left and
+ * the right half. */
 int shim_read_png(const char *path, int *width, int *height, int *n_colours, int n_coloured[2]);
 
 /* Returns the picture's pixels, rgb (3, width, height), with the lower left corner first, or NULL if it cannot be read. The
  * caller frees them. */
 unsigned char *shim_read_pixels(const char *path, int *width, int *height);
 
-/* Compares the outside of the volumes of a grid, as pictures draw it, with VTK's. Returns how many faces are only in one of them,
- * or -1 where the grid cannot be read; *n_faces gets how many the pictures have, *n_inwards how many look into their cell. */
+/* Compares the outside of a grid's volume cells, as pictures draw it, with VTK's. Returns how many faces only one of them has,
+ * or -1 if the grid cannot be read. *n_faces gets the number of faces in pictures, and *n_inwards how many of these point into
+ * their cell. */
 int64_t shim_compare_outside(const char *path, int64_t *n_faces, int64_t *n_inwards);
 
-/* Uses VTK's searches for distances of points to triangles. */
+/* VTK's searches for the distance from a point to triangles. */
 enum { SHIM_STATIC_LOCATOR, SHIM_CELL_LOCATOR, SHIM_IMPLICIT_DISTANCE };
 void shim_distances(int method, int64_t n_vertices, const double *vertices, int64_t n_triangles, const int64_t *corners,
                     int64_t n_points, const double *points, double *distances);
@@ -83,7 +84,7 @@ void shim_distances(int method, int64_t n_vertices, const double *vertices, int6
 /* Replaces VTK's output window by a counter. shim_n_messages returns the number of messages since then. */
 void shim_watch_window(void);
 int shim_n_messages(void);
-/* Sends an error to the current output window, as the caller's VTK code would. */
+/* Sends an error to the current output window, as VTK code of the caller would. */
 void shim_say_error(void);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The meaning of the aortic valve's parameters, drawn on the left cusp (docs/theory.md, section 3)."""
+"""Draws the meaning of the aortic valve's parameters on the left cusp (docs/theory.md, section 3)."""
 
 import math
 
@@ -19,13 +19,14 @@ def section(p):
 
 
 def power_of(curve):
-    """The exponent of the profile that has the curve's tangent at its end: the tangent's slope over the chord's."""
+    """Returns the exponent of the power profile with the curve's tangent at its end: the tangent's slope divided by the
+    chord's."""
     first, _, before, last = curve[0]
     return ((last[0] - before[0]) / (last[1] - before[1])) / ((last[0] - first[0]) / (last[1] - first[1]))
 
 
 def profile(curve, power):
-    """Points of x = first + (last - first) (y / y of last)^power between a curve's ends."""
+    """Returns points of x = first + (last - first) (y / y of last)^power, between a curve's ends."""
     first, last = curve[0][0], curve[0][-1]
     return [(first[0] + (last[0] - first[0]) * (i / 64) ** power, last[1] * i / 64) for i in range(65)]
 
@@ -53,9 +54,9 @@ def draw_plan(sheet, cusp):
 
 
 def half(panel, kind, curve, color, up):
-    """The parameters of the free edge (above, up = 1) or of the bending curve (below, the mirrored half, up = -1)."""
+    """Draws the parameters of the free edge (upper half, up = 1) or of the bending curve (lower, mirrored half, up = -1)."""
     sheet, (first, after, before, last) = panel.sheet, [plan(p) for p in curve[0]]
-    # The frame's y points up in the drawing above and down in the one below.
+    # The frame's y axis points up in the upper half and down in the lower half.
     panel.line(first, after, color=color, width=1.1, style=":")
     panel.line(last, before, color=color, width=1.1, style=":")
     panel.points(first, after, before, last, color=color, size=4, filled=False)
@@ -64,7 +65,7 @@ def half(panel, kind, curve, color, up):
     panel.length(f"{kind}_radius_in", axis_point, first, at, shift=shift, color=color, ha="right", share=0.2)
     panel.length(f"{kind}_radius_out", axis_point, last, (-0.24, 0.92 * up), color=color, ha="right", share=0.42)
     panel.angle(f"{kind}_angle", axis_point, (1, 0), last, 0.3, (-0.24, 0.56 * up), color=color, ha="right", sense=up, share=0.8)
-    # t0 and t3 are only the share along y of the inner control points' way from the ends.
+    # t0 and t3 only give the y of the inner control points, as a fraction of the way from the ends.
     level = (first[0], after[1])
     panel.length(f"t0_{kind}", first, level, T0_PLACE[kind], shift=(0.1, 0), color=color)
     level = (last[0], before[1])
@@ -118,8 +119,8 @@ INNER_PLACES = {"xq": (0.64, 0.54), "zq": (0.64, 0.3), "inner": (0.64, 0.1), "mi
 
 
 def first_inner(panel, root, low, inner, places=INNER_PLACES, ha="right"):
-    """xq and zq: the place of the first inner control point, from the middle of root and bending curve. Three of the labels
-    are aligned as told, and that of the middle on its left."""
+    """Draws xq and zq: the position of the first inner control point, from the middle between root and bending curve. `ha`
+    aligns three of the labels; the middle's label is always on the left."""
     sheet, middle = panel.sheet, along(root, low, 0.5)
     width, height = root[0] - low[0], low[1] - root[1]
     for p, q in (((low[0], root[1]), low), (low, (root[0], low[1])), ((root[0], low[1]), root)):

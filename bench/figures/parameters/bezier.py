@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Bézier curves from riis-figures --curves. A piece is the list of its control points, a curve the list of its pieces."""
+"""Evaluates Bézier curves from riis-figures --curves. A piece is the list of its control points, and a curve the list of its
+pieces."""
 
 import math
 
@@ -19,7 +20,7 @@ def samples(pieces, n=64):
 
 
 def length_until(piece, end):
-    """Arc length up to a parameter, extrapolated from chords."""
+    """Returns the arc length up to a parameter, extrapolated from chords."""
 
     def chords(n):
         points = [point(piece, end * i / n) for i in range(n + 1)]
@@ -30,7 +31,7 @@ def length_until(piece, end):
 
 
 def length(pieces, until=None):
-    """Arc length, or the length up to the point `until` of the curve."""
+    """Returns the arc length of the curve, or its length up to the point `until`."""
     total = 0.0
     for piece in pieces:
         if until is not None:
@@ -42,7 +43,7 @@ def length(pieces, until=None):
 
 
 def at_share(pieces, share):
-    """The point at a share of the curve's length, by bisection."""
+    """Returns the point at a fraction of the curve's length, by bisection."""
     lengths = [length([piece]) for piece in pieces]
     rest = share * sum(lengths)
     for piece, whole in zip(pieces, lengths):
@@ -60,7 +61,7 @@ def at_share(pieces, share):
 
 
 def parameter(piece, where):
-    """The place where the piece is nearest to a point, by sections around the best of many samples."""
+    """Returns the parameter of the piece's point nearest to `where`, by sections around the best of many samples."""
     n = 64
     best = min(range(n + 1), key=lambda i: math.dist(point(piece, i / n), where))
     low, high = max(0, best - 1) / n, min(n, best + 1) / n

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The meaning of the bileaflet valve's parameters, drawn (docs/theory.md, section 14)."""
+"""Draws the meaning of the bileaflet valve's parameters (docs/theory.md, section 14)."""
 
 import math
 
@@ -22,20 +22,20 @@ def halves(state, leaflet):
 
 
 def symmetry_line(state, leaflet):
-    """The leaflet in the plane y = 0, from the rim to the middle edge."""
+    """Returns the leaflet's line in the plane y = 0, from the rim to the middle edge."""
     line = halves(state, leaflet)[0]["u0"][0]
     return section(line[0]), section(line[-1])
 
 
 def crossing(a, b, c, d):
-    """Where the lines a b and c d meet."""
+    """Returns the point where the lines a b and c d meet."""
     (ax, ay), (bx, by), (cx, cy), (dx, dy) = a, b, c, d
     share = ((cx - ax) * (dy - cy) - (cy - ay) * (dx - cx)) / ((bx - ax) * (dy - cy) - (by - ay) * (dx - cx))
     return ax + share * (bx - ax), ay + share * (by - ay)
 
 
 def slope(line):
-    """The angle of a leaflet from the orifice plane, in degrees."""
+    """Returns the angle of a leaflet from the orifice plane, in degrees."""
     (x, z), (x_middle, z_middle) = line
     return math.degrees(math.atan2(z - z_middle, abs(x) - abs(x_middle)))
 
@@ -52,7 +52,7 @@ class Drawing:
         return f"{self.sheet.value_text(name)}; here {plain(self.example[name])} cm"
 
     def shown(self, name, p, q, at, **style):
-        """A length that is 0 by default, drawn as the example's."""
+        """Draws a length that is 0 by default with the value of the example."""
         self.sheet.check(name, 0)
         self.panel.length(name, p, q, at, value=self.value_text(name), example=self.example[name], **style)
 
@@ -85,7 +85,7 @@ class Drawing:
         self.draw_opening()
 
     def draw_opening(self):
-        """opening: the share of the way from the closed to the open angle, on the leaflet of x < 0."""
+        """Draws the opening on the leaflet at x < 0. The opening is the fraction of the way from the closed to the open angle."""
         panel, sheet = self.panel, self.sheet
         lines = [symmetry_line(state, 1) for state in self.states]
         closed, half_open, opened = map(slope, lines)

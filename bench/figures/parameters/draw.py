@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Draws what every parameter of a valve measures, from the library's own curves at the default parameters.
+"""Draws the meaning of every parameter of a valve, from the library's own curves at the default parameters.
 
-draw.py CURVES.json FOLDER [KIND...]: CURVES.json is from riis-figures --curves. Writes KIND_parameters for these kinds of
-valve, or for all, to the folder as .png and .svg. Writes parameters.json, with which riis-figures puts them on its page. Refuses
-a drawing that leaves a parameter out, shows another value than the parameter's, or has labels that overlap."""
+draw.py CURVES.json FOLDER [KIND...]: CURVES.json comes from riis-figures --curves. For these kinds of valve, or for all, the
+script writes KIND_parameters as .png and .svg into the folder. It also writes parameters.json, with which riis-figures puts
+the drawings on its page. It refuses a drawing that leaves a parameter out, shows a wrong value, or has labels that overlap."""
 
 import json
 import os

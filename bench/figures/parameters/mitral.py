@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The meaning of the mitral valve's parameters, drawn (docs/theory.md, section 4)."""
+"""Draws the meaning of the mitral valve's parameters (docs/theory.md, section 4)."""
 
 import math
 
@@ -14,7 +14,7 @@ def plan(p):
 
 
 def side(p):
-    """The view from the posteromedial side, with anterior on the right and the ventricle below."""
+    """Projects to the view from the posteromedial side, with anterior on the right and the ventricle below."""
     return p[1], p[2]
 
 
@@ -23,14 +23,14 @@ def mirrored(p):
 
 
 class Valve:
-    """The curves of one opening, and the places where the annulus' parts begin."""
+    """The curves of one opening, and the points where the parts of the annulus begin."""
 
     def __init__(self, state):
         self.opening = state["opening"]
         self.annulus, self.anterior, self.posterior = state["annulus"], state["anterior"], state["posterior"]
         self.lines, self.arcs = state["lines"], [arc["curve"] for arc in state["arcs"]]
         starts, ends = [arc[0][0] for arc in self.arcs], [arc[-1][-1] for arc in self.arcs]
-        # Two neighbouring arcs that end in one point are the sides of the commissure's triangle.
+        # The sides of the commissure's triangle are two neighbouring arcs that end in one point.
         (last,) = [i + 1 for i in range(len(ends) - 1) if ends[i] == ends[i + 1]]
         self.triangle, self.commissure, self.edge_end = starts[last - 1], starts[last], ends[last]
         self.cleft, self.cleft_end = starts[last + 1], ends[last + 1]
@@ -38,15 +38,15 @@ class Valve:
         self.anterior_tip, self.posterior_tip = ends[0], ends[-1]
 
     def at(self, share):
-        """The point of the annulus at a share of its length, anticlockwise from the posterior point."""
+        """Returns the point of the annulus at a fraction of its length, anticlockwise from the posterior point."""
         return bezier.at_share(self.annulus, share % 1)
 
     def share(self, point):
-        """The share of the annulus' length from the posterior point to another one, anticlockwise."""
+        """Returns the fraction of the annulus' length from the posterior point to another point, anticlockwise."""
         return bezier.length(self.annulus, point) / bezier.length(self.annulus)
 
     def part(self, begin, end, outwards):
-        """Points of the annulus from one share of its length to another, moved outwards in the plan."""
+        """Returns points of the annulus between two fractions of its length, moved outwards in the plan view."""
         points, lengths = bezier.samples(self.annulus, 256), [0.0]
         for p, q in zip(points, points[1:]):
             lengths.append(lengths[-1] + math.dist(p, q))
@@ -84,7 +84,7 @@ def draw_annulus(sheet, valve):
 
 
 def shares(panel, valve):
-    """The parts of the annulus' length that the anterior leaflet and the commissures' triangles have."""
+    """Draws the parts of the annulus' length that belong to the anterior leaflet and to the commissures' triangles."""
     sheet, begin = panel.sheet, valve.share(valve.commissure)
     width = valve.share(valve.triangle) - begin
     sheet.check("anterior_ratio", 1 - 2 * begin)
@@ -110,7 +110,7 @@ def shares(panel, valve):
 
 
 def band(panel, valve, begin, end, outwards, color):
-    """An arrow along a part of the annulus, with lines to its ends."""
+    """Draws an arrow along a part of the annulus, with lines to the part's ends."""
     points, ends = valve.part(begin, end, outwards), valve.part(begin, end, 0)
     panel.line(*points, color=color, width=1.4)
     panel.arrow(points[8], points[0], color=color, both=False)
@@ -181,13 +181,13 @@ def draw_section(sheet, closed, half_open, valve):
 
 
 def hang(panel, arc, name, at, color, inwards):
-    """One leaflet in the symmetry plane: its arc from the annulus to the free edge, and the chord. inwards is 1 if the middle is
-    on the left."""
+    """Draws one leaflet in the symmetry plane: its arc from the annulus to the free edge, and the chord. inwards is 1 if the
+    valve's middle is on the left."""
     start, inner, end = (side(p) for p in arc[0])
     panel.curve(arc, side, color, 2.6)
     panel.points(start, end, color=color, size=5)
     panel.line(start, end, color=color, width=0.8, style="--")
-    # A line along the chord, moved to the outer side.
+    # A line along the chord, moved outwards.
     across = [0.5 * inwards * a / distance(start, end) for a in (start[1] - end[1], end[0] - start[0])]
     panel.length(name, start, end, at, shift=tuple(across), ha="left" if inwards > 0 else "right", color=color, share=0.7)
     panel.line(start, (start[0] - 1.0 * inwards, start[1]), color=GREY, width=0.6, style="--")
@@ -202,15 +202,16 @@ def hang(panel, arc, name, at, color, inwards):
 
 
 def draw_arc(sheet, valve):
-    """The free edge before it is stretched to its ends and its tip: the cubic in the frame where it stands for a circle's arc."""
+    """Draws the free edge before its ends and tip are moved into place: the cubic in the frame where it approximates a
+    circle's arc."""
     panel = sheet.panel((12.45, 4.1), (2.45, 3.45), "e   A free edge", (-1.35, -1.6), 1.1)
     (edge,) = valve.anterior
     chord = [b - a for a, b in zip(edge[0], edge[3])]
     inner = [b - a for a, b in zip(edge[1], edge[2])]
-    # share: the inner control points' distance from the chord's middle, over half the chord.
-    # 1 - share = 2/3 (1 - tan(angle / 4)^2).
+    # share: the distance of the inner control points from the chord's middle, divided by half the chord. It satisfies 1 - share =
+    # 2/3 (1 - tan(angle / 4)^2).
     share = sum(a * b for a, b in zip(inner, chord)) / sum(a * a for a in chord)
-    height = math.sqrt(1 - 1.5 * (1 - share))  # of the tip, over half the chord, if the arc is a circle's
+    height = math.sqrt(1 - 1.5 * (1 - share))  # the tip's height, divided by half the chord, if the arc is part of a circle
     angle = 4 * math.atan(height)
     sheet.check("leaflet_arc_angle", math.degrees(angle))
     cubic = [(-1, 0), (-share, -4 / 3 * height), (share, -4 / 3 * height), (1, 0)]
@@ -236,7 +237,7 @@ def draw_unrolled(sheet, valve):
     begin = valve.share(valve.commissure)
     for turned in (1, -1):
         outline(panel, valve, whole, turned)
-    # Lines from the annulus, at a share of its length, to a point of a free edge.
+    # Lines from the annulus, at a fraction of its length, to a point of a free edge.
     scallop, middle = valve.posterior[0], valve.posterior[1]
     anterior, pm = "anterior_length", "posteromedial_commissure_height"
     hanging = (
@@ -264,7 +265,7 @@ def draw_unrolled(sheet, valve):
 
 
 def outline(panel, valve, whole, turned):
-    """The lengths of the straight ways from the annulus to the free edges. turned is 1, or -1 for the mirrored half."""
+    """Draws the lengths of the straight lines from the annulus to the free edges. turned is 1, or -1 for the mirrored half."""
     for leaflet, color in ((0, ANTERIOR), (1, POSTERIOR)):
         lines = [line for line in valve.lines if line["leaflet"] == leaflet]
         points = []

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Technical drawings that name parameters: dimension lines, angles, leaders, labels.
+"""Technical drawings with the names of parameters: dimension lines, angles, leaders, labels.
 
-Every named length or angle is measured between the points that are drawn, and compared with the parameter's value. A drawing
-is refused if it would show another length or angle than the library makes, if it leaves a parameter out, or if labels overlap."""
+Every named length or angle is measured between the drawn points, and compared with the parameter's value. A drawing is refused
+if its length or angle differs from the parameter, if it leaves a parameter out, or if labels overlap."""
 
 import io
 import math
@@ -16,18 +16,19 @@ from PIL import Image, PngImagePlugin
 
 import bezier
 
-# People with any colour vision tell these apart (Okabe, Ito 2008), as in the other figures. Dimension lines and names are dark.
+# These colours can be distinguished with any colour vision (Okabe, Ito 2008), as in the other figures. Dimension lines and names
+# are dark.
 BLUE, GREEN, PURPLE, VERMILION = "#0072b2", "#009e73", "#b5548f", "#d55e00"
 DARK, GREY, PALE = "#2d2d2d", "#828282", "#c4c4c4"
-SMALL, NORMAL, LARGE = 9, 10, 11.5  # points
+SMALL, NORMAL, LARGE = 9, 10, 11.5  # font sizes, in points
 
 
 class Refused(Exception):
-    """The drawing would not be true, complete or readable."""
+    """Raised if the drawing would be false, incomplete or unreadable."""
 
 
 def plain(value):
-    """The number as short as it can be, with a real minus sign."""
+    """Returns the number as short as possible, with a typographic minus sign."""
     return f"{value:.6g}".replace("-", "−")
 
 
@@ -52,17 +53,17 @@ class Sheet:
     # ------------------------------------------------------------------------------------------------------- parameters
 
     def of_cusps(self, name):
-        """The parameters of the cusps that a name without a cusp stands for."""
+        """Returns the parameters of all cusps for which a name without a cusp stands."""
         return [each for full, each in self.parameters.items() if full.partition(".")[2] == name]
 
     def value(self, name):
-        """The default of the drawn parameter."""
+        """Returns the default of the drawn parameter."""
         if name in self.parameters:
             values = self.parameters[name]["values"]
             return values[0] if len(values) == 1 else values[("right", "left", "non_coronary").index(self.cusp)]
         own = f"{self.cusp}.{name}"
         if own not in self.parameters:
-            raise Refused(f"{name} is no parameter")
+            raise Refused(f"{name} is not a parameter")
         return self.parameters[own]["values"][0]
 
     def mark_named(self, name):
@@ -71,7 +72,7 @@ class Sheet:
             return
         found = self.of_cusps(name)
         if not found:
-            raise Refused(f"{name} is drawn, but is no parameter")
+            raise Refused(f"{name} is drawn, but is not a parameter")
         self.named.update(each["name"] for each in found)
 
     def unit(self, name):
@@ -79,7 +80,7 @@ class Sheet:
         return {"length": " cm", "degree": "°", "1": ""}[each["unit"]]
 
     def value_text(self, name):
-        """Defaults with their unit: one value, or the three cusps' values."""
+        """Returns the defaults with their unit: one value, or the values of the three cusps."""
         if name in self.parameters:
             values = self.parameters[name]["values"]
         else:
@@ -87,15 +88,16 @@ class Sheet:
         return " | ".join(map(plain, values)) + self.unit(name)
 
     def check(self, name, measured, value=None):
-        """Refuses a drawing that shows another length, angle or ratio than the value."""
+        """Refuses a drawing whose length, angle or ratio differs from the value."""
         value = self.value(name) if value is None else value
         if not abs(measured - value) <= 1e-7 * max(1, abs(value)):
-            raise Refused(f"{name} is {value}, but what the drawing shows as it is {measured}")
+            raise Refused(f"{name} is {value}, but the drawing shows {measured}")
 
     # ------------------------------------------------------------------------------------------------------------ texts
 
     def text(self, x, y, text, axis=None, **style):
-        """Adds any text, to be compared with the others. x, y are the axis' coordinates, or else shares of the figure."""
+        """Adds a text, which is checked for overlaps with other texts. x and y are coordinates of the axis, or else fractions
+        of the figure."""
         made = (axis.text if axis else self.figure.text)(x, y, text, **{"fontsize": NORMAL, "color": DARK, **style})
         self.texts.append(made)
         return made
@@ -109,7 +111,7 @@ class Sheet:
         return [name for name in self.parameters if name not in self.named]
 
     def overlaps(self):
-        """Pairs of texts that overlap, and texts that leave the sheet."""
+        """Returns pairs of texts that overlap, and texts that leave the sheet."""
         renderer = self.figure.canvas.get_renderer()
         boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in self.texts]
         width, height = self.figure.canvas.get_width_height()
@@ -123,7 +125,7 @@ class Sheet:
         return found
 
     def check_whole(self):
-        """Refuses a drawing that leaves a parameter out or cannot be read."""
+        """Refuses a drawing that leaves a parameter out or is unreadable."""
         if self.missing():
             raise Refused(f"not drawn: {', '.join(self.missing())}")
         self.figure.canvas.draw()
@@ -131,7 +133,7 @@ class Sheet:
             raise Refused("; ".join(self.overlaps()))
 
     def save(self, path):
-        """Writes PATH.png, small by few colours, with names and defaults as text, and PATH.svg, of lines and texts."""
+        """Writes PATH.png, kept small by few colours, with names and defaults as metadata, and PATH.svg, with lines and texts."""
         self.check_whole()
         drawn, about = io.BytesIO(), PngImagePlugin.PngInfo()
         self.figure.savefig(drawn, dpi=100, format="png")
@@ -144,7 +146,8 @@ class Sheet:
 
 
 class Panel:
-    """One view: plane coordinates in centimetres from left_bottom, with as many centimetres per inch of the sheet both ways."""
+    """One view, with plane coordinates in centimetres that begin at left_bottom. Both axes have the same number of centimetres
+    per inch of the sheet."""
 
     def __init__(self, sheet, corner, size, title, left_bottom, centimetres):
         self.sheet = sheet
@@ -181,9 +184,10 @@ class Panel:
     # ----------------------------------------------------------------------------------------------------------- labels
 
     def label(self, name, at, to=None, ha="left", color=DARK, shown=None, value=None):
-        """Adds name and value at a place, with a leader to the thing that they describe. shown is the name inside a formula."""
+        """Adds a name and its value at a position, with a leader to the thing that they describe. `shown` is the name if it is
+        inside a formula."""
         self.sheet.mark_named(name)
-        if at is None:  # named elsewhere in the panel
+        if at is None:  # the name is elsewhere in the panel
             return
         points_of_line = 1 / 72 / self.sheet.size[1]
         to_figure = self.sheet.figure.transFigure.inverted()
@@ -197,7 +201,7 @@ class Panel:
             self.points(to, color=color, size=2.2, zorder=6)
 
     def edge_towards(self, to, *texts):
-        """The point where a leader leaves texts: the nearest point of the box around them."""
+        """Returns the point where a leader leaves texts: the point of their bounding box that is nearest to the leader's end."""
         renderer = self.sheet.figure.canvas.get_renderer()
         boxes = [text.get_window_extent(renderer) for text in texts]
         x, y = self.axis.transData.transform(to)
@@ -208,8 +212,8 @@ class Panel:
     def length(
         self, name, p, q, at, shift=(0, 0), ha="left", color=DARK, shown=None, value=None, factor=1.0, share=0.5, example=None
     ):
-        """A length from p to q: a dimension line moved by shift, with extension lines, named at a place. The drawn length is
-        `factor` times the parameter, or an example of it. The leader ends at `share` of the dimension line."""
+        """Draws a length from p to q: a dimension line moved by `shift`, with extension lines, and its name. The drawn length
+        is `factor` times the parameter, or an example of it. The leader ends at the fraction `share` of the dimension line."""
         self.sheet.check(name, distance(p, q) / abs(factor), example)
         moved = [(a[0] + shift[0], a[1] + shift[1]) for a in (p, q)]
         if shift != (0, 0):
@@ -221,7 +225,8 @@ class Panel:
     def angle(
         self, name, centre, begin, end, radius, at, ha="left", color=DARK, share=0.5, shown=None, sense=1, value=None, text=None
     ):
-        """An angle at centre from the direction of begin to that of end, anticlockwise if sense is 1, drawn as an arc."""
+        """Draws an angle at `centre` as an arc from the direction of `begin` to the direction of `end`. It runs anticlockwise
+        if sense is 1."""
         start, stop = (math.degrees(math.atan2(p[1] - centre[1], p[0] - centre[0])) for p in (begin, end))
         measured = (stop - start) * sense
         measured = (measured + 180) % 360 - 180

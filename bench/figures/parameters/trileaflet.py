@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The meaning of the trileaflet valve's parameters, drawn on its right cusp (docs/theory.md, section 3)."""
+"""Draws the meaning of the trileaflet valve's parameters on its right cusp (docs/theory.md, section 3)."""
 
 import math
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A heart valve in code_saturne 6.0 by head losses, in C. Momentum gains -K (u - u_surface): K / rho goes into the head losses,
- * which the pressure equation of code_saturne takes into account. K u_surface is an explicit source term. */
+ * A heart valve in code_saturne 6.0, by head losses, in C. The momentum equation gets the source -K (u - u_surface). K / rho
+ * is a head loss, which code_saturne's pressure equation takes into account. K u_surface is an explicit source term. */
 #include "cs_defs.h"
 #include "cs_headers.h"
 #include "record.h"
@@ -12,7 +12,7 @@
 
 BEGIN_C_DECLS
 
-/* These are made in the first time step. */
+/* These objects are made in the first time step. */
 static riis_valve *valve, *valve_before;
 static riis_surface *surface;
 static riis_mesh *mesh;
@@ -20,7 +20,7 @@ static riis_marks *marks;
 static riis_mark_options mark_options;
 static riis_resistance resistance;
 static riis_opening_switch law;
-static riis_opening_switch_state state; /* its opening is that of the last time step */
+static riis_opening_switch_state state; /* state.opening is the opening of the last time step */
 static double *coefficient;             /* (n_cells), K in kg/(m3 s) */
 static double *momentum;                /* (3, n_cells), K u_surface in N/m3 */
 static double mesh_lower[3], mesh_upper[3];
@@ -32,11 +32,11 @@ static void check(riis_status status) {
               riis_last_error());
 }
 
-/* ---- The checkpoint: the state of the law, and the parameters of the valve that it belongs to. ---- */
+/* ---- The checkpoint: the state of the law, and the parameters of its valve. ---- */
 
 enum { n_state = 8, most_parameters = 64 };
 
-/* Copies the valve's parameters, all values one after the other, and returns how many there are. "opening" is left out. */
+/* Copies all values of the valve's parameters, one after the other, and returns their number. "opening" is left out. */
 static int get_parameters(double values[most_parameters]) {
   int64_t n_parameters = 0;
   int n = 0;
@@ -110,10 +110,10 @@ static void create_valve(void) {
 
   riis_surface_options options;
   check(riis_surface_options_init(&options, sizeof options));
-  options.scale = 0.01; /* the valves are in centimetres, the mesh is in metres */
+  options.scale = 0.01; /* the valve is in centimetres, the mesh in metres */
   options.half_thickness = setting("VALVE_HALF_THICKNESS");
   options.translation[2] = setting("VALVE_Z");
-  options.n_threads = 1; /* every processor has its rank */
+  options.n_threads = 1; /* each processor has a rank of its own */
   check(riis_surface_create(valve, &options, &surface));
   /* A rank without cells makes the same calls. */
   check(riis_mesh_create(m->n_cells, centre, centre + 1, centre + 2, 3, &mesh));
@@ -142,11 +142,12 @@ static void create_valve(void) {
   cs_parall_max(3, CS_DOUBLE, mesh_upper);
 }
 
-/* Advances the law by the solver's own pressures and flow, those of the last time step: means over slabs of the tubes. */
+/* Advances the law by the solver's pressures and flow of the last time step, which are means over slabs of the tubes. */
 static void advance_law(void) {
   const cs_mesh_quantities_t *q = cs_glob_mesh_quantities;
   const cs_real_3_t *u = (const cs_real_3_t *)CS_F_(vel)->val;
-  double upstream[3] = {0}, downstream[2] = {0}; /* volume, of it the integrals of the pressure and of the velocity */
+  /* The slab's volume, and the integrals of pressure and velocity over it. */
+  double upstream[3] = {0}, downstream[2] = {0};
   for (cs_lnum_t c = 0; c < cs_glob_mesh->n_cells; ++c) {
     const double z = q->cell_cen[3 * c + 2], v = q->cell_vol[c], p = CS_F_(p)->val[c];
     if (z > -0.022 && z < -0.018) {
@@ -161,13 +162,13 @@ static void advance_law(void) {
   cs_parall_sum(3, CS_DOUBLE, upstream);
   cs_parall_sum(2, CS_DOUBLE, downstream);
   const double drop = upstream[1] / upstream[0] - downstream[1] / downstream[0];
-  const double flow = upstream[2] / 0.004; /* the slab is so long */
-  /* The time is not t_cur: after a restart code_saturne's own sum of its time steps has other last bits. */
+  const double flow = upstream[2] / 0.004; /* the slab's length in metres */
+  /* The time is not t_cur, because after a restart code_saturne's own sum of its time steps differs in its last bits. */
   const double time = cs_glob_time_step->nt_cur * cs_glob_time_step->dt_ref;
   check(riis_opening_switch_advance(&law, &state, time, drop, flow, &state));
 }
 
-/* Refuses a valve that left the mesh: its cells would not be marked, and the flow would pass as if it were not there. The
+/* Refuses a valve that left the mesh. Its cells would not be marked, and the flow would pass as if there were no valve. The
  * attachment of an open valve is up to a half thickness outside the wall. */
 static void check_place(void) {
   riis_surface_info info;
@@ -179,7 +180,7 @@ static void check_place(void) {
                 cs_glob_time_step->nt_cur, "xyz"[k], info.lower[k], info.upper[k], mesh_lower[k], mesh_upper[k]);
 }
 
-/* Makes K and K u_surface of this time step. */
+/* Computes K and K u_surface of this time step. */
 static void advance_valve(void) {
   const double start = record_clock();
   if (valve == NULL) create_valve();
@@ -189,7 +190,7 @@ static void advance_valve(void) {
   check(riis_valve_set_scalar(valve_before, "opening", state.opening));
   check_place();
 
-  riis_mark_list marked; /* the cells of the last time step */
+  riis_mark_list marked; /* the cells that were marked in the last time step */
   check(riis_marks_get_list(marks, RIIS_LIST_MARKED, &marked, sizeof marked));
   for (int64_t i = 0; i < marked.n_nodes; ++i) {
     coefficient[marked.node_id[i]] = 0;
@@ -209,19 +210,20 @@ static void advance_valve(void) {
 
 /* ---- The hooks of code_saturne. ---- */
 
-/* Head losses need a zone. It has all cells, because the valve moves. */
+/* Head losses need a zone. It contains all cells, because the valve moves. */
 void cs_user_zones(void) {
   if (setting("VALVE_PRESENT") > 0) cs_volume_zone_define("valve", "all[]", CS_VOLUME_ZONE_HEAD_LOSS);
 }
 
-/* Called once a time step, before the boundary conditions and the momentum equation. */
+/* Called once per time step, before the boundary conditions and the momentum equation. */
 void cs_user_head_losses(const cs_zone_t *zone, cs_real_t cku[][6]) {
   if (strcmp(zone->name, "valve") != 0) return;
   advance_valve();
   const double density = cs_glob_fluid_properties->ro0;
   for (cs_lnum_t i = 0; i < zone->n_elts; ++i) {
     const cs_lnum_t c = zone->elt_ids != NULL ? zone->elt_ids[i] : i;
-    for (int k = 0; k < 3; ++k) cku[i][k] = coefficient[c] / density; /* xx, yy, zz: the force is -rho cku u */
+    /* The components xx, yy, zz; the force is -rho cku u. */
+    for (int k = 0; k < 3; ++k) cku[i][k] = coefficient[c] / density;
     for (int k = 3; k < 6; ++k) cku[i][k] = 0;
   }
 }
@@ -236,7 +238,7 @@ void cs_user_source_terms(cs_domain_t *domain, int f_id, cs_real_t *st_exp, cs_r
   for (int64_t i = 0; i < marked.n_nodes; ++i) {
     const int64_t cell = marked.node_id[i];
     for (int k = 0; k < 3; ++k)
-      st_exp[3 * cell + k] += momentum[3 * cell + k] * cs_glob_mesh_quantities->cell_vol[cell]; /* N */
+      st_exp[3 * cell + k] += momentum[3 * cell + k] * cs_glob_mesh_quantities->cell_vol[cell]; /* in N */
   }
 }
 

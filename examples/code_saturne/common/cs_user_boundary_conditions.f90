@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! The inlet (faces 1) is the ventricle, the outlet (faces 2) the aorta: either a beat of pressures, or a given inflow.
+! The inlet (faces 1) is in the ventricle, the outlet (faces 2) in the aorta. They get either the pressures of a beat, or a given
+! inflow.
 subroutine cs_f_user_boundary_conditions(nvar, nscal, icodcl, itrifb, itypfb, izfppp, dt, rcodcl)
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_null_char
   use paramx
@@ -17,7 +18,7 @@ subroutine cs_f_user_boundary_conditions(nvar, nscal, icodcl, itrifb, itypfb, iz
       real(c_double) :: value
     end function setting
   end interface
-  ! The pressure of the ventricle less that of the aorta, in Pa, over the times of a beat, in s.
+  ! The pressure of the ventricle minus that of the aorta, in Pa, at times of a beat, in s.
   double precision, parameter :: key_time(6) = [0d0, 0.02d0, 0.04d0, 0.1d0, 0.14d0, 0.3d0]
   double precision, parameter :: key_difference(6) = [-4d2, -4d2, 4d2, 4d2, -4d2, -4d2]
   integer, allocatable :: faces(:)
@@ -58,8 +59,8 @@ subroutine cs_f_user_boundary_conditions(nvar, nscal, icodcl, itrifb, itypfb, iz
 
 contains
 
-  ! A face with a given pressure, through which the flow may go either way. Of flow that comes in, code_saturne takes the momentum
-  ! as 0, so the pressure is that of fluid at rest.
+  ! A face with a given pressure, through which the flow may go in either direction. code_saturne takes the momentum of inflow as
+  ! 0, so the given pressure is that of fluid at rest.
   subroutine open_face(face, pressure)
     integer, intent(in) :: face
     double precision, intent(in) :: pressure

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: Apache-2.0
- * Blood in a laminar flow, with a constant time step. */
+/* SPDX-License-Identifier: Apache-2.0 Laminar flow of blood, with a constant time step. */
 #include "cs_defs.h"
 #include "cs_headers.h"
 #include "settings.h"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Tells code_saturne the mesh, the checkpoint to go on from, and where riis is installed. RIIS_PREFIX names that folder.
+# Tells code_saturne the mesh, the checkpoint for a restart, and where riis is installed: in the folder RIIS_PREFIX.
 import os
 import subprocess
 

@@ -10,7 +10,7 @@
 #include <string.h>
 #include <time.h>
 
-/* What the valve did in this time step; record_valve sets it. */
+/* Numbers of the valve in this time step, set by record_valve. */
 static int64_t n_marked;
 static const int64_t *cell_id;
 static const double *coefficient;
@@ -35,7 +35,7 @@ static cs_gnum_t global_number(int64_t cell) {
   return numbers != NULL ? numbers[cell] : (cs_gnum_t)cell + 1;
 }
 
-/* Mixes the bits of a number, so that a sum over cells depends on all of them and on no order (finaliser of MurmurHash3). */
+/* Mixes the bits of a number, so that a sum over cells depends on all cells but not on their order (finaliser of MurmurHash3). */
 static cs_gnum_t mix(cs_gnum_t x) {
   x ^= x >> 33;
   x *= 0xff51afd7ed558ccdULL;
@@ -61,7 +61,7 @@ static void close_file(FILE *file, const char *name) {
   if (fclose(file) != 0 || failed) bft_error(__FILE__, __LINE__, 0, "cannot write %s", name);
 }
 
-/* Writes the marked cells of this rank with the bits of their centres and of K. */
+/* Writes this rank's marked cells with the bits of their centres and of K. */
 static void write_cells(int step) {
   char name[64];
   snprintf(name, sizeof name, "cells_%05d.%d.csv", step, cs_glob_rank_id < 0 ? 0 : cs_glob_rank_id);
@@ -75,7 +75,7 @@ static void write_cells(int step) {
   close_file(file, name);
 }
 
-/* Writes the cells of this rank that are within a millimetre of the plane y = 0. */
+/* Writes this rank's cells within a millimetre of the plane y = 0. */
 static void write_slice(int step) {
   char name[64];
   snprintf(name, sizeof name, "slice_%05d.%d.csv", step, cs_glob_rank_id < 0 ? 0 : cs_glob_rank_id);
@@ -109,7 +109,7 @@ void record_step(void) {
     for (int k = 0; k < 3; ++k) sums[3] += mix(g ^ mix(bits(q->cell_cen[3 * c + k]) + (cs_gnum_t)k));
     integral += coefficient[c] * q->cell_vol[c];
   }
-  /* Pressures over slabs of the tubes, the flow through the upstream one, and the largest speed. */
+  /* Sums the pressures over slabs of the tubes and the flow through the upstream slab, and finds the largest speed. */
   double slab[5] = {0}, fastest = 0;
   for (cs_lnum_t c = 0; c < m->n_cells; ++c) {
     const double z = q->cell_cen[3 * c + 2], v = q->cell_vol[c];

@@ -11,18 +11,20 @@ static const struct {
   const char *name;
   double fallback, lowest, highest;
 } numbers[] = {
-    {"RUN_STEPS", 10, 1, 1e6},                /* the number of the last time step, also in a run that is continued */
-    {"RUN_DT", 0.002, 1e-9, 1},               /* s */
-    {"RUN_CHECKPOINT", 0, 0, 1e6},            /* the time step that leaves a checkpoint; the last one also does */
+    /* The number of the last time step, which counts from the start even after a restart. */
+    {"RUN_STEPS", 10, 1, 1e6},
+    {"RUN_DT", 0.002, 1e-9, 1}, /* s */
+    /* A time step after which a checkpoint is written, besides the last one. */
+    {"RUN_CHECKPOINT", 0, 0, 1e6},
     {"RUN_INFLOW", 0, 0, 10},                 /* m/s at the inlet; 0: pressures at the inlet and the outlet */
     {"RUN_CELLS_EVERY", 0, 0, 1e6},           /* steps from one list of marked cells to the next; 0: none */
     {"RUN_SLICE_EVERY", 0, 0, 1e6},           /* steps from one slice to the next; 0: none */
-    {"VALVE_PRESENT", 1, 0, 1},               /* 0: the root without a valve */
-    {"VALVE_OPENING", -1, -1, 1},             /* 0 to 1: the valve is held there; -1: the pressures move it */
+    {"VALVE_PRESENT", 1, 0, 1},               /* 0: the root has no valve */
+    {"VALVE_OPENING", -1, -1, 1},             /* 0 to 1: the opening is constant; -1: the pressures move the valve */
     {"VALVE_RESISTANCE", 20, 0, 1e9},         /* R in kg/(m s) */
     {"VALVE_HALF_THICKNESS", 0.002, 1e-6, 1}, /* eps in m */
-    {"VALVE_VELOCITY", 1, 0, 1},              /* 0: the velocity of the leaflets is left out of K (u - u_surface) */
-    {"VALVE_Z", 0, -1, 1},                    /* m by which the valve is moved along the root */
+    {"VALVE_VELOCITY", 1, 0, 1},              /* 0: u_surface is left out of K (u - u_surface) */
+    {"VALVE_Z", 0, -1, 1},                    /* m by which the valve is shifted along the root */
 };
 
 double setting(const char *name) {

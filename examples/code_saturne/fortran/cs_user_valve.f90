@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
-! A heart valve in code_saturne 6.0 by a momentum source, in Fortran. Momentum gains -K (u - u_surface): -K is the implicit part
-! of the source, K u_surface the explicit part. The pressure equation of code_saturne does not take this source into account. So
-! the pressure drop builds up over several time steps, and stays too small. The head losses of ../c do better.
+! A heart valve in code_saturne 6.0, by a momentum source, in Fortran. The momentum equation gets the source -K (u - u_surface).
+! -K is its implicit part, and K u_surface its explicit part. The pressure equation of code_saturne does not take this source into
+! account. So the pressure drop builds up over several time steps, and stays too small. The head losses in ../c avoid this.
 module valve_in_root
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int64_t, c_null_char, c_ptr
   use riis
@@ -9,13 +9,13 @@ module valve_in_root
   private
   public :: advance_valve, write_checkpoint, record_step, coefficient, momentum, present_valve
 
-  ! These are made in the first time step.
+  ! These objects are made in the first time step.
   type(riis_valve), save :: valve, valve_before
   type(riis_surface), save :: surface
   type(riis_mesh), save :: cells
   type(riis_marks), save :: marks
   type(riis_opening_switch), save :: law
-  type(riis_opening_switch_state), save :: state ! its opening is that of the last time step
+  type(riis_opening_switch_state), save :: state ! state%opening is the opening of the last time step
   double precision, allocatable, save :: coefficient(:) ! (n_cells), K in kg/(m3 s)
   double precision, allocatable, save :: momentum(:, :) ! (3, n_cells), K u_surface in N/m3
   double precision, save :: mesh_lower(3), mesh_upper(3)
@@ -64,9 +64,9 @@ contains
     present_valve = setting('VALVE_PRESENT'//c_null_char) > 0
   end function present_valve
 
-  ! ---- The checkpoint: the state of the law, and the parameters of the valve that it belongs to. ----
+  ! ---- The checkpoint: the state of the law, and the parameters of its valve. ----
 
-  ! Gives the valve's parameters, all values one after the other. "opening" is left out.
+  ! Gives all values of the valve's parameters, one after the other. "opening" is left out.
   subroutine get_parameters(values)
     double precision, allocatable, intent(out) :: values(:)
     type(riis_parameter_info) :: parameter
@@ -141,7 +141,7 @@ contains
     call check(status)
     call valve%copy(valve_before, status=status)
     call check(status)
-    ! The valves are in centimetres, the mesh is in metres. Every processor has its rank, so one thread is enough.
+    ! The valve is in centimetres, the mesh in metres. Each processor has a rank of its own, so one thread is enough.
     call surface%create(valve, half_thickness=setting('VALVE_HALF_THICKNESS'//c_null_char), scale=0.01d0, &
       translation=[0d0, 0d0, setting('VALVE_Z'//c_null_char)], n_threads=1, status=status)
     call check(status)
@@ -161,7 +161,7 @@ contains
     end do
   end subroutine create_valve
 
-  ! Advances the law by the solver's own pressures and flow, those of the last time step: means over slabs of the tubes.
+  ! Advances the law by the solver's pressures and flow of the last time step, which are means over slabs of the tubes.
   subroutine advance_law()
     use mesh
     use numvar
@@ -169,7 +169,8 @@ contains
     use field
     use optcal, only: dtref, ntcabs
     double precision, pointer :: pressure(:), velocity(:, :)
-    double precision :: sums(5) ! upstream: volume, of it the integrals of pressure and velocity; downstream: the first two
+    ! Upstream slab: volume, integrals of pressure and velocity; downstream slab: volume, integral of pressure.
+    double precision :: sums(5)
     integer(riis_status) :: status
     integer :: c
     call field_get_val_s(ivarfl(ipr), pressure)
@@ -183,13 +184,13 @@ contains
       end if
     end do
     if (irangp >= 0) call parrsm(5, sums)
-    ! The upstream slab is 4 mm long. The time is not ttcabs: after a restart code_saturne's own sum of its time steps has other
-    ! last bits.
+    ! The upstream slab is 4 mm long. The time is not ttcabs, because after a restart code_saturne's own sum of its time steps
+    ! differs in its last bits.
     call riis_opening_advance(law, state, ntcabs * dtref, sums(2) / sums(1) - sums(5) / sums(4), sums(3) / 0.004d0, status=status)
     call check(status)
   end subroutine advance_law
 
-  ! Refuses a valve that left the mesh: its cells would not be marked, and the flow would pass as if it were not there. The
+  ! Refuses a valve that left the mesh. Its cells would not be marked, and the flow would pass as if there were no valve. The
   ! attachment of an open valve is up to a half thickness outside the wall.
   subroutine check_place()
     type(riis_surface_info) :: info
@@ -207,7 +208,7 @@ contains
     end do
   end subroutine check_place
 
-  ! Makes K and K u_surface of this time step. The source term may be asked for more than once in it.
+  ! Computes K and K u_surface of this time step. The solver may ask for the source term several times in a step.
   subroutine advance_valve()
     use mesh
     use optcal, only: dtref, ntcabs
@@ -228,7 +229,7 @@ contains
     call valve_before%set('opening', state%opening, status=status)
     call check(status)
     call check_place()
-    if (marks%is_created()) then ! the cells of the last time step
+    if (marks%is_created()) then ! the cells that were marked in the last time step
       call marks%marked(cell, distance)
       do i = 1, size(cell)
         coefficient(cell(i) + 1) = 0
@@ -250,7 +251,7 @@ end module valve_in_root
 
 ! ---- The hooks of code_saturne. ----
 
-! The momentum source: crvimp in kg/s, negative; crvexp in N. Called for the velocity.
+! Gives the momentum source: crvimp in kg/s, negative; crvexp in N. Called for the velocity.
 subroutine ustsnv(nvar, nscal, ncepdp, ncesmp, ivar, icepdc, icetsm, itypsm, dt, ckupdc, smacel, crvexp, crvimp)
   use paramx
   use numvar
@@ -280,7 +281,7 @@ subroutine cs_f_user_extra_operations(nvar, nscal, dt)
   implicit none
   integer :: nvar, nscal, due
   double precision :: dt(ncelet)
-  call reqsui(due) ! 1 if code_saturne writes a checkpoint in this time step
+  call reqsui(due) ! due is 1 if code_saturne writes a checkpoint in this time step
   if (due == 1) call write_checkpoint()
   call record_step()
 end subroutine cs_f_user_extra_operations

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The installed VTK component links and runs: one call succeeds, and one fails with the core's message. */
+ * Links and runs the installed VTK component: one call succeeds, and one fails with the core's message. */
 #include <riis/riis_vtk.h>
 #include <stdio.h>
 #include <string.h>
