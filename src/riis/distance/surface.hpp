@@ -8,8 +8,10 @@
 #include <mutex>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "distance/patch_distance.hpp"
+#include "surface/attachment.hpp"
 #include "surface/pseudonormals.hpp"
 #include "surface/triangle_scene.hpp"
 #include "surface/triangle_set.hpp"
@@ -32,12 +34,18 @@ class Surface {
   const TriangleSet &triangles() const { return triangles_; }
   const TriangleScene &scene() const { return scene_; }
   double half_thickness() const { return half_thickness_; }
+  // The leaflet ids of the triangles, each once, ascending.
+  const std::vector<std::int32_t> &leaflet_ids() const { return leaflet_ids_; }
   // Returns the area of all triangles. The first call computes it. Several threads may call this function at once.
   double area() const;
 
   // Bounds how far a velocity is from that of the smooth valve at the same patch, u and v; 0 without a motion of patches. The
   // first call computes it. Several threads may call this function at once.
   double velocity_error_bound() const;
+
+  // Returns the sides at which leaflets are attached; none for a surface from arrays. The first call makes them. Several threads
+  // may call this function at once.
+  const Attachment &attachment() const;
 
   // Returns the method that measures distances. Null means the triangles' scene.
   const PatchDistance *other_distance() const { return other_distance_.get(); }
@@ -58,6 +66,7 @@ class Surface {
   TriangleSet triangles_;
   TriangleScene scene_;
   double half_thickness_ = 0;
+  std::vector<std::int32_t> leaflet_ids_;
   // Marking never needs the area. Any thread that computes it gets the same bits.
   mutable std::atomic<double> area_{not_known};
   std::optional<TwoStates> states_;
@@ -68,6 +77,8 @@ class Surface {
   mutable std::mutex pseudonormals_mutex_;
   mutable std::optional<const Pseudonormals> pseudonormals_owner_;
   mutable std::atomic<const Pseudonormals *> pseudonormals_{nullptr};
+  mutable std::mutex attachment_mutex_;
+  mutable std::optional<const Attachment> attachment_;
 };
 
 }  // namespace riis

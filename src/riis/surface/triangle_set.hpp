@@ -21,6 +21,12 @@ struct Grouping {
   bool operator==(const Grouping &other) const { return order == other.order && end == other.end; }
 };
 
+// The vertices of a patch of a valve: those from `first` on, up to the first vertex of the next patch.
+struct VerticesOfPatch {
+  std::int32_t patch_id, leaflet_id;
+  std::int64_t first;
+};
+
 struct TriangleSet {
   std::vector<double> xyz;                // (3, n_vertices), placed
   std::vector<double> uv;                 // (2, n_vertices), empty for surfaces from arrays
@@ -32,6 +38,7 @@ struct TriangleSet {
   std::int64_t n_zero_area = 0;           // triangles that were left out
   double error_bound = 0;                 // of the distance to the smooth valve, placed; 0 for surfaces from arrays
   Vector<std::uint8_t> rim_sides;         // one entry a patch_id, bits of PatchRim; empty for surfaces from arrays
+  Vector<VerticesOfPatch> patches;        // ascending by first vertex; empty for surfaces from arrays
   std::uint64_t connectivity = 0;    // number of the plan that these come from; 0: none (surface/triangulate_fixed.cpp)
   Grouping grouping;                 // empty if the maker of the triangles knows no groups
   Vector<LevelledGrid> moved_grids;  // of triangles with velocities from patches
@@ -43,6 +50,7 @@ struct TriangleSet {
     for (auto *ids : {&leaflet_id, &patch_id}) ids->clear();
     for (auto *ids : {&grouping.order, &grouping.end}) ids->clear();
     rim_sides.clear();
+    patches.clear();
     moved_grids.clear();
     n_zero_area = 0;
     error_bound = 0;
