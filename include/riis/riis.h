@@ -444,8 +444,8 @@ typedef struct riis_triangles {
 RIIS_API riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangles *triangles,
                                                 int64_t struct_size);
 
-/* The attachment of a valve: edges along the sides at which tissue or a stent holds the leaflets, after placement.
- * They ascend by patch, and along a side by u. */
+/* The attachment of a valve: edges along the sides at which tissue or a stent holds its leaflets, after placement.
+ * They ascend by patch, and along a side by its u or v. */
 typedef struct riis_attachment {
   int64_t n_edges;           /* edges with a length */
   const double *edges;       /* (3, 2, n_edges): both ends of each, as riis_reaction takes them */
@@ -453,10 +453,10 @@ typedef struct riis_attachment {
   const int32_t *leaflet_id; /* (n_edges): the leaflet that is attached there */
   const int32_t *patch_id;   /* (n_edges): its patch, as in riis_triangles */
 } riis_attachment;
-/* Gives the attachment of a valve's surface, until the surface's next update or its destruction. The attachment
- * consists of the sides v = 0 that only one patch has: where a cusp meets the root, the mitral annulus, the
- * caller's from patches. A bileaflet valve has the round edges of its leaflets and the ring's upstream edge,
- * although only pivots hold its leaflets.
+/* Gives the attachment of a valve's surface, until the surface's next update or its destruction. Cusps are held
+ * where they meet the sinus, u = 1, from the root to the commissures; mitral leaflets at the annulus, v = 0. Patches
+ * are held at the sides v = 0 that no other patch has. A bileaflet valve has no attachment, as pivots hold its
+ * leaflets.
  * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, whose attached and free edges look alike. */
 RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, riis_attachment *attachment,
                                                  int64_t struct_size);

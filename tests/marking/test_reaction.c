@@ -544,14 +544,19 @@ static void sums_are_those_of_plain_loops(void **state) {
 
 /* --- Symmetric valves ------------------------------------------------------------------------------------------------ */
 
-/* A valve in a flow along its axis, oblique to the nodes: the forces and moments of its leaflets are turned copies. */
+/* A valve in a flow along its axis, oblique to the nodes: the forces and moments of its leaflets are turned copies. Nodes that are
+ * nearest to the line where closed leaflets touch all belong to the lower leaflet, which makes a difference of up to 2.5 percent
+ * here. */
 static void leaflets_of_symmetric_valves_share_alike(void **state) {
   (void)state;
   const struct {
     const char *kind;
     int n_leaflets;
-    double opening;
-  } valves[] = {{"trileaflet", 3, 0}, {"trileaflet", 3, 0.6}, {"bileaflet", 2, 0}, {"bileaflet", 2, 0.5}};
+    double opening, tolerance;
+  } valves[] = {{"trileaflet", 3, 0, 0.04},
+                {"trileaflet", 3, 0.6, 0.003},
+                {"bileaflet", 2, 0, 0.03},
+                {"bileaflet", 2, 0.5, 0.0005}};
   for (int i = 0; i < (int)(sizeof valves / sizeof *valves); ++i)
     for (int32_t how = RIIS_TRIANGULATION_ADAPTED; how <= RIIS_TRIANGULATION_FIXED; ++how) {
       const int owned_before = n_owned();
@@ -604,7 +609,7 @@ static void leaflets_of_symmetric_valves_share_alike(void **state) {
           }
         }
       printf("%s at %g: leaflets differ by %.2g of their force and moment\n", valves[i].kind, valves[i].opening, worst);
-      CHECK_AT_MOST(worst, 0.04);
+      CHECK_AT_MOST(worst, valves[i].tolerance);
       free_owned_after(owned_before);
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The attachment of a valve: the sides v = 0 of its patches that only one patch has (surface/rims.hpp).
+// The attachment of a valve: the sides at which its patches are held (valve/patches.hpp), unless another patch has the side too
+// (surface/rims.hpp).
 // In: the triangles of a valve. Out: edges along the sides, through all of their vertices.
 #pragma once
 
@@ -10,7 +11,7 @@
 
 namespace riis {
 
-// Edges ascend by patch, and along a side by u.
+// Edges ascend by patch, and along a side by its parameter.
 struct Attachment {
   std::vector<double> edges;             // (3, 2, n_edges)
   std::vector<std::int64_t> vertex_id;   // (2, n_edges)

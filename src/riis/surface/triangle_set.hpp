@@ -11,6 +11,7 @@
 #include "common/array_view.hpp"
 #include "geometry/strided.hpp"
 #include "surface/quads.hpp"
+#include "valve/patches.hpp"
 
 namespace riis {
 
@@ -25,6 +26,7 @@ struct Grouping {
 struct VerticesOfPatch {
   std::int32_t patch_id, leaflet_id;
   std::int64_t first;
+  AttachedSide attached;
 };
 
 struct TriangleSet {

@@ -36,6 +36,9 @@ struct Side {
   bool reversed = false;
 };
 
+// The side at which tissue or a stent holds a patch, if it is held along one.
+enum class AttachedSide : std::uint8_t { none, v0, u1 };
+
 // A patch, given by its four sides, which are named by the parameter that is constant on them. A curve that two patches
 // share appears once, so that it becomes one polyline and the patches meet without cracks. S_u x S_v points downstream;
 // mirror images are turned over to keep it so.
@@ -45,6 +48,7 @@ struct Patch {
   // 0 means the Coons patch of the sides. Any other factor means the patch of the arcs that it makes from v0 to v1
   // (geometry/bulge.hpp); u0 and u1 are then such arcs themselves.
   double bulge = 0;
+  AttachedSide attached = AttachedSide::none;
 };
 
 // Two images of one patch that have points of the side v1 in common: the whole side, or only its end at u1. Turning rounds, so
