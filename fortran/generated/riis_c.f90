@@ -214,6 +214,7 @@ module riis_c
                                            !! the same patch, u and v. The first call after a moving update computes it,
                                            !! which takes about as long as the update. 0 without a motion, and for
                                            !! arrays
+    integer(c_int64_t) :: n_leaflets       !< 1 more than the largest leaflet_id of the triangles
   end type riis_surface_info
 
   type, bind(c) :: riis_triangles
@@ -227,6 +228,15 @@ module riis_c
     type(c_ptr) :: leaflet_id  !< integer(c_int32_t), (n_triangles)
     type(c_ptr) :: patch_id    !< integer(c_int32_t), (n_triangles)
   end type riis_triangles
+
+  !> c_null_ptr for arrays without edges
+  type, bind(c) :: riis_attachment
+    integer(c_int64_t) :: n_edges
+    type(c_ptr) :: edges      !< real(c_double), (3, 2, n_edges)
+    type(c_ptr) :: vertex_id  !< integer(c_int64_t), (2, n_edges), from 0
+    type(c_ptr) :: leaflet_id !< integer(c_int32_t), (n_edges)
+    type(c_ptr) :: patch_id   !< integer(c_int32_t), (n_edges)
+  end type riis_attachment
 
   type, bind(c) :: riis_crossing_options
     integer(c_int64_t) :: struct_size
@@ -408,6 +418,22 @@ module riis_c
     integer(c_int64_t) :: velocity_stride !< 3 for u(3, n_nodes)
     type(c_ptr) :: weight                 !< real(c_double), (n_nodes)
   end type riis_flow_arrays
+
+  !> c_null_ptr for sums that are not wanted
+  type, bind(c) :: riis_reaction
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: about(3)
+    type(c_ptr) :: force           !< real(c_double), (3)
+    type(c_ptr) :: moment          !< real(c_double), (3)
+    integer(c_int64_t) :: n_leaflets
+    type(c_ptr) :: leaflet_force   !< real(c_double), (3, n_leaflets)
+    type(c_ptr) :: leaflet_moment  !< real(c_double), (3, n_leaflets)
+    integer(c_int64_t) :: n_edges
+    type(c_ptr) :: edges           !< real(c_double), (3, 2, n_edges)
+    type(c_ptr) :: edge_leaflet_id !< integer(c_int32_t), (n_edges), or c_null_ptr
+    type(c_ptr) :: edge_force      !< real(c_double), (3, n_edges)
+    type(c_ptr) :: edge_moment     !< real(c_double), (3, n_edges)
+  end type riis_reaction
 
   !> Sums over the nodes on either side of the surface: entry 1 is upstream, side -1, entry 2 downstream.
   type, bind(c) :: riis_band_sums
@@ -841,6 +867,17 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_get_triangles
 
+    !>   struct_size  c_sizeof(attachment)
+    function riis_surface_get_attachment(surface, attachment, struct_size) result(status) &
+        bind(c, name='riis_surface_get_attachment')
+      import :: c_int64_t, c_ptr, riis_attachment, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      type(riis_attachment), intent(inout) :: attachment
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_surface_get_attachment
+
     ! -----------------------------------------------------------------------------------------------------------------
     ! Crossings
     ! -----------------------------------------------------------------------------------------------------------------
@@ -1200,15 +1237,24 @@ module riis_c
       integer(riis_status) :: status
     end function riis_flow_arrays_init
 
-    !>   force  added to
-    function riis_marks_add_reaction(marks, resistance, flow, force) result(status) &
+    !>   struct_size  c_sizeof(reaction)
+    function riis_reaction_init(reaction, struct_size) result(status) bind(c, name='riis_reaction_init')
+      import :: c_int64_t, riis_reaction, riis_status
+      implicit none
+      type(riis_reaction), intent(inout) :: reaction
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_reaction_init
+
+    !>   reaction  its sums are added to
+    function riis_marks_add_reaction(marks, resistance, flow, reaction) result(status) &
         bind(c, name='riis_marks_add_reaction')
-      import :: c_double, c_ptr, riis_flow_arrays, riis_resistance, riis_status
+      import :: c_ptr, riis_flow_arrays, riis_reaction, riis_resistance, riis_status
       implicit none
       type(c_ptr), value :: marks
       type(riis_resistance), intent(in) :: resistance
       type(riis_flow_arrays), intent(in) :: flow
-      real(c_double), intent(inout) :: force(3)
+      type(riis_reaction), intent(in) :: reaction
       integer(riis_status) :: status
     end function riis_marks_add_reaction
 

@@ -171,7 +171,8 @@ static void patches_are_held_at_v_0(void **state) {
     assert_true(got.n_edges == 1 || trial >= 4);
 
     /* An update moves the edges. The bileaflet valve has none. */
-    CHECK_OK(riis_surface_update(surface, valve_of("bileaflet", 0.3), NULL));
+    const riis_surface_options adapted = placed(RIIS_TRIANGULATION_ADAPTED, 2);
+    CHECK_OK(riis_surface_update(surface, valve_of("bileaflet", 0.3), &adapted));
     const riis_attachment none = attachment_of(surface);
     assert_true(none.n_edges == 0 && !none.edges && !none.vertex_id && !none.leaflet_id && !none.patch_id);
   }
