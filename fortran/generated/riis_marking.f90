@@ -676,10 +676,12 @@ contains
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_resistance) :: made
     type(riis_reaction) :: to
-    real(c_double), target :: of_whole(3, 2)
     ! Copies of the sums are contiguous whatever the caller's are, and so are those of the edges.
-    real(c_double), allocatable, target :: of_leaflets(:, :, :), of_edges(:, :, :), ends(:, :, :)
-    integer(int32), allocatable, target :: leaflet_id(:)
+    real(c_double), target :: own_force(3), own_moment(3)
+    real(c_double), pointer, contiguous :: own_leaflet_force(:, :), own_leaflet_moment(:, :), own_edge_force(:, :), &
+      own_edge_moment(:, :)
+    real(c_double), allocatable, target :: own_edges(:, :, :)
+    integer(int32), allocatable, target :: own_edge_leaflet_id(:)
     integer(int64) :: n, n_leaflets, n_edges
     integer(riis_status) :: code
     n = size(weight, kind=int64)
@@ -713,48 +715,55 @@ contains
     if (present(about)) to%about = about
     to%n_leaflets = n_leaflets
     to%n_edges = n_edges
-    allocate (of_leaflets(3, max(n_leaflets, 1_int64), 2), of_edges(3, max(n_edges, 1_int64), 2))
     if (present(force)) then
-      of_whole(:, 1) = force
-      to%force = c_loc(of_whole(1, 1))
+      own_force = force
+      to%force = location_of(own_force)
     end if
     if (present(moment)) then
-      of_whole(:, 2) = moment
-      to%moment = c_loc(of_whole(1, 2))
+      own_moment = moment
+      to%moment = location_of(own_moment)
     end if
+    own_leaflet_force => no_vectors
     if (present(leaflet_force)) then
-      of_leaflets(:, :n_leaflets, 1) = leaflet_force
-      to%leaflet_force = c_loc(of_leaflets(1, 1, 1))
+      allocate (own_leaflet_force, source=leaflet_force)
+      to%leaflet_force = location_of(own_leaflet_force)
     end if
+    own_leaflet_moment => no_vectors
     if (present(leaflet_moment)) then
-      of_leaflets(:, :n_leaflets, 2) = leaflet_moment
-      to%leaflet_moment = c_loc(of_leaflets(1, 1, 2))
+      allocate (own_leaflet_moment, source=leaflet_moment)
+      to%leaflet_moment = location_of(own_leaflet_moment)
     end if
+    own_edge_force => no_vectors
     if (present(edge_force)) then
-      of_edges(:, :n_edges, 1) = edge_force
-      to%edge_force = c_loc(of_edges(1, 1, 1))
+      allocate (own_edge_force, source=edge_force)
+      to%edge_force = location_of(own_edge_force)
     end if
+    own_edge_moment => no_vectors
     if (present(edge_moment)) then
-      of_edges(:, :n_edges, 2) = edge_moment
-      to%edge_moment = c_loc(of_edges(1, 1, 2))
+      allocate (own_edge_moment, source=edge_moment)
+      to%edge_moment = location_of(own_edge_moment)
     end if
-    if (present(edges) .and. n_edges > 0) then
-      allocate (ends, source=edges)
-      to%edges = c_loc(ends)
+    if (present(edges)) then
+      allocate (own_edges, source=edges)
+      to%edges = location_of(own_edges)
     end if
-    if (present(edge_leaflet_id) .and. n_edges > 0) then
-      allocate (leaflet_id, source=edge_leaflet_id)
-      to%edge_leaflet_id = c_loc(leaflet_id)
+    if (present(edge_leaflet_id)) then
+      allocate (own_edge_leaflet_id, source=edge_leaflet_id)
+      to%edge_leaflet_id = location_of(own_edge_leaflet_id)
     end if
     code = add_reaction_to(this%handle, made, n, velocity, weight, to)
     if (code == RIIS_OK) then
-      if (present(force)) force = of_whole(:, 1)
-      if (present(moment)) moment = of_whole(:, 2)
-      if (present(leaflet_force)) leaflet_force = of_leaflets(:, :n_leaflets, 1)
-      if (present(leaflet_moment)) leaflet_moment = of_leaflets(:, :n_leaflets, 2)
-      if (present(edge_force)) edge_force = of_edges(:, :n_edges, 1)
-      if (present(edge_moment)) edge_moment = of_edges(:, :n_edges, 2)
+      if (present(force)) force = own_force
+      if (present(moment)) moment = own_moment
+      if (present(leaflet_force)) leaflet_force = own_leaflet_force
+      if (present(leaflet_moment)) leaflet_moment = own_leaflet_moment
+      if (present(edge_force)) edge_force = own_edge_force
+      if (present(edge_moment)) edge_moment = own_edge_moment
     end if
+    if (present(leaflet_force)) deallocate (own_leaflet_force)
+    if (present(leaflet_moment)) deallocate (own_leaflet_moment)
+    if (present(edge_force)) deallocate (own_edge_force)
+    if (present(edge_moment)) deallocate (own_edge_moment)
     call finish(code, status)
   end subroutine marks_add_reaction
 

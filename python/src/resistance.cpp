@@ -57,7 +57,8 @@ double *data_of(const std::optional<Array> &sums) { return sums ? sums->data<dou
 std::int64_t n_rows_of(nb::handle first, const char *first_name, nb::handle second, const char *second_name) {
   if (first.is_none() && second.is_none()) return 0;
   const bool has_first = !first.is_none();
-  const Array array = Array::of<double>(has_first ? first : second, has_first ? first_name : second_name, Access::write);
+  const Array array =
+      Array::of<double>(has_first ? first : second, has_first ? first_name : second_name, Access::write);
   array.expect({-1, 3});
   return array.size(0);
 }

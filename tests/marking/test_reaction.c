@@ -168,8 +168,7 @@ static void a_closed_plate_takes_the_drop(void **state) {
     for (int k = 0; k < 3; ++k) {
       double middle[3], moment[3], arm[3], force[3];
       place(&p.frame, parts[k].a, 0.5, 0, middle);
-      for (int c = 0; c < 3; ++c)
-        force[c] = drop * parts[k].area * direction[c], arm[c] = middle[c] - about[c];
+      for (int c = 0; c < 3; ++c) force[c] = drop * parts[k].area * direction[c], arm[c] = middle[c] - about[c];
       cross(arm, force, moment);
       for (int c = 0; c < 3; ++c) {
         CHECK_NEAR(parts[k].force[c], force[c], tolerance);
@@ -185,8 +184,9 @@ static void a_closed_plate_takes_the_drop(void **state) {
   }
 }
 
-/* A plate that turns about its hinge in a fluid at rest: each part moves at spin a, so the force is (R / eps) spin w a^2 / 2 and the
- * moment about the hinge (R / eps) spin w a^3 / 3, against the spin. Cells integrate a^2 to a factor 1 - (h / 2a)^2. The power
+/* A plate that turns about its hinge in a fluid at rest: each part moves at spin a. So the force is (R / eps) spin w a^2 / 2, and
+ * the moment about the hinge is (R / eps) spin w a^3 / 3, against the spin. Cells integrate a^2 to a factor 1 - (h / 2a)^2. The
+ * power
  * of the force on the moving nodes is the moment times the spin. */
 static void a_hinged_plate_has_its_moment(void **state) {
   (void)state;
@@ -204,8 +204,7 @@ static void a_hinged_plate_has_its_moment(void **state) {
     const riis_reaction reaction = reaction_to(&got, p.frame.origin, 4, 4, hinge[0][0]);
     CHECK_OK(riis_marks_add_reaction(p.marks, &resistance, &flow, &reaction));
     const double each = r / plate_eps * spin * plate_width, a = plate_length;
-    const double force = each * a * a / 2, cells = 1 - pow(plate_h / (2 * a), 2),
-                 moment = each * a * a * a / 3 * cells;
+    const double force = each * a * a / 2, cells = 1 - pow(plate_h / (2 * a), 2), moment = each * a * a * a / 3 * cells;
     const double tolerance = 1e-12 * fabs(moment) + 1e-300;
     double expected_force[3], expected[3], part[3];
     turn(&p.frame, 0, 0, force, expected_force);
@@ -242,7 +241,8 @@ static void the_first_of_equally_near_edges_gets_the_share(void **state) {
   /* The same edge fifty times among edges that are far away. */
   double edges[50][2][3];
   for (int k = 0; k < 50; ++k)
-    for (int end = 0; end < 2; ++end) place(&p.frame, k % 5 == 3 ? 0 : 100 + k, k % 5 == 3 ? end : end + k, 0, edges[k][end]);
+    for (int end = 0; end < 2; ++end)
+      place(&p.frame, k % 5 == 3 ? 0 : 100 + k, k % 5 == 3 ? end : end + k, 0, edges[k][end]);
   sums got = {.all = {0}};
   const riis_reaction reaction = reaction_to(&got, about, 4, 50, edges[0][0]);
   CHECK_OK(riis_marks_add_reaction(p.marks, &resistance, &flow, &reaction));
@@ -377,8 +377,10 @@ static int64_t nearest_edge(int64_t n, const double (*edges)[2][3], const int32_
     if (leaflet_of && leaflet_of[k] != leaflet) continue;
     const long double here = edge_distance_sq(edges[k], p);
     if (here == least) continue; /* the same place: the first counts */
-    if (here < least) next = least, least = here, nearest = k;
-    else if (here < next) next = here;
+    if (here < least)
+      next = least, least = here, nearest = k;
+    else if (here < next)
+      next = here;
   }
   return next - least > 1e-12L * (1 + least) ? nearest : -1;
 }
@@ -443,8 +445,7 @@ static void check_case(int kind, int32_t triangulation, int trial) {
       continue;
     }
     double force[3], middle[3];
-    for (int c = 0; c < 3; ++c)
-      force[c] = f.weight[node] * k * (f.velocity[3 * node + c] - list.velocity[3 * i + c]);
+    for (int c = 0; c < 3; ++c) force[c] = f.weight[node] * k * (f.velocity[3 * node + c] - list.velocity[3 * i + c]);
     middle_of(edges[edge], middle);
     add_exact(expected, force, point, about);
     add_exact(of_leaflet + list.leaflet_id[i], force, point, about);
@@ -478,7 +479,7 @@ static void check_case(int kind, int32_t triangulation, int trial) {
     if (i < 2) {
       CHECK_OK(riis_marks_add_reaction(marks, &resistance, &flow, &again));
     } else {
-      double **const wanted[6] = {&again.force,         &again.moment,     &again.leaflet_force,
+      double **const wanted[6] = {&again.force,          &again.moment,     &again.leaflet_force,
                                   &again.leaflet_moment, &again.edge_force, &again.edge_moment};
       for (int k = 0; k < 6; ++k) {
         riis_reaction alone = again;
@@ -544,8 +545,9 @@ static void sums_are_those_of_plain_loops(void **state) {
 
 /* --- Symmetric valves ------------------------------------------------------------------------------------------------ */
 
-/* A valve in a flow along its axis, oblique to the nodes: the forces and moments of its leaflets are turned copies. Nodes that are
- * nearest to the line where closed leaflets touch all belong to the lower leaflet, which makes a difference of up to 2.5 percent
+/* A valve in a flow along its axis, oblique to the nodes: the forces and moments of its leaflets are turned copies. Nodes that
+ * are nearest to the line where closed leaflets touch all belong to the lower leaflet, which makes a difference of up to 2.5
+ * percent
  * here. */
 static void leaflets_of_symmetric_valves_share_alike(void **state) {
   (void)state;
@@ -629,16 +631,16 @@ static void refusals_leave_the_sums(void **state) {
   before = got;
   const riis_reaction good = reaction_to(&got, about, 3, 3, edges[0][0]);
   riis_reaction bad;
-#define REFUSED_BY(marks, status, parts)                                                        \
-  do {                                                                                          \
-    CHECK_REFUSED(status, parts, riis_marks_add_reaction(marks, &resistance, &flow, &bad));     \
-    assert_memory_equal(&got, &before, sizeof got);                                             \
+#define REFUSED_BY(marks, status, parts)                                                    \
+  do {                                                                                      \
+    CHECK_REFUSED(status, parts, riis_marks_add_reaction(marks, &resistance, &flow, &bad)); \
+    assert_memory_equal(&got, &before, sizeof got);                                         \
   } while (0)
-#define CHANGED_IS_REFUSED(change, parts)                     \
-  do {                                                        \
-    bad = good;                                               \
-    bad.change;                                               \
-    REFUSED_BY(f.marks, RIIS_INVALID_ARGUMENT, parts);        \
+#define CHANGED_IS_REFUSED(change, parts)              \
+  do {                                                 \
+    bad = good;                                        \
+    bad.change;                                        \
+    REFUSED_BY(f.marks, RIIS_INVALID_ARGUMENT, parts); \
   } while (0)
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "reaction is NULL", riis_marks_add_reaction(f.marks, &resistance, &flow, NULL));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "reaction is NULL", riis_reaction_init(NULL, sizeof bad));

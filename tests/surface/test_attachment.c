@@ -84,7 +84,8 @@ static void edges_are_those_of_one_triangle_on_the_side(void **state) {
       }
     qsort(edges, (size_t)n, sizeof *edges, by_place);
     for (int64_t i = 0; i < n; ++i) { /* those that are once go to the front */
-      if (i > 0 && by_place(edges + i - 1, edges + i) == 0) fail_msg("two triangles have an edge on a side that is held");
+      if (i > 0 && by_place(edges + i - 1, edges + i) == 0)
+        fail_msg("two triangles have an edge on a side that is held");
       edges[n_expected++] = edges[i];
     }
     const riis_attachment got = attachment_of(surface);
@@ -117,15 +118,14 @@ static void attachments_are_closed_lines(void **state) {
     const int owned_before = n_owned();
     const int is_mitral = trial % 3 == 2;
     const riis_surface_options options = placed(trial % 2, between(0.5, 2));
-    riis_surface *surface =
-        new_surface(valve_of(is_mitral ? "mitral" : "trileaflet", between(0, 1)), &options);
+    riis_surface *surface = new_surface(valve_of(is_mitral ? "mitral" : "trileaflet", between(0, 1)), &options);
     const riis_attachment got = attachment_of(surface);
     double of_patch[12] = {0}, total = 0;
     for (int64_t i = 0; i < 2 * got.n_edges; ++i) {
       int n_here = 0;
       for (int64_t k = 0; k < 2 * got.n_edges; ++k) {
-        const double between_ends[6] = {got.edges[3 * i],     got.edges[3 * i + 1], got.edges[3 * i + 2],
-                                        got.edges[3 * k],     got.edges[3 * k + 1], got.edges[3 * k + 2]};
+        const double between_ends[6] = {got.edges[3 * i], got.edges[3 * i + 1], got.edges[3 * i + 2],
+                                        got.edges[3 * k], got.edges[3 * k + 1], got.edges[3 * k + 2]};
         n_here += edge_length(between_ends) < 1e-9;
       }
       assert_int_equal(n_here, 2);
@@ -166,8 +166,10 @@ static void patches_are_held_at_v_0(void **state) {
       length += edge_length(got.edges + 6 * i);
     }
     /* A parabola over the width 1 with the height 1/4 and y' = 1 at its end: (sqrt(2) + asinh(1)) / 2 long. */
-    if (trial < 4) CHECK_NEAR(length, 2, 1e-12);
-    else CHECK_NEAR(length, sqrt(2) + asinh(1), 0.01);
+    if (trial < 4)
+      CHECK_NEAR(length, 2, 1e-12);
+    else
+      CHECK_NEAR(length, sqrt(2) + asinh(1), 0.01);
     assert_true(got.n_edges == 1 || trial >= 4);
 
     /* An update moves the edges. The bileaflet valve has none. */

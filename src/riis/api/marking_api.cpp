@@ -29,8 +29,8 @@ const riis_dense_arrays default_dense{
 const riis_resistance_arrays default_resistance_arrays{sizeof(riis_resistance_arrays), 0, nullptr, 1,
                                                        {nullptr, nullptr, nullptr},    1};
 const riis_flow_arrays default_flow{sizeof(riis_flow_arrays), 0, {nullptr, nullptr, nullptr}, 1, nullptr};
-const riis_reaction default_reaction{sizeof(riis_reaction), {0, 0, 0}, nullptr, nullptr, 0,       nullptr, nullptr,
-                                     0,                     nullptr,   nullptr, nullptr, nullptr};
+const riis_reaction default_reaction{
+    sizeof(riis_reaction), {0, 0, 0}, nullptr, nullptr, 0, nullptr, nullptr, 0, nullptr, nullptr, nullptr, nullptr};
 const riis_band default_band{sizeof(riis_band), 0, 0, 0, nullptr, nullptr};
 const riis_passage_ends default_ends{sizeof(riis_passage_ends), 0, nullptr, 0, nullptr};
 
@@ -130,8 +130,9 @@ riis_reaction checked_reaction(const riis_reaction *reaction) {
     riis::fail(RIIS_INVALID_ARGUMENT, "reaction.n_edges is ", whole.n_edges, "; it must be from 0 to 2^40");
   if (!whole.force && !whole.moment && !whole.leaflet_force && !whole.leaflet_moment && !whole.edge_force &&
       !whole.edge_moment)
-    riis::fail(RIIS_INVALID_ARGUMENT, "reaction has no sum to add to: force, moment and those of leaflets and edges "
-                                      "are NULL");
+    riis::fail(RIIS_INVALID_ARGUMENT,
+               "reaction has no sum to add to: force, moment and those of leaflets and edges "
+               "are NULL");
   return whole;
 }
 

@@ -308,8 +308,9 @@ riis_status riis_surface_get_attachment(const riis_surface *surface, riis_attach
   return guarded([&] {
     const riis::Surface &content = riis::content_of(surface);
     if (content.triangles().uv.empty())
-      riis::fail(RIIS_INVALID_ARGUMENT,
-                 "surface was made from arrays, which do not tell attached edges from free ones: give edges of your own");
+      riis::fail(
+          RIIS_INVALID_ARGUMENT,
+          "surface was made from arrays, which do not tell attached edges from free ones: give edges of your own");
     const riis::Attachment &made = content.attachment();
     const auto array = [](const auto &values) { return values.empty() ? nullptr : values.data(); };
     riis::write_struct(attachment, struct_size, "attachment",

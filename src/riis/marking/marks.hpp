@@ -44,7 +44,7 @@ struct Marks {
   bool limit_is_wider = false;
   double distance_limit = 0;
   double half_thickness = 0;
-  Threads n_threads = 1;  // of the marking
+  Threads n_threads = 1;                  // of the marking
   std::vector<std::int32_t> leaflet_ids;  // of the surface's triangles, each once, ascending
   riis_mark_stats stats{};
 

@@ -91,8 +91,7 @@ void check_leaflets(const Marks &marks, const riis_reaction &to) {
 }
 
 Edges checked_edges(const riis_reaction &reaction) {
-  if (reaction.n_edges < 1)
-    fail(RIIS_INVALID_ARGUMENT, "reaction.n_edges is 0; a force by edge needs at least 1");
+  if (reaction.n_edges < 1) fail(RIIS_INVALID_ARGUMENT, "reaction.n_edges is 0; a force by edge needs at least 1");
   const Edges edges{reaction.n_edges, require(reaction.edges, "reaction.edges"), reaction.edge_leaflet_id};
   for (std::int64_t i = 0; i < 6 * edges.n; ++i)
     if (!(std::abs(edges.ends[i]) <= 1e60))
@@ -120,13 +119,12 @@ Vector<std::int64_t> nearest_edges(const Marks &marks, const Resistance &resista
   const std::int64_t n = marks.within.nodes.size();
   Vector<std::int64_t> nearest;
   resize(nearest, n);
-  parallel_for_ranges(n, edge_nodes_per_block, marks.n_threads.for_part(n, few_edge_nodes),
-                      [&](const Range &range, int) {
-                        for_each_resistance(marks, resistance, range, [&](std::int64_t i, double) {
-                          view(nearest)[i] = search.of(view(marks.within.nodes.leaflet_id)[i],
-                                                       vector_at(marks.within.fields.point, i));
-                        });
-                      });
+  parallel_for_ranges(
+      n, edge_nodes_per_block, marks.n_threads.for_part(n, few_edge_nodes), [&](const Range &range, int) {
+        for_each_resistance(marks, resistance, range, [&](std::int64_t i, double) {
+          view(nearest)[i] = search.of(view(marks.within.nodes.leaflet_id)[i], vector_at(marks.within.fields.point, i));
+        });
+      });
   return nearest;
 }
 
