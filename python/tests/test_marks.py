@@ -179,9 +179,9 @@ def test_reactions_by_leaflet_and_edge_add_up(surface, mesh):
     random = numpy.random.default_rng(5)
     weight, velocity = random.random(len(mesh)), random.random((len(mesh), 3))
     attachment, n = surface.attachment, surface.info.n_leaflets
-    assert n == 3 and attachment.edges.shape == (len(attachment.leaflet_id), 2, 3)
+    assert n == 2 and attachment.edges.shape == (len(attachment.leaflet_id), 2, 3)
     assert same(attachment.edges, surface.vertices[attachment.vertex_id])
-    assert set(attachment.leaflet_id) == {0, 1, 2} and set(attachment.patch_id // 4) == {0, 1, 2}
+    assert same(attachment.leaflet_id, (attachment.patch_id >= 6).astype("int32")) and set(attachment.patch_id) == set(range(10))
     of_leaflets, of_edges = numpy.zeros((2, n, 3)), numpy.zeros((2, len(attachment.edges), 3))
     moment, about = numpy.zeros(3), numpy.array([1.0, -2.0, 0.5])
     force = marks.add_reaction(

@@ -284,7 +284,7 @@ REFUSED = {
     "about": (Argument, "about", lambda o: o.marks.add_reaction(o.vectors, o.reals, R=1.0, about=(1.0, 2.0))),
     "NaN in about": (Argument, r"about\[1\] is nan",
                      lambda o: o.marks.add_reaction(o.vectors, o.reals, R=1.0, about=(1.0, math.nan, 2.0))),
-    "too few leaflets": (Argument, "n_leaflets is 1, but the surface has the leaflet id 2",
+    "too few leaflets": (Argument, "n_leaflets is 1, but the surface has the leaflet id 1",
                          lambda o: o.marks.add_reaction(o.vectors, o.reals, R=1.0, leaflet_force=numpy.zeros((1, 3)))),
     "leaflet_moment": (Argument, "leaflet_moment: its shape",
                        lambda o: o.marks.add_reaction(o.vectors, o.reals, R=1.0, leaflet_force=numpy.zeros((3, 3)),
