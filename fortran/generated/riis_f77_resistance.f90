@@ -352,7 +352,8 @@ subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocit
 end subroutine riisf_add_reaction_64
 
 !> Adds the force of the flow and its moment about a point, for the whole surface and for each leaflet. A force acts at the
-!! closest point of the surface. Ranks give the same point, and add their sums by a reduction. Errors: as of riisf_add_reaction; also for
+!! closest point of the surface. Ranks give the same point, and add their sums by a reduction. Errors: as of
+!! riisf_add_reaction; also for
 !! too few leaflets, naming the leaflet id.
 subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, &
     about, n_leaflets, force, moment, leaflet_force, leaflet_moment, status)
