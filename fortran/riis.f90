@@ -69,7 +69,7 @@ module riis
     c_version_string => riis_version_string
   use riis_valves, only: riis_valve, riis_parameter_info
   use riis_frames, only: riis_keyframes
-  use riis_surfaces, only: riis_surface, riis_triangles
+  use riis_surfaces, only: riis_surface, riis_attachment, riis_triangles
   use riis_adjacencies, only: riis_adjacency
   use riis_meshes, only: riis_mesh
   use riis_marking, only: riis_marks, riis_mark_list, riis_mark_nodes
@@ -83,7 +83,7 @@ module riis
   public :: riis_valve, riis_parameter_info, riis_surface, riis_surface_info, riis_closest, riis_mesh, riis_adjacency, &
     riis_marks, riis_mark_list, riis_mark_nodes, riis_mark_stats, riis_band_sums, riis_find_leaks, riis_leaks, riis_leak_list, &
     riis_keyframes, riis_label_open_regions, riis_find_passage, riis_passage, riis_find_crossings, riis_crossings, &
-    riis_crossing_list, riis_triangles
+    riis_crossing_list, riis_attachment, riis_triangles
   public :: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, riis_opening_angle_state, &
     riis_opening_from_table, riis_opening_from_times, riis_opening_advance
   public :: riis_error_message, riis_status_name, riis_get_version, riis_version_string, riis_set_log, riis_log_procedure

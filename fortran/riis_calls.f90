@@ -58,13 +58,13 @@ contains
   end function add_resistance_to
 
   !> Calls riis_marks_add_reaction.
-  function add_reaction_to(marks, resistance, n_nodes, velocity, weight, force) result(code)
+  function add_reaction_to(marks, resistance, n_nodes, velocity, weight, reaction) result(code)
     type(c_ptr), intent(in) :: marks                        !< A handle.
     type(riis_resistance), intent(in) :: resistance         !< From its init function.
     integer(int64), intent(in) :: n_nodes                   !< The number of nodes of the marking.
     real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes).
     real(c_double), intent(in) :: weight(*)                 !< (n_nodes).
-    real(c_double), intent(inout) :: force(3)               !< Added to.
+    type(riis_reaction), intent(in) :: reaction             !< From its init function; its sums are added to.
     integer(riis_status) :: code                            !< RIIS_OK or the error.
     type(riis_flow_arrays) :: flow
     integer :: i
@@ -76,7 +76,7 @@ contains
     end do
     flow%velocity_stride = 3
     flow%weight = location_of(weight)
-    code = riis_marks_add_reaction(marks, resistance, flow, force)
+    code = riis_marks_add_reaction(marks, resistance, flow, reaction)
   end function add_reaction_to
 
   !> Calls riis_marks_get_band_sums.

@@ -200,21 +200,23 @@ module riis_c
 
   !> The size of a surface, and the seconds that its last create or update took.
   type, bind(c) :: riis_surface_info
-    integer(c_int64_t) :: n_vertices       !< as riis_triangles.n_vertices
-    integer(c_int64_t) :: n_triangles      !< triangles that answer queries
-    integer(c_int64_t) :: n_zero_area      !< triangles skipped because they have no area
-    real(c_double) :: half_thickness       !< placed units
-    real(c_double) :: area                 !< of all triangles, placed units squared
-    real(c_double) :: lower(3), upper(3)   !< bounds of the triangles, placed units
-    real(c_double) :: seconds_triangles    !< wall time of the last create or update: checks and triangles
-    real(c_double) :: seconds_scene        !< wall time of the Embree scene, and of samples or patches by RIIS_MEASURE_*
-    real(c_double) :: error_bound          !< the most by which a point's distances to the triangles and to the smooth
-                                           !! valve can differ; at most tolerance * half_thickness. 0 for a surface from
-                                           !! arrays
-    real(c_double) :: velocity_error_bound !< the most by which a velocity on a triangle can differ from the smooth
-                                           !! valve's at the same patch, u and v. The first call after a moving update
-                                           !! computes it, which takes about as long as the update. 0 without a motion,
-                                           !! and for arrays
+    integer(c_int64_t) :: n_vertices         !< as riis_triangles.n_vertices
+    integer(c_int64_t) :: n_triangles        !< triangles that answer queries
+    integer(c_int64_t) :: n_zero_area        !< triangles skipped because they have no area
+    real(c_double) :: half_thickness         !< placed units
+    real(c_double) :: area                   !< of all triangles, placed units squared
+    real(c_double) :: lower(3), upper(3)     !< bounds of the triangles, placed units
+    real(c_double) :: seconds_triangles      !< wall time of the last create or update: checks and triangles
+    real(c_double) :: seconds_scene          !< wall time of the Embree scene, and of samples or patches by
+                                             !! RIIS_MEASURE_*
+    real(c_double) :: error_bound            !< the most by which a point's distances to the triangles and to the smooth
+                                             !! valve can differ; at most tolerance * half_thickness. 0 for a surface
+                                             !! from arrays
+    real(c_double) :: velocity_error_bound   !< the most by which a velocity on a triangle can differ from the smooth
+                                             !! valve's at the same patch, u and v. The first call after a moving update
+                                             !! computes it, which takes about as long as the update. 0 without a
+                                             !! motion, and for arrays
+    integer(c_int64_t) :: largest_leaflet_id !< of the triangles
   end type riis_surface_info
 
   type, bind(c) :: riis_triangles
@@ -228,6 +230,15 @@ module riis_c
     type(c_ptr) :: leaflet_id  !< integer(c_int32_t), (n_triangles)
     type(c_ptr) :: patch_id    !< integer(c_int32_t), (n_triangles)
   end type riis_triangles
+
+  !> c_null_ptr for arrays without edges
+  type, bind(c) :: riis_attachment
+    integer(c_int64_t) :: n_edges
+    type(c_ptr) :: edges      !< real(c_double), (3, 2, n_edges)
+    type(c_ptr) :: vertex_id  !< integer(c_int64_t), (2, n_edges), from 0
+    type(c_ptr) :: leaflet_id !< integer(c_int32_t), (n_edges)
+    type(c_ptr) :: patch_id   !< integer(c_int32_t), (n_edges)
+  end type riis_attachment
 
   type, bind(c) :: riis_crossing_options
     integer(c_int64_t) :: struct_size
@@ -410,6 +421,22 @@ module riis_c
     integer(c_int64_t) :: velocity_stride !< 3 for u(3, n_nodes)
     type(c_ptr) :: weight                 !< real(c_double), (n_nodes)
   end type riis_flow_arrays
+
+  !> c_null_ptr for sums that are not wanted
+  type, bind(c) :: riis_reaction
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: about(3)
+    type(c_ptr) :: force           !< real(c_double), (3)
+    type(c_ptr) :: moment          !< real(c_double), (3)
+    integer(c_int64_t) :: n_leaflets
+    type(c_ptr) :: leaflet_force   !< real(c_double), (3, n_leaflets)
+    type(c_ptr) :: leaflet_moment  !< real(c_double), (3, n_leaflets)
+    integer(c_int64_t) :: n_edges
+    type(c_ptr) :: edges           !< real(c_double), (3, 2, n_edges)
+    type(c_ptr) :: edge_leaflet_id !< integer(c_int32_t), (n_edges), or c_null_ptr
+    type(c_ptr) :: edge_force      !< real(c_double), (3, n_edges)
+    type(c_ptr) :: edge_moment     !< real(c_double), (3, n_edges)
+  end type riis_reaction
 
   !> Sums over the nodes on either side of the surface: entry 1 is upstream, side -1, entry 2 downstream.
   type, bind(c) :: riis_band_sums
@@ -844,6 +871,17 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_get_triangles
 
+    !>   struct_size  c_sizeof(attachment)
+    function riis_surface_get_attachment(surface, attachment, struct_size) result(status) &
+        bind(c, name='riis_surface_get_attachment')
+      import :: c_int64_t, c_ptr, riis_attachment, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      type(riis_attachment), intent(inout) :: attachment
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_surface_get_attachment
+
     ! -----------------------------------------------------------------------------------------------------------------
     ! Crossings
     ! -----------------------------------------------------------------------------------------------------------------
@@ -1203,15 +1241,24 @@ module riis_c
       integer(riis_status) :: status
     end function riis_flow_arrays_init
 
-    !>   force  the force is added
-    function riis_marks_add_reaction(marks, resistance, flow, force) result(status) &
+    !>   struct_size  c_sizeof(reaction)
+    function riis_reaction_init(reaction, struct_size) result(status) bind(c, name='riis_reaction_init')
+      import :: c_int64_t, riis_reaction, riis_status
+      implicit none
+      type(riis_reaction), intent(inout) :: reaction
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_reaction_init
+
+    !>   reaction  its sums are added to
+    function riis_marks_add_reaction(marks, resistance, flow, reaction) result(status) &
         bind(c, name='riis_marks_add_reaction')
-      import :: c_double, c_ptr, riis_flow_arrays, riis_resistance, riis_status
+      import :: c_ptr, riis_flow_arrays, riis_reaction, riis_resistance, riis_status
       implicit none
       type(c_ptr), value :: marks
       type(riis_resistance), intent(in) :: resistance
       type(riis_flow_arrays), intent(in) :: flow
-      real(c_double), intent(inout) :: force(3)
+      type(riis_reaction), intent(in) :: reaction
       integer(riis_status) :: status
     end function riis_marks_add_reaction
 

@@ -113,6 +113,66 @@ subroutine riisf_surface_vertex_velocities_64(surface, length, n, velocity, stat
   end if
 end subroutine riisf_surface_vertex_velocities_64
 
+!> Copies the edges at which tissue or a stent holds the leaflets of a valve (riis_surface_get_attachment in riis.h) into the
+!! caller's arrays. Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, or if the arrays are too short: nothing but n is then
+!! written.
+subroutine riisf_surface_attachment(surface, length, n, edges, leaflet_id, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_attachment, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_get_attachment
+  use riis_support, only: c_handle_of, fail, text_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int32), intent(in) :: length                    !< How many edges the arrays have room for.
+  integer(int32), intent(inout) :: n                      !< How many edges there are, also if the arrays are too short.
+  real(c_double), intent(inout) :: edges(3, 2, *)         !< (3, 2, length): both ends of each; written up to n.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< (length): the leaflet that is attached there; written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_attachment) :: made
+  real(c_double), pointer :: own(:, :, :)
+  integer(int32), pointer :: own_id(:)
+  status = riis_surface_get_attachment(c_handle_of(surface), made, c_sizeof(made))
+  if (status /= RIIS_OK) return
+  n = int(min(made%n_edges, int(huge(n), int64)), int32)
+  if (made%n_edges > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; edges: ' // text_of(made%n_edges))
+  else if (c_associated(made%edges)) then
+    call c_f_pointer(made%edges, own, [3_int64, 2_int64, made%n_edges])
+    call c_f_pointer(made%leaflet_id, own_id, [made%n_edges])
+    edges(:, :, :made%n_edges) = own
+    leaflet_id(:made%n_edges) = own_id
+  end if
+end subroutine riisf_surface_attachment
+
+!> Does the same.
+subroutine riisf_surface_attachment_64(surface, length, n, edges, leaflet_id, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_attachment, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_get_attachment
+  use riis_support, only: c_handle_of, fail, text_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Created.
+  integer(int64), intent(in) :: length                    !< How many edges the arrays have room for.
+  integer(int64), intent(inout) :: n                      !< How many edges there are, also if the arrays are too short.
+  real(c_double), intent(inout) :: edges(3, 2, *)         !< (3, 2, length): both ends of each; written up to n.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< (length): the leaflet that is attached there; written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_attachment) :: made
+  real(c_double), pointer :: own(:, :, :)
+  integer(int32), pointer :: own_id(:)
+  status = riis_surface_get_attachment(c_handle_of(surface), made, c_sizeof(made))
+  if (status /= RIIS_OK) return
+  n = int(min(made%n_edges, int(huge(n), int64)), int64)
+  if (made%n_edges > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; edges: ' // text_of(made%n_edges))
+  else if (c_associated(made%edges)) then
+    call c_f_pointer(made%edges, own, [3_int64, 2_int64, made%n_edges])
+    call c_f_pointer(made%leaflet_id, own_id, [made%n_edges])
+    edges(:, :, :made%n_edges) = own
+    leaflet_id(:made%n_edges) = own_id
+  end if
+end subroutine riisf_surface_attachment_64
+
 !> Finds the closest points of the surface to many points, in parallel. No array may overlap another. Errors:
 !! RIIS_INVALID_ARGUMENT naming the first bad point, counted from 0, or for a surface that measures distances by sampling or
 !! minimisation, because it has no sides. Nothing is then written.

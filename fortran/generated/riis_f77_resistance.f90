@@ -292,9 +292,9 @@ end subroutine riisf_add_moving_resistance_64
 subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_resistance_init
+  use riis_c, only: riis_reaction, riis_resistance, riis_status, RIIS_OK, riis_reaction_init, riis_resistance_init
   use riis_calls, only: add_reaction_to
-  use riis_support, only: c_handle_of
+  use riis_support, only: c_handle_of, location_of
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
@@ -308,21 +308,24 @@ subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, 
   real(c_double), intent(inout) :: force(3)               !< The force is added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: made
+  type(riis_reaction) :: to
   status = riis_resistance_init(made, c_sizeof(made))
+  if (status == RIIS_OK) status = riis_reaction_init(to, c_sizeof(to))
   if (status /= RIIS_OK) return
   made%R = R
   made%half_thickness = half_thickness
   made%rim = rim
-  status = add_reaction_to(c_handle_of(marks), made, int(n_nodes, int64), velocity, weight, force)
+  to%force = location_of(force)
+  status = add_reaction_to(c_handle_of(marks), made, int(n_nodes, int64), velocity, weight, to)
 end subroutine riisf_add_reaction
 
 !> Does the same.
 subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocity, weight, force, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_resistance_init
+  use riis_c, only: riis_reaction, riis_resistance, riis_status, RIIS_OK, riis_reaction_init, riis_resistance_init
   use riis_calls, only: add_reaction_to
-  use riis_support, only: c_handle_of
+  use riis_support, only: c_handle_of, location_of
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
@@ -336,13 +339,188 @@ subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocit
   real(c_double), intent(inout) :: force(3)               !< The force is added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: made
+  type(riis_reaction) :: to
   status = riis_resistance_init(made, c_sizeof(made))
+  if (status == RIIS_OK) status = riis_reaction_init(to, c_sizeof(to))
   if (status /= RIIS_OK) return
   made%R = R
   made%half_thickness = half_thickness
   made%rim = rim
-  status = add_reaction_to(c_handle_of(marks), made, int(n_nodes, int64), velocity, weight, force)
+  to%force = location_of(force)
+  status = add_reaction_to(c_handle_of(marks), made, int(n_nodes, int64), velocity, weight, to)
 end subroutine riisf_add_reaction_64
+
+!> Adds the force of the flow and its moment about a point, for the whole surface and for each leaflet. A force acts at the
+!! closest point of the surface. Ranks give the same point, and add their sums by a reduction. Errors: as of
+!! riisf_add_reaction; also for
+!! too few leaflets, naming the leaflet id.
+subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, &
+    about, n_leaflets, force, moment, leaflet_force, leaflet_moment, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_reaction, riis_resistance, riis_status, RIIS_OK, riis_reaction_init, riis_resistance_init
+  use riis_calls, only: add_reaction_to
+  use riis_support, only: c_handle_of, location_of
+  implicit none
+  integer(int64), intent(in) :: marks                     !< Of riisf_mark_with_fields with RIIS_FIELD_POINT.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
+                                                          !! half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), of the flow.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that a node stands for; 0 for the nodes
+                                                          !! of other ranks.
+  real(c_double), intent(in) :: about(3)                  !< The point that moments are about.
+  integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
+  real(c_double), intent(inout) :: force(3)               !< Added to: of the whole surface.
+  real(c_double), intent(inout) :: moment(3)              !< Added to: of the whole surface.
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets), added to; leaflet 0 has column 1.
+  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets), added to.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: made
+  type(riis_reaction) :: to
+  status = riis_resistance_init(made, c_sizeof(made))
+  if (status == RIIS_OK) status = riis_reaction_init(to, c_sizeof(to))
+  if (status /= RIIS_OK) return
+  made%R = R
+  made%half_thickness = half_thickness
+  made%rim = rim
+  to%about = about
+  to%n_leaflets = n_leaflets
+  to%force = location_of(force)
+  to%moment = location_of(moment)
+  to%leaflet_force = location_of(leaflet_force)
+  to%leaflet_moment = location_of(leaflet_moment)
+  status = add_reaction_to(c_handle_of(marks), made, int(n_nodes, int64), velocity, weight, to)
+end subroutine riisf_add_leaflet_reaction
+
+!> Does the same.
+subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes, velocity, weight, &
+    about, n_leaflets, force, moment, leaflet_force, leaflet_moment, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_reaction, riis_resistance, riis_status, RIIS_OK, riis_reaction_init, riis_resistance_init
+  use riis_calls, only: add_reaction_to
+  use riis_support, only: c_handle_of, location_of
+  implicit none
+  integer(int64), intent(in) :: marks                     !< Of riisf_mark_with_fields with RIIS_FIELD_POINT.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
+                                                          !! half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), of the flow.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that a node stands for; 0 for the nodes
+                                                          !! of other ranks.
+  real(c_double), intent(in) :: about(3)                  !< The point that moments are about.
+  integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
+  real(c_double), intent(inout) :: force(3)               !< Added to: of the whole surface.
+  real(c_double), intent(inout) :: moment(3)              !< Added to: of the whole surface.
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets), added to; leaflet 0 has column 1.
+  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets), added to.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: made
+  type(riis_reaction) :: to
+  status = riis_resistance_init(made, c_sizeof(made))
+  if (status == RIIS_OK) status = riis_reaction_init(to, c_sizeof(to))
+  if (status /= RIIS_OK) return
+  made%R = R
+  made%half_thickness = half_thickness
+  made%rim = rim
+  to%about = about
+  to%n_leaflets = n_leaflets
+  to%force = location_of(force)
+  to%moment = location_of(moment)
+  to%leaflet_force = location_of(leaflet_force)
+  to%leaflet_moment = location_of(leaflet_moment)
+  status = add_reaction_to(c_handle_of(marks), made, int(n_nodes, int64), velocity, weight, to)
+end subroutine riisf_add_leaflet_reaction_64
+
+!> Adds the force of the flow, and its moment about the middle of an edge, to the edge that is nearest to a node's closest point;
+!! of equally near edges to the first. Edges get shares for tissue codes, which are no mechanics of a membrane. Ranks give the
+!! same edges, and add their sums by a reduction. Errors: as of riisf_add_reaction; also for a bad edge, and for a leaflet without
+!! an edge.
+subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, &
+    n_edges, edges, edge_leaflet_id, edge_force, edge_moment, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_reaction, riis_resistance, riis_status, RIIS_OK, riis_reaction_init, riis_resistance_init
+  use riis_calls, only: add_reaction_to
+  use riis_support, only: c_handle_of, location_of
+  implicit none
+  integer(int64), intent(in) :: marks                     !< Of riisf_mark_with_fields with RIIS_FIELD_POINT.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
+                                                          !! half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), of the flow.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that a node stands for; 0 for the nodes
+                                                          !! of other ranks.
+  integer(int32), intent(in) :: n_edges                   !< At least 1.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each.
+  integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node counts for the nearest edge of its leaflet. If
+                                                          !! the first is -1, that is all, and edges are for all leaflets.
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges), added to.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges), added to; about the middle of each edge.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: made
+  type(riis_reaction) :: to
+  status = riis_resistance_init(made, c_sizeof(made))
+  if (status == RIIS_OK) status = riis_reaction_init(to, c_sizeof(to))
+  if (status /= RIIS_OK) return
+  made%R = R
+  made%half_thickness = half_thickness
+  made%rim = rim
+  to%n_edges = n_edges
+  to%edges = location_of(edges)
+  if (edge_leaflet_id(1) /= -1) to%edge_leaflet_id = location_of(edge_leaflet_id)
+  to%edge_force = location_of(edge_force)
+  to%edge_moment = location_of(edge_moment)
+  status = add_reaction_to(c_handle_of(marks), made, int(n_nodes, int64), velocity, weight, to)
+end subroutine riisf_add_edge_reaction
+
+!> Does the same.
+subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, velocity, weight, &
+    n_edges, edges, edge_leaflet_id, edge_force, edge_moment, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_reaction, riis_resistance, riis_status, RIIS_OK, riis_reaction_init, riis_resistance_init
+  use riis_calls, only: add_reaction_to
+  use riis_support, only: c_handle_of, location_of
+  implicit none
+  integer(int64), intent(in) :: marks                     !< Of riisf_mark_with_fields with RIIS_FIELD_POINT.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
+                                                          !! half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), of the flow.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that a node stands for; 0 for the nodes
+                                                          !! of other ranks.
+  integer(int64), intent(in) :: n_edges                   !< At least 1.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each.
+  integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node counts for the nearest edge of its leaflet. If
+                                                          !! the first is -1, that is all, and edges are for all leaflets.
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges), added to.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges), added to; about the middle of each edge.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: made
+  type(riis_reaction) :: to
+  status = riis_resistance_init(made, c_sizeof(made))
+  if (status == RIIS_OK) status = riis_reaction_init(to, c_sizeof(to))
+  if (status /= RIIS_OK) return
+  made%R = R
+  made%half_thickness = half_thickness
+  made%rim = rim
+  to%n_edges = n_edges
+  to%edges = location_of(edges)
+  if (edge_leaflet_id(1) /= -1) to%edge_leaflet_id = location_of(edge_leaflet_id)
+  to%edge_force = location_of(edge_force)
+  to%edge_moment = location_of(edge_moment)
+  status = add_reaction_to(c_handle_of(marks), made, int(n_nodes, int64), velocity, weight, to)
+end subroutine riisf_add_edge_reaction_64
 
 !> Sums a value, such as the pressure, over the nodes at a distance from inner to outer, separately for each side. Nodes whose
 !! closest point is on the rim, or that are on neither side, are left out. If the valve is open, the two sides have no meaning.

@@ -646,37 +646,137 @@ contains
     call finish(code, status)
   end subroutine marks_add_resistance
 
-  !> Adds the force of the flow on the surface: the sum of weight * K * (velocity - u_surface). Ranks sum their forces by a
-  !! reduction. u_surface is used if the marking had RIIS_FIELD_VELOCITY, and is 0 otherwise. Errors: as for %add_resistance.
-  subroutine marks_add_reaction(this, R, velocity, weight, force, half_thickness, rim, status)
+  !> Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), and its moment, for the whole surface,
+  !! each leaflet and each edge. A force acts at the closest point of the surface. All are plain sums over nodes: ranks give the
+  !! same points and edges, and add their sums by a reduction. u_surface counts where the marking had RIIS_FIELD_VELOCITY, and is
+  !! 0 otherwise. Moments and sums of edges need RIIS_FIELD_POINT. Edges get shares for tissue codes, which are no mechanics of a
+  !! membrane. Errors: as of %add_resistance; RIIS_INVALID_ARGUMENT also for too few leaflets, for a leaflet without an edge, and
+  !! for a bad edge.
+  subroutine marks_add_reaction(this, R, velocity, weight, force, half_thickness, rim, moment, about, leaflet_force, &
+      leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
     real(c_double), intent(in) :: velocity(:, :) !< (3, n_nodes), the flow's velocity.
     real(c_double), intent(in) :: weight(:)     !< (n_nodes), the volume that belongs to a node; 0 for nodes of
                                                             !! other ranks.
-    real(c_double), intent(inout) :: force(:)               !< (3): the force is added.
+    real(c_double), intent(inout), optional :: force(:)     !< (3): the force is added.
     real(c_double), intent(in), optional :: half_thickness  !< eps, at most the distance limit of the marking. Default
                                                             !! RIIS_AUTO: the half thickness of the marking.
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
                                                             !! RIIS_FIELD_RIM.
+    real(c_double), intent(inout), optional :: moment(:)    !< (3): added to.
+    real(c_double), intent(in), optional :: about(:)        !< (3): the point of moment and leaflet_moment. Default 0.
+    real(c_double), intent(inout), optional :: leaflet_force(:, :) !< (3, n_leaflets): added to. n_leaflets is more than the
+                                                            !! surface's largest leaflet id; leaflet 0 has column 1.
+    real(c_double), intent(inout), optional :: leaflet_moment(:, :) !< (3, n_leaflets): added to.
+    real(c_double), intent(in), optional :: edges(:, :, :)  !< (3, 2, n_edges): both ends of each, such as those of
+                                                            !! %get_attachment.
+    real(c_double), intent(inout), optional :: edge_force(:, :) !< (3, n_edges): added to. A node counts for the edge that is
+                                                            !! nearest to its closest point, the first of equals.
+    real(c_double), intent(inout), optional :: edge_moment(:, :) !< (3, n_edges): added to; about the middle of each edge.
+    integer(int32), intent(in), optional :: edge_leaflet_id(:) !< (n_edges): a node counts for the nearest edge of its
+                                                            !! leaflet. Default: of all.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_resistance) :: made
-    real(c_double) :: sum_of_forces(3)
-    integer(int64) :: n
+    type(riis_reaction) :: to
+    ! Copies of the sums are contiguous whatever the caller's are, and so are those of the edges.
+    real(c_double), target :: own_force(3), own_moment(3)
+    real(c_double), pointer, contiguous :: own_leaflet_force(:, :), own_leaflet_moment(:, :), own_edge_force(:, :), &
+      own_edge_moment(:, :)
+    real(c_double), allocatable, target :: own_edges(:, :, :)
+    integer(int32), allocatable, target :: own_edge_leaflet_id(:)
+    integer(int64) :: n, n_leaflets, n_edges
     integer(riis_status) :: code
     n = size(weight, kind=int64)
+    n_leaflets = 0
+    n_edges = 0
     code = check_created(this%handle, 'the object marks')
     if (code == RIIS_OK) code = check_vectors(velocity, n, 'velocity')
-    if (code == RIIS_OK .and. size(force) /= 3) &
-      code = refuse('the size of force is ' // text_of(size(force)) // '; it must be 3')
-    call get_resistance(R, half_thickness, rim, made, code)
-    if (code == RIIS_OK) then
-      sum_of_forces = force
-      code = add_reaction_to(this%handle, made, n, velocity, weight, sum_of_forces)
+    if (present(force)) call check_three(size(force, kind=int64), 'force', code)
+    if (present(moment)) call check_three(size(moment, kind=int64), 'moment', code)
+    if (present(about)) call check_three(size(about, kind=int64), 'about', code)
+    if (present(leaflet_force)) n_leaflets = size(leaflet_force, 2, int64)
+    if (present(leaflet_moment) .and. .not. present(leaflet_force)) n_leaflets = size(leaflet_moment, 2, int64)
+    if (code == RIIS_OK .and. present(leaflet_force)) code = check_vectors(leaflet_force, n_leaflets, 'leaflet_force')
+    if (code == RIIS_OK .and. present(leaflet_moment)) code = check_vectors(leaflet_moment, n_leaflets, 'leaflet_moment')
+    if (present(edges)) then
+      n_edges = size(edges, 3, int64)
+      if (code == RIIS_OK .and. (size(edges, 1) /= 3 .or. size(edges, 2) /= 2)) code = refuse('the shape of edges is (' // &
+        text_of(size(edges, 1)) // ', ' // text_of(size(edges, 2)) // ', ' // text_of(n_edges) // &
+        '); it must be (3, 2, n_edges)')
     end if
-    if (code == RIIS_OK) force = sum_of_forces
+    if (code == RIIS_OK .and. present(edge_force)) code = check_vectors(edge_force, n_edges, 'edge_force')
+    if (code == RIIS_OK .and. present(edge_moment)) code = check_vectors(edge_moment, n_edges, 'edge_moment')
+    if (code == RIIS_OK .and. present(edge_leaflet_id)) &
+      code = check_size(size(edge_leaflet_id, kind=int64), n_edges, 'edge_leaflet_id', 'edges')
+    call get_resistance(R, half_thickness, rim, made, code)
+    if (code == RIIS_OK) code = riis_reaction_init(to, c_sizeof(to))
+    if (code /= RIIS_OK) then
+      call finish(code, status)
+      return
+    end if
+    if (present(about)) to%about = about
+    to%n_leaflets = n_leaflets
+    to%n_edges = n_edges
+    if (present(force)) then
+      own_force = force
+      to%force = location_of(own_force)
+    end if
+    if (present(moment)) then
+      own_moment = moment
+      to%moment = location_of(own_moment)
+    end if
+    own_leaflet_force => no_vectors
+    if (present(leaflet_force)) then
+      allocate (own_leaflet_force, source=leaflet_force)
+      to%leaflet_force = location_of(own_leaflet_force)
+    end if
+    own_leaflet_moment => no_vectors
+    if (present(leaflet_moment)) then
+      allocate (own_leaflet_moment, source=leaflet_moment)
+      to%leaflet_moment = location_of(own_leaflet_moment)
+    end if
+    own_edge_force => no_vectors
+    if (present(edge_force)) then
+      allocate (own_edge_force, source=edge_force)
+      to%edge_force = location_of(own_edge_force)
+    end if
+    own_edge_moment => no_vectors
+    if (present(edge_moment)) then
+      allocate (own_edge_moment, source=edge_moment)
+      to%edge_moment = location_of(own_edge_moment)
+    end if
+    if (present(edges)) then
+      allocate (own_edges, source=edges)
+      to%edges = location_of(own_edges)
+    end if
+    if (present(edge_leaflet_id)) then
+      allocate (own_edge_leaflet_id, source=edge_leaflet_id)
+      to%edge_leaflet_id = location_of(own_edge_leaflet_id)
+    end if
+    code = add_reaction_to(this%handle, made, n, velocity, weight, to)
+    if (code == RIIS_OK) then
+      if (present(force)) force = own_force
+      if (present(moment)) moment = own_moment
+      if (present(leaflet_force)) leaflet_force = own_leaflet_force
+      if (present(leaflet_moment)) leaflet_moment = own_leaflet_moment
+      if (present(edge_force)) edge_force = own_edge_force
+      if (present(edge_moment)) edge_moment = own_edge_moment
+    end if
+    if (present(leaflet_force)) deallocate (own_leaflet_force)
+    if (present(leaflet_moment)) deallocate (own_leaflet_moment)
+    if (present(edge_force)) deallocate (own_edge_force)
+    if (present(edge_moment)) deallocate (own_edge_moment)
     call finish(code, status)
   end subroutine marks_add_reaction
+
+  ! Refuses a vector of another size. Does nothing after an error.
+  subroutine check_three(n, name, code)
+    integer(int64), intent(in) :: n
+    character(len=*), intent(in) :: name
+    integer(riis_status), intent(inout) :: code
+    if (code == RIIS_OK .and. n /= 3) code = refuse('the size of ' // name // ' is ' // text_of(n) // '; it must be 3')
+  end subroutine check_three
 
   !> Sums a value, such as the pressure, over the nodes at a distance from inner to outer, separately for each side. Nodes whose
   !! closest point is on the rim, or that are on neither side, are left out. If the valve is open, the two sides have no meaning.

@@ -4,13 +4,13 @@
 module riis_surfaces
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_f_pointer, c_loc, c_null_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
-  use riis_c, c_triangles => riis_triangles
+  use riis_c, c_attachment => riis_attachment, c_triangles => riis_triangles
   use riis_support
   use riis_frames, only: riis_keyframes
   use riis_valves, only: riis_valve
   implicit none
   private
-  public :: riis_surface, riis_triangles
+  public :: riis_surface, riis_triangles, riis_attachment
 
   !> Pointers to the triangles of a surface, after placement, from %get_triangles. The surface owns the arrays, which count from
   !! 1.
@@ -25,6 +25,14 @@ module riis_surfaces
     integer(int32), pointer :: leaflet_id(:) => null()      !< (n_triangles): RIIS_LEAFLET_*, or the caller's.
     integer(int32), pointer :: patch_id(:) => null()        !< (n_triangles), from 0, as in riis.h.
   end type riis_triangles
+
+  !> Pointers to the attachment of a valve's surface, by %get_attachment. The surface owns the arrays, which count from 1.
+  type :: riis_attachment
+    real(c_double), pointer :: edges(:, :, :) => null()     !< (3, 2, n_edges): both ends of each edge, after placement.
+    integer(int64), pointer :: vertex_id(:, :) => null()    !< (2, n_edges), from 0: the vertices at the ends.
+    integer(int32), pointer :: leaflet_id(:) => null()      !< (n_edges): the leaflet that is attached there.
+    integer(int32), pointer :: patch_id(:) => null()        !< (n_edges), from 0: its patch, as in riis_triangles.
+  end type riis_attachment
 
   !> A surface of triangles with a half thickness, which answers closest-point queries. It borrows nothing from the caller. It is
   !! empty before %create or %create_from_arrays and after %destroy, which must be called. Any number of threads may read it at
@@ -50,6 +58,7 @@ module riis_surfaces
                                                                                          !! time.
     procedure, non_overridable :: get_info => surface_get_info          !< Gives counts, bounds, area and times.
     procedure, non_overridable :: get_triangles => surface_get_triangles !< Points to the vertices and triangles.
+    procedure, non_overridable :: get_attachment => surface_get_attachment !< Points to the edges where leaflets are attached.
     procedure, non_overridable :: closest_point => surface_closest_point !< Finds the closest point to one point.
     generic :: closest_points => closest_xyz_logical, closest_xyz_int8, closest_x_y_z_logical, closest_x_y_z_int8
                                                                !< Finds the closest points to many points, in parallel.
@@ -75,6 +84,8 @@ module riis_surfaces
   ! Empty pointers get these targets, so that their size can be taken.
   real(c_double), target, save :: no_points(3, 0), no_uv(2, 0)
   integer(int32), target, save :: no_int32(0)
+  real(c_double), target, save :: no_edges(3, 2, 0)
+  integer(int64), target, save :: no_pairs(2, 0)
   integer(int64), target, save :: no_int64(0), no_corners(3, 0)
 
 contains
@@ -757,6 +768,26 @@ contains
     call finish(code, status)
   end subroutine surface_get_triangles
 
+  !> Points to the edges at which tissue or a stent holds the leaflets of a valve, without a copy: where cusps meet the sinus, the
+  !! mitral annulus, the sides v = 0 of patches that no other patch has. A bileaflet valve has none. They are valid until the
+  !! surface's next update or its destruction. Do not write to them. Sizes are 0 on an error. Errors: RIIS_INVALID_ARGUMENT for a
+  !! surface from arrays, whose attached and free edges look alike.
+  subroutine surface_get_attachment(this, attachment, status)
+    class(riis_surface), intent(in) :: this                 !< Created.
+    type(riis_attachment), intent(inout) :: attachment      !< Every component is set.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(c_attachment) :: made
+    integer(riis_status) :: code
+    made = c_attachment(0, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr)
+    code = check_created(this%handle, 'the surface')
+    if (code == RIIS_OK) code = riis_surface_get_attachment(this%handle, made, c_sizeof(made))
+    attachment = riis_attachment(no_edges, no_pairs, no_int32, no_int32)
+    if (c_associated(made%edges)) call c_f_pointer(made%edges, attachment%edges, [3_int64, 2_int64, made%n_edges])
+    if (c_associated(made%vertex_id)) call c_f_pointer(made%vertex_id, attachment%vertex_id, [2_int64, made%n_edges])
+    if (c_associated(made%leaflet_id)) call c_f_pointer(made%leaflet_id, attachment%leaflet_id, [made%n_edges])
+    if (c_associated(made%patch_id)) call c_f_pointer(made%patch_id, attachment%patch_id, [made%n_edges])
+    call finish(code, status)
+  end subroutine surface_get_attachment
   !> Finds the closest point of the surface to one point. Errors: RIIS_INVALID_ARGUMENT for a point that is not finite.
   subroutine surface_closest_point(this, point, closest, status)
     class(riis_surface), intent(in) :: this                 !< Must be created.

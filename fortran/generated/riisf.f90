@@ -89,6 +89,8 @@ module riisf
   public :: riisf_surface_vertices_64
   public :: riisf_surface_vertex_velocities
   public :: riisf_surface_vertex_velocities_64
+  public :: riisf_surface_attachment
+  public :: riisf_surface_attachment_64
   public :: riisf_closest_points
   public :: riisf_closest_points_64
   public :: riisf_closest_points_listed
@@ -104,6 +106,10 @@ module riisf
   public :: riisf_add_moving_resistance_64
   public :: riisf_add_reaction
   public :: riisf_add_reaction_64
+  public :: riisf_add_leaflet_reaction
+  public :: riisf_add_leaflet_reaction_64
+  public :: riisf_add_edge_reaction
+  public :: riisf_add_edge_reaction_64
   public :: riisf_band_sums
   public :: riisf_band_sums_64
   public :: riisf_opening_from_table
@@ -1197,6 +1203,32 @@ module riisf
       integer(riis_status), intent(out) :: status
     end subroutine riisf_surface_vertex_velocities_64
 
+    subroutine riisf_surface_attachment(surface, length, n, edges, leaflet_id, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: surface
+      integer(int32), intent(in) :: length
+      integer(int32), intent(inout) :: n
+      real(c_double), intent(inout) :: edges(3, 2, *)
+      integer(int32), intent(inout) :: leaflet_id(*)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_attachment
+
+    subroutine riisf_surface_attachment_64(surface, length, n, edges, leaflet_id, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: surface
+      integer(int64), intent(in) :: length
+      integer(int64), intent(inout) :: n
+      real(c_double), intent(inout) :: edges(3, 2, *)
+      integer(int32), intent(inout) :: leaflet_id(*)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_attachment_64
+
     subroutine riisf_closest_points(surface, n_points, x, y, z, stride, distance_limit, n_threads, distance, point, &
       normal, triangle_id, leaflet_id, side, status)
       use, intrinsic :: iso_c_binding, only: c_double
@@ -1453,6 +1485,92 @@ module riisf
       real(c_double), intent(inout) :: force(3)
       integer(riis_status), intent(out) :: status
     end subroutine riisf_add_reaction_64
+
+    subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, about, &
+      n_leaflets, force, moment, leaflet_force, leaflet_moment, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: marks
+      real(c_double), intent(in) :: R
+      real(c_double), intent(in) :: half_thickness
+      integer(int32), intent(in) :: rim
+      integer(int32), intent(in) :: n_nodes
+      real(c_double), intent(in) :: velocity(3, *)
+      real(c_double), intent(in) :: weight(*)
+      real(c_double), intent(in) :: about(3)
+      integer(int32), intent(in) :: n_leaflets
+      real(c_double), intent(inout) :: force(3)
+      real(c_double), intent(inout) :: moment(3)
+      real(c_double), intent(inout) :: leaflet_force(3, *)
+      real(c_double), intent(inout) :: leaflet_moment(3, *)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_add_leaflet_reaction
+
+    subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes, velocity, weight, about, &
+      n_leaflets, force, moment, leaflet_force, leaflet_moment, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: marks
+      real(c_double), intent(in) :: R
+      real(c_double), intent(in) :: half_thickness
+      integer(int32), intent(in) :: rim
+      integer(int64), intent(in) :: n_nodes
+      real(c_double), intent(in) :: velocity(3, *)
+      real(c_double), intent(in) :: weight(*)
+      real(c_double), intent(in) :: about(3)
+      integer(int32), intent(in) :: n_leaflets
+      real(c_double), intent(inout) :: force(3)
+      real(c_double), intent(inout) :: moment(3)
+      real(c_double), intent(inout) :: leaflet_force(3, *)
+      real(c_double), intent(inout) :: leaflet_moment(3, *)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_add_leaflet_reaction_64
+
+    subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, n_edges, edges, &
+      edge_leaflet_id, edge_force, edge_moment, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: marks
+      real(c_double), intent(in) :: R
+      real(c_double), intent(in) :: half_thickness
+      integer(int32), intent(in) :: rim
+      integer(int32), intent(in) :: n_nodes
+      real(c_double), intent(in) :: velocity(3, *)
+      real(c_double), intent(in) :: weight(*)
+      integer(int32), intent(in) :: n_edges
+      real(c_double), intent(in) :: edges(3, 2, *)
+      integer(int32), intent(in) :: edge_leaflet_id(*)
+      real(c_double), intent(inout) :: edge_force(3, *)
+      real(c_double), intent(inout) :: edge_moment(3, *)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_add_edge_reaction
+
+    subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, velocity, weight, n_edges, edges, &
+      edge_leaflet_id, edge_force, edge_moment, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: marks
+      real(c_double), intent(in) :: R
+      real(c_double), intent(in) :: half_thickness
+      integer(int32), intent(in) :: rim
+      integer(int64), intent(in) :: n_nodes
+      real(c_double), intent(in) :: velocity(3, *)
+      real(c_double), intent(in) :: weight(*)
+      integer(int64), intent(in) :: n_edges
+      real(c_double), intent(in) :: edges(3, 2, *)
+      integer(int32), intent(in) :: edge_leaflet_id(*)
+      real(c_double), intent(inout) :: edge_force(3, *)
+      real(c_double), intent(inout) :: edge_moment(3, *)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_add_edge_reaction_64
 
     subroutine riisf_band_sums(marks, inner, outer, n_nodes, value, weight, sum_of_values, sum_of_weights, &
       n_in_band, status)

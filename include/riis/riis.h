@@ -416,6 +416,7 @@ typedef struct riis_surface_info {
   double velocity_error_bound; /* the most by which a velocity on a triangle can differ from the smooth valve's
                                 at the same patch, u and v. The first call after a moving update computes it,
                                 which takes about as long as the update. 0 without a motion, and for arrays */
+  int64_t largest_leaflet_id; /* of the triangles */
 } riis_surface_info;
 /* Gives the size of the surface, and the seconds that it took. */
 RIIS_API riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info,
@@ -442,6 +443,23 @@ typedef struct riis_triangles {
 /* Gives the triangles of the surface, until its next update or its destruction. */
 RIIS_API riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangles *triangles,
                                                 int64_t struct_size);
+
+/* The attachment of a valve: edges along the sides at which tissue or a stent holds its leaflets, after placement.
+ * They ascend by patch, and along a side by its u or v. */
+typedef struct riis_attachment {
+  int64_t n_edges;           /* edges with a length */
+  const double *edges;       /* (3, 2, n_edges): both ends of each, as riis_reaction takes them */
+  const int64_t *vertex_id;  /* (2, n_edges): the vertices at the ends, in riis_triangles.xyz */
+  const int32_t *leaflet_id; /* (n_edges): the leaflet that is attached there */
+  const int32_t *patch_id;   /* (n_edges): its patch, as in riis_triangles */
+} riis_attachment;
+/* Gives the attachment of a valve's surface, until the surface's next update or its destruction. Cusps are held
+ * where they meet the sinus, u = 1, from the root to the commissures; mitral leaflets at the annulus, v = 0. Patches
+ * are held at the sides v = 0 that no other patch has. A bileaflet valve has no attachment, as pivots hold its
+ * leaflets.
+ * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, whose attached and free edges look alike. */
+RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, riis_attachment *attachment,
+                                                 int64_t struct_size);
 
 /* ---- Crossings: self-intersections, where the surface goes through itself ------------------------------ */
 
@@ -844,12 +862,43 @@ typedef struct riis_flow_arrays {
   const double *weight;      /* (n_nodes), the volume that a node stands for, 0 for nodes of other ranks */
 } riis_flow_arrays;
 RIIS_API riis_status riis_flow_arrays_init(riis_flow_arrays *flow, int64_t struct_size); /* the defaults */
-/* Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force. With MPI, sum
- * the ranks' forces. u_surface is 0 if the marking lacked RIIS_FIELD_VELOCITY.
- *   force  (3), added to; its unit is that of weight K velocity, N in SI units
- * Errors: as riis_marks_add_resistance. */
+/* The caller's sums, to which those of the flow on the surface are added; NULL for sums that are not wanted. No
+ * array may overlap another. A node's force is weight K (velocity - u_surface); it acts at the closest point of the
+ * surface, so that the power of a rigid surface is force times velocity plus moment times angular velocity. */
+typedef struct riis_reaction {
+  int64_t struct_size;      /* set by the init function */
+  double about[3];          /* the point that moment and leaflet_moment are about; magnitude at most 1e60.
+                               Default 0 */
+  double *force;            /* (3): of the whole surface. Its unit is that of weight K velocity, N in SI units */
+  double *moment;           /* (3): of the whole surface */
+  int64_t n_leaflets;       /* more than riis_surface_info.largest_leaflet_id. Not used without sums of leaflets.
+                               Default 0 */
+  double *leaflet_force;    /* (3, n_leaflets): of each leaflet. A node belongs to the leaflet of its triangle
+                               (riis_mark_list.leaflet_id), also where two are equally near */
+  double *leaflet_moment;   /* (3, n_leaflets) */
+  int64_t n_edges;          /* at least 1 with sums of edges, which alone use it. Default 0 */
+  const double *edges;      /* (3, 2, n_edges): both ends of each, such as riis_attachment.edges; magnitude at
+                               most 1e60. Both ends may be one point */
+  const int32_t *edge_leaflet_id; /* (n_edges), >= 0: a node's share goes to the nearest edge of its leaflet, and
+                               each leaflet of the surface needs an edge. NULL, the default: to the nearest of all */
+  double *edge_force;       /* (3, n_edges): of the nodes whose closest points are nearest to the edge; of
+                               equally near edges the first gets the share */
+  double *edge_moment;      /* (3, n_edges): of the same nodes, about the middle of the edge */
+} riis_reaction;
+/* Fills *reaction with the defaults. */
+RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_size);
+/* Adds the force of the flow on the surface, and its moment, for the whole surface, each leaflet and each edge.
+ * All are plain sums over nodes: ranks give the same points and edges, and add their sums by a reduction. The
+ * leaflets' sums add up to those of the whole, to the last digits. u_surface is 0 if the marking lacked
+ * RIIS_FIELD_VELOCITY.
+ *   reaction  moments and sums of edges need RIIS_FIELD_POINT
+ * Edges get shares for tissue codes that know a load by edge. The shares are no mechanics of a membrane: the
+ * tissue carries loads to other places. Their search takes log n_edges for a node where the edges lie apart, and
+ * n_edges where all are equally near.
+ * Errors: as riis_marks_add_resistance; RIIS_INVALID_ARGUMENT also for an n_leaflets that is too small, naming the
+ * leaflet id, for a leaflet without edge, for a bad edge, and for a reaction without any sum. */
 RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,
-                                             const riis_flow_arrays *flow, double *force);
+                                             const riis_flow_arrays *flow, const riis_reaction *reaction);
 
 /* Sums over the nodes on either side of the surface: entry 0 is upstream (side -1), entry 1 is downstream. The
  * mean is sum / weight; with MPI, add up the sums and weights of all ranks first. */

@@ -40,6 +40,7 @@ class SurfaceInfo(NamedTuple):
     error_bound: float  #: distances to the triangles and to the smooth valve differ by at most this length
     #: velocities of the triangles and of the smooth valve, at the same patch, u and v, differ by at most this
     velocity_error_bound: float
+    largest_leaflet_id: int  #: of the triangles
 
 
 class Triangles(NamedTuple):
@@ -49,6 +50,15 @@ class Triangles(NamedTuple):
     triangle_id: Ids  #: (n,), ascending: the ids that queries report
     leaflet_id: Integers  #: (n,), see Leaflet
     patch_id: Integers  #: (n,)
+
+
+class Attachment(NamedTuple):
+    """The edges at which tissue or a stent holds the leaflets of a valve. A bileaflet valve has none."""
+
+    edges: Reals  #: (n, 2, 3): both ends of each
+    vertex_id: Ids  #: (n, 2): the vertices at the ends
+    leaflet_id: Integers  #: (n,): the leaflet that is attached there
+    patch_id: Integers  #: (n,): its patch
 
 
 class ClosestPoint(NamedTuple):

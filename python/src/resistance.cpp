@@ -40,8 +40,33 @@ void add_to(Marks &result, nb::handle K_, nb::handle K_u_surface_, nb::handle R,
   call_library([&] { return riis_marks_add_resistance(result.handle, &model, &to); });
 }
 
+// An array of sums (n_rows, 3), or (3,) for n_rows -1, to which a call adds; none for None.
+std::optional<Array> sums_of(nb::handle given, const char *name, std::int64_t n_rows) {
+  if (given.is_none()) return std::nullopt;
+  std::optional<Array> sums(Array::of<double>(given, name, Access::write));
+  if (n_rows < 0)
+    sums->expect({3});
+  else
+    sums->expect({n_rows, 3});
+  return sums;
+}
+
+double *data_of(const std::optional<Array> &sums) { return sums ? sums->data<double>() : nullptr; }
+
+// Returns the number of rows of the first array that is given, 0 without one.
+std::int64_t n_rows_of(nb::handle first, const char *first_name, nb::handle second, const char *second_name) {
+  if (first.is_none() && second.is_none()) return 0;
+  const bool has_first = !first.is_none();
+  const Array array =
+      Array::of<double>(has_first ? first : second, has_first ? first_name : second_name, Access::write);
+  array.expect({-1, 3});
+  return array.size(0);
+}
+
 nb::object add_reaction(Marks &result, nb::handle velocity_, nb::handle weight_, nb::handle force_, nb::handle R,
-                        nb::handle half_thickness, nb::handle rim) {
+                        nb::handle half_thickness, nb::handle rim, nb::handle moment_, nb::handle about,
+                        nb::handle leaflet_force_, nb::handle leaflet_moment_, nb::handle edges_,
+                        nb::handle edge_force_, nb::handle edge_moment_, nb::handle edge_leaflet_id_) {
   const Reading reading(result.usage, "marks");
   result.check_threads("marks");
   const riis_resistance model = resistance_of(R, half_thickness, rim);
@@ -49,16 +74,36 @@ nb::object add_reaction(Marks &result, nb::handle velocity_, nb::handle weight_,
   const Array velocity = Array::of<double>(velocity_, "velocity"), weight = Array::of<double>(weight_, "weight");
   velocity.expect({n, 3});
   weight.expect({n});
+  riis_reaction to;
+  call_shortly(riis_reaction_init(&to, sizeof to));
+  if (!about.is_none()) three_numbers(about, "about", to.about);
   const nb::object force = force_.is_none() ? new_filled_array("float64", {3}, nb::float_(0.0)) : nb::borrow(force_);
-  const Array to = Array::of<double>(force, "force", Access::write);
-  to.expect({3});
+  to.n_leaflets = n_rows_of(leaflet_force_, "leaflet_force", leaflet_moment_, "leaflet_moment");
+  std::optional<Array> edges, edge_leaflet_id;
+  if (!edges_.is_none()) {
+    edges.emplace(Array::of<double>(edges_, "edges")).expect({-1, 2, 3});
+    to.n_edges = edges->size(0);
+    to.edges = edges->data<double>();
+  }
+  if (!edge_leaflet_id_.is_none()) {
+    edge_leaflet_id.emplace(Array::of<std::int32_t>(edge_leaflet_id_, "edge_leaflet_id")).expect({to.n_edges});
+    to.edge_leaflet_id = edge_leaflet_id->data<std::int32_t>();
+  }
+  const auto whole = sums_of(force, "force", -1), moment = sums_of(moment_, "moment", -1),
+             leaflet_force = sums_of(leaflet_force_, "leaflet_force", to.n_leaflets),
+             leaflet_moment = sums_of(leaflet_moment_, "leaflet_moment", to.n_leaflets),
+             edge_force = sums_of(edge_force_, "edge_force", to.n_edges),
+             edge_moment = sums_of(edge_moment_, "edge_moment", to.n_edges);
+  to.force = data_of(whole), to.moment = data_of(moment);
+  to.leaflet_force = data_of(leaflet_force), to.leaflet_moment = data_of(leaflet_moment);
+  to.edge_force = data_of(edge_force), to.edge_moment = data_of(edge_moment);
   riis_flow_arrays flow;
   call_shortly(riis_flow_arrays_init(&flow, sizeof flow));
   flow.n_nodes = n;
   for (int c = 0; c < 3; ++c) flow.velocity[c] = velocity.data<double>() + c;
   flow.velocity_stride = 3;
   flow.weight = weight.data<double>();
-  call_library([&] { return riis_marks_add_reaction(result.handle, &model, &flow, to.data<double>()); });
+  call_library([&] { return riis_marks_add_reaction(result.handle, &model, &flow, &to); });
   return force;
 }
 
@@ -106,19 +151,39 @@ rim             'round': every node within eps gets K; 'cut': nodes whose closes
           "add_reaction", &add_reaction, nb::arg("velocity").none(), nb::arg("weight").none(),
           nb::arg("force").none() = nb::none(), nb::kw_only(), nb::arg("R").none(),
           nb::arg("half_thickness").none() = nb::none(), nb::arg("rim").none() = "round",
+          nb::arg("moment").none() = nb::none(), nb::arg("about").none() = nb::none(),
+          nb::arg("leaflet_force").none() = nb::none(), nb::arg("leaflet_moment").none() = nb::none(),
+          nb::arg("edges").none() = nb::none(), nb::arg("edge_force").none() = nb::none(),
+          nb::arg("edge_moment").none() = nb::none(), nb::arg("edge_leaflet_id").none() = nb::none(),
           nb::sig("def add_reaction(self, velocity: " RIIS_REALS ", weight: " RIIS_REALS ", force: " RIIS_REALS
-                  " | None = None, *, " RIIS_MODEL ") -> " RIIS_REALS),
-          R"(Adds the force of the flow on the surface, the sum of weight * K * (velocity - u_surface), to force, and returns it.
+                  " | None = None, *, " RIIS_MODEL ", moment: " RIIS_REALS
+                  " | None = None, about: collections.abc.Sequence[float] | " RIIS_REALS
+                  " | None = None, leaflet_force: " RIIS_REALS " | None = None, leaflet_moment: " RIIS_REALS
+                  " | None = None, edges: " RIIS_REALS " | None = None, edge_force: " RIIS_REALS
+                  " | None = None, edge_moment: " RIIS_REALS
+                  " | None = None, edge_leaflet_id: numpy.typing.NDArray[numpy.int32] | None = None) -> " RIIS_REALS),
+          R"(Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force, and returns it.
 
-velocity  (n_nodes, 3) float64: the flow's velocity
-weight    (n_nodes,) float64: the volume that belongs to a node, 0 for nodes of other ranks
-force     (3,) float64; None: a new array)")
-      .def(
-          "band_sums", &band_sums, nb::arg("value").none(), nb::arg("weight").none(), nb::arg("inner").none(),
-          nb::arg("outer").none(),
-          nb::sig("def band_sums(self, value: " RIIS_REALS ", weight: " RIIS_REALS
-                  ", inner: float, outer: float) -> riis._records.BandSums"),
-          R"(Sums a value, such as the pressure, over the nodes at a distance from inner to outer, separately for each side.
+Each array of float64 that is given gets its sum added, by leaflet or by edge also. Moments and sums of edges need
+fields='point': a force acts at the closest point of the surface. Ranks add their sums. The shares of edges are for tissue codes,
+and no mechanics of a membrane.
+
+velocity         (n_nodes, 3) float64: of the flow
+weight           (n_nodes,) float64: the volume that a node stands for, 0 for nodes of other ranks
+force            (3,) float64; None: a new array
+moment           (3,): of the whole surface
+about            the point that moment and leaflet_moment are about; None: (0, 0, 0)
+leaflet_force    (n_leaflets, 3): n_leaflets is more than Surface.info.largest_leaflet_id
+leaflet_moment   (n_leaflets, 3)
+edges            (n_edges, 2, 3): both ends of each, such as Surface.attachment.edges
+edge_force       (n_edges, 3): of the nodes to whose closest points the edge is nearest, the first of equals
+edge_moment      (n_edges, 3): about the middle of each edge
+edge_leaflet_id  (n_edges,) int32: a node counts for the nearest edge of its leaflet; None: of all)")
+      .def("band_sums", &band_sums, nb::arg("value").none(), nb::arg("weight").none(), nb::arg("inner").none(),
+           nb::arg("outer").none(),
+           nb::sig("def band_sums(self, value: " RIIS_REALS ", weight: " RIIS_REALS
+                   ", inner: float, outer: float) -> riis._records.BandSums"),
+           R"(Sums a value, such as the pressure, over the nodes at a distance from inner to outer, separately for each side.
 
 value, weight  (n_nodes,) float64
 inner, outer   mesh units, 0 <= inner <= outer <= distance limit of the marking, which needs fields='side, rim')");

@@ -141,7 +141,7 @@ nb::object info(Surface &surface) {
   return record("SurfaceInfo")(found.n_vertices, found.n_triangles, found.n_zero_area, found.half_thickness, found.area,
                                array_of(found.lower, "float64"), array_of(found.upper, "float64"),
                                found.seconds_triangles, found.seconds_scene, found.error_bound,
-                               found.velocity_error_bound);
+                               found.velocity_error_bound, found.largest_leaflet_id);
 }
 
 riis_triangles triangles_of(const Surface &surface) {
@@ -168,6 +168,15 @@ nb::object triangles(Surface &surface) {
   const auto n = static_cast<std::size_t>(found.n_triangles);
   return surface.triangles = record("Triangles")(copy_of(found.vertex_id, {n, 3}), copy_of(found.triangle_id, {n}),
                                                  copy_of(found.leaflet_id, {n}), copy_of(found.patch_id, {n}));
+}
+
+nb::object attachment(Surface &surface) {
+  const Reading reading(surface.usage, "surface");
+  riis_attachment found;
+  call_shortly(riis_surface_get_attachment(surface.handle, &found, sizeof found));
+  const auto n = static_cast<std::size_t>(found.n_edges);
+  return record("Attachment")(copy_of(found.edges, {n, 2, 3}), copy_of(found.vertex_id, {n, 2}),
+                              copy_of(found.leaflet_id, {n}), copy_of(found.patch_id, {n}));
 }
 
 std::string description(Surface &surface) {
@@ -310,6 +319,8 @@ The velocity, in mesh units over the unit of dt, is the mean over the step.)")
           [](Surface &self) { return vertex_array(self, &riis_triangles::velocity, 3, &Surface::velocities); },
           nb::sig("def velocities(self) -> numpy.typing.NDArray[numpy.float64] | None"),
           "(n_vertices, 3): each vertex's velocity. None if the last update gave none.")
+      .def_prop_ro("attachment", &attachment, nb::sig("def attachment(self) -> riis._records.Attachment"),
+                   "The edges at which tissue or a stent holds the leaflets of a valve; a copy. Refused for arrays.")
       .def_prop_ro("triangles", &triangles, nb::sig("def triangles(self) -> riis._records.Triangles"),
                    "The triangles: vertex_id (n, 3), triangle_id, leaflet_id and patch_id (n,).")
       .def(

@@ -175,6 +175,36 @@ def test_resistance_adds_the_formula(surface, mesh, marks):
     assert numpy.allclose(force, (coefficient - 1.0).sum() * numpy.array([1.0, 2.0, 3.0]), rtol=1e-9)
 
 
+def test_reactions_by_leaflet_and_edge_add_up(surface, mesh):
+    marks = riis.mark(surface, mesh, fields=["point"])
+    random = numpy.random.default_rng(5)
+    weight, velocity = random.random(len(mesh)), random.random((len(mesh), 3))
+    attachment, n = surface.attachment, surface.info.largest_leaflet_id + 1
+    assert n == 2 and attachment.edges.shape == (len(attachment.leaflet_id), 2, 3)
+    assert same(attachment.edges, surface.vertices[attachment.vertex_id])
+    assert same(attachment.leaflet_id, (attachment.patch_id >= 6).astype("int32")) and set(attachment.patch_id) == set(range(10))
+    of_leaflets, of_edges = numpy.zeros((2, n, 3)), numpy.zeros((2, len(attachment.edges), 3))
+    moment, about = numpy.zeros(3), numpy.array([1.0, -2.0, 0.5])
+    force = marks.add_reaction(
+        velocity, weight, R=2.0, moment=moment, about=about, leaflet_force=of_leaflets[0], leaflet_moment=of_leaflets[1],
+        edges=attachment.edges, edge_force=of_edges[0], edge_moment=of_edges[1], edge_leaflet_id=attachment.leaflet_id)
+    coefficient = numpy.zeros(len(mesh))
+    marks.add_resistance(coefficient, R=2.0)
+    each = (weight * coefficient)[marks.ids, None] * velocity[marks.ids]
+    turning = numpy.cross(marks.point - about, each)
+    assert numpy.allclose(force, each.sum(axis=0), rtol=1e-12) and numpy.allclose(moment, turning.sum(axis=0), rtol=1e-11)
+    middle = attachment.edges.mean(axis=1)
+    for leaflet in range(n):
+        mine = marks.leaflet_id == leaflet
+        assert numpy.allclose(of_leaflets[0, leaflet], each[mine].sum(axis=0), rtol=1e-12)
+        assert numpy.allclose(of_leaflets[1, leaflet], turning[mine].sum(axis=0), rtol=1e-11, atol=1e-9)
+        here = attachment.leaflet_id == leaflet
+        edge_force = of_edges[0, here]
+        assert numpy.allclose(edge_force.sum(axis=0), of_leaflets[0, leaflet], rtol=1e-12)
+        moved = of_edges[1, here] + numpy.cross(middle[here] - about, edge_force)
+        assert numpy.allclose(moved.sum(axis=0), of_leaflets[1, leaflet], rtol=1e-11, atol=1e-9)
+
+
 def test_the_rim_is_cut(surface, mesh):
     marks = riis.mark(surface, mesh, fields=["rim"])
     whole, cut = numpy.zeros(len(mesh)), numpy.zeros(len(mesh))

@@ -279,6 +279,33 @@ REFUSED = {
     "weight": (Argument, "weight: its shape", lambda o: o.marks.add_reaction(o.vectors, o.vectors, R=1.0)),
     "force": (Argument, r"force: its shape is \(2,\)",
               lambda o: o.marks.add_reaction(o.vectors, o.reals, numpy.zeros(2), R=1.0)),
+    "moment": (Argument, "moment: its shape",
+               lambda o: o.marks.add_reaction(o.vectors, o.reals, R=1.0, moment=numpy.zeros(4))),
+    "moment without points": (Argument, "moment.*point",
+                              lambda o: o.marks.add_reaction(o.vectors, o.reals, R=1.0, moment=numpy.zeros(3))),
+    "about": (Argument, "about", lambda o: o.marks.add_reaction(o.vectors, o.reals, R=1.0, about=(1.0, 2.0))),
+    "NaN in about": (Argument, r"about\[1\] is nan",
+                     lambda o: o.marks.add_reaction(o.vectors, o.reals, R=1.0, about=(1.0, math.nan, 2.0))),
+    "too few leaflets": (Argument, "n_leaflets is 1, but the surface has the leaflet id 1",
+                         lambda o: o.marks.add_reaction(o.vectors, o.reals, R=1.0, leaflet_force=numpy.zeros((1, 3)))),
+    "leaflet_moment": (Argument, "leaflet_moment: its shape",
+                       lambda o: o.marks.add_reaction(o.vectors, o.reals, R=1.0, leaflet_force=numpy.zeros((3, 3)),
+                                                      leaflet_moment=numpy.zeros((2, 3)))),
+    "edges": (Argument, "edges: its shape",
+              lambda o: o.marks.add_reaction(o.vectors, o.reals, R=1.0, edges=numpy.zeros((4, 3)))),
+    "edge_force": (Argument, "edge_force: its shape",
+                   lambda o: o.marks.add_reaction(o.vectors, o.reals, R=1.0, edge_force=numpy.zeros((4, 3)))),
+    "edge_leaflet_id": (Argument, "edge_leaflet_id: its shape",
+                        lambda o: o.marks.add_reaction(o.vectors, o.reals, R=1.0, edges=numpy.zeros((4, 2, 3)),
+                                                       edge_leaflet_id=numpy.zeros(3, "int32"))),
+    "a leaflet without edge": (Argument, "no edge of leaflet 1", lambda o: with_points(o).add_reaction(
+        o.vectors, o.reals, R=1.0, edges=numpy.zeros((1, 2, 3)), edge_force=numpy.zeros((1, 3)),
+        edge_leaflet_id=numpy.zeros(1, "int32"))),
+    "NaN in edges": (Argument, "y of the second point of edge 1 is nan", lambda o: with_points(o).add_reaction(
+        o.vectors, o.reals, R=1.0, edges=numpy.array([[[0.0] * 3] * 2, [[0.0] * 3, [0.0, math.nan, 0.0]]]),
+        edge_moment=numpy.zeros((2, 3)))),
+    "attachment of arrays": (Argument, "made from arrays",
+                             lambda o: riis.Surface.from_arrays(numpy.eye(3), numpy.array([[0, 1, 2]])).attachment),
     "band": (Argument, "(?i)side|rim", lambda o: o.marks.band_sums(o.reals, o.reals, 0.0, 0.1)),
     "far_distance": (Argument, "far_distance", lambda o: o.marks.dense(far_distance=0.01)),
     "dense": (Argument, r"distance: its shape", lambda o: o.marks.dense(distance=numpy.zeros(2))),
@@ -344,6 +371,10 @@ def chain(o):
     return mesh
 
 
+def with_points(o):
+    return riis.mark(o.surface, o.mesh, fields=["point"])
+
+
 def with_sides(o):
     return riis.mark(o.surface, o.mesh, fields="side, rim")
 
@@ -396,6 +427,8 @@ WRITTEN = [
     ("mark", lambda o: numpy.zeros(o.n, bool), lambda o, a: o.marks.dense(mark=a)),
     ("K", lambda o: o.reals, lambda o, a: o.marks.add_resistance(a, R=1.0)),
     ("force", lambda o: numpy.zeros(3), lambda o, a: o.marks.add_reaction(o.vectors, o.reals, a, R=1.0)),
+    ("leaflet_force", lambda o: numpy.zeros((3, 3)),
+     lambda o, a: o.marks.add_reaction(o.vectors, o.reals, R=1.0, leaflet_force=a)),
     ("label", lambda o: numpy.zeros(o.n, int), lambda o, a: riis.label_open_regions(chain(o), o.marks, label=a)),
 ]
 

@@ -99,7 +99,7 @@ static void test_structs(void **state) {
   FIELD(riis_keyframe_arrays, interpolation, 48, 4);
   FIELD(riis_keyframe_arrays, real_bits, 52, 4);
 
-  SIZE(riis_surface_info, 120);
+  SIZE(riis_surface_info, 128);
   FIELD(riis_surface_info, n_vertices, 0, 8);
   FIELD(riis_surface_info, n_triangles, 8, 8);
   FIELD(riis_surface_info, n_zero_area, 16, 8);
@@ -111,6 +111,14 @@ static void test_structs(void **state) {
   FIELD(riis_surface_info, seconds_scene, 96, 8);
   FIELD(riis_surface_info, error_bound, 104, 8);
   FIELD(riis_surface_info, velocity_error_bound, 112, 8);
+  FIELD(riis_surface_info, largest_leaflet_id, 120, 8);
+
+  SIZE(riis_attachment, 40);
+  FIELD(riis_attachment, n_edges, 0, 8);
+  FIELD(riis_attachment, edges, 8, 8);
+  FIELD(riis_attachment, vertex_id, 16, 8);
+  FIELD(riis_attachment, leaflet_id, 24, 8);
+  FIELD(riis_attachment, patch_id, 32, 8);
 
   SIZE(riis_triangles, 72);
   FIELD(riis_triangles, n_vertices, 0, 8);
@@ -274,6 +282,20 @@ static void test_structs(void **state) {
   FIELD(riis_flow_arrays, velocity, 16, 24);
   FIELD(riis_flow_arrays, velocity_stride, 40, 8);
   FIELD(riis_flow_arrays, weight, 48, 8);
+
+  SIZE(riis_reaction, 112);
+  FIELD(riis_reaction, struct_size, 0, 8);
+  FIELD(riis_reaction, about, 8, 24);
+  FIELD(riis_reaction, force, 32, 8);
+  FIELD(riis_reaction, moment, 40, 8);
+  FIELD(riis_reaction, n_leaflets, 48, 8);
+  FIELD(riis_reaction, leaflet_force, 56, 8);
+  FIELD(riis_reaction, leaflet_moment, 64, 8);
+  FIELD(riis_reaction, n_edges, 72, 8);
+  FIELD(riis_reaction, edges, 80, 8);
+  FIELD(riis_reaction, edge_leaflet_id, 88, 8);
+  FIELD(riis_reaction, edge_force, 96, 8);
+  FIELD(riis_reaction, edge_moment, 104, 8);
 
   SIZE(riis_band_sums, 48);
   FIELD(riis_band_sums, sum, 0, 16);
@@ -494,6 +516,7 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_surface_update_from_keyframes, int32_t,
             (riis_surface *, const riis_keyframes *, double, double, const riis_surface_options *));
   SIGNATURE(riis_surface_destroy, void, (riis_surface **));
+  SIGNATURE(riis_surface_get_attachment, int32_t, (const riis_surface *, riis_attachment *, int64_t));
   SIGNATURE(riis_surface_get_info, int32_t, (const riis_surface *, riis_surface_info *, int64_t));
   SIGNATURE(riis_surface_get_triangles, int32_t, (const riis_surface *, riis_triangles *, int64_t));
   SIGNATURE(riis_crossing_options_init, int32_t, (riis_crossing_options *, int64_t));
@@ -536,8 +559,9 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_marks_add_resistance, int32_t,
             (const riis_marks *, const riis_resistance *, const riis_resistance_arrays *));
   SIGNATURE(riis_flow_arrays_init, int32_t, (riis_flow_arrays *, int64_t));
+  SIGNATURE(riis_reaction_init, int32_t, (riis_reaction *, int64_t));
   SIGNATURE(riis_marks_add_reaction, int32_t,
-            (const riis_marks *, const riis_resistance *, const riis_flow_arrays *, double *));
+            (const riis_marks *, const riis_resistance *, const riis_flow_arrays *, const riis_reaction *));
   SIGNATURE(riis_band_init, int32_t, (riis_band *, int64_t));
   SIGNATURE(riis_marks_get_band_sums, int32_t, (const riis_marks *, const riis_band *, riis_band_sums *, int64_t));
   SIGNATURE(riis_leaks_create, int32_t, (riis_leaks **));

@@ -371,9 +371,26 @@ static riis_status resist(int64_t n_nodes, const double *xyz, twin_motion *motio
   TRY(add_resistance_to(resisting, &resistance, n_nodes, coefficient, momentum));
   motion->coefficient = coefficient;
   motion->momentum = momentum;
-  /* The flow's speed equals the coordinates, and every node is weighted with its coefficient. */
-  for (int c = 0; c < 3; ++c) motion->force[c] = c;
-  TRY(add_reaction_to(resisting, &resistance, n_nodes, xyz, coefficient, motion->force));
+  /* The flow's velocity equals the coordinates, and every node is weighted with its coefficient. */
+  for (int c = 0; c < 30; ++c) motion->force[c] = c;
+  riis_flow_arrays flow;
+  TRY(riis_flow_arrays_init(&flow, sizeof flow));
+  flow.n_nodes = n_nodes;
+  for (int c = 0; c < 3; ++c) flow.velocity[c] = xyz + c;
+  flow.velocity_stride = 3;
+  flow.weight = coefficient;
+  riis_attachment attachment;
+  TRY(riis_surface_get_attachment(moving, &attachment, sizeof attachment));
+  riis_reaction reaction;
+  TRY(riis_reaction_init(&reaction, sizeof reaction));
+  reaction.about[1] = 0.5;
+  reaction.force = motion->force, reaction.moment = motion->force + 3;
+  reaction.n_leaflets = 3;
+  reaction.leaflet_force = motion->force + 6, reaction.leaflet_moment = motion->force + 15;
+  reaction.n_edges = 1;
+  reaction.edges = attachment.edges;
+  reaction.edge_force = motion->force + 24, reaction.edge_moment = motion->force + 27;
+  TRY(riis_marks_add_reaction(resisting, &resistance, &flow, &reaction));
   return band_sums_of(resisting, 0.5, 2, n_nodes, coefficient, coefficient, &motion->sums, sizeof motion->sums);
 }
 

@@ -29,7 +29,7 @@ module c_twin
     type(twin_surface) :: surface
     type(riis_mark_list) :: marked, within_limit
     type(c_ptr) :: coefficient, momentum
-    real(c_double) :: force(3)
+    real(c_double) :: force(30)
     type(riis_band_sums) :: sums
     type(twin_surface) :: framed
   end type twin_motion

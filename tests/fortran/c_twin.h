@@ -30,7 +30,7 @@ typedef struct twin_motion {
   twin_surface surface;
   riis_mark_list marked, within_limit;
   const double *coefficient, *momentum; /* (n_nodes), (3, n_nodes) */
-  double force[3];
+  double force[30];
   riis_band_sums sums;
   twin_surface framed; /* at half the time between two frames of a square */
 } twin_motion;

@@ -567,7 +567,10 @@ contains
     type(riis_band_sums), target :: sums
     type(riis_resistance), target :: listed
     real(c_double), target, allocatable :: coefficient(:), momentum(:, :)
-    real(c_double), target :: force(3)
+    real(c_double), target :: force(30)
+    type(riis_attachment) :: attachment
+    type(riis_reaction) :: reaction
+    integer :: i
     integer(c_int64_t) :: n
 
     before = c_null_ptr
@@ -639,9 +642,25 @@ contains
     call check_same_bytes(c_loc(coefficient), twin%motion%coefficient, 8 * n_nodes, 'resistance')
     call check_same_bytes(c_loc(momentum), twin%motion%momentum, 24 * n_nodes, 'resistance times velocity')
     call check(any(coefficient > 0.25d0) .and. any(momentum > -1), 'there is resistance')
-    force = [0, 1, 2]
-    call check_ok(add_reaction_to(resisting, resistance, n_nodes, xyz, coefficient, force), 'add a reaction')
-    call check_same_bytes(c_loc(force), c_loc(twin%motion%force), 24_c_int64_t, 'the reaction')
+    force = [(i, i = 0, 29)]
+    call check_refused(riis_surface_get_attachment(moving, attachment, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'attachment')
+    call check_ok(riis_surface_get_attachment(moving, attachment, c_sizeof(attachment)), 'the attachment')
+    call check_ok(riis_reaction_init(reaction, c_sizeof(reaction)), 'default reaction')
+    reaction%about(2) = 0.5d0
+    reaction%force = c_loc(force(1))
+    reaction%moment = c_loc(force(4))
+    reaction%n_leaflets = 1
+    reaction%leaflet_force = c_loc(force(7))
+    reaction%leaflet_moment = c_loc(force(16))
+    reaction%n_edges = 1
+    reaction%edges = attachment%edges
+    reaction%edge_force = c_loc(force(25))
+    reaction%edge_moment = c_loc(force(28))
+    call check_refused(add_reaction_to(resisting, resistance, n_nodes, xyz, coefficient, reaction), RIIS_INVALID_ARGUMENT, &
+      'n_leaflets is 1')
+    reaction%n_leaflets = 3
+    call check_ok(add_reaction_to(resisting, resistance, n_nodes, xyz, coefficient, reaction), 'add a reaction')
+    call check_same_bytes(c_loc(force), c_loc(twin%motion%force), 240_c_int64_t, 'the reaction')
     call check_refused(band_sums_of(resisting, 0.5d0, 3d0, n_nodes, coefficient, coefficient, sums), &
       RIIS_INVALID_ARGUMENT, 'outer is 3')
     call check_ok(band_sums_of(resisting, 0.5d0, 2d0, n_nodes, coefficient, coefficient, sums), 'sums of a band')

@@ -670,6 +670,7 @@ C     K, K u and the reaction to a flow of 6 upwards.
       CALL OK(STAT)
       IF (ABS(F(3) - ALL) .GT. 1D-9 * ALL .OR. ABS(F2(3) - F(3)) .GT.
      &  0D0) CALL FAILED('the force')
+      CALL PARTS(SURF, RES, NN, VEL, W, F)
       CALL RIISF_BAND_SUMS(RES, 0.12D0, 0.3D0, NN, VEL, W, S, SW, NB,
      &  STAT)
       CALL OK(STAT)
@@ -842,4 +843,94 @@ C     nodes, counted from 1.
       N = N + 1
       FACES(1,N) = A
       FACES(2,N) = B
+      END
+
+C     Sums of leaflets and of edges add up to the force of the whole.
+      SUBROUTINE PARTS(SURF, RES, NN, VEL, W, F)
+      INTEGER ME, ML
+      PARAMETER (ME = 400, ML = 3)
+      INTEGER*8 SURF, RES, BIG, NL
+      INTEGER NN, STAT, N, I, J, ID(ME), ID2(ME)
+      DOUBLE PRECISION VEL(3,*), W(*), F(3), ABOUT(3), FW(3), MW(3)
+      DOUBLE PRECISION FW2(3), MW2(3), FL(3,ML), ML1(3,ML), FL2(3,ML)
+      DOUBLE PRECISION ML2(3,ML), E(3,2,ME), E2(3,2,ME), FE(3,ME)
+      DOUBLE PRECISION MOE(3,ME), FE2(3,ME), MOE2(3,ME), SUM
+      DATA ABOUT /1D0, 2D0, 3D0/
+      SAVE E, E2, FE, MOE, FE2, MOE2, ID, ID2
+      INCLUDE 'riisf.h'
+      BIG = NN
+      N = 0
+      CALL RIISF_SURFACE_ATTACHMENT(SURF, 5, N, E, ID, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'length is 5; edges: ')
+      IF (N .LE. 5 .OR. N .GT. ME) CALL FAILED('the number of edges')
+      CALL RIISF_SURFACE_ATTACHMENT(SURF, ME, N, E, ID, STAT)
+      CALL OK(STAT)
+      CALL RIISF_SURFACE_ATTACHMENT_64(SURF, INT(ME, 8), NL, E2, ID2,
+     &  STAT)
+      CALL OK(STAT)
+      IF (NL .NE. N) CALL FAILED('as many edges')
+      DO 20 J = 1, N
+        IF (ID(J) .LT. 0 .OR. ID(J) .GE. ML .OR. ID2(J) .NE. ID(J))
+     &    CALL FAILED('the leaflet of an edge')
+        DO 10 I = 1, 3
+          FE(I,J) = 0D0
+          MOE(I,J) = 0D0
+          FE2(I,J) = 0D0
+          MOE2(I,J) = 0D0
+          IF (ABS(E2(I,1,J) - E(I,1,J)) .GT. 0D0 .OR. ABS(E2(I,2,J) -
+     &      E(I,2,J)) .GT. 0D0) CALL FAILED('the same edges')
+          IF (J .LE. ML) THEN
+            FL(I,J) = 0D0
+            ML1(I,J) = 0D0
+            FL2(I,J) = 0D0
+            ML2(I,J) = 0D0
+          END IF
+   10   CONTINUE
+   20 CONTINUE
+      DO 30 I = 1, 3
+        FW(I) = 0D0
+        MW(I) = 0D0
+        FW2(I) = 0D0
+        MW2(I) = 0D0
+   30 CONTINUE
+      CALL RIISF_ADD_LEAFLET_REACTION(RES, 3D0, RIIS_AUTO,
+     &  RIIS_RIM_ROUND, NN, VEL, W, ABOUT, 1, FW, MW, FL, ML1, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'n_leaflets is 1, but')
+      CALL RIISF_ADD_LEAFLET_REACTION(RES, 3D0, RIIS_AUTO,
+     &  RIIS_RIM_ROUND, NN, VEL, W, ABOUT, ML, FW, MW, FL, ML1, STAT)
+      CALL OK(STAT)
+      CALL RIISF_ADD_LEAFLET_REACTION_64(RES, 3D0, RIIS_AUTO,
+     &  RIIS_RIM_ROUND, BIG, VEL, W, ABOUT, ML, FW2, MW2, FL2, ML2,
+     &  STAT)
+      CALL OK(STAT)
+      CALL RIISF_ADD_EDGE_REACTION(RES, 3D0, RIIS_AUTO,
+     &  RIIS_RIM_ROUND, NN, VEL, W, 0, E, ID, FE, MOE, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'reaction.n_edges is 0')
+      CALL RIISF_ADD_EDGE_REACTION(RES, 3D0, RIIS_AUTO,
+     &  RIIS_RIM_ROUND, NN, VEL, W, N, E, ID, FE, MOE, STAT)
+      CALL OK(STAT)
+      ID2(1) = -1
+      CALL RIISF_ADD_EDGE_REACTION_64(RES, 3D0, RIIS_AUTO,
+     &  RIIS_RIM_ROUND, BIG, VEL, W, NL, E, ID2, FE2, MOE2, STAT)
+      CALL OK(STAT)
+      DO 60 I = 1, 3
+        IF (ABS(FW(I) - F(I)) .GT. 0D0 .OR. ABS(FW2(I) - F(I)) .GT.
+     &    0D0 .OR. ABS(MW2(I) - MW(I)) .GT. 0D0)
+     &    CALL FAILED('the same whole')
+        SUM = FW(I)
+        DO 40 J = 1, ML
+          SUM = SUM - FL(I,J)
+          IF (ABS(FL2(I,J) - FL(I,J)) .GT. 0D0 .OR. ABS(ML2(I,J) -
+     &      ML1(I,J)) .GT. 0D0) CALL FAILED('the same leaflets')
+   40   CONTINUE
+        IF (ABS(SUM) .GT. 1D-9) CALL FAILED('the sum of leaflets')
+        SUM = 2D0 * FW(I)
+        DO 50 J = 1, N
+          SUM = SUM - FE(I,J) - FE2(I,J)
+   50   CONTINUE
+        IF (ABS(SUM) .GT. 1D-8) CALL FAILED('the sum of edges')
+   60 CONTINUE
+C     The force is upwards: so is none of the moments.
+      IF (ABS(MW(3)) .GT. 1D-9 .OR. ABS(MW(1)) .LT. 1D-3)
+     &  CALL FAILED('the moment')
       END

@@ -14,6 +14,7 @@ program test_layout
   type(riis_surface_arrays), target :: sas
   type(riis_keyframe_arrays), target :: kas
   type(riis_surface_info), target :: sis
+  type(riis_attachment), target :: as
   type(riis_triangles), target :: ts
   type(riis_crossing_options), target :: cos
   type(riis_crossing_list), target :: cls
@@ -30,6 +31,7 @@ program test_layout
   type(riis_mark_stats), target :: mss
   type(riis_resistance_arrays), target :: ras
   type(riis_flow_arrays), target :: fas
+  type(riis_reaction), target :: rs2
   type(riis_band_sums), target :: bss
   type(riis_band), target :: bs
   type(riis_leak_list), target :: lls
@@ -68,7 +70,10 @@ program test_layout
   call compare('riis_surface_info', c_sizeof(sis), c_loc(sis), [at(c_loc(sis%n_vertices)), &
     at(c_loc(sis%n_triangles)), at(c_loc(sis%n_zero_area)), at(c_loc(sis%half_thickness)), at(c_loc(sis%area)), &
     at(c_loc(sis%lower)), at(c_loc(sis%upper)), at(c_loc(sis%seconds_triangles)), at(c_loc(sis%seconds_scene)), &
-    at(c_loc(sis%error_bound)), at(c_loc(sis%velocity_error_bound))])
+    at(c_loc(sis%error_bound)), at(c_loc(sis%velocity_error_bound)), &
+    at(c_loc(sis%largest_leaflet_id))])
+  call compare('riis_attachment', c_sizeof(as), c_loc(as), [at(c_loc(as%n_edges)), at(c_loc(as%edges)), &
+    at(c_loc(as%vertex_id)), at(c_loc(as%leaflet_id)), at(c_loc(as%patch_id))])
   call compare('riis_triangles', c_sizeof(ts), c_loc(ts), [at(c_loc(ts%n_vertices)), at(c_loc(ts%xyz)), &
     at(c_loc(ts%uv)), at(c_loc(ts%velocity)), at(c_loc(ts%n_triangles)), at(c_loc(ts%vertex_id)), &
     at(c_loc(ts%triangle_id)), at(c_loc(ts%leaflet_id)), at(c_loc(ts%patch_id))])
@@ -116,6 +121,10 @@ program test_layout
     at(c_loc(ras%K_u_surface_stride))])
   call compare('riis_flow_arrays', c_sizeof(fas), c_loc(fas), [at(c_loc(fas%struct_size)), at(c_loc(fas%n_nodes)), &
     at(c_loc(fas%velocity)), at(c_loc(fas%velocity_stride)), at(c_loc(fas%weight))])
+  call compare('riis_reaction', c_sizeof(rs2), c_loc(rs2), [at(c_loc(rs2%struct_size)), at(c_loc(rs2%about)), &
+    at(c_loc(rs2%force)), at(c_loc(rs2%moment)), at(c_loc(rs2%n_leaflets)), at(c_loc(rs2%leaflet_force)), &
+    at(c_loc(rs2%leaflet_moment)), at(c_loc(rs2%n_edges)), at(c_loc(rs2%edges)), at(c_loc(rs2%edge_leaflet_id)), &
+    at(c_loc(rs2%edge_force)), at(c_loc(rs2%edge_moment))])
   call compare('riis_band_sums', c_sizeof(bss), c_loc(bss), [at(c_loc(bss%sum)), at(c_loc(bss%weight)), &
     at(c_loc(bss%n_nodes))])
   call compare('riis_band', c_sizeof(bs), c_loc(bs), [at(c_loc(bs%struct_size)), at(c_loc(bs%inner)), &

@@ -365,8 +365,97 @@ contains
     force = 0
     call result%add_reaction(R, velocity, weight, force(:3), half_thickness=eps, rim=RIIS_RIM_ROUND)
     call check(abs(force(3) - 6 * sum(weight * coefficient)) < 1d-10, 'without velocities the surface is at rest')
+    call test_sums_of_parts(result, velocity, weight)
     call result%destroy()
   end subroutine test_reaction
+
+  ! Sums by leaflet and by edge add up to the whole, also in sections of larger arrays.
+  subroutine test_sums_of_parts(result, velocity, weight)
+    type(riis_marks), intent(inout) :: result
+    real(c_double), intent(in) :: velocity(:, :), weight(:)
+    type(riis_surface) :: cusps
+    type(riis_valve) :: valve
+    type(riis_surface_info) :: info
+    type(riis_attachment) :: attachment
+    real(c_double) :: force(3), moment(3), alone(3), about(3), of_leaflets(3, 8, 2), middle(3), turned(3), size_of
+    real(c_double), allocatable :: of_edges(:, :, :)
+    integer :: i
+    call valve%create('trileaflet')
+    call cusps%create(valve, half_thickness=eps)
+    call cusps%get_info(info)
+    call cusps%get_attachment(attachment)
+    call check(info%largest_leaflet_id == 2 .and. size(attachment%edges, 3) > 20 .and. &
+      size(attachment%vertex_id, 2) == size(attachment%edges, 3) .and. all(attachment%leaflet_id == attachment%patch_id / 4), &
+      'the attachment of three cusps')
+    call riis_mark_nodes(cusps, mesh, result, fields=RIIS_FIELD_POINT)
+    allocate (of_edges(3, size(attachment%edges, 3), 2))
+    force = 0
+    moment = 0
+    alone = 0
+    of_leaflets = 0
+    of_edges = 0
+    about = [0.5d0, -1d0, 2d0]
+    call result%add_reaction(R, velocity, weight, force, moment=moment, about=about, leaflet_force=of_leaflets(:, ::3, 1), &
+      leaflet_moment=of_leaflets(:, ::3, 2), edges=attachment%edges, edge_force=of_edges(:, :, 1), &
+      edge_moment=of_edges(:, :, 2), edge_leaflet_id=attachment%leaflet_id)
+    size_of = sum(abs(of_edges(:, :, 1)))
+    call check(size_of > 1d-3, 'there is a force')
+    call check(all(abs(sum(of_leaflets(:, ::3, 1), 2) - force) < 1d-11 * size_of) .and. &
+      all(abs(sum(of_leaflets(:, ::3, 2), 2) - moment) < 1d-10 * size_of) .and. all(same(of_leaflets(:, 2::3, 1), 0d0)), &
+      'leaflets add up to the whole, in every third column')
+    do i = 1, size(of_edges, 2)
+      middle = (attachment%edges(:, 1, i) + attachment%edges(:, 2, i)) / 2 - about
+      turned = cshift(middle, 1) * cshift(of_edges(:, i, 1), 2) - cshift(middle, 2) * cshift(of_edges(:, i, 1), 1)
+      force = force - of_edges(:, i, 1)
+      moment = moment - of_edges(:, i, 2) - turned
+    end do
+    call check(all(abs(force) < 1d-11 * size_of) .and. all(abs(moment) < 1d-10 * size_of), 'edges add up to the whole')
+    call result%add_reaction(R, velocity, weight, leaflet_force=of_leaflets(:, :3, 2))
+    call result%add_reaction(R, velocity, weight, alone)
+    call result%add_reaction(R, velocity, weight, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'reaction has no sum to add to')
+    call result%add_reaction(R, velocity, weight, alone, leaflet_force=of_leaflets(:, :2, 1), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'reaction.n_leaflets is 2, but the surface has the leaflet id 2')
+    call result%add_reaction(R, velocity, weight, alone, leaflet_force=of_leaflets(:2, :3, 1), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the shape of leaflet_force is (2, 3); it must be (3, 3)')
+    call result%add_reaction(R, velocity, weight, leaflet_force=of_leaflets(:, :3, 1), leaflet_moment=of_leaflets(:, :4, 2), &
+      status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the shape of leaflet_moment is (3, 4); it must be (3, 3)')
+    call result%add_reaction(R, velocity, weight, moment=force(:2), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of moment is 2; it must be 3')
+    call result%add_reaction(R, velocity, weight, alone, about=force(:1), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of about is 1; it must be 3')
+    call result%add_reaction(R, velocity, weight, edges=attachment%edges(:, :1, :), edge_force=of_edges(:, :, 1), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, '); it must be (3, 2, n_edges)')
+    call result%add_reaction(R, velocity, weight, edge_force=of_edges(:, :2, 1), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the shape of edge_force is (3, 2); it must be (3, 0)')
+    call result%add_reaction(R, velocity, weight, edge_moment=of_edges(:, :0, 1), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'reaction.n_edges is 0')
+    call result%add_reaction(R, velocity, weight, edges=attachment%edges(:, :, :2), edge_force=of_edges(:, :2, 1), &
+      edge_leaflet_id=attachment%leaflet_id(:1), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of edge_leaflet_id is 1; there are 2 edges')
+    call result%add_reaction(R, velocity, weight, edges=attachment%edges(:, :, :1), edge_force=of_edges(:, :1, 1), &
+      edge_leaflet_id=[0], status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'no edge of leaflet 1')
+    call riis_mark_nodes(cusps, mesh, result)
+    call result%add_reaction(R, velocity, weight, moment=moment, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'needs RIIS_FIELD_POINT')
+    call cusps%destroy()
+    call cusps%get_attachment(attachment, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
+    call check(size(attachment%edges) == 0 .and. size(attachment%leaflet_id) == 0, 'no edges on an error')
+    call cusps%create_from_arrays(xyz(:, [1, 2, 30]), reshape([1, 2, 3], [3, 1]))
+    call cusps%get_attachment(attachment, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'surface was made from arrays')
+    call cusps%destroy()
+    call valve%destroy()
+    call valve%create('bileaflet')
+    call cusps%create(valve)
+    call cusps%get_attachment(attachment)
+    call check(size(attachment%edges, 3) == 0, 'a bileaflet valve is not attached')
+    call cusps%destroy()
+    call valve%destroy()
+  end subroutine test_sums_of_parts
 
   subroutine test_band_sums()
     type(riis_marks) :: result

@@ -45,6 +45,26 @@ void add_forces(Input &in, State &state) {
   });
   if (status != RIIS_OK) EXPECT(are_equal(force, force_before), "refused, but added");
 
+  std::vector<double> sums_of_parts(30, 4.5);
+  const std::vector<double> parts_before = sums_of_parts, edges{in.number(), 0, 1, 2, in.sound_place(), 3};
+  riis_flow_arrays flow = initialised(in, riis_flow_arrays_init);
+  flow.n_nodes = n_given;
+  for (std::size_t c = 0; c < 3; ++c) flow.velocity[c] = values.data() + c;
+  flow.velocity_stride = 3;
+  flow.weight = weights.data();
+  riis_reaction reaction = initialised(in, riis_reaction_init);
+  reaction.about[in.below(3)] = in.number();
+  reaction.moment = mostly(in, sums_of_parts.data());
+  reaction.n_leaflets = in.mostly<std::int64_t>(3);
+  if (reaction.n_leaflets <= 3) reaction.leaflet_force = mostly(in, sums_of_parts.data() + 3);
+  reaction.n_edges = in.mostly<std::int64_t>(1);
+  reaction.edges = mostly(in, edges.data());
+  if (reaction.n_edges <= 1) reaction.edge_moment = mostly(in, sums_of_parts.data() + 12);
+  if (n > 0)
+    status =
+        call(in, [&] { return riis_marks_add_reaction(result.handle, mostly(in, &resistance), &flow, &reaction); });
+  if (status != RIIS_OK) EXPECT(are_equal(sums_of_parts, parts_before), "refused, but added");
+
   riis_band_sums sums;
   std::memset(static_cast<void *>(&sums), 0x5a, sizeof sums);
   const double inner = in.one_in(2) ? in.number() : 0, outer = in.one_in(2) ? in.number() : slot.distance_limit;

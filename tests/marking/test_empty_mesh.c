@@ -276,7 +276,8 @@ static void sums_over_no_nodes(void **state) {
     CHECK_OK(add_resistance_to(result, &resistance, 0, nothing, nothing));
     CHECK_OK(add_reaction_to(result, &resistance, 0, nothing, nothing, force));
     CHECK_OK(add_reaction_to(result, &resistance, 0, NULL, NULL, force));
-    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "force is NULL", add_reaction_to(result, &resistance, 0, NULL, NULL, NULL));
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "reaction has no sum to add to",
+                  add_reaction_to(result, &resistance, 0, NULL, NULL, NULL));
   }
   assert_true(nothing[0] == 4 && nothing[2] == 4 && force[0] == 1 && force[1] == 2 && force[2] == 3);
   riis_band_sums sums;

@@ -59,7 +59,10 @@ static inline riis_status add_reaction_to(const riis_marks *marks, const riis_re
   for (int c = 0; velocity && c < 3; ++c) flow.velocity[c] = velocity + c;
   flow.velocity_stride = 3;
   flow.weight = weight;
-  return riis_marks_add_reaction(marks, resistance, &flow, force);
+  riis_reaction reaction;
+  riis_reaction_init(&reaction, sizeof reaction);
+  reaction.force = force;
+  return riis_marks_add_reaction(marks, resistance, &flow, &reaction);
 }
 
 static inline riis_status band_sums_of(const riis_marks *marks, double inner, double outer, int64_t n_nodes,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // riis_mark_*, riis_marks_*, riis_leaks_*, riis_find_*: argument checks around marking.
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -28,6 +29,8 @@ const riis_dense_arrays default_dense{
 const riis_resistance_arrays default_resistance_arrays{sizeof(riis_resistance_arrays), 0, nullptr, 1,
                                                        {nullptr, nullptr, nullptr},    1};
 const riis_flow_arrays default_flow{sizeof(riis_flow_arrays), 0, {nullptr, nullptr, nullptr}, 1, nullptr};
+const riis_reaction default_reaction{
+    sizeof(riis_reaction), {0, 0, 0}, nullptr, nullptr, 0, nullptr, nullptr, 0, nullptr, nullptr, nullptr, nullptr};
 const riis_band default_band{sizeof(riis_band), 0, 0, 0, nullptr, nullptr};
 const riis_passage_ends default_ends{sizeof(riis_passage_ends), 0, nullptr, 0, nullptr};
 
@@ -112,6 +115,25 @@ void check_components(const char *name, Real *const (&components)[3], bool may_l
 // Checks the caller's array that has one entry for each node. A process without nodes may pass NULL.
 const double *require_of_nodes(const double *array, const char *name, std::int64_t n_nodes) {
   return n_nodes == 0 ? array : require(array, name);
+}
+
+// Checks the numbers of a reaction. Its leaflets and edges are checked with the marks.
+riis_reaction checked_reaction(const riis_reaction *reaction) {
+  const riis_reaction whole = riis::completed(require(reaction, "reaction"), "reaction", default_reaction);
+  for (int c = 0; c < 3; ++c)
+    if (!(std::abs(whole.about[c]) <= 1e60))
+      riis::fail(RIIS_INVALID_ARGUMENT, "reaction.about[", c, "] is ", whole.about[c],
+                 "; it must be finite, of magnitude at most 1e+60");
+  if (whole.n_leaflets < 0)
+    riis::fail(RIIS_INVALID_ARGUMENT, "reaction.n_leaflets is ", whole.n_leaflets, "; it must be at least 0");
+  if (whole.n_edges < 0 || whole.n_edges > (std::int64_t{1} << 40))
+    riis::fail(RIIS_INVALID_ARGUMENT, "reaction.n_edges is ", whole.n_edges, "; it must be from 0 to 2^40");
+  if (!whole.force && !whole.moment && !whole.leaflet_force && !whole.leaflet_moment && !whole.edge_force &&
+      !whole.edge_moment)
+    riis::fail(RIIS_INVALID_ARGUMENT,
+               "reaction has no sum to add to: force, moment and those of leaflets and edges "
+               "are NULL");
+  return whole;
 }
 
 riis_mark_options whole_of(const riis_mark_options *options) {
@@ -279,8 +301,12 @@ riis_status riis_flow_arrays_init(riis_flow_arrays *flow, int64_t struct_size) {
   return guarded([&] { riis::init_struct(flow, struct_size, "flow", default_flow); });
 }
 
+riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_size) {
+  return guarded([&] { riis::init_struct(reaction, struct_size, "reaction", default_reaction); });
+}
+
 riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,
-                                    const riis_flow_arrays *flow, double *force) {
+                                    const riis_flow_arrays *flow, const riis_reaction *reaction) {
   return guarded([&] {
     const riis::Marks &content = require_handle(marks, "marks")->marks;
     const riis::Resistance checked = resistance_of(resistance, content);
@@ -289,7 +315,7 @@ riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistan
     check_components("flow.velocity", from.velocity, from.n_nodes == 0);
     check_stride("flow.velocity_stride", from.velocity_stride, from.n_nodes);
     require_of_nodes(from.weight, "flow.weight", from.n_nodes);
-    riis::add_reaction(content, checked, from, require(force, "force"));
+    riis::add_reaction(content, checked, from, checked_reaction(reaction));
   });
 }
 

@@ -23,8 +23,9 @@ constexpr std::int64_t first_size_of(const riis_parameter *) { return 72; }
 constexpr std::int64_t first_size_of(const riis_surface_options *) { return 120; }
 constexpr std::int64_t first_size_of(const riis_surface_arrays *) { return 120; }
 constexpr std::int64_t first_size_of(const riis_keyframe_arrays *) { return 56; }
-constexpr std::int64_t first_size_of(const riis_surface_info *) { return 120; }
+constexpr std::int64_t first_size_of(const riis_surface_info *) { return 128; }
 constexpr std::int64_t first_size_of(const riis_triangles *) { return 72; }
+constexpr std::int64_t first_size_of(const riis_attachment *) { return 40; }
 constexpr std::int64_t first_size_of(const riis_crossing_options *) { return 24; }
 constexpr std::int64_t first_size_of(const riis_crossing_list *) { return 112; }
 constexpr std::int64_t first_size_of(const riis_closest *) { return 96; }
@@ -40,6 +41,7 @@ constexpr std::int64_t first_size_of(const riis_dense_arrays *) { return 56; }
 constexpr std::int64_t first_size_of(const riis_mark_stats *) { return 64; }
 constexpr std::int64_t first_size_of(const riis_resistance_arrays *) { return 64; }
 constexpr std::int64_t first_size_of(const riis_flow_arrays *) { return 56; }
+constexpr std::int64_t first_size_of(const riis_reaction *) { return 112; }
 constexpr std::int64_t first_size_of(const riis_band_sums *) { return 48; }
 constexpr std::int64_t first_size_of(const riis_band *) { return 48; }
 constexpr std::int64_t first_size_of(const riis_leak_list *) { return 96; }

@@ -288,7 +288,8 @@ riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info
                                          surface->updatable.seconds().triangles,
                                          surface->updatable.seconds().scene,
                                          set.error_bound,
-                                         content.velocity_error_bound()});
+                                         content.velocity_error_bound(),
+                                         content.leaflet_ids().back()});
   });
 }
 
@@ -300,6 +301,21 @@ riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangl
         riis_triangles{set.n_vertices(), set.xyz.data(), set.uv.empty() ? nullptr : set.uv.data(),
                        set.velocity.empty() ? nullptr : set.velocity.data(), set.n_triangles(), set.vertex_id.data(),
                        set.triangle_id.data(), set.leaflet_id.data(), set.patch_id.data()});
+  });
+}
+
+riis_status riis_surface_get_attachment(const riis_surface *surface, riis_attachment *attachment, int64_t struct_size) {
+  return guarded([&] {
+    const riis::Surface &content = riis::content_of(surface);
+    if (content.triangles().uv.empty())
+      riis::fail(
+          RIIS_INVALID_ARGUMENT,
+          "surface was made from arrays, which do not tell attached edges from free ones: give edges of your own");
+    const riis::Attachment &made = content.attachment();
+    const auto array = [](const auto &values) { return values.empty() ? nullptr : values.data(); };
+    riis::write_struct(attachment, struct_size, "attachment",
+                       riis_attachment{made.n_edges(), array(made.edges), array(made.vertex_id), array(made.leaflet_id),
+                                       array(made.patch_id)});
   });
 }
 }

@@ -26,11 +26,22 @@ double area_of(const TriangleSet &set) {
   return area;
 }
 
+// Triangles of one leaflet follow each other in the surface of a valve.
+void collect_leaflets(const TriangleSet &set, std::vector<std::int32_t> &ids) {
+  ids.clear();
+  for (const std::int32_t id : set.leaflet_id)
+    if (ids.empty() || ids.back() != id) ids.push_back(id);
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
 }  // namespace
 
 void Surface::make(TriangleSet triangles, double half_thickness, int n_threads) {
   triangles_ = std::move(triangles);
   half_thickness_ = half_thickness;
+  collect_leaflets(triangles_, leaflet_ids_);
+  attachment_.reset();
   area_.store(not_known, std::memory_order_relaxed);
   pseudonormals_.store(nullptr, std::memory_order_relaxed);
   pseudonormals_owner_.reset();
@@ -58,6 +69,12 @@ double Surface::velocity_error_bound() const {
     velocity_error_bound_.store(bound, std::memory_order_relaxed);
   }
   return bound;
+}
+
+const Attachment &Surface::attachment() const {
+  const std::lock_guard<std::mutex> lock(attachment_mutex_);
+  if (!attachment_) attachment_.emplace(attachment_of(triangles_));
+  return *attachment_;
 }
 
 const Pseudonormals &Surface::make_pseudonormals() const {

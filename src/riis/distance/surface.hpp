@@ -9,8 +9,10 @@
 #include <mutex>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "distance/patch_distance.hpp"
+#include "surface/attachment.hpp"
 #include "surface/pseudonormals.hpp"
 #include "surface/triangle_scene.hpp"
 #include "surface/triangle_set.hpp"
@@ -33,12 +35,18 @@ class Surface {
   const TriangleSet &triangles() const { return triangles_; }
   const TriangleScene &scene() const { return scene_; }
   double half_thickness() const { return half_thickness_; }
+  // The leaflet ids of the triangles, each once, ascending.
+  const std::vector<std::int32_t> &leaflet_ids() const { return leaflet_ids_; }
   // Returns the area of all triangles. The first call computes it. Several threads may call this function at once.
   double area() const;
 
   // Bounds the difference between a velocity and the smooth valve's velocity at the same patch, u and v. It is 0 without a
   // motion of patches. The first call computes it. Several threads may call this function at once.
   double velocity_error_bound() const;
+
+  // Returns the sides at which leaflets are attached; none for a surface from arrays. The first call makes them. Several threads
+  // may call this function at once.
+  const Attachment &attachment() const;
 
   // Returns the other method that measures distances, or null if the triangles' scene does.
   const PatchDistance *other_distance() const { return other_distance_.get(); }
@@ -59,6 +67,7 @@ class Surface {
   TriangleSet triangles_;
   TriangleScene scene_;
   double half_thickness_ = 0;
+  std::vector<std::int32_t> leaflet_ids_;
   // Computed on demand, because marking never needs it. Threads that compute it at the same time get the same bits.
   mutable std::atomic<double> area_{not_known};
   std::optional<TwoStates> states_;
@@ -69,6 +78,8 @@ class Surface {
   mutable std::mutex pseudonormals_mutex_;
   mutable std::optional<const Pseudonormals> pseudonormals_owner_;
   mutable std::atomic<const Pseudonormals *> pseudonormals_{nullptr};
+  mutable std::mutex attachment_mutex_;
+  mutable std::optional<const Attachment> attachment_;
 };
 
 }  // namespace riis

@@ -127,6 +127,7 @@ void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks
   // Everything that may fail comes before the lists are overwritten.
   marks.field_scratch.prepare(request, data.fields, marks.found);
   if (need_normals(request.surface, data.fields, marks.found.size())) request.surface.pseudonormals();
+  marks.leaflet_ids.reserve(request.surface.leaflet_ids().size());
   make_room(data,
             prepare_order(request.surface, marks.found, limit_is_wider, request.mesh.nodes().n, request.n_threads,
                           marks.order_scratch),
@@ -138,6 +139,7 @@ void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks
     select_fields(data.fields, marks.within.nodes, marks.within.fields, marks.marked.nodes, marks.marked.fields);
   for (ListedNodes *list : {&marks.within, &marks.marked})
     list_resistance(marking.resistance, data, request.n_threads, *list);
+  marks.leaflet_ids = request.surface.leaflet_ids();
   marks.data = data;
   marks.was_marked = true;
   marks.limit_is_wider = limit_is_wider;

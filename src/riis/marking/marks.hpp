@@ -44,7 +44,8 @@ struct Marks {
   bool limit_is_wider = false;
   double distance_limit = 0;
   double half_thickness = 0;
-  Threads n_threads = 1;  // of the last marking
+  Threads n_threads = 1;                  // of the last marking
+  std::vector<std::int32_t> leaflet_ids;  // the ids of the surface's leaflets, ascending
   riis_mark_stats stats{};
 
   // Memory that the next marking reuses.

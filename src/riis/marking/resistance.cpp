@@ -2,11 +2,13 @@
 #include "marking/resistance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/constants.hpp"
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
+#include "marking/nearest_edges.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {
@@ -40,8 +42,91 @@ void require_field(const Marks &marks, std::int32_t field, const char *field_nam
          ", but the nodes were marked with options.fields = ", marks.data.given_fields);
 }
 
+// A sum by Neumaier's method (1974), which also sums the digits that its additions lose. So the sums of leaflets equal the sum of
+// the whole to a few digits of the last place, however many nodes there are.
+class Sum {
+ public:
+  void add(double x) {
+    const double sum = sum_ + x;
+    lost_ += std::abs(sum_) >= std::abs(x) ? (sum_ - sum) + x : (x - sum) + sum_;
+    sum_ = sum;
+  }
+  double total() const { return sum_ + lost_; }
+
+ private:
+  double sum_ = 0, lost_ = 0;
+};
+
+struct Wrench {
+  std::array<Sum, 3> force, moment;
+
+  void add(Vec3 more_force, Vec3 more_moment) {
+    force[0].add(more_force.x), force[1].add(more_force.y), force[2].add(more_force.z);
+    moment[0].add(more_moment.x), moment[1].add(more_moment.y), moment[2].add(more_moment.z);
+  }
+};
+
+void add_sum(const std::array<Sum, 3> &sum, double *to) {
+  for (std::size_t c = 0; c < 3; ++c) to[c] += sum[c].total();
+}
+
+// Adds to the caller's arrays (3, n), which may be null.
+void add_sums(const Vector<Wrench> &sums, double *force, double *moment) {
+  for (std::int64_t i = 0; i < view(sums).size(); ++i) {
+    if (force) add_sum(view(sums)[i].force, force + 3 * i);
+    if (moment) add_sum(view(sums)[i].moment, moment + 3 * i);
+  }
+}
+
+Vec3 vector_at(const UnfilledVector<double> &list, std::int64_t i) {
+  return {view(list)[3 * i], view(list)[3 * i + 1], view(list)[3 * i + 2]};
+}
+
+// The surface's leaflets decide, not those of the nodes. So all ranks refuse, also those without a node of the leaflet.
+void check_leaflets(const Marks &marks, const riis_reaction &to) {
+  const std::int32_t last = marks.leaflet_ids.empty() ? -1 : marks.leaflet_ids.back();
+  if (to.n_leaflets <= last)
+    fail(RIIS_INVALID_ARGUMENT, "reaction.n_leaflets is ", to.n_leaflets, ", but the surface has the leaflet id ", last,
+         "; n_leaflets must be larger");
+}
+
+Edges checked_edges(const riis_reaction &reaction) {
+  if (reaction.n_edges < 1) fail(RIIS_INVALID_ARGUMENT, "reaction.n_edges is 0; a force by edge needs at least 1");
+  const Edges edges{reaction.n_edges, require(reaction.edges, "reaction.edges"), reaction.edge_leaflet_id};
+  for (std::int64_t i = 0; i < 6 * edges.n; ++i)
+    if (!(std::abs(edges.ends[i]) <= 1e60))
+      fail(RIIS_INVALID_ARGUMENT, "reaction.edges: ", "xyz"[i % 3], " of the ", i / 3 % 2 == 0 ? "first" : "second",
+           " point of edge ", i / 6, " is ", edges.ends[i], "; it must be finite, of magnitude at most 1e+60");
+  for (std::int64_t i = 0; edges.leaflet_id && i < edges.n; ++i)
+    if (edges.leaflet_id[i] < 0)
+      fail(RIIS_INVALID_ARGUMENT, "reaction.edge_leaflet_id of edge ", i, " is ", edges.leaflet_id[i],
+           "; it must be at least 0");
+  return edges;
+}
+
 // A block of the list that one thread takes at a time, and the length below which one thread takes all.
 constexpr std::int64_t nodes_per_block = 4096, few_nodes = 16384;
+// The same for the search of edges, which takes ten times as long a node.
+constexpr std::int64_t edge_nodes_per_block = 512, few_edge_nodes = 2048;
+
+// Finds the edge that gets the share of each node with a resistance. Others have no entry of use.
+Vector<std::int64_t> nearest_edges(const Marks &marks, const Resistance &resistance, const Edges &edges) {
+  const NearestEdges search(edges);
+  for (const std::int32_t leaflet : marks.leaflet_ids)
+    if (!search.has(leaflet))
+      fail(RIIS_INVALID_ARGUMENT, "reaction.edge_leaflet_id has no edge of leaflet ", leaflet,
+           ", which the surface has");
+  const std::int64_t n = marks.within.nodes.size();
+  Vector<std::int64_t> nearest;
+  resize(nearest, n);
+  parallel_for_ranges(
+      n, edge_nodes_per_block, marks.n_threads.for_part(n, few_edge_nodes), [&](const Range &range, int) {
+        for_each_resistance(marks, resistance, range, [&](std::int64_t i, double) {
+          view(nearest)[i] = search.of(view(marks.within.nodes.leaflet_id)[i], vector_at(marks.within.fields.point, i));
+        });
+      });
+  return nearest;
+}
 
 }  // namespace
 
@@ -105,16 +190,41 @@ void add_resistance(const Marks &marks, const Resistance &resistance, const riis
   });
 }
 
-void add_reaction(const Marks &marks, const Resistance &resistance, const riis_flow_arrays &flow, double *force) {
+void add_reaction(const Marks &marks, const Resistance &resistance, const riis_flow_arrays &flow,
+                  const riis_reaction &to) {
+  const bool wants_edges = to.edge_force || to.edge_moment, wants_leaflets = to.leaflet_force || to.leaflet_moment;
+  const bool wants_points = wants_edges || to.moment || to.leaflet_moment;
+  if (wants_points)
+    require_field(marks, RIIS_FIELD_POINT, "RIIS_FIELD_POINT", "a moment or a force by edge in reaction");
+  if (wants_leaflets) check_leaflets(marks, to);
+  const Edges edges = wants_edges ? checked_edges(to) : Edges{};
+  const Vector<std::int64_t> nearest = wants_edges ? nearest_edges(marks, resistance, edges) : Vector<std::int64_t>();
+  Wrench whole;
+  Vector<Wrench> of_leaflet(static_cast<std::size_t>(wants_leaflets ? to.n_leaflets : 0));
+  Vector<Wrench> of_edge(static_cast<std::size_t>(edges.n));
+  const Vec3 about{to.about[0], to.about[1], to.about[2]};
   const bool moves = (marks.data.fields & RIIS_FIELD_VELOCITY) != 0;
   // One thread sums in the order of the nodes, so that the bits do not depend on the number of threads.
   for_each_resistance(marks, resistance, {0, marks.within.nodes.size()}, [&](std::int64_t i, double k) {
     const std::int64_t node = view(marks.within.nodes.node_id)[i];
-    for (int c = 0; c < 3; ++c) {
-      const double surface_velocity = moves ? view(marks.within.fields.velocity)[3 * i + c] : 0;
-      force[c] += flow.weight[node] * (k * (flow.velocity[c][flow.velocity_stride * node] - surface_velocity));
-    }
+    const Vec3 surface_velocity = moves ? vector_at(marks.within.fields.velocity, i) : Vec3{0, 0, 0};
+    const auto component = [&](int c, double of_surface) {
+      return flow.weight[node] * (k * (flow.velocity[c][flow.velocity_stride * node] - of_surface));
+    };
+    const Vec3 force{component(0, surface_velocity.x), component(1, surface_velocity.y),
+                     component(2, surface_velocity.z)};
+    const Vec3 point = wants_points ? vector_at(marks.within.fields.point, i) : Vec3{0, 0, 0};
+    const Vec3 moment = cross(point - about, force);
+    whole.add(force, moment);
+    if (wants_leaflets) view(of_leaflet)[view(marks.within.nodes.leaflet_id)[i]].add(force, moment);
+    if (!wants_edges) return;
+    const std::int64_t edge = view(nearest)[i];
+    view(of_edge)[edge].add(force, cross(point - edges.middle(edge), force));
   });
+  if (to.force) add_sum(whole.force, to.force);
+  if (to.moment) add_sum(whole.moment, to.moment);
+  add_sums(of_leaflet, to.leaflet_force, to.leaflet_moment);
+  add_sums(of_edge, to.edge_force, to.edge_moment);
 }
 
 riis_band_sums band_sums(const Marks &marks, const riis_band &band) {

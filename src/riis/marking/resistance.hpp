@@ -25,7 +25,9 @@ void list_resistance(const Resistance *resistance, const WantedData &data, const
 // All fail with RIIS_INVALID_ARGUMENT if the marks lack data that they need.
 Resistance checked_resistance(const riis_resistance &resistance, const Marks &marks);
 void add_resistance(const Marks &marks, const Resistance &resistance, const riis_resistance_arrays &to);
-void add_reaction(const Marks &marks, const Resistance &resistance, const riis_flow_arrays &flow, double *force);
+// Also fails for edges or leaflets that do not fit. Nothing is added then.
+void add_reaction(const Marks &marks, const Resistance &resistance, const riis_flow_arrays &flow,
+                  const riis_reaction &to);
 riis_band_sums band_sums(const Marks &marks, const riis_band &band);
 
 }  // namespace riis

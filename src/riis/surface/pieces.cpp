@@ -226,6 +226,10 @@ void Pieces::make_patch_vertices() {
   resize(triangles_.xyz, 3 * n_vertices_);
   resize(triangles_.uv, 2 * n_vertices_);
   resize(triangles_.velocity, how_.motion ? 3 * n_vertices_ : 0);
+  triangles_.patches.clear();
+  for (const Piece &piece : pieces_)
+    triangles_.patches.push_back(
+        {piece.image->patch_id, piece.image->leaflet_id, piece.first_vertex, set_.patches[piece.patch].attached});
   of_patches_.resize(grids_.size());
   parallel_for(view(grids_).size(), how_.n_threads, [&](std::int64_t i, int) {
     view(of_patches_)[i] = vertices_of(set_, static_cast<std::size_t>(i), view(grids_)[i], how_.motion);

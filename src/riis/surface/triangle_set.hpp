@@ -11,6 +11,7 @@
 #include "common/array_view.hpp"
 #include "geometry/strided.hpp"
 #include "surface/quads.hpp"
+#include "valve/patches.hpp"
 
 namespace riis {
 
@@ -20,6 +21,13 @@ struct Grouping {
   Vector<std::int32_t> order, end;
 
   bool operator==(const Grouping &other) const { return order == other.order && end == other.end; }
+};
+
+// The vertices of a patch of a valve: those from `first` on, up to the first vertex of the next patch.
+struct VerticesOfPatch {
+  std::int32_t patch_id, leaflet_id;
+  std::int64_t first;
+  AttachedSide attached;
 };
 
 struct TriangleSet {
@@ -33,6 +41,7 @@ struct TriangleSet {
   std::int64_t n_zero_area = 0;           // number of triangles that were left out
   double error_bound = 0;                 // bounds the distance to the smooth valve, placed; 0 for surfaces from arrays
   Vector<std::uint8_t> rim_sides;    // an entry for each patch_id, bits of PatchRim; empty for surfaces from arrays
+  Vector<VerticesOfPatch> patches;        // ascending by first vertex; empty for surfaces from arrays
   std::uint64_t connectivity = 0;    // number of the triangles' plan, or 0 (surface/triangulate_fixed.cpp)
   Grouping grouping;                 // empty if the triangles were made without groups
   Vector<LevelledGrid> moved_grids;  // grids of triangles with velocities from patches
@@ -44,6 +53,7 @@ struct TriangleSet {
     for (auto *ids : {&leaflet_id, &patch_id}) ids->clear();
     for (auto *ids : {&grouping.order, &grouping.end}) ids->clear();
     rim_sides.clear();
+    patches.clear();
     moved_grids.clear();
     n_zero_area = 0;
     error_bound = 0;

@@ -147,8 +147,8 @@ void add_cusps(PatchSet &set, const HalfCusp &half, const HalfCusp &rate, const 
     return made;
   };
   // u runs from the symmetry plane to the sinus, and v runs upwards. So S_u x S_v points to the sinus face, downstream.
-  set.patches.push_back({root, bending, symmetry_below, sinus_below, images(0)});
-  set.patches.push_back({bending, leaflet, symmetry_above, sinus_above, images(1)});
+  set.patches.push_back({root, bending, symmetry_below, sinus_below, images(0), 0, AttachedSide::u1});
+  set.patches.push_back({bending, leaflet, symmetry_above, sinus_above, images(1), 0, AttachedSide::u1});
 }
 
 }  // namespace riis

@@ -279,7 +279,8 @@ class Patches {
                             to.side,
                             {{Mirror::none, no_rotation, shift_, leaflet_id, patch_id},
                              {Mirror::in_x, no_rotation, shift_, leaflet_id, mirrored_patch_id}},
-                            -half_.bulge});
+                            -half_.bulge,
+                            AttachedSide::v0});
     last_arc_ = to;
   }
 

@@ -38,6 +38,9 @@ struct Side {
   bool reversed = false;
 };
 
+// The side at which tissue or a stent holds a patch, if it is held along one.
+enum class AttachedSide : std::uint8_t { none, v0, u1 };
+
 // A patch, given by its four sides. Each side is named after the parameter that is constant on it. A curve that two patches
 // share is listed once. So it becomes one polyline, and the patches meet without cracks. S_u x S_v points downstream. Mirror
 // images are turned over, so that this holds for them too.
@@ -47,6 +50,7 @@ struct Patch {
   // If 0, the patch is the Coons patch of its sides. Otherwise it is the patch of arcs from v0 to v1 with this factor
   // (geometry/bulge.hpp), and u0 and u1 must be such arcs.
   double bulge = 0;
+  AttachedSide attached = AttachedSide::none;
 };
 
 // Two images of one patch that have points of the side v1 in common: the whole side, or only its end at u1. The image `image`

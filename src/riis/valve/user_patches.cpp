@@ -75,7 +75,9 @@ class PatchReader {
             sides[1],
             sides[2],
             sides[3],
-            {{Mirror::none, no_rotation, {0, 0, 0}, leaflet_id, static_cast<std::int32_t>(patch)}}};
+            {{Mirror::none, no_rotation, {0, 0, 0}, leaflet_id, static_cast<std::int32_t>(patch)}},
+            0,
+            AttachedSide::v0};
   }
 
  private:

@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * The attachment of valves: its edges are those edges of triangles along held sides, each in one triangle. They form
+ * lines from root to commissure and round the annulus, with the lengths of mirrored halves and of a parabola. */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+#include "shapes.h"
+
+static random_source rng;
+
+static double between(double low, double high) { return random_between(&rng, low, high); }
+
+static riis_attachment attachment_of(const riis_surface *surface) {
+  riis_attachment attachment;
+  CHECK_OK(riis_surface_get_attachment(surface, &attachment, sizeof attachment));
+  return attachment;
+}
+
+static riis_surface_options placed(int32_t triangulation, double scale) {
+  riis_surface_options options = surface_options();
+  options.triangulation = triangulation;
+  options.scale = scale;
+  options.rotation_angle = between(-180, 180);
+  for (int c = 0; c < 3; ++c) options.rotation_axis[c] = between(0.1, 1), options.translation[c] = between(-5, 5);
+  return options;
+}
+
+static riis_valve *valve_of(const char *kind, double opening) {
+  riis_valve *valve = new_valve(kind);
+  CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
+  if (strcmp(kind, "bileaflet") == 0) CHECK_OK(riis_valve_set_scalar(valve, "ring_height", 0.6));
+  return valve;
+}
+
+static double edge_length(const double *edge) {
+  return sqrt(pow(edge[3] - edge[0], 2) + pow(edge[4] - edge[1], 2) + pow(edge[5] - edge[2], 2));
+}
+
+/* --- Against a count of edges ---------------------------------------------------------------------------------------- */
+
+/* An edge as its two places in order, and its leaflet and patch. */
+typedef struct {
+  double ends[2][3];
+  int32_t leaflet_id, patch_id;
+} placed_edge;
+
+static placed_edge edge_between(const double *a, const double *b, int32_t leaflet_id, int32_t patch_id) {
+  placed_edge edge = {.leaflet_id = leaflet_id, .patch_id = patch_id};
+  const int turned = memcmp(a, b, 3 * sizeof *a) > 0;
+  memcpy(edge.ends[turned], a, 3 * sizeof *a);
+  memcpy(edge.ends[!turned], b, 3 * sizeof *b);
+  for (int end = 0; end < 2; ++end)
+    for (int c = 0; c < 3; ++c) edge.ends[end][c] += 0.0; /* -0 is 0 */
+  return edge;
+}
+static int by_place(const void *a, const void *b) {
+  return memcmp(((const placed_edge *)a)->ends, ((const placed_edge *)b)->ends, sizeof((const placed_edge *)a)->ends);
+}
+
+/* Tells whether a vertex lies on the side at which the kind is held. The root of a cusp is the whole side v = 0 of its lower
+ * patches. */
+static int is_held(const char *kind, int32_t patch_id, const double *uv) {
+  return strcmp(kind, "mitral") == 0 ? uv[1] == 0 : uv[0] == 1 || (patch_id % 2 == 0 && uv[1] == 0);
+}
+
+static void edges_are_those_of_one_triangle_on_the_side(void **state) {
+  (void)state;
+  static const char *const kinds[3] = {"aortic", "trileaflet", "mitral"};
+  for (int trial = 0; trial < 24; ++trial) {
+    const int owned_before = n_owned();
+    const char *kind = kinds[trial / 2 % 3];
+    const riis_surface_options options = placed(trial % 2, between(0.5, 2));
+    riis_surface *surface = new_surface(valve_of(kind, trial < 6 ? 0 : between(0, 1)), &options);
+    const riis_triangles all = triangles_of(surface);
+    placed_edge *edges = own(malloc((size_t)all.n_triangles * 3 * sizeof *edges));
+    int64_t n = 0, n_expected = 0;
+    for (int64_t i = 0; i < all.n_triangles; ++i)
+      for (int k = 0; k < 3; ++k) {
+        const int64_t a = all.vertex_id[3 * i + k], b = all.vertex_id[3 * i + (k + 1) % 3];
+        if (is_held(kind, all.patch_id[i], all.uv + 2 * a) && is_held(kind, all.patch_id[i], all.uv + 2 * b))
+          edges[n++] = edge_between(all.xyz + 3 * a, all.xyz + 3 * b, all.leaflet_id[i], all.patch_id[i]);
+      }
+    qsort(edges, (size_t)n, sizeof *edges, by_place);
+    for (int64_t i = 0; i < n; ++i) { /* those that are once go to the front */
+      if (i > 0 && by_place(edges + i - 1, edges + i) == 0)
+        fail_msg("two triangles have an edge on a side that is held");
+      edges[n_expected++] = edges[i];
+    }
+    const riis_attachment got = attachment_of(surface);
+    assert_int_equal(got.n_edges, n_expected);
+    assert_true(got.n_edges >= (trial / 2 % 3 == 2 ? 20 : 12));
+    for (int64_t i = 0; i < got.n_edges; ++i) {
+      const double *ends = got.edges + 6 * i;
+      const placed_edge here = edge_between(ends, ends + 3, got.leaflet_id[i], got.patch_id[i]);
+      const placed_edge *same = bsearch(&here, edges, (size_t)n_expected, sizeof *edges, by_place);
+      if (!same) fail_msg("edge %lld of the %s valve is no edge of a triangle", (long long)i, kind);
+      assert_true(same->leaflet_id == here.leaflet_id && same->patch_id == here.patch_id);
+      for (int end = 0; end < 2; ++end)
+        assert_memory_equal(ends + 3 * end, all.xyz + 3 * got.vertex_id[2 * i + end], 3 * sizeof *ends);
+      /* Edges of a patch follow each other. */
+      if (i == 0) continue;
+      assert_true(got.patch_id[i] >= got.patch_id[i - 1]);
+      if (got.patch_id[i] == got.patch_id[i - 1]) assert_memory_equal(ends, ends - 3, 3 * sizeof *ends);
+    }
+    free_owned_after(owned_before);
+  }
+}
+
+/* --- Against the tables ---------------------------------------------------------------------------------------------- */
+
+/* Three equal cusps, each of two mirrored halves, from roots to commissures that neighbours share; the mitral annulus is one
+ * loop of both leaflets. So each end of an edge is an end of another. */
+static void attachments_are_closed_lines(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 12; ++trial) {
+    const int owned_before = n_owned();
+    const int is_mitral = trial % 3 == 2;
+    const riis_surface_options options = placed(trial % 2, between(0.5, 2));
+    riis_surface *surface = new_surface(valve_of(is_mitral ? "mitral" : "trileaflet", between(0, 1)), &options);
+    const riis_attachment got = attachment_of(surface);
+    double of_patch[12] = {0}, total = 0;
+    for (int64_t i = 0; i < 2 * got.n_edges; ++i) {
+      int n_here = 0;
+      for (int64_t k = 0; k < 2 * got.n_edges; ++k) {
+        const double between_ends[6] = {got.edges[3 * i], got.edges[3 * i + 1], got.edges[3 * i + 2],
+                                        got.edges[3 * k], got.edges[3 * k + 1], got.edges[3 * k + 2]};
+        n_here += edge_length(between_ends) < 1e-9;
+      }
+      assert_int_equal(n_here, 2);
+    }
+    for (int64_t i = 0; i < got.n_edges; ++i) {
+      of_patch[got.patch_id[i]] += edge_length(got.edges + 6 * i);
+      total += edge_length(got.edges + 6 * i);
+      if (is_mitral)
+        assert_int_equal(got.leaflet_id[i], got.patch_id[i] < 6 ? RIIS_LEAFLET_ANTERIOR : RIIS_LEAFLET_POSTERIOR);
+      else
+        assert_int_equal(got.leaflet_id[i], got.patch_id[i] / 4);
+    }
+    for (int k = 0; k < 12 && !is_mitral; ++k) CHECK_NEAR(of_patch[k], of_patch[k % 2], 1e-9 * total);
+    free_owned_after(owned_before);
+  }
+}
+
+/* The side v = 0 of a square, in pieces if it bends; a side that two patches share is none. No bileaflet valve has any. */
+static void patches_are_held_at_v_0(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 8; ++trial) {
+    const riis_surface_options options = placed(trial % 2, 2);
+    shape squares = unit_square();
+    squares.leaflet_id[0] = 3;
+    /* The second square stands on the first one's side v = 1. */
+    add_line(&squares, 0, 2, 0, 1, 2, 0), add_line(&squares, 0, 1, 0, 0, 2, 0), add_line(&squares, 1, 1, 0, 1, 2, 0);
+    add_patch(&squares, 1, 4, 5, 6);
+    if (trial >= 4) { /* v = 0 is an arch */
+      squares.degree[0] = 2;
+      static const double arch[3][3] = {{0, 0, 0}, {0.5, -0.5, 0}, {1, 0, 0}};
+      memcpy(squares.control[0], arch, sizeof arch);
+    }
+    riis_surface *surface = surface_of(&squares, &options);
+    const riis_attachment got = attachment_of(surface);
+    double length = 0;
+    for (int64_t i = 0; i < got.n_edges; ++i) {
+      assert_true(got.leaflet_id[i] == 3 && got.patch_id[i] == 0);
+      length += edge_length(got.edges + 6 * i);
+    }
+    /* A parabola over the width 1 with the height 1/4 and y' = 1 at its end: (sqrt(2) + asinh(1)) / 2 long. */
+    if (trial < 4)
+      CHECK_NEAR(length, 2, 1e-12);
+    else
+      CHECK_NEAR(length, sqrt(2) + asinh(1), 0.01);
+    assert_true(got.n_edges == 1 || trial >= 4);
+
+    /* An update moves the edges. The bileaflet valve has none. */
+    const riis_surface_options adapted = placed(RIIS_TRIANGULATION_ADAPTED, 2);
+    CHECK_OK(riis_surface_update(surface, valve_of("bileaflet", 0.3), &adapted));
+    const riis_attachment none = attachment_of(surface);
+    assert_true(none.n_edges == 0 && !none.edges && !none.vertex_id && !none.leaflet_id && !none.patch_id);
+  }
+}
+
+static void refusals_name_the_argument(void **state) {
+  (void)state;
+  static const double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  static const int32_t ids[3] = {0, 1, 2};
+  const riis_surface_arrays arrays = triangle_arrays(3, xyz, 1, ids);
+  riis_surface *from_arrays = surface_from(&arrays, NULL), *surface = aortic_surface(NULL);
+  riis_attachment got;
+  memset(&got, 0x22, sizeof got);
+  const riis_attachment before = got;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface was made from arrays|edges of your own",
+                riis_surface_get_attachment(from_arrays, &got, sizeof got));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface is NULL", riis_surface_get_attachment(NULL, &got, sizeof got));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "attachment is NULL", riis_surface_get_attachment(surface, NULL, sizeof got));
+  static const int64_t sizes[3] = {0, 32, 48};
+  for (int i = 0; i < 3; ++i)
+    CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "struct size of attachment",
+                  riis_surface_get_attachment(surface, &got, sizes[i]));
+  assert_memory_equal(&got, &before, sizeof got);
+
+  /* The surface tells its largest leaflet id. */
+  static const struct {
+    const char *kind;
+    int largest_id;
+  } kinds[4] = {{"aortic", 2}, {"trileaflet", 2}, {"mitral", 1}, {"bileaflet", 2}};
+  for (int i = 0; i < 4; ++i)
+    assert_int_equal(info_of(new_surface(valve_of(kinds[i].kind, 0.5), NULL)).largest_leaflet_id, kinds[i].largest_id);
+  shape square = unit_square();
+  square.leaflet_id[0] = 5;
+  assert_int_equal(info_of(surface_of(&square, NULL)).largest_leaflet_id, 5);
+  assert_int_equal(info_of(from_arrays).largest_leaflet_id, 0);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(edges_are_those_of_one_triangle_on_the_side),
+      cmocka_unit_test(attachments_are_closed_lines),
+      cmocka_unit_test(patches_are_held_at_v_0),
+      cmocka_unit_test(refusals_name_the_argument),
+  };
+  rng = random_start("test_attachment");
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
