@@ -841,7 +841,7 @@ typedef struct riis_flow_arrays {
   int64_t n_nodes;           /* the number of nodes of the marking */
   const double *velocity[3]; /* (n_nodes) by velocity_stride, for x, y and z; NULL only for 0 nodes */
   int64_t velocity_stride;   /* default 1; 3 for u(3,n) with {u, u + 1, u + 2} */
-  const double *weight;      /* (n_nodes), the volume of a node, 0 for nodes of other ranks; NULL only for 0 nodes */
+  const double *weight;      /* (n_nodes), volume around a node, 0 for nodes of other ranks; NULL only for 0 nodes */
 } riis_flow_arrays;
 RIIS_API riis_status riis_flow_arrays_init(riis_flow_arrays *flow, int64_t struct_size); /* the defaults */
 /* Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force. With MPI, sum
@@ -864,7 +864,7 @@ typedef struct riis_band {
   double inner, outer;  /* distances, 0 <= inner <= outer <= distance limit of the marking. Default 0 */
   int64_t n_nodes;      /* the number of nodes of the marking, which must have RIIS_FIELD_SIDE and RIIS_FIELD_RIM */
   const double *value;  /* (n_nodes), such as the pressure; NULL only for 0 nodes */
-  const double *weight; /* (n_nodes), the volume of a node, 0 for nodes of other ranks; NULL only for 0 nodes */
+  const double *weight; /* (n_nodes), volume around a node, 0 for nodes of other ranks; NULL only for 0 nodes */
 } riis_band;
 RIIS_API riis_status riis_band_init(riis_band *band, int64_t struct_size); /* the defaults */
 /* Gives the sums of the value over the nodes in the band, by side. Nodes whose closest point is on the rim are
