@@ -92,7 +92,7 @@ enum {
   RIIS_OUT_OF_MEMORY = 7,       /* memory ran out; nothing changed */
   RIIS_FILE_ERROR = 8,          /* a file cannot be read or written, or has other content (riis_vtk.h) */
   RIIS_UNAVAILABLE = 9,         /* something outside the library is missing: threads after a fork(), a display */
-  RIIS_INTERNAL_ERROR = -1      /* an error in riis or in a library below it */
+  RIIS_INTERNAL_ERROR = -1      /* an error in riis or in a library that it uses */
 };
 
 /* Returns the status's own name, such as "RIIS_INVALID_ARGUMENT", or "unknown status". Static text. */
@@ -857,9 +857,9 @@ RIIS_API riis_status riis_marks_add_resistance(const riis_marks *marks, const ri
 typedef struct riis_flow_arrays {
   int64_t struct_size;       /* set by the init function */
   int64_t n_nodes;           /* the number of nodes of the marking */
-  const double *velocity[3]; /* (n_nodes) by velocity_stride, for x, y and z; NULL only for 0 nodes, as weight */
+  const double *velocity[3]; /* (n_nodes) by velocity_stride, for x, y and z; NULL only for 0 nodes */
   int64_t velocity_stride;   /* default 1; 3 for u(3,n) with {u, u + 1, u + 2} */
-  const double *weight;      /* (n_nodes), the volume that a node stands for, 0 for nodes of other ranks */
+  const double *weight;      /* (n_nodes), volume around a node, 0 for nodes of other ranks; NULL only for 0 nodes */
 } riis_flow_arrays;
 RIIS_API riis_status riis_flow_arrays_init(riis_flow_arrays *flow, int64_t struct_size); /* the defaults */
 /* The caller's sums, to which those of the flow on the surface are added; NULL for sums that are not wanted. No
@@ -912,8 +912,8 @@ typedef struct riis_band {
   int64_t struct_size;  /* set by the init function */
   double inner, outer;  /* distances, 0 <= inner <= outer <= distance limit of the marking. Default 0 */
   int64_t n_nodes;      /* the number of nodes of the marking, which must have RIIS_FIELD_SIDE and RIIS_FIELD_RIM */
-  const double *value;  /* (n_nodes), such as the pressure; NULL only for 0 nodes, as weight */
-  const double *weight; /* (n_nodes), the volume that a node stands for, 0 for the nodes of other ranks */
+  const double *value;  /* (n_nodes), such as the pressure; NULL only for 0 nodes */
+  const double *weight; /* (n_nodes), volume around a node, 0 for nodes of other ranks; NULL only for 0 nodes */
 } riis_band;
 RIIS_API riis_status riis_band_init(riis_band *band, int64_t struct_size); /* the defaults */
 /* Gives the sums of the value over the nodes in the band, by side. Nodes whose closest point is on the rim are
@@ -1001,13 +1001,13 @@ typedef struct riis_passage_ends {
   int64_t n_from;      /* at least 1 */
   const int64_t *from; /* (n_from), node ids in any order: where paths begin */
   int64_t n_to;        /* at least 1 */
-  const int64_t *to;   /* (n_to), node ids in any order: where paths end. A node in both sets is a path */
+  const int64_t *to;   /* (n_to), node ids in any order: where paths end. A node in both sets is a path by itself */
 } riis_passage_ends;
 RIIS_API riis_status riis_passage_ends_init(riis_passage_ends *ends, int64_t struct_size); /* the defaults */
 /* Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed.
  *   mesh     with an adjacency; it need not have been marked
  *   options  only node_mask, n_threads and instructions are used. A node that node_mask leaves out is on no path
- * The ends belong to paths, so choose them farther from the surface than the passage is wide. A new half thickness
+ * Paths include their ends, so choose ends farther from the surface than the passage is wide. A new half thickness
  * moves a valve's triangles by up to tolerance * half_thickness: search again after riis_surface_update.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for a node of from or to that the mesh lacks,
  * that node_mask leaves out, or that is within the half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
