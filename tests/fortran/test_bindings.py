@@ -374,7 +374,8 @@ class Words(Planted):
         )
         self.refused("  rotation_angle  -", "  rotation_angle  (3)",
                      "TABLE: riis_surface_options: 'double rotation_angle' points to no")
-        self.refused("  user_data  -  the pointer", "  user_data  scalar  the pointer", "TABLE: riis_log_function: only a text is wanted")
+        self.refused("  user_data  -  the pointer", "  user_data  scalar  the pointer",
+                     "TABLE: riis_log_function: only a text is wanted")
         self.refused("riis_csr\n", "riis_parameter\n  unit  (3)\n\nriis_csr\n",
                      "riis_parameter: 'const char *unit' points to no array")
         self.refused("  degree       (n_curves)", "  degree       optional", "'const int32_t *degree': the shape of the array")
