@@ -846,6 +846,7 @@ typedef struct riis_flow_arrays {
 RIIS_API riis_status riis_flow_arrays_init(riis_flow_arrays *flow, int64_t struct_size); /* the defaults */
 /* Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force. Ranks sum
  * their forces by a reduction. u_surface is 0 if the marking lacked RIIS_FIELD_VELOCITY.
+ * A valve that moves needs a source in the pressure equation (docs/solvers.md, "The source in the band").
  *   force  (3), added to; its unit is that of weight K velocity, N in SI units
  * Errors: as riis_marks_add_resistance. */
 RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,

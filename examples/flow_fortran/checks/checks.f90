@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> Checks of the flow solver against what is known: checks NAME, or all of them without a name. The status is 1 if one fails.
+!> Checks of the flow solver against what is known: checks NAME, or all of them without a name, or all on
+!! coarse grids with the name short. The status is 1 if one fails.
 program checks
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use riis
@@ -26,10 +27,10 @@ program checks
     call check_u_surface()
   case ('equal')
     call check_equal_pressures([24, 32, 48])
+  case ('beside')
+    call check_beside([1, 2, 3, 4, 5, 6, 7, 8, 9])
   case ('plates')
     call check_plates()
-  case ('beside')
-    call check_beside([1, 2, 3, 4, 5, 6, 7, 8, 9, 10])
   case ('jet')
     call check_jet([24, 32, 40])
   case ('box')
@@ -38,14 +39,26 @@ program checks
     call study()
   case ('nan')
     call feed_nan()
-  case ('')
+  case ('short', '')
     call check_duct()
     call check_drop()
     call check_slow_drop()
     call check_balance()
     call check_u_surface()
+    call check_plates()
+    call check_box()
+    if (name == 'short') then                     ! coarse grids
+      call check_equal_pressures([24])
+      call check_beside([1, 5])
+      call check_jet([24])
+    else
+      call check_equal_pressures([24, 32, 48])
+      call check_beside([1, 2, 3, 4, 5, 6, 7, 8, 9])
+      call check_jet([24, 32, 40])
+    end if
   case default
-    print '(3a)', 'checks: "', trim(name), '" is none of duct, drop, slow, balance, moving, study, nan'
+    print '(3a)', 'checks: "', trim(name), '" is none of duct, drop, slow, balance, moving, plates, box, equal, beside, jet, ' // &
+      'short, study, nan'
     stop 2, quiet=.true.
   end select
   if (.not. all_right) stop 1, quiet=.true.
