@@ -151,8 +151,8 @@ contains
         v(face(1, f), face(2, f)) = this%predicted(f)
       end do
 
-      ! The pressure equation: div(1/(rho/dt + K) grad p) = div u* - S, times -h^2. At both ends p is given half a cell away, where
-      ! what comes in comes from rest, with less than the given pressure: it brings no more energy than that.
+      ! The pressure equation: div(1/(rho/dt + K) grad p) = div u* - S, times -h^2. At both ends p is given half a cell away,
+      ! where what comes in comes from rest, with less than the given pressure: it brings no more energy than that.
       p(this%inlet - s(3)) = at_inlet - rho / 2 * max(0._dp, v(this%inlet, 3))**2
       p(this%outlet) = p_out - rho / 2 * min(0._dp, v(this%outlet, 3))**2
       !$omp parallel do private(m)
@@ -160,7 +160,8 @@ contains
         m = this%cell(q)
         this%coefficient(0, q) = sum(A(m, :)) + A(m + s(1), 1) + A(m + s(2), 2) + A(m + s(3), 3)
         this%coefficient(1:3, q) = -A(m, :)
-        this%b(q) = -h * (v(m + s(1), 1) - v(m, 1) + v(m + s(2), 2) - v(m, 2) + v(m + s(3), 3) - v(m, 3) - h * this%S(m))
+        this%b(q) = -h * (v(m + s(1), 1) - v(m, 1) + v(m + s(2), 2) - v(m, 2) + v(m + s(3), 3) - v(m, 3) - &
+          h * this%S(m))
         if (m <= 3 * s(3)) then
           this%coefficient(0, q) = this%coefficient(0, q) + A(m, 3)
           this%coefficient(3, q) = 0

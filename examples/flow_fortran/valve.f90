@@ -43,7 +43,8 @@ contains
     call this%valve%set('opening', opening, status)
     if (status == RIIS_OK) call this%valve%copy(this%before, status)
     if (status == RIIS_OK) call this%surface%create(this%valve, half_thickness=this%eps, scale=0.01_dp, &
-      rotation_axis=this%turn_axis, rotation_angle=this%turn, translation=this%place, n_threads=1, status=status) ! so few triangles and nodes need no more threads
+      rotation_axis=this%turn_axis, rotation_angle=this%turn, translation=this%place, &
+      n_threads=1, status=status)                 ! so few triangles and nodes need no more threads
     if (status == RIIS_OK) call this%faces%create(fluid%xyz, status)
     if (status == RIIS_OK) call this%faces%prepare(n_threads=1, status=status)
     call check(status)

@@ -57,8 +57,8 @@ program checks
       call check_jet([24, 32, 40])
     end if
   case default
-    print '(3a)', 'checks: "', trim(name), '" is none of duct, drop, slow, balance, moving, plates, box, equal, beside, jet, ' // &
-      'short, study, nan'
+    print '(3a)', 'checks: "', trim(name), '" is none of duct, drop, slow, balance, moving, plates, box, equal, beside, ' // &
+      'jet, short, study, nan'
     stop 2, quiet=.true.
   end select
   if (.not. all_right) stop 1, quiet=.true.

@@ -218,8 +218,8 @@ contains
           force = valve%force(fluid)
           up(with, i) = max(up(with, i), force(3))
         end do
-        print '(i7, 2x, a, f14.4, f10.2, f10.2, f25.3, f7.2)', cells(i), words(with), time, most / mmHg, fastest, ratio(with, i), &
-          up(with, i)
+        print '(i7, 2x, a, f14.4, f10.2, f10.2, f25.3, f7.2)', cells(i), words(with), time, most / mmHg, fastest, &
+          ratio(with, i), up(with, i)
         call finish_root(fluid, valve)
       end do
     end do
@@ -240,8 +240,8 @@ contains
     integer :: i, step
     print '(a)', 'The trileaflet valve opens in a wide box and in its root, steps of 0.25 ms. Net is the largest sum of sources,'
     print '(a)', 'apart the largest difference of the force from that in the second row, of all steps and of the second half'
-    print '(a)', '  vessel, ends     source      net, ml/s  of, ml/s  divergence, 1/s  across, N  along, N  apart, N   late, N' // &
-      '  pressure, mmHg'
+    print '(a)', '  vessel, ends     source      net, ml/s  of, ml/s  divergence, 1/s  across, N  along, N' // &
+      '  apart, N   late, N  pressure, mmHg'
     do i = 1, 6
       fluid = flow()
       fluid%band_source = with(i) == 1

@@ -95,8 +95,8 @@ contains
     call fluid%start(n, h, [0._dp, 0._dp, 0._dp], anywhere)
   end subroutine make_duct
 
-  !> Puts a flat plate across a duct: riis gives K and K w. It goes through height z on the duct's axis, and moves up there with w.
-  !! It may have a slope along x; then it moves along its normal. Or it slides along x as well.
+  !> Puts a flat plate across a duct: riis gives K and K w. It goes through height z on the duct's axis, where it
+  !! moves up with w. It may have a slope along x; then it moves along its normal. Or it slides along x as well.
   subroutine put_plate(fluid, z, R, eps, w, slope, slide)
     type(flow), intent(inout) :: fluid
     real(dp), intent(in) :: z, R, eps, w
