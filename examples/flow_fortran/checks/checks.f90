@@ -34,7 +34,7 @@ program checks
   case ('jet')
     call check_jet([24, 32, 40])
   case ('box')
-    call check_box()
+    call check_box(1)
   case ('study')
     call study()
   case ('nan')
@@ -46,12 +46,13 @@ program checks
     call check_balance()
     call check_u_surface()
     call check_plates()
-    call check_box()
     if (name == 'short') then                     ! coarse grids
+      call check_box(5)
       call check_equal_pressures([24])
       call check_beside([1, 5])
       call check_jet([24])
     else
+      call check_box(1)
       call check_equal_pressures([24, 32, 48])
       call check_beside([1, 2, 3, 4, 5, 6, 7, 8, 9])
       call check_jet([24, 32, 40])

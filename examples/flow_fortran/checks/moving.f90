@@ -229,7 +229,8 @@ contains
 
   !> (j) Between closed ends all sources add up to 0. The trileaflet valve opens in the middle of a wide box, where walls at the
   !! ends hardly count, and in its closed root from an opening of 0.5.
-  subroutine check_box()
+  subroutine check_box(first)
+    integer, intent(in) :: first                  ! the row to begin with: 5 is the root alone
     character(len=17), parameter :: names(6) = [character(len=17) :: 'box, open, net', 'box, open', 'box, closed', &
       'box, closed', 'root, closed', 'root, closed']
     integer, parameter :: with(6) = [1, 1, 1, 0, 1, 0]
@@ -242,7 +243,7 @@ contains
     print '(a)', 'apart the largest difference of the force from that in the second row, of all steps and of the second half'
     print '(a)', '  vessel, ends     source      net, ml/s  of, ml/s  divergence, 1/s  across, N  along, N' // &
       '  apart, N   late, N  pressure, mmHg'
-    do i = 1, 6
+    do i = first, 6
       fluid = flow()
       fluid%band_source = with(i) == 1
       fluid%net_source = i == 1
@@ -270,11 +271,14 @@ contains
           a%gross / ml, a%divergence, a%across, a%along, apart(i), apart_late(i), a%p_least / mmHg, ' to', a%p_most / mmHg
       end associate
     end do
-    call demand(all(seen([2, 3, 5])%net < 1e-12_dp * seen([2, 3, 5])%gross) .and. all(seen%divergence < 1e-4_dp), &
+    call demand(all(seen([2, 3, 5])%net <= 1e-12_dp * seen([2, 3, 5])%gross) .and. seen(5)%gross > 0 .and. &
+      all(seen%divergence < 1e-4_dp), &
       'without a net source the sources add up to 0, and the pressure equation is solved')
-    call demand(seen(3)%steps == 160 .and. apart(3) < 0.1_dp .and. apart_late(3) < 0.03_dp, &
+    if (first == 1) call demand(seen(3)%steps == 160 .and. apart(3) < 0.1_dp .and. apart_late(3) < 0.03_dp, &
       'walls at the ends of the box change the force by less than 0.1 N, and by 0.03 N in the second half')
-    call demand(seen(5)%along < 0.3_dp .and. seen(6)%along > 1 .and. seen(4)%p_least < 10 * seen(3)%p_least, &
-      'in the closed root the force is below 0.3 N; without the source it is above 1 N, and pressures are ten times as large')
+    call demand(seen(5)%along < 0.3_dp .and. seen(6)%along > 1, &
+      'in the closed root the force is below 0.3 N; without the source it is above 1 N')
+    if (first == 1) call demand(seen(4)%p_least < 10 * seen(3)%p_least, &
+      'in the box pressures are ten times as large without it')
   end subroutine check_box
 end module check_moving
