@@ -87,8 +87,8 @@ class Rank {
     marking_.fields = RIIS_FIELD_VELOCITY;
     check(riis_resistance_init(&resistance_, sizeof resistance_));
     resistance_.R = 1;
-    coefficient_.resize(ids_.size());
-    momentum_.resize(3 * ids_.size());
+    K_.resize(ids_.size());
+    K_u_surface_.resize(3 * ids_.size());
   }
 
   // Runs time steps, and keeps the median time of each of their parts.
@@ -100,8 +100,7 @@ class Rank {
       check(riis_surface_update_moving(surface_.get(), valve_.get(), before_.get(), 1e-3, nullptr, nullptr));
       const auto updated = std::chrono::steady_clock::now();
       check(riis_mark_nodes(surface_.get(), mesh_.get(), &marking_, result_.get()));
-      const auto n = static_cast<std::int64_t>(ids_.size());
-      check(riis_marks_add_resistance(result_.get(), &resistance_, n, coefficient_.data(), momentum_.data()));
+      add_resistance(result_.get(), resistance_, K_, K_u_surface_.data());
       updates.push_back(milliseconds_of(updated - start));
       markings.push_back(milliseconds_of(std::chrono::steady_clock::now() - updated));
     }
@@ -111,13 +110,9 @@ class Rank {
 
   // Appends the marked nodes of the last step, with their numbers in the whole mesh.
   void append_marks(NodeDistances &marks) const {
-    std::int64_t n = 0;
-    const std::int64_t *node_id = nullptr;
-    const double *distance = nullptr;
-    n = marked_list(result_.get()).n_nodes;
-    node_id = marked_list(result_.get()).node_id;
-    distance = marked_list(result_.get()).distance;
-    for (std::int64_t i = 0; i < n; ++i) marks.emplace_back(ids_[static_cast<std::size_t>(node_id[i])], distance[i]);
+    const riis_mark_list marked = marked_in(result_.get());
+    for (std::int64_t i = 0; i < marked.n_nodes; ++i)
+      marks.emplace_back(ids_[static_cast<std::size_t>(marked.node_id[i])], marked.distance[i]);
   }
   std::int64_t n_marked() const { return stats_of(result_.get()).n_marked; }
 
@@ -138,7 +133,7 @@ class Rank {
   Result result_ = make_result();
   riis_mark_options marking_;
   riis_resistance resistance_;
-  std::vector<double> coefficient_, momentum_;
+  std::vector<double> K_, K_u_surface_;
   int step_ = 0;
   double opening_ = 0;
 };

@@ -46,11 +46,11 @@ contains
     p_aorta = this%p + Z_aorta * flow
   end function p_aorta
 
-  !> Advances both volumes by dt.
-  pure subroutine advance(this, time, dt, flow_in, flow_out)
+  !> Advances both volumes by dt. The flow leaves the ventricle and enters the arteries.
+  pure subroutine advance(this, time, dt, flow)
     class(circulation), intent(inout) :: this
-    real(dp), intent(in) :: time, dt, flow_in, flow_out
-    this%V = this%V + dt * (max(0._dp, p_atrium - this%p_ventricle(time)) / R_mitral - flow_in)
-    this%p = this%p + dt * (flow_out - this%p / R_arteries) / C_arteries
+    real(dp), intent(in) :: time, dt, flow
+    this%V = this%V + dt * (max(0._dp, p_atrium - this%p_ventricle(time)) / R_mitral - flow)
+    this%p = this%p + dt * (flow - this%p / R_arteries) / C_arteries
   end subroutine advance
 end module flow_circulation

@@ -26,7 +26,8 @@ contains
     if (stat /= 0) call refuse(trim(message))
     inquire (unit=unit, size=stat)
     if (stat == 0) write (unit, '(a)') 'step,time_s,dt_s,opening,p_ventricle_Pa,p_upstream_Pa,p_downstream_Pa,' // &
-      'flow_m3_per_s,jet_m_per_s,force_x_N,force_y_N,force_z_N,divergence_per_s,in_less_out_m3_per_s,iterations,marked'
+      'flow_m3_per_s,jet_m_per_s,force_x_N,force_y_N,force_z_N,divergence_per_s,unbalanced_m3_per_s,source_m3_per_s,' // &
+      'iterations,marked'
   end subroutine open_table
 
   !> Writes a frame of the movie: velocity and pressure in the cells beside x = 0, velocity in the layer at z = height, and the
@@ -42,7 +43,7 @@ contains
     integer :: unit, layer
     open (newunit=unit, file=name, access='stream', form='unformatted', status='replace', action='write')
     layer = product(fluid%n(1:2)) * floor((height - fluid%corner(3)) / fluid%h)
-    write (unit) int(fluid%n, int32), real([fluid%h, fluid%corner, height, step_time, valve%opening, valve%eps], real32)
+    write (unit) int(fluid%n, int32), real([fluid%h, fluid%corner, height, step_time, valve%opening], real32)
     call write_slice(unit, fluid, fluid%cell(fluid%n(1) / 2 + 1::fluid%n(1)), .true.)
     call write_slice(unit, fluid, fluid%cell(layer + 1:layer + product(fluid%n(1:2))), .false.)
     call valve%surface%get_triangles(all_triangles)

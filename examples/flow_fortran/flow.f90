@@ -24,15 +24,16 @@ program flow_through_valve
   ! The options.
   integer :: cells = 40, steps = huge(0), frames = 100, save(2) = 0
   real(dp) :: end_time = period, longest_step = 1e-3_dp, eps_in_cells = 1.5_dp, resistance = 1e4_dp, place(3) = 0
-  logical :: surface_velocity = .true.
+  logical :: surface_velocity = .true., band_source = .true.
   character(len=32) :: kind = 'trileaflet'
   character(len=300) :: out = 'out/flow', restart = ''
   namelist /options/ cells, steps, frames, save, end_time, longest_step, eps_in_cells, resistance, place, surface_velocity, &
-    kind, out, restart
+    band_source, kind, out, restart
 
   begin = clocks()
   call read_options()
   fluid%tolerance = 1e-6_dp
+  fluid%band_source = band_source
   call fluid%start([cells, cells, nint(cells * length / width)], width / cells, [-width / 2, -width / 2, bottom], in_root)
   valve%kind = kind
   valve%R = resistance
@@ -59,7 +60,7 @@ program flow_through_valve
     call check(status)
     call valve%move(state%opening, dt, fluid)
     call fluid%step(dt, heart%p_ventricle(step_time), heart%p_aorta(flow_rate))
-    call heart%advance(step_time, dt, fluid%flow_in(), fluid%flow_out())
+    call heart%advance(step_time, dt, fluid%flow_through())
     call look()
     call tell()
   end do
@@ -77,7 +78,7 @@ contains
 
   ! What the law and the reader want to know.
   subroutine look()
-    flow_rate = fluid%flow_out()
+    flow_rate = fluid%flow_through()
     p_up = fluid%mean_pressure(z_up)
     p_down = fluid%mean_pressure(z_down)
     jet = maxval(fluid%v(fluid%cell, 3))
@@ -85,8 +86,9 @@ contains
   end subroutine look
 
   subroutine tell()
-    write (table, '(i0, 13(",", es24.16), 2(",", i0))') step_number, step_time, dt, valve%opening, &
-      heart%p_ventricle(step_time), p_up, p_down, flow_rate, jet, force, fluid%divergence(), fluid%flow_in() - flow_rate, &
+    write (table, '(i0, 14(",", es24.16), 2(",", i0))') step_number, step_time, dt, valve%opening, &
+      heart%p_ventricle(step_time), p_up, p_down, flow_rate, jet, force, &
+      fluid%divergence(), fluid%flow_in() + fluid%net_source_rate() - fluid%flow_out(), fluid%net_source_rate(), &
       fluid%equation%iterations, size(valve%marked)
     if (mod(step_number, 20) == 0) then
       print '(i6, f9.4, f9.3, f18.1, f10.1, f12.1, 2f10.2)', step_number, step_time, valve%opening, p_up / mmHg, p_down / mmHg, &

@@ -16,7 +16,6 @@ import numpy as np
 MMHG = 133.322
 LEAFLET = "#d62728"
 WALL = "#b9aaa2"
-BAND = "#ffffff"
 UPSTREAM = "#a6361c"
 DOWNSTREAM = "#1f4e9e"
 FRAME_RATE = 12
@@ -51,16 +50,6 @@ def cut(triangles, axis, position):
     return (start + share[:, None] * (end - start)).reshape(-1, 2, 3)
 
 
-def distance_to(segments, x, y):
-    """Returns the distances of points (x, y) to the closest of segments (n, 2, 2); infinity if there is none."""
-    nearest = np.full(np.broadcast(x, y).shape, np.inf)
-    for (ax, ay), (bx, by) in segments:
-        dx, dy = bx - ax, by - ay
-        share = np.clip(((x - ax) * dx + (y - ay) * dy) / max(dx * dx + dy * dy, 1e-300), 0, 1)
-        nearest = np.minimum(nearest, np.hypot(x - ax - share * dx, y - ay - share * dy))
-    return nearest
-
-
 class Frame:
     """Two slices of the flow, with the cut of the leaflets."""
 
@@ -69,7 +58,7 @@ class Frame:
             data = file.read()
         self.path, self.data, self.offset = path, data, 0
         nx, ny, nz = self.take("<i4", 3)
-        h, x, y, z, self.height, self.time, self.opening, self.half_thickness = self.take("<f4", 8).astype(float)
+        h, x, y, z, self.height, self.time, self.opening = self.take("<f4", 7).astype(float)
         self.long_axis = self.take("<f4", 3 * ny * nz).reshape(3, nz, ny)
         self.pressure = self.take("<f4", ny * nz).reshape(nz, ny) / MMHG
         self.section = self.take("<f4", 3 * nx * ny).reshape(3, ny, nx)
@@ -82,8 +71,6 @@ class Frame:
         self.x = to_cm * (x + h * np.arange(nx + 1))
         self.y = to_cm * (y + h * np.arange(ny + 1))
         self.z = to_cm * (z + h * np.arange(nz + 1))
-        middle_y, middle_z = y + h * (np.arange(ny) + 0.5), z + h * (np.arange(nz) + 0.5)
-        self.band = distance_to(self.long_cut[:, :, 1:], middle_y[None, :], middle_z[:, None]) < self.half_thickness
 
     def take(self, kind, count):
         size = np.dtype(kind).itemsize * int(count)
@@ -154,7 +141,7 @@ class Movie:
         self.speed = self.draw_long(self.figure.add_subplot(grid[:, 0]), first, "speed and direction of the blood",
                                     self.speed_of(first.long_axis), "viridis", fastest, "m/s")
         self.pressure = self.draw_long(self.figure.add_subplot(grid[:, 1]), first, "pressure of the blood",
-                                       self.pressure_of(first), "coolwarm", highest, "mmHg")
+                                       np.ma.masked_invalid(first.pressure), "coolwarm", highest, "mmHg")
         self.speed.axes.set_ylabel("height, cm: the ventricle is below, the aorta above")
         across = self.figure.add_subplot(grid[0, 2])
         self.across = self.shade(across, first.x, first.y, self.speed_of(first.section), "viridis", fastest)
@@ -173,8 +160,6 @@ class Movie:
         axes[0].plot([], [], color=LEAFLET, lw=2.5, label="leaflets of the valve")
         axes[0].plot([], [], color=WALL, lw=8, label="wall of the vessel")
         axes[0].legend(loc="upper center", framealpha=1, fontsize=9, ncols=2, columnspacing=1)
-        axes[1].plot([], [], color=BAND, lw=8, label="resists the flow")
-        axes[1].legend(loc="upper center", fontsize=9, facecolor="0.8", framealpha=1)
         charts = [self.figure.add_subplot(grid[row, 2]) for row in (1, 2)]
         draw_pressures(charts[0], table)
         charts[0].legend(loc="upper right", fontsize=7, framealpha=1)
@@ -192,7 +177,6 @@ class Movie:
     def shade(axes, x, y, values, colours, highest):
         colours = plt.get_cmap(colours).copy()
         colours.set_bad(WALL)
-        colours.set_under(BAND)
         axes.set_aspect("equal")
         return axes.pcolormesh(x, y, values, cmap=colours, vmin=0, vmax=highest, shading="flat", rasterized=True)
 
@@ -208,18 +192,13 @@ class Movie:
     def speed_of(velocity):
         return np.ma.masked_invalid(np.sqrt((velocity.astype(float) ** 2).sum(axis=0)))
 
-    @staticmethod
-    def pressure_of(frame):
-        """The pressure where it is one: inside the band of a moving leaflet it also holds the leaflet's own velocity up."""
-        return np.ma.masked_invalid(np.where(frame.band & ~np.isnan(frame.pressure), -1, frame.pressure))
-
     def arrows_of(self, frame):
         along = frame.long_axis[1:, ::self.every, ::self.every].astype(float)
         return np.ma.masked_where(np.broadcast_to(~(np.hypot(*along) > 0.05), along.shape), along)
 
     def draw(self, frame):
         self.speed.set_array(self.speed_of(frame.long_axis).ravel())
-        self.pressure.set_array(self.pressure_of(frame).ravel())
+        self.pressure.set_array(np.ma.masked_invalid(frame.pressure).ravel())
         self.across.set_array(self.speed_of(frame.section).ravel())
         self.arrows.set_UVC(*self.arrows_of(frame))
         for lines, cut in zip(self.leaflets, (frame.long_cut[:, :, 1:], frame.long_cut[:, :, 1:], frame.section_cut[:, :, :2])):

@@ -8,6 +8,7 @@
 module flow_solver
   use, intrinsic :: iso_fortran_env, only: dp => real64
   use flow_pressure, only: pressure_equation
+  use flow_source, only: find_source
   use flow_stop, only: refuse
   implicit none
   private
@@ -17,7 +18,10 @@ module flow_solver
     real(dp) :: rho = 1060, mu = 3.5e-3_dp        ! [kg/m^3], [Pa s] of blood
     real(dp) :: tolerance = 1e-8_dp               ! of the pressure equation, relative to its right-hand side
     logical :: imposed_inlet = .false.            ! the inlet has a given velocity; otherwise, a given pressure
-    logical :: K_in_pressure = .true.             ! .false. shows what goes wrong without (checks.f90)
+    logical :: K_in_pressure = .true.             ! .false. shows what goes wrong without (checks)
+    logical :: band_source = .true.               ! the source where the valve moves; .false. shows what goes wrong without
+    logical :: net_source = .true.                ! .false.: all sources add up to 0, as they must between closed ends
+    logical :: closed_ends = .false.              ! the vessel is a closed box: walls at both ends
     integer :: n(3) = 0, stride(3) = 0            ! cells of the box
     real(dp) :: h = 0, corner(3) = 0              ! [m] side of a cell, lower corner of the box
     integer, allocatable :: cell(:)               ! the cells of the box, x fastest
@@ -28,10 +32,12 @@ module flow_solver
     real(dp), allocatable :: K(:), K_u(:, :)      ! (n_faces), (3, n_faces): K and K u_surface, from riis
     real(dp), allocatable :: v(:, :), p(:)        ! [m/s] (:, 3), [Pa]
     real(dp), allocatable :: b(:)                 ! right-hand side of the pressure equation
+    real(dp), allocatable :: S(:)                 ! [1/s] the source in cells within the band of a valve that moves
+    integer, allocatable, private :: fluid_cell(:), end_cell(:) ! numbers of the cells in the lumen; those at both ends
     real(dp), allocatable, private :: A(:, :), p_before(:), coefficient(:, :), x(:), predicted(:)
     type(pressure_equation) :: equation
   contains
-    procedure :: start, step, time_step, divergence, flow_in, flow_out, mean_pressure, centre
+    procedure :: start, step, time_step, divergence, flow_in, flow_out, flow_through, net_source_rate, mean_pressure, centre
   end type flow
 
   abstract interface
@@ -58,18 +64,20 @@ contains
     this%h = h
     this%corner = corner
     this%stride = s
-    allocate (this%cell(product(n)), this%solid(all), this%closed(all, 3), this%v(all, 3), this%p(all), this%A(all, 3))
+    allocate (this%cell(product(n)), this%solid(all), this%closed(all, 3), this%v(all, 3), this%p(all), this%A(all, 3), &
+      this%S(all))
     allocate (this%coefficient(0:3, product(n)), this%b(product(n)), this%x(product(n)))
     this%solid = .true.
     this%closed = .true.
     this%v = 0
     this%p = 0
     this%A = 0
+    this%S = 0
     this%cell = [(((1 + dot_product([i, j, k] + 1, s), i = 1, n(1)), j = 1, n(2)), k = 1, n(3))]
     do q = 1, size(this%cell)
       this%solid(this%cell(q)) = .not. lumen(this%centre(this%cell(q)))
     end do
-    do k = 1, 2                                   ! beyond its ends the lumen goes on
+    do k = 1, merge(0, 2, this%closed_ends)       ! beyond open ends the lumen goes on
       this%solid(this%cell(:area) - k * s(3)) = this%solid(this%cell(:area))
       this%solid(this%cell(product(n) - area + 1:) + k * s(3)) = this%solid(this%cell(product(n) - area + 1:))
     end do
@@ -77,7 +85,10 @@ contains
       this%closed(1 + s(c):, c) = this%solid(1 + s(c):) .or. this%solid(:all - s(c))
     end do
     this%inlet = pack(this%cell(:area), .not. this%closed(this%cell(:area), 3))
-    this%outlet = pack(this%cell(product(n) - area + 1:), .not. this%solid(this%cell(product(n) - area + 1:))) + s(3)
+    this%outlet = pack(this%cell(product(n) - area + 1:) + s(3), .not. this%closed(this%cell(product(n) - area + 1:) + s(3), 3))
+    this%fluid_cell = pack(this%cell, .not. this%solid(this%cell))
+    this%end_cell = pack(this%fluid_cell, this%fluid_cell <= this%cell(area) .or. &
+      this%fluid_cell >= this%cell(product(n) - area + 1))
     f = count(.not. this%closed(this%cell, :)) + size(this%outlet) - merge(size(this%inlet), 0, this%imposed_inlet)
     allocate (this%face(2, f), this%xyz(3, f), this%K(f), this%K_u(3, f), this%predicted(f))
     f = 0
@@ -119,6 +130,7 @@ contains
     associate (v => this%v, p => this%p, A => this%A, s => this%stride, h => this%h, rho => this%rho, face => this%face)
       if (this%imposed_inlet) v(this%inlet, 3) = at_inlet
       call fill_ends(this)
+      call set_source(this, dt)
       if (.not. this%K_in_pressure) this%p_before = p
 
       ! The predictor: (rho/dt + K) u* = rho/dt u - rho div(u u) + mu laplace(u) + K u_surface.
@@ -139,8 +151,8 @@ contains
         v(face(1, f), face(2, f)) = this%predicted(f)
       end do
 
-      ! The pressure equation: div(1/(rho/dt + K) grad p) = div u*, times -h^2. At both ends p is given half a cell away, where
-      ! what comes in comes from rest, with less than the given pressure: it brings no more energy than that.
+      ! The pressure equation: div(1/(rho/dt + K) grad p) = div u* - S, times -h^2. At both ends p is given half a cell away,
+      ! where what comes in comes from rest, with less than the given pressure: it brings no more energy than that.
       p(this%inlet - s(3)) = at_inlet - rho / 2 * max(0._dp, v(this%inlet, 3))**2
       p(this%outlet) = p_out - rho / 2 * min(0._dp, v(this%outlet, 3))**2
       !$omp parallel do private(m)
@@ -148,7 +160,8 @@ contains
         m = this%cell(q)
         this%coefficient(0, q) = sum(A(m, :)) + A(m + s(1), 1) + A(m + s(2), 2) + A(m + s(3), 3)
         this%coefficient(1:3, q) = -A(m, :)
-        this%b(q) = -h * (v(m + s(1), 1) - v(m, 1) + v(m + s(2), 2) - v(m, 2) + v(m + s(3), 3) - v(m, 3))
+        this%b(q) = -h * (v(m + s(1), 1) - v(m, 1) + v(m + s(2), 2) - v(m, 2) + v(m + s(3), 3) - v(m, 3) - &
+          h * this%S(m))
         if (m <= 3 * s(3)) then
           this%coefficient(0, q) = this%coefficient(0, q) + A(m, 3)
           this%coefficient(3, q) = 0
@@ -158,6 +171,8 @@ contains
           this%b(q) = this%b(q) + 2 * A(m + s(3), 3) * p(m + s(3))
         end if
         if (this%coefficient(0, q) <= 0) this%coefficient(0, q) = dt / rho ! a cell in the wall
+        ! Between closed ends the pressure is known up to a constant: one cell at an end is tied to 0.
+        if (this%closed_ends .and. m == this%end_cell(1)) this%coefficient(0, q) = this%coefficient(0, q) + dt / rho
         this%x(q) = merge(p(m), 0._dp, this%K_in_pressure)
       end do
       call this%equation%solve(this%coefficient, this%b, this%x, this%tolerance, failed)
@@ -176,6 +191,23 @@ contains
       if (.not. this%K_in_pressure) p = p + this%p_before
     end associate
   end subroutine step
+
+  ! Gives S for a step of dt. The band holds a face where K counts for more than inertia. Nothing moves without K u_surface.
+  subroutine set_source(this, dt)
+    class(flow), intent(inout) :: this
+    real(dp), intent(in) :: dt
+    logical, allocatable :: held(:)
+    real(dp), allocatable :: u(:)
+    integer :: f
+    if (.not. this%band_source .or. .not. any(abs(this%K_u) > 0)) then
+      this%S = 0
+      return
+    end if
+    held = this%K * dt > this%rho
+    u = [(this%K_u(this%face(2, f), f) / merge(this%K(f), 1._dp, held(f)), f = 1, size(held))]
+    call find_source(this%fluid_cell, this%end_cell, this%stride, this%h, this%closed, this%face, held, u, &
+      this%closed_ends .or. .not. this%net_source, this%S)
+  end subroutine set_source
 
   ! The flux of momentum c through the face between m and its next in direction d: carried by the flow, less viscous. The
   ! carried value is second order where the velocity is smooth, and between its neighbours anywhere (van Leer's limiter).
@@ -241,11 +273,12 @@ contains
     time_step = min(longest, this%h**2 * this%rho / (8 * this%mu), 0.5_dp * this%h / max(speed, tiny(speed)))
   end function time_step
 
-  !> Returns the largest divergence of a cell [1/s].
+  !> Returns the largest divergence of a cell [1/s], less its source.
   real(dp) function divergence(this)
     class(flow), intent(in) :: this
     associate (m => this%cell, s => this%stride, v => this%v)
-      divergence = maxval(abs(v(m + s(1), 1) - v(m, 1) + v(m + s(2), 2) - v(m, 2) + v(m + s(3), 3) - v(m, 3))) / this%h
+      divergence = maxval(abs(v(m + s(1), 1) - v(m, 1) + v(m + s(2), 2) - v(m, 2) + v(m + s(3), 3) - v(m, 3) - &
+        this%h * this%S(m))) / this%h
     end associate
   end function divergence
 
@@ -260,6 +293,19 @@ contains
     class(flow), intent(in) :: this
     flow_out = this%h**2 * sum(this%v(this%outlet, 3))
   end function flow_out
+
+  !> Returns the flow that passes the valve [m^3/s]: the mean of both ends. Between them the band of a valve that moves takes up
+  !! or gives off the net source.
+  real(dp) function flow_through(this)
+    class(flow), intent(in) :: this
+    flow_through = (this%flow_in() + this%flow_out()) / 2
+  end function flow_through
+
+  !> Returns what all sources give [m^3/s].
+  real(dp) function net_source_rate(this)
+    class(flow), intent(in) :: this
+    net_source_rate = this%h**3 * sum(this%S(this%cell))
+  end function net_source_rate
 
   !> Returns the mean pressure over the lumen at the layer of cells with height z [Pa].
   real(dp) function mean_pressure(this, z)

@@ -13,7 +13,8 @@ module flow_valve
     real(dp) :: R = 1e4_dp                        ! [kg/(m s)] resistance
     real(dp) :: eps = 0                           ! [m] half thickness
     real(dp) :: place(3) = 0                      ! [m] where the valve's origin is
-    logical :: moves_flow = .true.                ! .false. leaves K u_surface out (checks.f90)
+    real(dp) :: turn_axis(3) = [0, 0, 1], turn = 0 ! [degrees] by which the valve is turned about an axis through its origin
+    logical :: moves_flow = .true.                ! .false. leaves K u_surface out (checks)
     real(dp) :: opening = 0
     real(dp) :: seconds(2) = 0                    ! spent in the library, by the clock and of processors
     integer :: markings = 0
@@ -42,7 +43,8 @@ contains
     call this%valve%set('opening', opening, status)
     if (status == RIIS_OK) call this%valve%copy(this%before, status)
     if (status == RIIS_OK) call this%surface%create(this%valve, half_thickness=this%eps, scale=0.01_dp, &
-      translation=this%place, n_threads=1, status=status) ! so few triangles and nodes need no more threads
+      rotation_axis=this%turn_axis, rotation_angle=this%turn, translation=this%place, &
+      n_threads=1, status=status)                 ! so few triangles and nodes need no more threads
     if (status == RIIS_OK) call this%faces%create(fluid%xyz, status)
     if (status == RIIS_OK) call this%faces%prepare(n_threads=1, status=status)
     call check(status)

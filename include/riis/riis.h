@@ -890,7 +890,8 @@ RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_
 /* Adds the force of the flow on the surface, and its moment, for the whole surface, each leaflet and each edge.
  * All are plain sums over nodes: ranks give the same points and edges, and add their sums by a reduction. The
  * leaflets' sums add up to those of the whole, to the last digits. u_surface is 0 if the marking lacked
- * RIIS_FIELD_VELOCITY.
+ * RIIS_FIELD_VELOCITY. A valve that moves needs a source in the pressure equation (docs/solvers.md, "The source in
+ * the band").
  *   reaction  moments and sums of edges need RIIS_FIELD_POINT
  * Edges get shares for tissue codes that know a load by edge. The shares are no mechanics of a membrane: the
  * tissue carries loads to other places. Their search takes log n_edges for a node where the edges lie apart, and

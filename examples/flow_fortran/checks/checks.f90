@@ -1,15 +1,16 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> Checks of the flow solver against what is known: checks NAME, or all of them without a name. The status is 1 if one fails.
+!> Checks of the flow solver against what is known: checks NAME, or all of them without a name, or all on
+!! coarse grids with the name short. The status is 1 if one fails.
 program checks
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use riis
   use flow_solver, only: dp, flow
   use flow_valve, only: leaflets, check
-  use flow_root, only: in_root
+  use check_tools
+  use check_moving, only: check_equal_pressures, check_beside, check_plates, check_jet, check_box
   use flow_stop, only: step_number, step_time
   implicit none
   real(dp), parameter :: pi = acos(-1._dp)
-  logical :: all_right = .true.
   character(len=20) :: name
 
   call get_command_argument(1, name)
@@ -23,73 +24,47 @@ program checks
   case ('balance')
     call check_balance()
   case ('moving')
-    call check_moving()
+    call check_u_surface()
+  case ('equal')
+    call check_equal_pressures([24, 32, 48])
+  case ('beside')
+    call check_beside([1, 2, 3, 4, 5, 6, 7, 8, 9])
+  case ('plates')
+    call check_plates()
+  case ('jet')
+    call check_jet([24, 32, 40])
+  case ('box')
+    call check_box(1)
   case ('study')
     call study()
   case ('nan')
     call feed_nan()
-  case ('')
+  case ('short', '')
     call check_duct()
     call check_drop()
     call check_slow_drop()
     call check_balance()
-    call check_moving()
+    call check_u_surface()
+    call check_plates()
+    if (name == 'short') then                     ! coarse grids
+      call check_box(5)
+      call check_equal_pressures([24])
+      call check_beside([1, 5])
+      call check_jet([24])
+    else
+      call check_box(1)
+      call check_equal_pressures([24, 32, 48])
+      call check_beside([1, 2, 3, 4, 5, 6, 7, 8, 9])
+      call check_jet([24, 32, 40])
+    end if
   case default
-    print '(3a)', 'checks: "', trim(name), '" is none of duct, drop, slow, balance, moving, study, nan'
+    print '(3a)', 'checks: "', trim(name), '" is none of duct, drop, slow, balance, moving, plates, box, equal, beside, ' // &
+      'jet, short, study, nan'
     stop 2, quiet=.true.
   end select
   if (.not. all_right) stop 1, quiet=.true.
 
 contains
-
-  ! Prints whether a condition holds, and remembers it.
-  subroutine demand(condition, text)
-    logical, intent(in) :: condition
-    character(len=*), intent(in) :: text
-    all_right = all_right .and. condition
-    print '(4a)', '  ', merge('holds: ', 'FAILS: ', condition), text
-    print '(a)', ''
-  end subroutine demand
-
-  pure logical function anywhere(x)
-    real(dp), intent(in) :: x(3)
-    anywhere = all(x > -huge(x))
-  end function anywhere
-
-  ! Begins with a duct of n cells of side h, its lower corner at 0.
-  subroutine make_duct(fluid, n, h, imposed)
-    type(flow), intent(inout) :: fluid
-    integer, intent(in) :: n(3)
-    real(dp), intent(in) :: h
-    logical, intent(in) :: imposed
-    fluid%imposed_inlet = imposed
-    call fluid%start(n, h, [0._dp, 0._dp, 0._dp], anywhere)
-  end subroutine make_duct
-
-  ! Puts a flat plate across a duct, at height z, that moves with w: riis gives K and K w.
-  subroutine put_plate(fluid, z, R, eps, w, moves_flow)
-    type(flow), intent(inout) :: fluid
-    real(dp), intent(in) :: z, R, eps, w
-    logical, intent(in) :: moves_flow
-    type(riis_surface) :: surface
-    type(riis_mesh) :: faces
-    type(riis_marks) :: marks
-    real(dp) :: corners(3, 4), velocity(3, 4), side
-    side = fluid%h * maxval(fluid%n)
-    corners = reshape([-side, -side, z, 2 * side, -side, z, 2 * side, 2 * side, z, -side, 2 * side, z], [3, 4])
-    velocity = 0
-    velocity(3, :) = w
-    call surface%create_from_arrays(corners, reshape([1, 2, 3, 4], [4, 1]), half_thickness=eps, velocity=velocity)
-    call faces%create(fluid%xyz)
-    call riis_mark_nodes(surface, faces, marks, fields=RIIS_FIELD_VELOCITY)
-    fluid%K = 0
-    fluid%K_u = 0
-    call marks%add_resistance(R, fluid%K, fluid%K_u)
-    if (.not. moves_flow) fluid%K_u = 0
-    call marks%destroy()
-    call faces%destroy()
-    call surface%destroy()
-  end subroutine put_plate
 
   ! The pressure drop over the middle of a duct.
   real(dp) function drop_of(fluid)
@@ -161,7 +136,7 @@ contains
         call fluid%step(dt, u, 0._dp)
       end do
       before = drop_of(fluid)
-      call put_plate(fluid, 12.3_dp * h, R, eps, 0._dp, .true.)
+      call put_plate(fluid, 12.3_dp * h, R, eps, 0._dp)
       call fluid%step(dt, u, 0._dp)
       drop = drop_of(fluid) - before
       worst = max(worst, abs(drop / (R / eps * u) - 1))
@@ -185,7 +160,7 @@ contains
     fluid%mu = 1e-9_dp                            ! so that the flow stays even, as the formula has it
     call make_duct(fluid, [4, 4, 16], h, .true.)
     fluid%v(fluid%face(1, :), 3) = merge(u, 0._dp, fluid%face(2, :) == 3)
-    call put_plate(fluid, 8.3_dp * h, R, eps, 0._dp, .true.)
+    call put_plate(fluid, 8.3_dp * h, R, eps, 0._dp)
     worst = 0
     do i = 1, maxval(seen)
       call fluid%step(dt, u, 0._dp)
@@ -231,7 +206,7 @@ contains
   end subroutine check_balance
 
   ! (d) With and without u_surface: a plate that moves through a duct takes the fluid along, as a piston does.
-  subroutine check_moving()
+  subroutine check_u_surface()
     real(dp), parameter :: h = 1e-3_dp, R = 1e4_dp, eps = 1.5_dp * h, w = 0.1_dp, dt = 1e-3_dp
     type(flow), target :: fluid
     type(leaflets) :: valve
@@ -244,7 +219,8 @@ contains
       fluid = flow()
       call make_duct(fluid, [8, 8, 32], h, .false.)
       do i = 1, 100
-        call put_plate(fluid, 0.01_dp + i * dt * w, R, eps, w, with == 1)
+        call put_plate(fluid, 0.01_dp + i * dt * w, R, eps, w)
+          if (with == 2) fluid%K_u = 0
         call fluid%step(dt, 0._dp, 0._dp)
       end do
       u(with) = fluid%flow_out() / (64 * h**2)
@@ -269,35 +245,7 @@ contains
     end do
     call demand(abs(u(1) / w - 1) < 0.01_dp .and. abs(u(2)) < 0.01_dp * w .and. displaced(1) > 10 * abs(displaced(2)), &
       'with it the fluid moves with the plate, without it the fluid rests; leaflets push the fluid only with it')
-  end subroutine check_moving
-
-  pure real(dp) function ramp(x)
-    real(dp), intent(in) :: x
-    ramp = max(0._dp, x)**3 * (10 + x * (6 * x - 15))
-  end function ramp
-
-  ! Begins with the aortic valve in its root, `cells` across, with a half thickness of `cells_of_eps` cells.
-  subroutine start_root(fluid, valve, cells, cells_of_eps, R, opening)
-    type(flow), intent(inout), target :: fluid
-    type(leaflets), intent(inout) :: valve
-    integer, intent(in) :: cells
-    real(dp), intent(in) :: cells_of_eps, R, opening
-    integer(riis_status) :: status
-    call fluid%start([cells, cells, 6 * cells / 5], 0.033_dp / cells, [-0.0165_dp, -0.0165_dp, -0.018_dp], in_root)
-    valve%eps = cells_of_eps * fluid%h
-    valve%R = R
-    call valve%valve%create(valve%kind, status)
-    call check(status)
-    call valve%start(fluid, opening)
-  end subroutine start_root
-
-  subroutine finish_root(fluid, valve)
-    type(flow), intent(inout) :: fluid
-    type(leaflets), intent(inout) :: valve
-    call fluid%equation%finish()
-    call valve%finish()
-    deallocate (valve%marked)
-  end subroutine finish_root
+  end subroutine check_u_surface
 
   ! (f) What R and eps do: the drop of a plate anywhere between faces, and the leak of the closed aortic valve.
   subroutine study()
@@ -318,7 +266,7 @@ contains
         fluid = flow()
         call make_duct(fluid, [4, 4, 24], h, .true.)
         fluid%v(fluid%face(1, :), 3) = merge(u, 0._dp, fluid%face(2, :) == 3)
-        call put_plate(fluid, (12 + j / 10._dp) * h, 1e4_dp, eps, 0._dp, .true.)
+        call put_plate(fluid, (12 + j / 10._dp) * h, 1e4_dp, eps, 0._dp)
         call fluid%step(1e-3_dp, u, 0._dp)
         drop(j) = drop_of(fluid) / (1e4_dp / eps * u)
         call fluid%equation%finish()
