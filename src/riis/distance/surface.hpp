@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "distance/patch_distance.hpp"
+#include "surface/orifice.hpp"
 #include "surface/pseudonormals.hpp"
 #include "surface/triangle_scene.hpp"
 #include "surface/triangle_set.hpp"
@@ -25,6 +26,10 @@ class Surface {
   TriangleSet take_triangles() { return std::move(triangles_); }
   // Sets another method for distances. Without it, distances are to the triangles.
   void measure_by(std::unique_ptr<const PatchDistance> other_distance, double triangle_error);
+
+  // Takes the frame of the valve that the triangles come from. A surface from arrays has none.
+  void is_of_valve(const ValveFrame &frame) { frame_.emplace(frame); }
+  const std::optional<ValveFrame> &frame() const { return frame_; }
 
   // Takes the states that the velocities come from.
   void moved_between(TwoStates states) { states_.emplace(std::move(states)); }
@@ -60,6 +65,7 @@ class Surface {
   double half_thickness_ = 0;
   // Marking never needs the area. Any thread that computes it gets the same bits.
   mutable std::atomic<double> area_{not_known};
+  std::optional<ValveFrame> frame_;
   std::optional<TwoStates> states_;
   mutable std::atomic<double> velocity_error_bound_{not_known};
   std::unique_ptr<const PatchDistance> other_distance_;
