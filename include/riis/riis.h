@@ -1081,8 +1081,10 @@ typedef struct riis_cells_across {
 RIIS_API riis_status riis_marks_get_cells_across(const riis_marks *marks, const riis_mesh *mesh,
                                                  riis_cells_across *cells, int64_t struct_size);
 
-/* Stands for all leaflets where a call takes a leaflet_id. */
-#define RIIS_ALL_LEAFLETS (-1)
+/* In the place of a leaflet_id. */
+enum {
+  RIIS_ALL_LEAFLETS = -1 /* the sum over all leaflets */
+};
 /* Gives the volume that the valve sweeps between two openings, in mesh units cubed: the integral of u_surface . n over
  * surface and time, positive along the normals. What a flow displaces is less, because blood slips past the leaflets.
  *   opening_from, opening_to  0 to 1. The valve's own opening does not count
