@@ -165,7 +165,7 @@ end subroutine riisf_keyframes_swept_volume
 !! halves the last step. Errors: those of riisf_surface_create and riisf_find_passage, with the opening.
 subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num, half_thickness, tolerance, scale, &
     rotation_axis, rotation_angle, translation, opening_tolerance, n_threads, state, opening, closed_opening, status)
-  use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_sizeof
+  use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_first_passage, riis_first_passage_options, riis_mark_options, riis_passage_ends, riis_status, &
     riis_surface_options, RIIS_OK, riis_find_first_passage, riis_first_passage_options_init, riis_mark_options_init, &
@@ -227,7 +227,7 @@ end subroutine riisf_find_first_passage
 !> Does the same with INTEGER*8.
 subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_num, half_thickness, tolerance, scale, &
     rotation_axis, rotation_angle, translation, opening_tolerance, n_threads, state, opening, closed_opening, status)
-  use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_sizeof
+  use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_first_passage, riis_first_passage_options, riis_mark_options, riis_passage_ends, riis_status, &
     riis_surface_options, RIIS_OK, riis_find_first_passage, riis_first_passage_options_init, riis_mark_options_init, &
