@@ -105,11 +105,11 @@ static void test_flow(void **state) {
   expect_fine(riis_surface_get_leak(surface, &how, 1, &flow));
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);
-  CHECK_NEAR(json_number(orifice, "area"), expected.area, 1e-12);
-  CHECK_NEAR(json_number(orifice, "effective_area"), expected.effective_area, 1e-12);
-  CHECK_NEAR(json_number(program_out, "leak"), 20 * flow, 1e-12);
+  assert_true(fabs(json_number(orifice, "area") - expected.area) <= 1e-12);
+  assert_true(fabs(json_number(orifice, "effective_area") - expected.effective_area) <= 1e-12);
+  assert_true(fabs(json_number(program_out, "leak") - 20 * flow) <= 1e-12);
   const double half_thickness = json_number(program_out, "half_thickness");
-  CHECK_NEAR(json_number(cells, "mean") * json_number(cells, "mean_edge"), 2 * half_thickness, 1e-12);
+  assert_true(fabs(json_number(cells, "mean") * json_number(cells, "mean_edge") - 2 * half_thickness) <= 1e-12);
   assert_true(json_number(cells, "least") <= json_number(cells, "mean") && json_number(cells, "n_edges") > 0);
   assert_true(json_has_text(first, "state", "\"found\""));
   char typed[32];
