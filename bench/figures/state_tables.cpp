@@ -34,6 +34,7 @@ bool add(const std::string &column, const std::vector<double> &values, StateTabl
     table.orifice.values = values;
     return true;
   }
+  if (column == "orifice_perimeter" || column == "effective_area") return true;  // not drawn
   for (const auto &[name, measures] : {std::pair("_edge", &table.edges), std::pair("_area", &table.areas)}) {
     if (ends_in(column, name)) {
       measures->push_back({values, {}});

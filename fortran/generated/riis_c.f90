@@ -110,6 +110,17 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_PASSAGE_OPEN = 1
   integer(c_int32_t), parameter :: RIIS_PASSAGE_NONE = 2
 
+  integer(c_int32_t), parameter :: RIIS_OUTLINE_NONE = 0
+  integer(c_int32_t), parameter :: RIIS_OUTLINE_DISC = 1
+  integer(c_int32_t), parameter :: RIIS_OUTLINE_ATTACHMENT = 2
+
+  integer(c_int32_t), parameter :: RIIS_FIRST_PASSAGE_FOUND = 0
+  integer(c_int32_t), parameter :: RIIS_FIRST_PASSAGE_ALWAYS = 1
+  integer(c_int32_t), parameter :: RIIS_FIRST_PASSAGE_NEVER = 2
+  integer(c_int32_t), parameter :: RIIS_FIRST_PASSAGE_NONE = 3
+
+  integer(c_int32_t), parameter :: RIIS_ALL_LEAFLETS = -1
+
   integer(c_int32_t), parameter :: RIIS_PHASE_CLOSING = 0
   integer(c_int32_t), parameter :: RIIS_PHASE_OPENING = 1
 
@@ -486,6 +497,65 @@ module riis_c
     integer(c_int64_t) :: n_to
     type(c_ptr) :: to   !< integer(c_int64_t), (n_to), from 0
   end type riis_passage_ends
+
+  !> A leaflet of a surface. Lengths are in mesh units.
+  type, bind(c) :: riis_leaflet
+    integer(c_int64_t) :: n_triangles !< that answer queries
+    real(c_double) :: area            !< of its triangles
+    real(c_double) :: free_edge       !< length of its free edge: the sides v = 1 of its patches that no other of its
+                                      !! patches has. 0 from arrays
+    integer(c_int32_t) :: leaflet_id  !< as in riis_triangles
+    integer(c_int32_t) :: reserved    !< 0
+  end type riis_leaflet
+
+  !> The orifice of a valve: what its triangles leave uncovered of an outline, seen along the valve's axis. The axis is
+  !! the z axis of the valve, placed as the valve is. Lengths are in mesh units (docs/theory.md, section 15).
+  type, bind(c) :: riis_orifice
+    real(c_double) :: area           !< of the orifice; 0 without an outline, like all other numbers but axis and
+                                     !! rim_reach
+    real(c_double) :: outline_area   !< inside of the outline
+    real(c_double) :: perimeter      !< length of the orifice's edge along the triangles, moved inwards by a tenth of
+                                     !! the half thickness, so that narrower slits do not count. An edge on the outline
+                                     !! is a wall and does not count
+    real(c_double) :: effective_area !< that the band around the valve leaves to the flow: of the orifice whose edge
+                                     !! along the triangles is moved inwards by rim_reach * half_thickness. It is area -
+                                     !! rim_reach * half_thickness * perimeter to first order, and never below 0
+    real(c_double) :: rim_reach      !< c, by the resistance's rim, from computed flows (docs/theory.md, section 15)
+    real(c_double) :: half_thickness !< eps, the resistance's
+    real(c_double) :: radius         !< of the disc; 0 for others
+    real(c_double) :: axis(3)        !< unit vector along the valve's z axis
+    integer(c_int32_t) :: outline    !< RIIS_OUTLINE_*
+    integer(c_int32_t) :: reserved   !< 0
+  end type riis_orifice
+
+  type, bind(c) :: riis_first_passage_options
+    integer(c_int64_t) :: struct_size
+    type(c_ptr) :: surface !< type(riis_surface_options), (*), c_loc of a riis_surface_options; or c_null_ptr
+    type(c_ptr) :: marking !< type(riis_mark_options), (*), c_loc of a riis_mark_options; or c_null_ptr
+    real(c_double) :: tolerance
+  end type riis_first_passage_options
+
+  !> The opening at which a valve first lets the mesh pass.
+  type, bind(c) :: riis_first_passage
+    real(c_double) :: opening        !< that was tried and has a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE
+    real(c_double) :: closed_opening !< the largest below it that was tried, which has none. Like opening unless FOUND
+    integer(c_int64_t) :: node_id    !< the passage at `opening`, as in riis_passage
+    real(c_double) :: distance       !< as in riis_passage
+    real(c_double) :: point(3)       !< as in riis_passage
+    real(c_double) :: seconds        !< wall time of riis_find_first_passage
+    integer(c_int32_t) :: n_openings !< how many were tried
+    integer(c_int32_t) :: state      !< RIIS_FIRST_PASSAGE_*
+  end type riis_first_passage
+
+  !> How many mesh edges lie across the band, by the edges of the mesh's adjacency with a marked node.
+  type, bind(c) :: riis_cells_across
+    real(c_double) :: least, mean, most       !< 2 * half_thickness over the longest, the mean and the shortest of these
+                                              !! edges
+    real(c_double) :: shortest_edge, mean_edge, longest_edge !< their lengths
+    real(c_double) :: half_thickness          !< of the marking
+    integer(c_int64_t) :: n_edges             !< with at least one marked node. Without one, all but half_thickness are
+                                              !! 0
+  end type riis_cells_across
 
   type, bind(c) :: riis_opening_table
     integer(c_int64_t) :: struct_size
@@ -1364,6 +1434,116 @@ module riis_c
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
     end function riis_find_passage
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! What a valve means for the flow
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    function riis_surface_get_n_leaflets(surface, n_leaflets) result(status) bind(c, name='riis_surface_get_n_leaflets')
+      import :: c_int64_t, c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int64_t), intent(inout) :: n_leaflets
+      integer(riis_status) :: status
+    end function riis_surface_get_n_leaflets
+
+    !>   struct_size  c_sizeof(sizes)
+    function riis_surface_get_leaflet(surface, leaflet, sizes, struct_size) result(status) &
+        bind(c, name='riis_surface_get_leaflet')
+      import :: c_int64_t, c_ptr, riis_leaflet, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int64_t), value :: leaflet
+      type(riis_leaflet), intent(inout) :: sizes
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_surface_get_leaflet
+
+    !>   resistance   left out: all defaults
+    !!   struct_size  c_sizeof(orifice)
+    function riis_surface_get_orifice(surface, resistance, orifice, struct_size) result(status) &
+        bind(c, name='riis_surface_get_orifice')
+      import :: c_int64_t, c_ptr, riis_orifice, riis_resistance, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      type(riis_resistance), intent(in), optional :: resistance
+      type(riis_orifice), intent(inout) :: orifice
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_surface_get_orifice
+
+    function riis_surface_get_leak(surface, resistance, drop, flow) result(status) bind(c, name='riis_surface_get_leak')
+      import :: c_double, c_ptr, riis_resistance, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      type(riis_resistance), intent(in) :: resistance
+      real(c_double), value :: drop
+      real(c_double), intent(inout) :: flow
+      integer(riis_status) :: status
+    end function riis_surface_get_leak
+
+    !>   struct_size  c_sizeof(options)
+    function riis_first_passage_options_init(options, struct_size) result(status) &
+        bind(c, name='riis_first_passage_options_init')
+      import :: c_int64_t, riis_first_passage_options, riis_status
+      implicit none
+      type(riis_first_passage_options), intent(inout) :: options
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_first_passage_options_init
+
+    !>   options      left out: all defaults
+    !!   struct_size  c_sizeof(first)
+    function riis_find_first_passage(valve, mesh, ends, options, first, struct_size) result(status) &
+        bind(c, name='riis_find_first_passage')
+      import :: c_int64_t, c_ptr, riis_first_passage, riis_first_passage_options, riis_passage_ends, riis_status
+      implicit none
+      type(c_ptr), value :: valve
+      type(c_ptr), value :: mesh
+      type(riis_passage_ends), intent(in) :: ends
+      type(riis_first_passage_options), intent(in), optional :: options
+      type(riis_first_passage), intent(inout) :: first
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_find_first_passage
+
+    !>   struct_size  c_sizeof(cells)
+    function riis_marks_get_cells_across(marks, mesh, cells, struct_size) result(status) &
+        bind(c, name='riis_marks_get_cells_across')
+      import :: c_int64_t, c_ptr, riis_cells_across, riis_status
+      implicit none
+      type(c_ptr), value :: marks
+      type(c_ptr), value :: mesh
+      type(riis_cells_across), intent(inout) :: cells
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_marks_get_cells_across
+
+    !>   options  left out: all defaults
+    function riis_valve_get_swept_volume(valve, opening_from, opening_to, options, leaflet_id, volume) result(status) &
+        bind(c, name='riis_valve_get_swept_volume')
+      import :: c_double, c_int32_t, c_ptr, riis_status, riis_surface_options
+      implicit none
+      type(c_ptr), value :: valve
+      real(c_double), value :: opening_from, opening_to
+      type(riis_surface_options), intent(in), optional :: options
+      integer(c_int32_t), value :: leaflet_id
+      real(c_double), intent(inout) :: volume
+      integer(riis_status) :: status
+    end function riis_valve_get_swept_volume
+
+    !>   options  left out: all defaults
+    function riis_keyframes_get_swept_volume(keyframes, time_from, time_to, options, leaflet_id, volume) &
+        result(status) bind(c, name='riis_keyframes_get_swept_volume')
+      import :: c_double, c_int32_t, c_ptr, riis_status, riis_surface_options
+      implicit none
+      type(c_ptr), value :: keyframes
+      real(c_double), value :: time_from, time_to
+      type(riis_surface_options), intent(in), optional :: options
+      integer(c_int32_t), value :: leaflet_id
+      real(c_double), intent(inout) :: volume
+      integer(riis_status) :: status
+    end function riis_keyframes_get_swept_volume
 
     ! -----------------------------------------------------------------------------------------------------------------
     ! Laws of opening

@@ -85,6 +85,15 @@ module riisf
   public :: riisf_dense_leaflet
   public :: riisf_dense_mark
   public :: riisf_marks_destroy
+  public :: riisf_surface_n_leaflets
+  public :: riisf_surface_leaflet
+  public :: riisf_surface_orifice
+  public :: riisf_surface_leak
+  public :: riisf_cells_across
+  public :: riisf_valve_swept_volume
+  public :: riisf_keyframes_swept_volume
+  public :: riisf_find_first_passage
+  public :: riisf_find_first_passage_64
   public :: riisf_surface_vertices
   public :: riisf_surface_vertices_64
   public :: riisf_surface_vertex_velocities
@@ -1154,6 +1163,154 @@ module riisf
       implicit none
       integer(int64), intent(inout) :: handle
     end subroutine riisf_marks_destroy
+
+    subroutine riisf_surface_n_leaflets(surface, n_leaflets, status)
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: surface
+      integer(int32), intent(inout) :: n_leaflets
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_n_leaflets
+
+    subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_edge, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: surface
+      integer(int32), intent(in) :: leaflet_num
+      integer(int32), intent(inout) :: leaflet_id
+      real(c_double), intent(inout) :: area
+      real(c_double), intent(inout) :: free_edge
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_leaflet
+
+    subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_area, perimeter, effective_area, &
+      outline, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: surface
+      real(c_double), intent(in) :: half_thickness
+      integer(int32), intent(in) :: rim
+      real(c_double), intent(inout) :: area
+      real(c_double), intent(inout) :: outline_area
+      real(c_double), intent(inout) :: perimeter
+      real(c_double), intent(inout) :: effective_area
+      integer(int32), intent(inout) :: outline
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_orifice
+
+    subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: surface
+      real(c_double), intent(in) :: R
+      real(c_double), intent(in) :: half_thickness
+      real(c_double), intent(in) :: drop
+      real(c_double), intent(inout) :: flow
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_leak
+
+    subroutine riisf_cells_across(marks, mesh, least, mean, most, mean_edge, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: marks
+      integer(int64), intent(in) :: mesh
+      real(c_double), intent(inout) :: least
+      real(c_double), intent(inout) :: mean
+      real(c_double), intent(inout) :: most
+      real(c_double), intent(inout) :: mean_edge
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_cells_across
+
+    subroutine riisf_valve_swept_volume(valve, opening_from, opening_to, scale, leaflet_id, volume, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: valve
+      real(c_double), intent(in) :: opening_from
+      real(c_double), intent(in) :: opening_to
+      real(c_double), intent(in) :: scale
+      integer(int32), intent(in) :: leaflet_id
+      real(c_double), intent(inout) :: volume
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_valve_swept_volume
+
+    subroutine riisf_keyframes_swept_volume(keyframes, time_from, time_to, scale, leaflet_id, volume, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: keyframes
+      real(c_double), intent(in) :: time_from
+      real(c_double), intent(in) :: time_to
+      real(c_double), intent(in) :: scale
+      integer(int32), intent(in) :: leaflet_id
+      real(c_double), intent(inout) :: volume
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_keyframes_swept_volume
+
+    subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num, half_thickness, tolerance, &
+      scale, rotation_axis, rotation_angle, translation, opening_tolerance, n_threads, state, opening, &
+      closed_opening, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: valve
+      integer(int64), intent(in) :: mesh
+      integer(int32), intent(in) :: n_from
+      integer(int32), intent(in) :: from_num(n_from)
+      integer(int32), intent(in) :: n_to
+      integer(int32), intent(in) :: to_num(n_to)
+      real(c_double), intent(in) :: half_thickness
+      real(c_double), intent(in) :: tolerance
+      real(c_double), intent(in) :: scale
+      real(c_double), intent(in) :: rotation_axis(3)
+      real(c_double), intent(in) :: rotation_angle
+      real(c_double), intent(in) :: translation(3)
+      real(c_double), intent(in) :: opening_tolerance
+      integer(int32), intent(in) :: n_threads
+      integer(int32), intent(inout) :: state
+      real(c_double), intent(inout) :: opening
+      real(c_double), intent(inout) :: closed_opening
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_find_first_passage
+
+    subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_num, half_thickness, tolerance, &
+      scale, rotation_axis, rotation_angle, translation, opening_tolerance, n_threads, state, opening, &
+      closed_opening, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: valve
+      integer(int64), intent(in) :: mesh
+      integer(int64), intent(in) :: n_from
+      integer(int64), intent(in) :: from_num(n_from)
+      integer(int64), intent(in) :: n_to
+      integer(int64), intent(in) :: to_num(n_to)
+      real(c_double), intent(in) :: half_thickness
+      real(c_double), intent(in) :: tolerance
+      real(c_double), intent(in) :: scale
+      real(c_double), intent(in) :: rotation_axis(3)
+      real(c_double), intent(in) :: rotation_angle
+      real(c_double), intent(in) :: translation(3)
+      real(c_double), intent(in) :: opening_tolerance
+      integer(int32), intent(in) :: n_threads
+      integer(int32), intent(inout) :: state
+      real(c_double), intent(inout) :: opening
+      real(c_double), intent(inout) :: closed_opening
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_find_first_passage_64
 
     subroutine riisf_surface_vertices(surface, length, n, xyz, status)
       use, intrinsic :: iso_c_binding, only: c_double

@@ -1016,6 +1016,145 @@ RIIS_API riis_status riis_find_passage(const riis_surface *surface, const riis_m
                                        const riis_passage_ends *ends, const riis_mark_options *options,
                                        riis_passage *passage, int64_t struct_size);
 
+/* ---- What a valve means for the flow: leaflets, orifice, leak, first passage, cells across, swept volume */
+
+/* A leaflet of a surface. Lengths are in mesh units. */
+typedef struct riis_leaflet {
+  int64_t n_triangles; /* that answer queries */
+  double area;         /* of its triangles */
+  double free_edge;    /* length of its free edge: the sides v = 1 of its patches that no other of its patches has.
+                          0 from arrays */
+  int32_t leaflet_id;  /* as in riis_triangles */
+  int32_t reserved;    /* 0 */
+} riis_leaflet;
+/* Gives the number of the surface's leaflets. */
+RIIS_API riis_status riis_surface_get_n_leaflets(const riis_surface *surface, int64_t *n_leaflets);
+/* Gives the sizes of a leaflet.
+ *   leaflet  0 to n_leaflets - 1, ascending by leaflet_id */
+RIIS_API riis_status riis_surface_get_leaflet(const riis_surface *surface, int64_t leaflet, riis_leaflet *sizes,
+                                              int64_t struct_size);
+
+/* What an orifice lies in. */
+enum {
+  RIIS_OUTLINE_NONE = 0,      /* nothing: the free sides v = 0 of a valve from patches enclose no area */
+  RIIS_OUTLINE_DISC = 1,      /* the disc of root_radius (aortic, trileaflet) or radius (bileaflet) about the axis */
+  RIIS_OUTLINE_ATTACHMENT = 2 /* the sides v = 0 that only one patch has: the annulus of the mitral valve */
+};
+/* The orifice of a valve: what its triangles leave uncovered of an outline, seen along the valve's axis. The axis is
+ * the z axis of the valve, placed as the valve is. Lengths are in mesh units (docs/theory.md, section 15). */
+typedef struct riis_orifice {
+  double area;           /* of the orifice; 0 without an outline, like all other numbers but axis and rim_reach */
+  double outline_area;   /* inside of the outline */
+  double perimeter;      /* length of the orifice's edge along the triangles, moved inwards by a tenth of the half
+                            thickness, so that narrower slits do not count. An edge on the outline is a wall and
+                            does not count */
+  double effective_area; /* that the band around the valve leaves to the flow: of the orifice whose edge along the
+                            triangles is moved inwards by rim_reach * half_thickness. It is area - rim_reach *
+                            half_thickness * perimeter to first order, and never below 0 */
+  double rim_reach;      /* c, by the resistance's rim, from computed flows (docs/theory.md, section 15) */
+  double half_thickness; /* eps, the resistance's */
+  double radius;         /* of the disc; 0 for others */
+  double axis[3];        /* unit vector along the valve's z axis */
+  int32_t outline;       /* RIIS_OUTLINE_* */
+  int32_t reserved;      /* 0 */
+} riis_orifice;
+/* Measures the orifice of a valve's surface.
+ *   resistance  its half_thickness and rim count. RIIS_AUTO stands for the surface's half thickness. NULL: the
+ *               defaults
+ * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays or keyframes, which have no axis and no outline. */
+RIIS_API riis_status riis_surface_get_orifice(const riis_surface *surface, const riis_resistance *resistance,
+                                              riis_orifice *orifice, int64_t struct_size);
+
+/* Tells the ideal leak of a closed surface: the volume flow through it at a pressure drop, drop * (eps / R) * area.
+ * The area is that of all triangles without the bileaflet housing. A solver leaks by its own drop (docs/solvers.md).
+ *   resistance  R, greater than 0, and half_thickness count. RIIS_AUTO stands for the surface's half thickness
+ *   drop        pressure upstream less that downstream, magnitude at most 1e30
+ *   flow        its unit is that of drop * area * eps / R: m^3/s in SI units
+ * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value. */
+RIIS_API riis_status riis_surface_get_leak(const riis_surface *surface, const riis_resistance *resistance,
+                                           double drop, double *flow);
+
+/* Options of riis_find_first_passage. */
+typedef struct riis_first_passage_options {
+  int64_t struct_size;                 /* set by the init function */
+  const riis_surface_options *surface; /* of the valve's surface. NULL, the default: its defaults */
+  const riis_mark_options *marking;    /* as options of riis_find_passage. NULL, the default: the defaults */
+  double tolerance;                    /* of the opening, 1e-6 to 1. Default 1e-3 */
+} riis_first_passage_options;
+/* Fills *options with the defaults. */
+RIIS_API riis_status riis_first_passage_options_init(riis_first_passage_options *options, int64_t struct_size);
+/* What riis_find_first_passage found. */
+enum {
+  RIIS_FIRST_PASSAGE_FOUND = 0,  /* the valve closes the mesh at opening 0, and opens it later */
+  RIIS_FIRST_PASSAGE_ALWAYS = 1, /* there is a passage at opening 0 */
+  RIIS_FIRST_PASSAGE_NEVER = 2,  /* no opening that was tried has a passage */
+  RIIS_FIRST_PASSAGE_NONE = 3    /* the mesh itself has no path */
+};
+/* The opening at which a valve first lets the mesh pass. */
+typedef struct riis_first_passage {
+  double opening;        /* that was tried and has a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE */
+  double closed_opening; /* the largest below it that was tried, which has none. Like opening unless FOUND */
+  int64_t node_id;       /* the passage at `opening`, as in riis_passage */
+  double distance;       /* as in riis_passage */
+  double point[3];       /* as in riis_passage */
+  double seconds;        /* wall time of riis_find_first_passage */
+  int32_t n_openings;    /* how many were tried */
+  int32_t state;         /* RIIS_FIRST_PASSAGE_* */
+} riis_first_passage;
+/* Finds the opening at which riis_find_passage first finds a passage. It tries 0, 1/8, 2/8, ... until one is open. It
+ * then halves the last step until opening and closed_opening differ by at most the tolerance. A passage need not
+ * stay open as the valve opens. So the call finds an opening at which one begins, and may miss an earlier one that
+ * ends before the next multiple of 1/8.
+ *   valve  its own opening does not count
+ *   mesh   with an adjacency; it need not have been marked
+ *   ends   as for riis_find_passage, outside the band at each opening that is tried
+ * Errors: those of riis_surface_create and riis_find_passage, with the opening. RIIS_INVALID_PARAMETER for a valve
+ * with only one state. */
+RIIS_API riis_status riis_find_first_passage(const riis_valve *valve, const riis_mesh *mesh,
+                                             const riis_passage_ends *ends,
+                                             const riis_first_passage_options *options,
+                                             riis_first_passage *first, int64_t struct_size);
+
+/* How many mesh edges lie across the band, by the edges of the mesh's adjacency with a marked node. */
+typedef struct riis_cells_across {
+  double least, mean, most; /* 2 * half_thickness over the longest, the mean and the shortest of these edges */
+  double shortest_edge, mean_edge, longest_edge; /* their lengths */
+  double half_thickness; /* of the marking */
+  int64_t n_edges;       /* with at least one marked node. Without one, all but half_thickness are 0 */
+} riis_cells_across;
+/* Tells how many mesh edges lie across the band around the surface. An edge may stand in one row or in both, and
+ * counts once. Edges to ghosts and of length 0 do not count.
+ *   marks  of riis_mark_nodes
+ *   mesh   that of the marking, with an adjacency
+ * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks never marked with, or with another
+ * number of nodes; RIIS_INVALID_MESH as riis_mark_nodes. */
+RIIS_API riis_status riis_marks_get_cells_across(const riis_marks *marks, const riis_mesh *mesh,
+                                                 riis_cells_across *cells, int64_t struct_size);
+
+/* In the place of a leaflet_id. */
+enum {
+  RIIS_ALL_LEAFLETS = -1 /* the sum over all leaflets */
+};
+/* Gives the volume that the valve sweeps between two openings, in mesh units cubed: the integral of u_surface . n over
+ * surface and time, positive along the normals. What a flow displaces is less, because blood slips past the leaflets.
+ *   opening_from, opening_to  0 to 1. The valve's own opening does not count
+ *   options     scale, flip_normals and n_threads count. NULL: the defaults
+ *   leaflet_id  RIIS_LEAFLET_*, or that of a patch, or RIIS_ALL_LEAFLETS
+ * The result is within 1e-3 of the largest volume that a leaflet sweeps from 0 to 1 (docs/theory.md, section 15).
+ * Errors: RIIS_INVALID_ARGUMENT for an opening out of range and for a leaflet that the valve lacks;
+ * RIIS_INVALID_PARAMETER for parameters that do not go together, and for a valve with only one state. */
+RIIS_API riis_status riis_valve_get_swept_volume(const riis_valve *valve, double opening_from, double opening_to,
+                                                 const riis_surface_options *options, int32_t leaflet_id,
+                                                 double *volume);
+/* Gives the volume that keyframes sweep between two times. Arguments as riis_valve_get_swept_volume. With linear
+ * interpolation it is exact up to rounding.
+ *   time_from, time_to  finite, magnitude at most 1e30
+ * Errors: RIIS_INVALID_ARGUMENT for a leaflet that no face has; RIIS_LIMIT_EXCEEDED for more than 1,000,000 keys
+ * between the times. */
+RIIS_API riis_status riis_keyframes_get_swept_volume(const riis_keyframes *keyframes, double time_from,
+                                                     double time_to, const riis_surface_options *options,
+                                                     int32_t leaflet_id, double *volume);
+
 /* ---- Laws of opening: a valve's opening from the time, the pressure difference and the flow ------------ */
 
 /* These are pure functions: the same arguments give the same bits, and the library keeps nothing. Times, pressures

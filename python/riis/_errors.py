@@ -155,6 +155,7 @@ _CHANGES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"riis_valve_get_parameter and riis params list them", "Valve.parameters lists them"),
     (rf"\boptions\.(fields|{'|'.join(WORDS)})( is | = )(\d+)", _word_of),
     (rf"\bRIIS_(FIELD|INTERPOLATION|PHASE|RIM|{'|'.join(WORDS).upper()})_([A-Z0-9_]+|\*)(?:, \d+)?", _constant_of),
+    (r"RIIS_ALL_LEAFLETS, -1, stands", "None stands"),
     (r"\briis_[a-z_]+", lambda match: _NAMES.get(match[0], match[0])),
     (r"(?<!['\w])(?:arrays|band|cells|csr|ends|faces|flow|frames|law|options|patches|points|resistance|table|times)\.([a-z]\w*)",
      lambda match: _ARGUMENTS.get(match[0], match[1])),

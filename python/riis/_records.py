@@ -141,6 +141,55 @@ class Passage(NamedTuple):
     seconds: float
 
 
+class FirstPassage(NamedTuple):
+    """The opening at which a valve first lets a mesh pass."""
+
+    state: Literal["found", "always", "never", "none"]  #: "always": open at 0; "none": the mesh itself has no path
+    opening: float  #: tried, with a passage; 0 for "always" and "none", 1 for "never"
+    closed_opening: float  #: the largest below it that was tried
+    node_id: int  #: the passage at the opening, as in Passage
+    distance: float  #: as in Passage
+    point: Reals  #: (3,), as in Passage
+    n_openings: int  #: how many were tried
+    seconds: float
+
+
+class LeafletSizes(NamedTuple):
+    """A leaflet of a surface. Lengths are in mesh units."""
+
+    leaflet_id: int
+    n_triangles: int
+    area: float
+    free_edge: float  #: length of the free edge, 0 for a surface from arrays
+
+
+class Orifice(NamedTuple):
+    """What a valve's triangles leave uncovered, seen along the valve's axis. Lengths are in mesh units."""
+
+    area: float
+    outline_area: float  #: inside of the outline
+    perimeter: float  #: length of the orifice's edge along the triangles
+    effective_area: float  #: that the band leaves to the flow: area - c eps perimeter to first order
+    rim_reach: float  #: c
+    half_thickness: float  #: eps
+    radius: float  #: of the disc; 0 for other outlines
+    axis: Reals  #: (3,)
+    outline: Literal["none", "disc", "attachment"]
+
+
+class CellsAcross(NamedTuple):
+    """How many mesh edges lie across the band: 2 * half_thickness over lengths of edges with a marked node."""
+
+    least: float  #: over the longest
+    mean: float  #: over the mean
+    most: float  #: over the shortest
+    shortest_edge: float
+    mean_edge: float
+    longest_edge: float
+    half_thickness: float
+    n_edges: int  #: without one, the other numbers but half_thickness are 0
+
+
 class Crossings(NamedTuple):
     """Pairs of triangles that go through each other, ascending. Lengths are in mesh units."""
 
@@ -168,6 +217,10 @@ for _record in (
     BandSums,
     Leaks,
     Passage,
+    FirstPassage,
+    LeafletSizes,
+    Orifice,
+    CellsAcross,
     Crossings,
 ):
     _record.__module__ = "riis"

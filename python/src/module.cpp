@@ -30,4 +30,5 @@ NB_MODULE(_riis, module) {
   add_marking(module);
   add_leaks(module);
   add_laws(module);
+  add_measures(module);
 }

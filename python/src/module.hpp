@@ -86,5 +86,6 @@ riis_resistance resistance_of(nb::handle R, nb::handle half_thickness, nb::handl
 void add_resistance(nb::class_<Marks> &result);
 void add_leaks(nb::module_ &module);
 void add_laws(nb::module_ &module);
+void add_measures(nb::module_ &module);
 
 }  // namespace riis_python

@@ -179,11 +179,12 @@ edges            (n_edges, 2, 3): both ends of each, such as Surface.attachment.
 edge_force       (n_edges, 3): of the nodes to whose closest points the edge is nearest, the first of equals
 edge_moment      (n_edges, 3): about the middle of each edge
 edge_leaflet_id  (n_edges,) int32: a node counts for the nearest edge of its leaflet; None: of all)")
-      .def("band_sums", &band_sums, nb::arg("value").none(), nb::arg("weight").none(), nb::arg("inner").none(),
-           nb::arg("outer").none(),
-           nb::sig("def band_sums(self, value: " RIIS_REALS ", weight: " RIIS_REALS
-                   ", inner: float, outer: float) -> riis._records.BandSums"),
-           R"(Sums a value, such as the pressure, over the nodes at a distance from inner to outer, separately for each side.
+      .def(
+          "band_sums", &band_sums, nb::arg("value").none(), nb::arg("weight").none(), nb::arg("inner").none(),
+          nb::arg("outer").none(),
+          nb::sig("def band_sums(self, value: " RIIS_REALS ", weight: " RIIS_REALS
+                  ", inner: float, outer: float) -> riis._records.BandSums"),
+          R"(Sums a value, such as the pressure, over the nodes at a distance from inner to outer, separately for each side.
 
 value, weight  (n_nodes,) float64
 inner, outer   mesh units, 0 <= inner <= outer <= distance limit of the marking, which needs fields='side, rim')");

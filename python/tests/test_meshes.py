@@ -86,6 +86,42 @@ def test_leaks_regions_and_passages_tell_the_same(grid):
     assert riis.find_passage(loose, grid, below, above, mask=mask).state == "none"
 
 
+def test_what_a_valve_means_for_the_flow():
+    """In a box that the valve fills, with nodes 0.1 apart."""
+    valve = riis.Valve("trileaflet", opening=1.0)
+    surface = riis.Surface(valve)
+    orifice = surface.orifice()
+    assert orifice.outline == "disc" and numpy.isclose(orifice.outline_area, numpy.pi * 1.25**2, rtol=1e-4)
+    assert 3.8 < orifice.area < 3.95 and 0 < orifice.effective_area < orifice.area
+    placed = riis.Surface(valve, scale=2.0, rotation_axis=(1.0, 2.0, 3.0), rotation_angle=40.0).orifice()
+    assert numpy.isclose(placed.area, 4 * orifice.area, rtol=1e-5)
+    assert numpy.isclose(placed.perimeter, 2 * orifice.perimeter, rtol=1e-2)
+    leaflets = surface.leaflets()
+    assert [leaflet.leaflet_id for leaflet in leaflets] == [0, 1, 2]
+    area = sum(leaflet.area for leaflet in leaflets)
+    assert numpy.isclose(area, surface.info.area)
+    assert numpy.isclose(surface.leak(50.0, R=10.0), 50 * 0.1 / 10 * area)
+    volume = valve.swept_volume(0.0, 1.0)
+    assert numpy.isclose(valve.swept_volume(0.0, 1.0, leaflet_id=1, scale=2.0), 8 * volume / 3)
+    assert valve.swept_volume(1.0, 0.0, n_threads=2) == -volume
+    frames = numpy.array([numpy.eye(3), numpy.eye(3) + [1.0, 2.0, 3.0]])
+    prism = riis.Keyframes(numpy.array([0.0, 1.0]), frames, numpy.array([[0, 1, 2]]))
+    assert numpy.isclose(prism.swept_volume(0.0, 0.5), 0.5 * 0.5 * 6)
+
+    sides = [numpy.arange(-8, 9) / 10, numpy.arange(-8, 9) / 10, numpy.arange(-20, 21) / 10]
+    z, y, x = numpy.meshgrid(sides[2], sides[1], sides[0], indexing="ij")
+    mesh = riis.Mesh(numpy.stack([x.ravel(), y.ravel(), z.ravel()], axis=1))
+    mesh.set_adjacency(riis.Adjacency.from_grid(17, 17, 41))
+    below, above = numpy.array([144]), numpy.array([17 * 17 * 40 + 144])
+    cells = riis.mark(surface, mesh).cells_across(mesh)
+    assert numpy.allclose(cells[:3], 2) and numpy.isclose(cells.mean_edge, 0.1) and cells.n_edges > 0
+    first = riis.find_first_passage(valve, mesh, below, above, opening_tolerance=0.01, half_thickness=0.1)
+    assert first.state == "found" and 0 < first.opening - first.closed_opening <= 0.01
+    for opening, state in ((first.opening, "open"), (first.closed_opening, "closed")):
+        valve["opening"] = opening
+        assert riis.find_passage(riis.Surface(valve, half_thickness=0.1), mesh, below, above).state == state
+
+
 def test_a_mesh_gives_its_coordinates(xyz):
     assert riis.Mesh(xyz).xyz is xyz
     columns = [numpy.ascontiguousarray(xyz[:, i]) for i in range(3)]

@@ -316,6 +316,29 @@ REFUSED = {
     "regions of an empty result": (Argument, "marks: is empty", lambda o: riis.label_open_regions(o.mesh, riis.Marks())),
     "from_ids": (TypeError, "from_ids: its dtype is int32; it must be int64",
                  lambda o: riis.find_passage(o.surface, o.mesh, numpy.zeros(1, "i4"), numpy.zeros(1, "i8"))),
+    # What a valve means for the flow
+    "orifice of arrays": (Argument, "^surface was made from arrays or keyframes", lambda o: riis.Surface.from_arrays(
+        o.triangle, o.faces).orifice()),
+    "rim of an orifice": (Argument, "rim: is 'square'", lambda o: o.surface.orifice(rim="square")),
+    "half_thickness of an orifice": (Argument, "^half_thickness is 0", lambda o: o.surface.orifice(half_thickness=0.0)),
+    "R of a leak": (Argument, "R is 0; it must be above 0", lambda o: o.surface.leak(1.0, R=0.0)),
+    "drop": (Argument, "^drop is nan", lambda o: o.surface.leak(math.nan, R=1.0)),
+    "opening of a sweep": (Argument, "^opening_to is 2", lambda o: riis.Valve().swept_volume(0.0, 2.0)),
+    "leaflet of a sweep": (Argument, "^leaflet_id is 9, .*; None stands for all$",
+                           lambda o: riis.Valve().swept_volume(0.0, 1.0, leaflet_id=9)),
+    "type of a leaflet": (TypeError, "leaflet_id: must be an integer",
+                          lambda o: riis.Valve().swept_volume(0.0, 1.0, leaflet_id="right")),
+    "scale of a sweep": (Argument, "^scale is 0", lambda o: riis.Valve().swept_volume(0.0, 1.0, scale=0.0)),
+    "cells without adjacency": (Argument, "^mesh has no adjacency, .* see Mesh.set_adjacency$",
+                                lambda o: riis.mark(o.surface, two_nodes()).cells_across(riis.Mesh(o.triangle[:2]))),
+    "cells of empty marks": (Argument, "^marks are empty: call riis.mark", lambda o: riis.Marks().cells_across(chain(o))),
+    "mesh of cells": (TypeError, "mesh: must be a riis.Mesh", lambda o: o.marks.cells_across(o.surface)),
+    "first passage without adjacency": (Argument, "^at the opening 0: mesh has no adjacency", lambda o: riis.find_first_passage(
+        riis.Valve(), o.mesh, numpy.zeros(1, int), numpy.ones(1, int))),
+    "opening_tolerance": (Argument, "^opening_tolerance: is 0", lambda o: riis.find_first_passage(
+        riis.Valve(), o.mesh, numpy.zeros(1, int), numpy.ones(1, int), opening_tolerance=0.0)),
+    "option of a first passage": (TypeError, "'thickness' is no option", lambda o: riis.find_first_passage(
+        riis.Valve(), o.mesh, numpy.zeros(1, int), numpy.ones(1, int), thickness=1.0)),
     "depth": (Argument, "depth", lambda o: riis.find_crossings(o.surface, depth=2.0)),
     "set_log": (TypeError, "function: must be callable or None, not str", lambda o: riis.set_log("print")),
     "status": (TypeError, "status: must be an integer", lambda o: riis.status_name("RIIS_OK")),

@@ -313,6 +313,18 @@ void declare_leaks(Command command, MarkOptions &options) {
               [&options](const std::vector<std::string> &points) { options.check_leaks = leak_check_between(points); })
       ->expected(2)
       ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  options.measures = true;
+  command
+      .flag("--first-passage", "Also find the opening at which unmarked nodes first join them", options.first_passage)
+      ->needs(command.option("--between"));
+  CLI::Option *const resistance =
+      command.value("--resistance", "R", "Resistance of the valve, for the ideal leak",
+                    [&options](const std::string &text) { options.resistance = parse_positive(text, "--resistance"); });
+  CLI::Option *const drop =
+      command.value("--drop", "DP", "Pressure drop over the closed valve, for the ideal leak",
+                    [&options](const std::string &text) { options.drop = parse_number(text, "--drop"); });
+  drop->needs(resistance);
+  resistance->needs(drop);
   declare_valve(command, options);
   declare_opening(command, options);
   declare_open_state(command, options);

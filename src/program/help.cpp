@@ -162,6 +162,9 @@ are points of the mesh on either side of the valve, each as X,Y,Z.
 The program says whether unmarked nodes join the points. It also gives the place of the widest passage, and the half
 thickness that closes it. The distance of the points from the valve must be larger than the width of the passage. A case has
 the points as "check_leaks": [x,y,z, x,y,z]. The check uses all its valves together, each at its least opening.
+riis check leaks also prints how many mesh edges lie across the band, and the orifice with its effective area. With
+--first-passage it tries openings and prints the first at which unmarked nodes join the points. With --resistance and --drop it
+prints the flow through an ideal closed valve.
 )"},
     {"crossings", "leaflets that go through each other",
      R"(
@@ -179,7 +182,8 @@ riis states measures the valve in its own frame at 101 openings, or at the numbe
 a line for each opening. A line has the length of each free edge, the area of each leaflet, both also as a share of their
 closed values, and the area of the orifice. The summary on stdout names the free edges whose length differs by more than 10 %
 from the closed length. Free edges are the sides v = 1 of the patches on a leaflet's rim. The orifice is the part of a disc
-that the leaflets leave uncovered, seen along the axis z. The disc has the closed valve's root_radius or the housing's
+that the leaflets leave uncovered, seen along the axis z. effective_area is the part that the band around the leaflets leaves
+to the flow, by the half thickness and a round rim. The disc has the closed valve's root_radius or the housing's
 radius. If a valve has neither, the outline is the free sides v = 0, such as the annulus. The table has no columns for
 measures that a valve lacks. The default tolerance is 0.01. A valve without an open state has one line, at opening 0.
 )"},

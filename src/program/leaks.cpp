@@ -214,6 +214,24 @@ struct Ends {
   int64_t from, to;
 };
 
+// Finds the opening at which the valve first joins the ends.
+riis_first_passage first_passage_of(const MarkOptions &options, const MarkedMesh &marked, const Ends &ends) {
+  riis_passage_ends sets;
+  riis_first_passage_options how;
+  check(riis_passage_ends_init(&sets, sizeof sets));
+  check(riis_first_passage_options_init(&how, sizeof how));
+  sets.n_from = sets.n_to = 1;
+  sets.from = &ends.from, sets.to = &ends.to;
+  riis_mark_options marking = options.mark_options;
+  marking.search = RIIS_SEARCH_AUTO;
+  marking.distance_limit = RIIS_AUTO;
+  how.surface = &options.surface_options;
+  how.marking = &marking;
+  riis_first_passage first;
+  check(riis_find_first_passage(marked.valve, marked.mesh, &sets, &how, &first, sizeof first), "--first-passage");
+  return first;
+}
+
 riis_passage passage_of(const LeakCheck &asked, const riis_surface *surface, const riis_mesh *mesh,
                         const riis_mark_options &options, Ends ends) {
   riis_mark_options how = options;
@@ -284,6 +302,34 @@ void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const 
 
 }  // namespace
 
+void measure_flow(const MarkOptions &options, const MarkedMesh &marked, Report &report) {
+  if (!options.measures && options.stats.empty()) return;
+  const Stage stage("measuring the band", options.quiet);
+  FlowReport &flow = report.flow;
+  report.prints_flow = options.measures;
+  if (marked.valve) {
+    riis_orifice orifice;
+    check(riis_surface_get_orifice(marked.surface, nullptr, &orifice, sizeof orifice));
+    if (orifice.outline != RIIS_OUTLINE_NONE) flow.orifice = orifice;
+  }
+  if (options.resistance && *options.resistance > 0) {
+    riis_resistance how;
+    check(riis_resistance_init(&how, sizeof how));
+    how.R = *options.resistance;
+    double leak = 0;
+    check(riis_surface_get_leak(marked.surface, &how, 1, &leak), "--resistance");
+    flow.leak_per_drop = leak;
+    flow.drop = options.drop;
+  }
+  if (report.leaks.has_all_edges()) {
+    const JoinedNodes nodes(marked, options.mark_options.n_threads);
+    riis_cells_across cells;
+    check(riis_marks_get_cells_across(marked.result, marked.mesh, &cells, sizeof cells));
+    flow.cells = cells;
+  }
+  report.seconds.leaks += stage.seconds();
+}
+
 LeakCheck leak_check_between(const std::vector<std::string> &points) {
   LeakCheck made;
   made.subject = "--between";
@@ -313,6 +359,9 @@ void check_passage(const MarkOptions &options, const MarkedMesh &marked, Report 
   if (passage.found.node_id >= 0)
     passage.place = place_text(options, passage.found.point, nodes.longest_edge(passage.found.node_id));
   warn_of_passage(asked, passage, marked.surface_name, unknown);
+  if (options.first_passage && !marked.valve)
+    throw Refusal{exit_wrong_usage, "--first-passage needs a valve; a surface from a file does not open"};
+  if (options.first_passage && unknown.empty()) report.flow.first = first_passage_of(options, marked, ends);
   leaks.passage = passage;
   report.seconds.leaks += stage.seconds();
 }

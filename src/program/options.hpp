@@ -76,6 +76,9 @@ struct MarkOptions : ValveOptions {
   bool allow_none = false;
   bool check_crossing = false;
   std::optional<LeakCheck> check_leaks;
+  bool first_passage = false;  // looks for the opening at which the points are first joined
+  std::optional<double> drop;  // pressure drop, for the ideal leak
+  bool measures = false;       // measures what the valve means for the flow, also without --stats
   SeriesOptions series;
 };
 

@@ -100,6 +100,56 @@ nlohmann::ordered_json json_of_passage(const PassageReport &passage) {
                                          : nlohmann::ordered_json()}};
 }
 
+// The numbers of check leaks. Without a request there are none to print.
+void add_flow(const FlowReport &flow, std::ostringstream &out) {
+  if (flow.cells && flow.cells->n_edges > 0)
+    out << "across    " << flow.cells->mean << " mesh edges of mean length in the band, " << flow.cells->least << " to "
+        << flow.cells->most << " by " << counted(flow.cells->n_edges, "edge") << "\n";
+  if (flow.orifice)
+    out << "orifice   " << flow.orifice->area << " open, " << flow.orifice->effective_area
+        << " effective: the band takes " << flow.orifice->rim_reach << " half thicknesses along a perimeter of "
+        << flow.orifice->perimeter << "\n";
+  if (flow.first) {
+    out << "opens     ";
+    if (flow.first->state == RIIS_FIRST_PASSAGE_FOUND)
+      out << "for the mesh at opening " << flow.first->opening << ", closed at " << flow.first->closed_opening;
+    else if (flow.first->state == RIIS_FIRST_PASSAGE_ALWAYS)
+      out << "always: for the mesh it is open at opening 0";
+    else
+      out << (flow.first->state == RIIS_FIRST_PASSAGE_NEVER ? "never: for the mesh it is closed at each opening tried"
+                                                            : "unknown: the mesh itself has no path");
+    out << "\n";
+  }
+  if (flow.leak_per_drop && flow.drop)
+    out << "leak      " << *flow.leak_per_drop * *flow.drop << " at the drop " << *flow.drop
+        << ", through an ideal closed valve\n";
+}
+
+nlohmann::ordered_json json_of_first(const riis_first_passage &first) {
+  static const char *const states[] = {"found", "always", "never", "none"};
+  return {{"state", states[first.state]},  {"opening", first.opening},   {"closed_opening", first.closed_opening},
+          {"node_id", first.node_id},      {"distance", first.distance}, {"point", first.point},
+          {"n_openings", first.n_openings}};
+}
+
+void add_flow(const FlowReport &flow, nlohmann::ordered_json &json) {
+  if (flow.orifice)
+    json["orifice"] = {{"area", flow.orifice->area},
+                       {"outline_area", flow.orifice->outline_area},
+                       {"perimeter", flow.orifice->perimeter},
+                       {"effective_area", flow.orifice->effective_area},
+                       {"rim_reach", flow.orifice->rim_reach}};
+  if (flow.cells)
+    json["cells_across"] = {{"least", flow.cells->least},
+                            {"mean", flow.cells->mean},
+                            {"most", flow.cells->most},
+                            {"mean_edge", flow.cells->mean_edge},
+                            {"n_edges", flow.cells->n_edges}};
+  if (flow.first) json["first_passage"] = json_of_first(*flow.first);
+  if (flow.leak_per_drop) json["leak_per_drop"] = *flow.leak_per_drop;
+  if (flow.leak_per_drop && flow.drop) json["leak"] = *flow.leak_per_drop * *flow.drop;
+}
+
 void add_seconds(const Seconds &seconds, std::ostringstream &out) {
   out << std::fixed << std::setprecision(3) << "seconds   read " << seconds.read << ", surface " << seconds.surface
       << ", scene " << seconds.scene << ", mesh " << seconds.mesh << ", adjacency " << seconds.adjacency << ", search "
@@ -217,6 +267,7 @@ std::string json_of(const Report &report) {
   if (report.mesh_name.empty())
     for (const char *key : of_marks) json.erase(key);
   if (report.leaks.passage) json["passage"] = json_of_passage(*report.leaks.passage);
+  add_flow(report.flow, json);
   if (report.step) {
     json["step"] = {{"n_steps", report.step->n_steps},
                     {"search", search_name(report.step->search)},
@@ -249,6 +300,7 @@ std::string table_of(const Report &report) {
     add_marks(report, out);
     add_leaks(report.leaks, out);
     out << line_of_passage(report.leaks);
+    if (report.prints_flow) add_flow(report.flow, out);
   }
   if (report.crossings) add_crossings(*report.crossings, out);
   add_seconds(report.seconds, out);

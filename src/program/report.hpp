@@ -51,6 +51,14 @@ struct LeakReport {
   bool has_all_edges() const { return n_volume_cells > 0 && n_cells_left_out == 0; }
 };
 
+// What the valve and the mesh mean for the flow.
+struct FlowReport {
+  std::optional<riis_orifice> orifice;        // of a valve
+  std::optional<riis_cells_across> cells;     // if the mesh's edges are known
+  std::optional<riis_first_passage> first;    // if it was looked for
+  std::optional<double> leak_per_drop, drop;  // with a resistance
+};
+
 struct CrossingReport {
   int n_openings = 0;             // number of openings checked, or 0 if only the given surface was checked
   std::optional<double> opening;  // the opening at which a crossing was found
@@ -69,6 +77,8 @@ struct Report {
   riis_surface_info surface{};
   riis_mark_stats marks{};
   LeakReport leaks;
+  FlowReport flow;
+  bool prints_flow = false;                 // in the table
   std::optional<CrossingReport> crossings;  // set if crossings were looked for
   Seconds seconds;
   std::vector<std::string> written;  // paths of files

@@ -75,6 +75,7 @@ Marks mark(const MarkOptions &options, const riis_surface *surface, const riis_v
   report.distance = options.surface_options.measure;
   report.mesh_name = options.mesh;
   look_for_leaks(options, {surface, valve, file, mesh.get(), result.get(), "the surface"}, report);
+  measure_flow(options, {surface, valve, file, mesh.get(), result.get(), "the surface"}, report);
   check_passage(options, {surface, valve, file, mesh.get(), result.get(), "the surface"}, report);
   return result;
 }

@@ -5,15 +5,12 @@
 #include <cctype>
 #include <cmath>
 #include <functional>
-#include <map>
-#include <set>
+#include <vector>
 
 #include "common/array_view.hpp"
 #include "program/crossings.hpp"
 #include "program/handles.hpp"
-#include "program/orifice.hpp"
 #include "program/outputs.hpp"
-#include "program/patch_sides.hpp"
 #include "program/pictures.hpp"
 #include "program/progress.hpp"
 #include "program/refusal.hpp"
@@ -37,17 +34,6 @@ riis_surface_options own_frame(const StatesOptions &options) {
   return own;
 }
 
-struct Disc {
-  std::string parameter{};  // the parameter's name, such as root_radius
-  double radius = 0;
-  PlanePoint centre{};  // the mean translation of the valve or of its cusps
-};
-
-bool ends_in_translation(const std::string &name) {
-  const std::string ending = "translation";
-  return name.size() >= ending.size() && name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
-}
-
 // A valve with its surface.
 class OpeningValve {
  public:
@@ -66,42 +52,34 @@ class OpeningValve {
 
   std::string why_closed() { return program::why_closed(valve_.get(), own_frame(options_)); }
 
-  // Returns the disc of the root or of a housing about the axis, or nothing if the valve has no such radius.
-  std::optional<Disc> disc() const {
-    Disc disc;
-    std::size_t n_shifts = 0;
-    for (const riis_parameter &parameter : parameters()) {
-      const std::string name = parameter.name;
-      if (name == "root_radius" || name == "radius") {
-        disc.parameter = name;
-        disc.radius = values_of(parameter)[0];
-      }
-      if (!ends_in_translation(name)) continue;
-      const Point value = values_of(parameter);
-      ++n_shifts;
-      for (std::size_t k = 0; k < 2; ++k) disc.centre[k] += (value[k] - disc.centre[k]) / static_cast<double>(n_shifts);
-    }
-    return disc.parameter.empty() ? std::nullopt : std::optional(disc);
-  }
-
-  riis_triangles arrays() const { return triangles_of(surface_.get()); }
-
- private:
-  std::vector<riis_parameter> parameters() const {
+  // Returns the name of the parameter that is the disc's radius, or "".
+  std::string radius_parameter() const {
     int64_t n = 0;
     check(riis_valve_get_n_parameters(valve_.get(), &n));
-    std::vector<riis_parameter> all(static_cast<std::size_t>(n));
-    for (int64_t i = 0; i < n; ++i) check(riis_valve_get_parameter(valve_.get(), i, &view(all)[i], sizeof all[0]));
-    return all;
-  }
-  // Returns the values in the unit of the surface.
-  Point values_of(const riis_parameter &parameter) const {
-    Point values{};
-    check(riis_valve_get(valve_.get(), parameter.name, parameter.n_values, values.data()));
-    for (double &value : values) value *= options_.surface_options.scale;
-    return values;
+    for (int64_t i = 0; i < n; ++i) {
+      riis_parameter parameter;
+      check(riis_valve_get_parameter(valve_.get(), i, &parameter, sizeof parameter));
+      const std::string name = parameter.name;
+      if (name == "root_radius" || name == "radius") return name;
+    }
+    return "";
   }
 
+  std::vector<riis_leaflet> leaflets() const {
+    int64_t n = 0;
+    check(riis_surface_get_n_leaflets(surface_.get(), &n));
+    std::vector<riis_leaflet> made(static_cast<std::size_t>(n));
+    for (int64_t i = 0; i < n; ++i) check(riis_surface_get_leaflet(surface_.get(), i, &view(made)[i], sizeof made[0]));
+    return made;
+  }
+
+  riis_orifice orifice() const {
+    riis_orifice made;
+    check(riis_surface_get_orifice(surface_.get(), nullptr, &made, sizeof made));
+    return made;
+  }
+
+ private:
   std::string subject() const { return is_valve_file(options_.valve) ? options_.valve : ""; }
   void set_opening(double opening) { check(riis_valve_set_scalar(valve_.get(), "opening", opening)); }
 
@@ -110,97 +88,58 @@ class OpeningValve {
   Surface surface_;
 };
 
-std::vector<std::string> names_of_leaflets(const StatesOptions &options,
-                                           const std::map<std::int32_t, LeafletSize> &sizes) {
+std::vector<std::string> names_of_leaflets(const StatesOptions &options, const std::vector<riis_leaflet> &leaflets) {
   const std::vector<const char *> known = leaflet_names(options);
   std::vector<std::string> names;
-  for (const auto &[id, size] : sizes) {
-    const auto at = static_cast<std::size_t>(id);
-    names.push_back(at < known.size() ? known[at] : "leaflet " + std::to_string(id));
+  for (const riis_leaflet &leaflet : leaflets) {
+    const auto at = static_cast<std::size_t>(leaflet.leaflet_id);
+    names.push_back(at < known.size() ? known[at] : "leaflet " + std::to_string(leaflet.leaflet_id));
   }
   return names;
-}
-
-// Edges that meet in the closed valve are free if they separate when it opens.
-std::set<std::int32_t> free_edges_of(OpeningValve &valve, bool can_open) {
-  std::set<std::int32_t> free = free_edges(sides_of_patches(valve.arrays()));
-  if (!can_open) return free;
-  valve.open_to(1);
-  free.merge(free_edges(sides_of_patches(valve.arrays())));
-  return free;
 }
 
 // Rigid leaflets that turn keep all lengths.
 bool is_rigid(const std::string &valve) { return valve == "bileaflet"; }
 
-class Measures {
- public:
-  Measures(const StatesOptions &options, OpeningValve &valve, bool can_open)
-      : options_(options), valve_(valve), disc_(valve.disc()) {
-    valve_.open_to(0);
-    free_ = free_edges_of(valve_, can_open);
-  }
+State state_at(OpeningValve &valve, double opening) {
+  valve.open_to(opening);
+  State state{opening, {}, std::nullopt};
+  for (const riis_leaflet &leaflet : valve.leaflets()) state.leaflets.push_back({leaflet.free_edge, leaflet.area});
+  const riis_orifice orifice = valve.orifice();
+  if (orifice.outline != RIIS_OUTLINE_NONE) state.orifice = {orifice.area, orifice.perimeter, orifice.effective_area};
+  return state;
+}
 
-  State at(double opening) {
-    valve_.open_to(opening);
-    const riis_triangles surface = valve_.arrays();
-    const std::vector<PatchSides> patches = sides_of_patches(surface);
-    State state{opening, {}, std::nullopt};
-    for (const auto &[id, size] : sizes_of(surface, patches)) state.leaflets.push_back(size);
-    if (const auto outline = outline_of(patches)) state.orifice = uncovered_area(*outline, projected(surface));
-    return state;
+// Returns the closed state's names, ids and disc, which all openings share.
+States frame_of(const StatesOptions &options, OpeningValve &valve) {
+  valve.open_to(0);
+  const std::vector<riis_leaflet> leaflets = valve.leaflets();
+  const riis_orifice orifice = valve.orifice();
+  States states{{}, names_of_leaflets(options, leaflets), "", "", orifice.outline_area, "", {}, ""};
+  for (const riis_leaflet &leaflet : leaflets) {
+    states.ids.push_back(leaflet.leaflet_id);
+    if (leaflet.free_edge == 0) states.why_no_edges = "a leaflet has no side v = 1 on its rim";
   }
-
-  // Returns the closed state's names, ids and disc, which all openings share.
-  States frame() {
-    valve_.open_to(0);
-    const riis_triangles surface = valve_.arrays();
-    const std::vector<PatchSides> patches = sides_of_patches(surface);
-    const auto sizes = sizes_of(surface, patches);
-    const auto outline = outline_of(patches);
-    States states{{}, names_of_leaflets(options_, sizes), "", "", outline ? area_of(*outline) : 0, {}, ""};
-    for (const auto &[id, size] : sizes) states.ids.push_back(id);
-    for (const auto &[id, size] : sizes)
-      if (size.edge == 0) states.why_no_edges = "a leaflet has no side v = 1 on its rim";
-    if (is_rigid(options_.valve)) states.why_no_edges = "the leaflets are rigid";
-    if (disc_) states.disc = "the disc of " + disc_->parameter + " " + shown(disc_->radius);
-    if (!disc_ && outline) states.disc = "the outline of the attachment";
-    return states;
-  }
-
- private:
-  std::map<std::int32_t, LeafletSize> sizes_of(const riis_triangles &surface,
-                                               const std::vector<PatchSides> &patches) const {
-    std::map<std::int32_t, LeafletSize> sizes;
-    for (const auto &[id, area] : areas_of_leaflets(surface)) sizes[id] = {0, area};
-    for (const PatchSides &patch : patches)
-      if (free_.count(patch.patch_id) != 0) sizes[patch.leaflet_id].edge += line_length(patch.lines[side_v1]);
-    return sizes;
-  }
-
-  std::optional<Outline> outline_of(const std::vector<PatchSides> &patches) const {
-    return disc_ ? circle(disc_->radius, disc_->centre) : closed_outline(attachment(patches));
-  }
-
-  const StatesOptions &options_;
-  OpeningValve &valve_;
-  std::optional<Disc> disc_;
-  std::set<std::int32_t> free_;
-};
+  if (is_rigid(options.valve)) states.why_no_edges = "the leaflets are rigid";
+  if (orifice.outline == RIIS_OUTLINE_DISC)
+    states.disc = "the disc of " + valve.radius_parameter() + " " + shown(orifice.radius);
+  if (orifice.outline == RIIS_OUTLINE_ATTACHMENT) states.disc = "the outline of the attachment";
+  states.reach = shown(orifice.rim_reach) + " half thicknesses of " + shown(orifice.half_thickness);
+  return states;
+}
 
 }  // namespace
 
 States measure_states(const StatesOptions &options) {
   OpeningValve valve(options);
   const std::string why_closed = valve.why_closed();
-  Measures measures(options, valve, why_closed.empty());
-  States states = measures.frame();
+  States states = frame_of(options, valve);
   states.why_closed = why_closed;
   const std::size_t n = why_closed.empty() ? static_cast<std::size_t>(options.n_states) : 1;
   StepProgress progress("measuring the valve", n, options.quiet);
   for (std::size_t i = 0; i < n; ++i) {
     progress.begin(i);
-    states.states.push_back(measures.at(n > 1 ? static_cast<double>(i) / static_cast<double>(n - 1) : 0));
+    states.states.push_back(state_at(valve, n > 1 ? static_cast<double>(i) / static_cast<double>(n - 1) : 0));
     if (!states.states.back().orifice) states.disc.clear();
   }
   return states;
@@ -287,13 +226,24 @@ void add_leaflets(const States &states, Summary &summary) {
 std::string text_of_orifice(const States &states) {
   if (states.disc.empty())
     return "not measured: the valve has no root_radius or radius, and its free sides v = 0 enclose no area along z";
-  const Value value = [](const State &state) { return *state.orifice; };
+  const Value value = [](const State &state) { return state.orifice->area; };
   std::string text = rounded(value(states.states.front())) + " at 0";
   if (states.states.size() > 1) {
     const State *most = extremes_of(states, value).most;
     text += ", largest " + rounded(value(*most)) + at(*most);
   }
   return text + "; " + states.disc + " has " + rounded(states.disc_area);
+}
+
+// Names the areas that the band leaves to the flow.
+std::string text_of_effective(const States &states) {
+  const Value value = [](const State &state) { return state.orifice->effective_area; };
+  std::string text = rounded(value(states.states.front())) + " at 0";
+  if (states.states.size() > 1) {
+    const State *most = extremes_of(states, value).most;
+    text += ", largest " + rounded(value(*most)) + at(*most);
+  }
+  return text + "; the band's rim takes " + states.reach;
 }
 
 // Lists the free edges that gain or lose more than a tenth, and the opening at which this begins.
@@ -343,13 +293,15 @@ std::string csv_of(const States &states) {
     if (states.has_edges()) text += column + "_edge" + column + "_edge_ratio";
     text += column + "_area" + column + "_area_ratio";
   }
-  if (!states.disc.empty()) text += ",orifice_area";
+  if (!states.disc.empty()) text += ",orifice_area,orifice_perimeter,effective_area";
   text += "\n";
   for (const State &state : states.states) {
     text += shortest(state.opening);
     for (std::size_t i = 0; i < state.leaflets.size(); ++i)
       text += cells_of(state.leaflets[i], states.states.front().leaflets[i], states.has_edges());
-    if (!states.disc.empty()) text += "," + shortest(*state.orifice);
+    if (!states.disc.empty())
+      text += "," + shortest(state.orifice->area) + "," + shortest(state.orifice->perimeter) + "," +
+              shortest(state.orifice->effective_area);
     text += "\n";
   }
   return text;
@@ -364,6 +316,7 @@ std::string summary_of(const States &states, const StatesOptions &options) {
                             : "opening 0 alone, because it has no state to open to"));
   add_leaflets(states, summary);
   summary.add("orifice", text_of_orifice(states));
+  if (!states.disc.empty()) summary.add("effective", text_of_effective(states));
   if (!states.has_edges()) summary.add("edges", "not measured: " + states.why_no_edges);
   if (states.has_edges() && can_open) summary.add("edges", text_of_changes(states));
   summary.add("written", options.output);

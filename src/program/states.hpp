@@ -16,10 +16,14 @@ struct LeafletSize {
   double area;
 };
 
+struct OrificeSize {
+  double area, perimeter, effective_area;  // as in riis_orifice
+};
+
 struct State {
   double opening;
   std::vector<LeafletSize> leaflets;
-  std::optional<double> orifice;
+  std::optional<OrificeSize> orifice;
 };
 
 struct States {
@@ -28,6 +32,7 @@ struct States {
   std::string why_no_edges;   // "": the leaflets have free edges
   std::string disc;           // such as "the disc of root_radius 1.29"; "": the valve has no orifice
   double disc_area;           // when closed
+  std::string reach;          // how far the band's rim reaches into the orifice, in text
   std::vector<State> states;  // ascending by opening; the first is closed
   std::string why_closed;     // the library's refusal of other openings; "" if the valve opens
 
@@ -42,7 +47,8 @@ void run_states(const StatesOptions &options);
 
 // In: the states of a valve. Out: the table as CSV, and a summary for people.
 
-// The columns are opening, then NAME_edge, NAME_edge_ratio, NAME_area and NAME_area_ratio of each leaflet, then orifice_area.
+// The columns are opening, then NAME_edge, NAME_edge_ratio, NAME_area and NAME_area_ratio of each leaflet, then orifice_area,
+// orifice_perimeter and effective_area.
 // Ratios are relative to the closed state.
 std::string csv_of(const States &states);
 

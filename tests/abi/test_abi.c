@@ -336,6 +336,51 @@ static void test_structs(void **state) {
   FIELD(riis_passage_ends, n_to, 24, 8);
   FIELD(riis_passage_ends, to, 32, 8);
 
+  SIZE(riis_leaflet, 32);
+  FIELD(riis_leaflet, n_triangles, 0, 8);
+  FIELD(riis_leaflet, area, 8, 8);
+  FIELD(riis_leaflet, free_edge, 16, 8);
+  FIELD(riis_leaflet, leaflet_id, 24, 4);
+  FIELD(riis_leaflet, reserved, 28, 4);
+
+  SIZE(riis_orifice, 88);
+  FIELD(riis_orifice, area, 0, 8);
+  FIELD(riis_orifice, outline_area, 8, 8);
+  FIELD(riis_orifice, perimeter, 16, 8);
+  FIELD(riis_orifice, effective_area, 24, 8);
+  FIELD(riis_orifice, rim_reach, 32, 8);
+  FIELD(riis_orifice, half_thickness, 40, 8);
+  FIELD(riis_orifice, radius, 48, 8);
+  FIELD(riis_orifice, axis, 56, 24);
+  FIELD(riis_orifice, outline, 80, 4);
+  FIELD(riis_orifice, reserved, 84, 4);
+
+  SIZE(riis_first_passage_options, 32);
+  FIELD(riis_first_passage_options, struct_size, 0, 8);
+  FIELD(riis_first_passage_options, surface, 8, 8);
+  FIELD(riis_first_passage_options, marking, 16, 8);
+  FIELD(riis_first_passage_options, tolerance, 24, 8);
+
+  SIZE(riis_first_passage, 72);
+  FIELD(riis_first_passage, opening, 0, 8);
+  FIELD(riis_first_passage, closed_opening, 8, 8);
+  FIELD(riis_first_passage, node_id, 16, 8);
+  FIELD(riis_first_passage, distance, 24, 8);
+  FIELD(riis_first_passage, point, 32, 24);
+  FIELD(riis_first_passage, seconds, 56, 8);
+  FIELD(riis_first_passage, n_openings, 64, 4);
+  FIELD(riis_first_passage, state, 68, 4);
+
+  SIZE(riis_cells_across, 64);
+  FIELD(riis_cells_across, least, 0, 8);
+  FIELD(riis_cells_across, mean, 8, 8);
+  FIELD(riis_cells_across, most, 16, 8);
+  FIELD(riis_cells_across, shortest_edge, 24, 8);
+  FIELD(riis_cells_across, mean_edge, 32, 8);
+  FIELD(riis_cells_across, longest_edge, 40, 8);
+  FIELD(riis_cells_across, half_thickness, 48, 8);
+  FIELD(riis_cells_across, n_edges, 56, 8);
+
   SIZE(riis_opening_table, 48);
   FIELD(riis_opening_table, struct_size, 0, 8);
   FIELD(riis_opening_table, n_keys, 8, 8);
@@ -465,6 +510,14 @@ static void test_constants(void **state) {
   assert_int_equal(RIIS_PASSAGE_CLOSED, 0);
   assert_int_equal(RIIS_PASSAGE_OPEN, 1);
   assert_int_equal(RIIS_PASSAGE_NONE, 2);
+  assert_int_equal(RIIS_OUTLINE_NONE, 0);
+  assert_int_equal(RIIS_OUTLINE_DISC, 1);
+  assert_int_equal(RIIS_OUTLINE_ATTACHMENT, 2);
+  assert_int_equal(RIIS_FIRST_PASSAGE_FOUND, 0);
+  assert_int_equal(RIIS_FIRST_PASSAGE_ALWAYS, 1);
+  assert_int_equal(RIIS_FIRST_PASSAGE_NEVER, 2);
+  assert_int_equal(RIIS_FIRST_PASSAGE_NONE, 3);
+  assert_int_equal(RIIS_ALL_LEAFLETS, -1);
   assert_int_equal(RIIS_PHASE_CLOSING, 0);
   assert_int_equal(RIIS_PHASE_OPENING, 1);
   assert_int_equal(RIIS_VTK_VIEW_SIDE, 0);
@@ -575,6 +628,21 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_find_passage, int32_t,
             (const riis_surface *, const riis_mesh *, const riis_passage_ends *, const riis_mark_options *,
              riis_passage *, int64_t));
+  SIGNATURE(riis_surface_get_n_leaflets, int32_t, (const riis_surface *, int64_t *));
+  SIGNATURE(riis_surface_get_leaflet, int32_t, (const riis_surface *, int64_t, riis_leaflet *, int64_t));
+  SIGNATURE(riis_surface_get_orifice, int32_t,
+            (const riis_surface *, const riis_resistance *, riis_orifice *, int64_t));
+  SIGNATURE(riis_surface_get_leak, int32_t, (const riis_surface *, const riis_resistance *, double, double *));
+  SIGNATURE(riis_first_passage_options_init, int32_t, (riis_first_passage_options *, int64_t));
+  SIGNATURE(riis_find_first_passage, int32_t,
+            (const riis_valve *, const riis_mesh *, const riis_passage_ends *, const riis_first_passage_options *,
+             riis_first_passage *, int64_t));
+  SIGNATURE(riis_marks_get_cells_across, int32_t,
+            (const riis_marks *, const riis_mesh *, riis_cells_across *, int64_t));
+  SIGNATURE(riis_valve_get_swept_volume, int32_t,
+            (const riis_valve *, double, double, const riis_surface_options *, int32_t, double *));
+  SIGNATURE(riis_keyframes_get_swept_volume, int32_t,
+            (const riis_keyframes *, double, double, const riis_surface_options *, int32_t, double *));
   SIGNATURE(riis_opening_table_init, int32_t, (riis_opening_table *, int64_t));
   SIGNATURE(riis_opening_from_table, int32_t, (const riis_opening_table *, double, double *, double *));
   SIGNATURE(riis_opening_times_init, int32_t, (riis_opening_times *, int64_t));

@@ -83,6 +83,50 @@ static void test_open_valve(void **state) {
   assert_non_null(strstr(program_out, "\npassage   closed: at "));
 }
 
+/* What the valve and the mesh mean for the flow, against the library's calls. */
+static void test_flow(void **state) {
+  (void)state;
+  RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, "--valve", "trileaflet", "--opening", "0",
+           "--first-passage", "--resistance", "500", "--drop", "20", "--stats", "-");
+  const char *const orifice = strstr(program_out, "\"orifice\""),
+                    *const cells = strstr(program_out, "\"cells_across\""),
+                    *const first = strstr(program_out, "\"first_passage\"");
+  assert_true(orifice && cells && first);
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  riis_orifice expected;
+  riis_resistance how;
+  double flow = 0;
+  expect_fine(riis_valve_create("trileaflet", &valve));
+  expect_fine(riis_surface_create(valve, NULL, &surface));
+  expect_fine(riis_surface_get_orifice(surface, NULL, &expected, sizeof expected));
+  expect_fine(riis_resistance_init(&how, sizeof how));
+  how.R = 500;
+  expect_fine(riis_surface_get_leak(surface, &how, 1, &flow));
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+  assert_true(fabs(json_number(orifice, "area") - expected.area) <= 1e-12);
+  assert_true(fabs(json_number(orifice, "effective_area") - expected.effective_area) <= 1e-12);
+  assert_true(fabs(json_number(program_out, "leak") - 20 * flow) <= 1e-12);
+  const double half_thickness = json_number(program_out, "half_thickness");
+  assert_true(fabs(json_number(cells, "mean") * json_number(cells, "mean_edge") - 2 * half_thickness) <= 1e-12);
+  assert_true(json_number(cells, "least") <= json_number(cells, "mean") && json_number(cells, "n_edges") > 0);
+  assert_true(json_has_text(first, "state", "\"found\""));
+  char typed[32];
+  snprintf(typed, sizeof typed, "%.17g", json_number(first, "opening"));
+  RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, "--valve", "trileaflet", "--opening", typed);
+  assert_non_null(strstr(program_out, "\npassage   open: at "));
+  assert_non_null(strstr(program_out, "\nacross    "));
+  assert_non_null(strstr(program_out, "\norifice   "));
+  assert_null(strstr(program_out, "\nopens     "));
+  RUN_REFUSED(2, "--first-passage requires --between", "check", "leaks", scratch_path("box.vtu"), "--first-passage");
+  RUN_REFUSED(2, "--drop requires --resistance", "check", "leaks", scratch_path("box.vtu"), "--drop", "2");
+  RUN_REFUSED(2, "--resistance requires --drop", "check", "leaks", scratch_path("box.vtu"), "--resistance", "2");
+  RUN_REFUSED(2, "--resistance: 0 is not above 0", "check", "leaks", scratch_path("box.vtu"), "--resistance", "0",
+              "--drop", "2");
+  RUN_REFUSED(2, "--drop: 'x'", "check", "leaks", scratch_path("box.vtu"), "--resistance", "1", "--drop", "x");
+}
+
 static void test_closed_valve(void **state) {
   (void)state;
   RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, SEALED);
@@ -181,13 +225,10 @@ static void test_series(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_open_valve),
-      cmocka_unit_test(test_closed_valve),
-      cmocka_unit_test(test_end_is_the_narrowest_place),
-      cmocka_unit_test(test_what_is_refused),
-      cmocka_unit_test(test_pieces),
-      cmocka_unit_test(test_cases),
-      cmocka_unit_test(test_series),
+      cmocka_unit_test(test_open_valve),      cmocka_unit_test(test_flow),
+      cmocka_unit_test(test_closed_valve),    cmocka_unit_test(test_end_is_the_narrowest_place),
+      cmocka_unit_test(test_what_is_refused), cmocka_unit_test(test_pieces),
+      cmocka_unit_test(test_cases),           cmocka_unit_test(test_series),
   };
   return cmocka_run_group_tests(tests, write_box, scratch_teardown);
 }

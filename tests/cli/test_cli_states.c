@@ -161,7 +161,7 @@ static void test_mitral(void **state) {
   riis_valve *valve = make_valve("mitral");
   RUN_STATES("--valve", "mitral", "--count", "5");
   assert_int_equal(table.n_rows, n_states);
-  assert_int_equal(table.n_columns, 10);
+  assert_int_equal(table.n_columns, 12);
   check_ratios();
   for (int i = 0; i < n_states; ++i) {
     parameters.opening = 0.25 * i;
@@ -177,6 +177,9 @@ static void test_mitral(void **state) {
     CHECK_NEAR(cell(i, "anterior_area"), found.area[0], 0.02);
     CHECK_NEAR(cell(i, "posterior_area"), found.area[1], 0.02);
     CHECK_NEAR(cell(i, "orifice_area"), found.orifice, 0.03);
+    CHECK_AT_MOST(cell(i, "effective_area"), cell(i, "orifice_area"));
+    /* The rim reaches no farther than two half thicknesses of 0.1. */
+    CHECK_AT_MOST(cell(i, "orifice_area") - 0.2 * cell(i, "orifice_perimeter"), cell(i, "effective_area"));
     mitral_oracle_destroy(oracle);
   }
   annulus_of = NULL;
@@ -244,12 +247,15 @@ static void test_aortic(void **state) {
   scratch_write_text("open.json", "{\"leaflet_radius_in\": 1}");
   RUN_STATES("--params-open", scratch_path("open.json"), "--count", "3");
   assert_int_equal(table.n_rows, 3);
-  assert_int_equal(table.n_columns, 14);
+  assert_int_equal(table.n_columns, 16);
   check_ratios();
   for (int i = 0; i < 3; ++i) {
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5 * i));
     const measured found = measure(valve, 1.3, is_in_root);
     CHECK_NEAR(cell(i, "orifice_area"), found.orifice, 0.03);
+    CHECK_AT_MOST(cell(i, "effective_area"), cell(i, "orifice_area"));
+    /* The rim reaches no farther than two half thicknesses of 0.1. */
+    CHECK_AT_MOST(cell(i, "orifice_area") - 0.2 * cell(i, "orifice_perimeter"), cell(i, "effective_area"));
     for (int k = 0; k < 3; ++k) {
       const double *of = table_of_paper[k];
       char name[64];

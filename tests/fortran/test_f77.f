@@ -448,6 +448,7 @@ C     A thin valve, and edges that cross it between unmarked nodes.
      &    CALL FAILED('the same edges')
    10 CONTINUE
       CALL REGION(SURF, MESH, RES)
+      CALL MEANS(MESH, RES)
       CALL RIISF_MESH_CLEAR_ADJACENCY(MESH, STAT)
       CALL OK(STAT)
       CALL RIISF_LEAKS_DESTROY(LKS)
@@ -494,6 +495,69 @@ C     node to the last one.
       CALL OK(STAT)
       IF (NODE3 .NE. NODE .OR. DIST3 .NE. DIST .OR.
      &  POINT3(1) .NE. POINT(1)) CALL FAILED('the same passage')
+      END
+
+C     What a valve means for the flow. The box is wider than the
+C     valve, so flow passes also when it is closed.
+      SUBROUTINE MEANS(MESH, RES)
+      INTEGER NN
+      PARAMETER (NN = 9261)
+      INTEGER*8 MESH, RES, VALVE, SURF
+      INTEGER STAT, STATE, OUTL, FROM(1), TO(1)
+      DOUBLE PRECISION AXIS(3), ZERO(3), A, DISC, P, EFF, FLOW, VOL
+      DOUBLE PRECISION LEAST, MEAN, MOST, EDGE, AT, BEFORE
+      DATA AXIS /0D0, 0D0, 1D0/, ZERO /3*0D0/
+      INCLUDE 'riisf.h'
+      VALVE = 0
+      SURF = 0
+      CALL RIISF_CELLS_ACROSS(RES, MESH, LEAST, MEAN, MOST, EDGE, STAT)
+      CALL OK(STAT)
+      IF (LEAST .LE. 0D0 .OR. MEAN .LT. LEAST .OR. MOST .LT. MEAN .OR.
+     &  EDGE .LE. 0D0) CALL FAILED('cells across')
+      CALL RIISF_VALVE_CREATE('bileaflet', VALVE, STAT)
+      CALL OK(STAT)
+      CALL RIISF_VALVE_SWEPT_VOLUME(VALVE, 0D0, 1D0, 1D0,
+     &  RIIS_ALL_LEAFLETS, VOL, STAT)
+      CALL OK(STAT)
+      IF (ABS(VOL - 1.2007D0) .GT. 1D-3) CALL FAILED('swept')
+      CALL RIISF_VALVE_SWEPT_VOLUME(VALVE, 0D0, 2D0, 1D0, 0, VOL, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'opening_to is 2')
+      CALL RIISF_SURFACE_CREATE(VALVE, 0.1D0, 0.05D0, 1D0, AXIS, 0D0,
+     &  ZERO, SURF, STAT)
+      CALL OK(STAT)
+      CALL RIISF_SURFACE_ORIFICE(SURF, RIIS_AUTO, RIIS_RIM_CUT, A, DISC,
+     &  P, EFF, OUTL, STAT)
+      CALL OK(STAT)
+      IF (A .GT. 0.01D0 .OR. ABS(DISC - 3.8013D0) .GT. 1D-3 .OR.
+     &  P .LT. 0D0 .OR. EFF .GT. A .OR. OUTL .NE. RIIS_OUTLINE_DISC)
+     &  CALL FAILED('the orifice')
+      CALL RIISF_SURFACE_ORIFICE(SURF, 0D0, RIIS_RIM_CUT, A, DISC, P,
+     &  EFF, OUTL, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'half_thickness is 0')
+      CALL RIISF_SURFACE_LEAK(SURF, 2D0, 0.5D0, 8D0, FLOW, STAT)
+      CALL OK(STAT)
+      IF (ABS(FLOW - 2 * 4.3877D0) .GT. 3D-2) CALL FAILED('the leak')
+      CALL RIISF_SURFACE_LEAK(SURF, -1D0, 0.5D0, 8D0, FLOW, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'resistance.R is -1')
+      FROM(1) = 1
+      TO(1) = NN
+      CALL RIISF_FIND_FIRST_PASSAGE(VALVE, MESH, 1, FROM, 1, TO,
+     &  0.02D0, 0.05D0, 1D0, AXIS, 0D0, ZERO, 1D-3, 1, STATE, AT,
+     &  BEFORE, STAT)
+      CALL OK(STAT)
+      IF (STATE .NE. RIIS_FIRST_PASSAGE_ALWAYS .OR. AT .NE. 0D0)
+     &  CALL FAILED('a first passage')
+      CALL RIISF_FIND_FIRST_PASSAGE_64(VALVE, MESH, INT(1, 8),
+     &  INT(FROM, 8), INT(1, 8), INT(TO, 8), 0.02D0, 0.05D0, 1D0, AXIS,
+     &  0D0, ZERO, 1D-3, 1, STATE, AT, BEFORE, STAT)
+      CALL OK(STAT)
+      IF (STATE .NE. RIIS_FIRST_PASSAGE_ALWAYS) CALL FAILED('by int64')
+      CALL RIISF_FIND_FIRST_PASSAGE(VALVE, MESH, 0, FROM, 1, TO,
+     &  0.02D0, 0.05D0, 1D0, AXIS, 0D0, ZERO, 1D-3, 1, STATE, AT,
+     &  BEFORE, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'ends.n_from is 0')
+      CALL RIISF_SURFACE_DESTROY(SURF)
+      CALL RIISF_VALVE_DESTROY(VALVE)
       END
 
 C     A valve that moves by 0.01 in 2 ms, the fields of its closest

@@ -37,6 +37,11 @@ program test_layout
   type(riis_leak_list), target :: lls
   type(riis_passage), target :: ps4
   type(riis_passage_ends), target :: pes
+  type(riis_leaflet), target :: lf
+  type(riis_orifice), target :: orf
+  type(riis_first_passage_options), target :: fpo
+  type(riis_first_passage), target :: fp
+  type(riis_cells_across), target :: ca
   type(riis_opening_table), target :: ots
   type(riis_opening_times), target :: ots2
   type(riis_opening_switch), target :: oss
@@ -136,6 +141,19 @@ program test_layout
     at(c_loc(ps4%point)), at(c_loc(ps4%seconds)), at(c_loc(ps4%state)), at(c_loc(ps4%reserved))])
   call compare('riis_passage_ends', c_sizeof(pes), c_loc(pes), [at(c_loc(pes%struct_size)), at(c_loc(pes%n_from)), &
     at(c_loc(pes%from)), at(c_loc(pes%n_to)), at(c_loc(pes%to))])
+  call compare('riis_leaflet', c_sizeof(lf), c_loc(lf), [at(c_loc(lf%n_triangles)), at(c_loc(lf%area)), &
+    at(c_loc(lf%free_edge)), at(c_loc(lf%leaflet_id)), at(c_loc(lf%reserved))])
+  call compare('riis_orifice', c_sizeof(orf), c_loc(orf), [at(c_loc(orf%area)), at(c_loc(orf%outline_area)), &
+    at(c_loc(orf%perimeter)), at(c_loc(orf%effective_area)), at(c_loc(orf%rim_reach)), at(c_loc(orf%half_thickness)), &
+    at(c_loc(orf%radius)), at(c_loc(orf%axis)), at(c_loc(orf%outline)), at(c_loc(orf%reserved))])
+  call compare('riis_first_passage_options', c_sizeof(fpo), c_loc(fpo), [at(c_loc(fpo%struct_size)), &
+    at(c_loc(fpo%surface)), at(c_loc(fpo%marking)), at(c_loc(fpo%tolerance))])
+  call compare('riis_first_passage', c_sizeof(fp), c_loc(fp), [at(c_loc(fp%opening)), at(c_loc(fp%closed_opening)), &
+    at(c_loc(fp%node_id)), at(c_loc(fp%distance)), at(c_loc(fp%point)), at(c_loc(fp%seconds)), &
+    at(c_loc(fp%n_openings)), at(c_loc(fp%state))])
+  call compare('riis_cells_across', c_sizeof(ca), c_loc(ca), [at(c_loc(ca%least)), at(c_loc(ca%mean)), &
+    at(c_loc(ca%most)), at(c_loc(ca%shortest_edge)), at(c_loc(ca%mean_edge)), at(c_loc(ca%longest_edge)), &
+    at(c_loc(ca%half_thickness)), at(c_loc(ca%n_edges))])
   call compare('riis_opening_table', c_sizeof(ots), c_loc(ots), [at(c_loc(ots%struct_size)), at(c_loc(ots%n_keys)), &
     at(c_loc(ots%time)), at(c_loc(ots%opening)), at(c_loc(ots%period)), at(c_loc(ots%interpolation)), &
     at(c_loc(ots%reserved))])

@@ -96,6 +96,7 @@ DEFINE_OWN(adjacency)
 DEFINE_OWN(marks)
 DEFINE_OWN(leaks)
 DEFINE_OWN(crossings)
+DEFINE_OWN(keyframes)
 #undef DEFINE_OWN
 
 /* A test may destroy an object that it owns. */
@@ -106,6 +107,7 @@ DEFINE_OWN(crossings)
 #define riis_marks_destroy destroy_and_disown_marks
 #define riis_leaks_destroy destroy_and_disown_leaks
 #define riis_crossings_destroy destroy_and_disown_crossings
+#define riis_keyframes_destroy destroy_and_disown_keyframes
 
 /* Records its argument, a handle or memory from malloc, and returns it. */
 #define own(object) \
@@ -117,6 +119,7 @@ DEFINE_OWN(crossings)
       riis_marks *: own_marks,             \
       riis_leaks *: own_leaks,             \
       riis_crossings *: own_crossings,     \
+      riis_keyframes *: own_keyframes,     \
       void *: own_memory)(object)
 
 /* In a file that includes this one, every test has the teardown. */

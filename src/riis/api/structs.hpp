@@ -47,6 +47,11 @@ constexpr std::int64_t first_size_of(const riis_band *) { return 48; }
 constexpr std::int64_t first_size_of(const riis_leak_list *) { return 96; }
 constexpr std::int64_t first_size_of(const riis_passage *) { return 56; }
 constexpr std::int64_t first_size_of(const riis_passage_ends *) { return 40; }
+constexpr std::int64_t first_size_of(const riis_leaflet *) { return 32; }
+constexpr std::int64_t first_size_of(const riis_orifice *) { return 88; }
+constexpr std::int64_t first_size_of(const riis_first_passage_options *) { return 32; }
+constexpr std::int64_t first_size_of(const riis_first_passage *) { return 72; }
+constexpr std::int64_t first_size_of(const riis_cells_across *) { return 64; }
 constexpr std::int64_t first_size_of(const riis_opening_table *) { return 48; }
 constexpr std::int64_t first_size_of(const riis_opening_times *) { return 64; }
 constexpr std::int64_t first_size_of(const riis_opening_switch *) { return 56; }

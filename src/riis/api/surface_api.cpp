@@ -8,6 +8,7 @@
 
 #include "api/handles.hpp"
 #include "api/structs.hpp"
+#include "api/surface_options.hpp"
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
 #include "pipeline/updatable_surface.hpp"
@@ -19,20 +20,6 @@ using riis::require_handle;
 
 namespace {
 
-const riis_surface_options default_options{sizeof(riis_surface_options),
-                                           RIIS_AUTO,
-                                           0.05,
-                                           1.0,
-                                           {0, 0, 1},
-                                           0,
-                                           {0, 0, 0},
-                                           RIIS_AUTO,
-                                           RIIS_MEASURE_TRIANGLES,
-                                           RIIS_TRIANGULATION_ADAPTED,
-                                           RIIS_ZERO_AREA_REFUSE,
-                                           0,
-                                           0,
-                                           0};
 const riis_surface_arrays default_arrays{sizeof(riis_surface_arrays),
                                          0,
                                          nullptr,
@@ -51,57 +38,9 @@ const riis_surface_arrays default_arrays{sizeof(riis_surface_arrays),
                                          0,
                                          64};
 
-void check_flag(const char *name, std::int32_t value) {
-  if (value != 0 && value != 1)
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.", name, " is ", value, "; it must be 0 or 1");
-}
-
-// Checks the fields of the placement. `name` is the argument that has them.
-void check_placement(const riis_surface_options &options, const char *name) {
-  check_range(name, "scale", options.scale, 1e-12, 1e12);
-  check_range(name, "rotation_angle", options.rotation_angle, -1e6, 1e6);
-  for (const double value : options.rotation_axis) check_range(name, "rotation_axis", value, -1e50, 1e50);
-  for (const double value : options.translation) check_range(name, "translation", value, -1e50, 1e50);
-  const double *axis = options.rotation_axis;
-  if (!(std::hypot(axis[0], axis[1], axis[2]) >= 1e-50))
-    riis::fail(RIIS_INVALID_ARGUMENT, name, ".rotation_axis is (", axis[0], ", ", axis[1], ", ", axis[2],
-               "); it must be at least 1e-50 long");
-}
-
-void check_options(const riis_surface_options &options) {
-  check_placement(options, "options");
-  if (options.half_thickness != RIIS_AUTO)
-    check_range("options", "half_thickness", options.half_thickness, 1e-50, 1e50);
-  check_range("options", "tolerance", options.tolerance, 1e-6, 1.0);
-  check_flag("zero_area", options.zero_area);
-  check_flag("flip_normals", options.flip_normals);
-  if (options.measure < RIIS_MEASURE_TRIANGLES || options.measure > RIIS_MEASURE_MINIMIZATION)
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.measure is ", options.measure, "; it must be one of RIIS_MEASURE_*");
-  if (options.triangulation < RIIS_TRIANGULATION_ADAPTED || options.triangulation > RIIS_TRIANGULATION_FIXED)
-    riis::fail(RIIS_INVALID_ARGUMENT, "options.triangulation is ", options.triangulation,
-               "; it must be one of RIIS_TRIANGULATION_*");
-  riis::check_threads(options.n_threads, "options.n_threads");
-  if (options.measure_tolerance != RIIS_AUTO)
-    check_range("options", "measure_tolerance", options.measure_tolerance, 1e-6, 1.0);
-  riis::check_reserved("options.reserved", options.reserved);
-}
-
-riis::Placement placement_of(const riis_surface_options &options) {
-  const double *axis = options.rotation_axis, *t = options.translation;
-  // std::hypot avoids overflow and underflow of the squares, so the axis may be very long or very short.
-  const double size = std::hypot(axis[0], axis[1], axis[2]);
-  return {options.scale,
-          riis::rotation_about({axis[0] / size, axis[1] / size, axis[2] / size}, options.rotation_angle),
-          {t[0], t[1], t[2]}};
-}
-
-double half_thickness_of(const riis_surface_options &options) {
-  return options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
-}
-
 // Returns measure_tolerance * half_thickness. If measure_tolerance is RIIS_AUTO, uses tolerance instead.
 double distance_error_of(const riis_surface_options &options) {
-  return half_thickness_of(options) *
+  return riis::half_thickness_of(options) *
          (options.measure_tolerance == RIIS_AUTO ? options.tolerance : options.measure_tolerance);
 }
 
@@ -116,7 +55,7 @@ void check_precision(const riis_surface_options &options, const char *name, doub
 
 // Returns the request. It passes on n_threads even if it is 0, because the surface itself chooses the default.
 riis::SurfaceRequest request_of(const riis_surface_options &options) {
-  return {half_thickness_of(options), placement_of(options), options.flip_normals != 0, options.n_threads};
+  return {riis::half_thickness_of(options), riis::placement_of(options), options.flip_normals != 0, options.n_threads};
 }
 
 // The state before a moving update, and the time since then.
@@ -131,18 +70,18 @@ riis::ValveMotion motion_of(const MotionArguments &motion, const riis_surface_op
   if (!(std::abs(motion.dt) >= 1e-30 && std::abs(motion.dt) <= 1e30))
     riis::fail(RIIS_INVALID_ARGUMENT, "dt is ", motion.dt,
                "; it must be the time from valve_before to valve, from 1e-30 to 1e+30 in magnitude");
-  const riis_surface_options before =
-      riis::completed(motion.options_before, "options_before", motion.options_before ? default_options : options_now);
-  check_placement(before, "options_before");
-  return {motion.valve_before->valve, placement_of(before), motion.dt};
+  const riis_surface_options before = riis::completed(
+      motion.options_before, "options_before", motion.options_before ? riis::default_surface_options : options_now);
+  riis::check_placement(before, "options_before");
+  return {motion.valve_before->valve, riis::placement_of(before), motion.dt};
 }
 
 void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_surface_options &options,
                      const MotionArguments *motion = nullptr) {
-  check_options(options);
+  riis::check_options(options);
   std::optional<riis::ValveMotion> valve_motion;
   if (motion) valve_motion.emplace(motion_of(*motion, options));
-  const riis::ValveAccuracy accuracy{options.tolerance * half_thickness_of(options), options.measure,
+  const riis::ValveAccuracy accuracy{options.tolerance * riis::half_thickness_of(options), options.measure,
                                      distance_error_of(options), options.triangulation == RIIS_TRIANGULATION_FIXED};
   check_precision(options, "tolerance", accuracy.triangle_error);
   if (options.measure != RIIS_MEASURE_TRIANGLES) check_precision(options, "measure_tolerance", accuracy.distance_error);
@@ -157,7 +96,8 @@ void update_from_valve(riis_surface *surface, const riis_valve *valve, const rii
   require_handle(surface, "surface");
   require_handle(valve, "valve");
   if (motion) require_handle(motion->valve_before, "valve_before");
-  fill_from_valve(*surface, valve, riis::completed(options, "options", options ? default_options : surface->options),
+  fill_from_valve(*surface, valve,
+                  riis::completed(options, "options", options ? riis::default_surface_options : surface->options),
                   motion);
 }
 
@@ -166,7 +106,7 @@ riis_surface_arrays completed(const riis_surface_arrays *arrays) {
 }
 
 void check_options_for_faces(const riis_surface_options &options) {
-  check_options(options);
+  riis::check_options(options);
   if (options.measure != RIIS_MEASURE_TRIANGLES)
     riis::fail(RIIS_INVALID_ARGUMENT, "options.measure is ", options.measure,
                ", which works on patches, but a surface from arrays has triangles only: it must be "
@@ -196,7 +136,7 @@ template <class Fill>
 void create(const riis_surface_options *options, riis_surface **surface, const Fill &fill_surface) {
   require(surface, "surface");
   auto made = std::make_unique<riis_surface>();
-  fill_surface(*made, riis::completed(options, "options", default_options));
+  fill_surface(*made, riis::completed(options, "options", riis::default_surface_options));
   *surface = made.release();
 }
 
@@ -205,7 +145,7 @@ void create(const riis_surface_options *options, riis_surface **surface, const F
 extern "C" {
 
 riis_status riis_surface_options_init(riis_surface_options *options, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(options, struct_size, "options", default_options); });
+  return guarded([&] { riis::init_struct(options, struct_size, "options", riis::default_surface_options); });
 }
 
 riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size) {
@@ -248,7 +188,7 @@ riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_su
   return guarded([&] {
     require_handle(surface, "surface");
     fill_from_arrays(*surface, completed(arrays),
-                     riis::completed(options, "options", options ? default_options : surface->options));
+                     riis::completed(options, "options", options ? riis::default_surface_options : surface->options));
   });
 }
 
@@ -265,8 +205,9 @@ riis_status riis_surface_update_from_keyframes(riis_surface *surface, const riis
                                                double dt, const riis_surface_options *options) {
   return guarded([&] {
     require_handle(surface, "surface");
-    fill_from_keyframes(*surface, keyframes, time, dt,
-                        riis::completed(options, "options", options ? default_options : surface->options));
+    fill_from_keyframes(
+        *surface, keyframes, time, dt,
+        riis::completed(options, "options", options ? riis::default_surface_options : surface->options));
   });
 }
 

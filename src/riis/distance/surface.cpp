@@ -46,6 +46,7 @@ void Surface::make(TriangleSet triangles, double half_thickness, int n_threads) 
   pseudonormals_.store(nullptr, std::memory_order_relaxed);
   pseudonormals_owner_.reset();
   other_distance_.reset();
+  frame_.reset();
   states_.reset();
   velocity_error_bound_.store(not_known, std::memory_order_relaxed);
   scene_.make(triangles_, n_threads);

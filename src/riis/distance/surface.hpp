@@ -13,6 +13,7 @@
 
 #include "distance/patch_distance.hpp"
 #include "surface/attachment.hpp"
+#include "surface/orifice.hpp"
 #include "surface/pseudonormals.hpp"
 #include "surface/triangle_scene.hpp"
 #include "surface/triangle_set.hpp"
@@ -28,6 +29,10 @@ class Surface {
   TriangleSet take_triangles() { return std::move(triangles_); }
   // Sets another method to measure distances. Without it, distances are to the triangles.
   void measure_by(std::unique_ptr<const PatchDistance> other_distance, double triangle_error);
+
+  // Takes the frame of the valve that the triangles come from. A surface from arrays has none.
+  void is_of_valve(const ValveFrame &frame) { frame_.emplace(frame); }
+  const std::optional<ValveFrame> &frame() const { return frame_; }
 
   // Takes the two states that the velocities were computed from.
   void moved_between(TwoStates states) { states_.emplace(std::move(states)); }
@@ -70,6 +75,7 @@ class Surface {
   std::vector<std::int32_t> leaflet_ids_;
   // Computed on demand, because marking never needs it. Threads that compute it at the same time get the same bits.
   mutable std::atomic<double> area_{not_known};
+  std::optional<ValveFrame> frame_;
   std::optional<TwoStates> states_;
   mutable std::atomic<double> velocity_error_bound_{not_known};
   std::unique_ptr<const PatchDistance> other_distance_;

@@ -6,9 +6,18 @@
 #include <optional>
 
 #include "base/errors.hpp"
-#include "geometry/curve_points.hpp"
 
 namespace riis {
+
+Vector<Vec3> arc_offsets(const PatchSet &set, const Patch &patch, const CurvePoints &base, const CurvePoints &edge) {
+  Vector<Vec3> made(base.size(), Vec3{0, 0, 0});
+  if (patch.bulge == 0) return made;
+  for (std::size_t i = 1; i + 1 < made.size(); ++i)
+    made[i] = arc_offset(edge.point(i) - base.point(i), base.tangent(i), patch.bulge);
+  made.front() = arc_offset(set, patch.u0), made.back() = arc_offset(set, patch.u1);
+  return made;
+}
+
 namespace {
 
 // A side of a patch in both states.
@@ -117,24 +126,13 @@ Vector<Vec3> displacements_of(const MovedPatch &moved, const SideOnGrid &on, con
   return side.displacements(lines.shares(on.t), std::move(points), unknown);
 }
 
-// Returns O of a patch of arcs at ascending u. At the two ends, O comes from the shared sides, as it does in the neighbouring
-// patches.
-Vector<Vec3> offsets_at(const PatchSet &set, const Patch &patch, const CurvePoints &base, const CurvePoints &edge) {
-  Vector<Vec3> made(base.size(), Vec3{0, 0, 0});
-  if (patch.bulge == 0) return made;
-  for (std::size_t i = 1; i + 1 < made.size(); ++i)
-    made[i] = arc_offset(edge.point(i) - base.point(i), base.tangent(i), patch.bulge);
-  made.front() = arc_offset(set, patch.u0), made.back() = arc_offset(set, patch.u1);
-  return made;
-}
-
 Vector<Vec3> offset_displacements(const MovedPatch &moved, const Vector<double> &u) {
   const Patch &patch_now = moved.now.patches[moved.patch], &patch_before = moved.before.patches[moved.patch];
   const MovedSide base(moved, &Patch::v0), edge(moved, &Patch::v1);
   if (base.is_at_rest() && edge.is_at_rest() && patch_now.bulge == patch_before.bulge)
     return Vector<Vec3>(u.size(), Vec3{0, 0, 0});
-  Vector<Vec3> made = offsets_at(moved.now, patch_now, base.points_now(u), edge.points_now(u));
-  const Vector<Vec3> before = offsets_at(moved.before, patch_before, base.points_before(u), edge.points_before(u));
+  Vector<Vec3> made = arc_offsets(moved.now, patch_now, base.points_now(u), edge.points_now(u));
+  const Vector<Vec3> before = arc_offsets(moved.before, patch_before, base.points_before(u), edge.points_before(u));
   for (std::size_t i = 0; i < made.size(); ++i) made[i] = made[i] - before[i];
   return made;
 }

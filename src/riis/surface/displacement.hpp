@@ -7,6 +7,7 @@
 
 #include "base/recycled.hpp"
 #include "geometry/coons.hpp"
+#include "geometry/curve_points.hpp"
 #include "geometry/placement.hpp"
 #include "surface/quads.hpp"
 #include "valve/patches.hpp"
@@ -95,6 +96,10 @@ class ImageMotion {
   AffineMap now_, difference_;
   double seconds_, scale_before_;
 };
+
+// Returns O of a patch of arcs at the ascending u of these points, and 0 for other patches. At the ends O is made from the shared
+// sides, as in the neighbouring patches.
+Vector<Vec3> arc_offsets(const PatchSet &set, const Patch &patch, const CurvePoints &base, const CurvePoints &edge);
 
 // Fails with RIIS_INVALID_PARAMETER unless the patches of both states have the same build: the same numbers of patches, images
 // and kinds.

@@ -45,11 +45,15 @@ Vector<std::uint8_t> rim_sides(const PatchSet &set) {
   for (auto first = uses.begin(); first != uses.end();) {
     const auto last = std::find_if(first, uses.end(), [&](const Use &use) { return use.curve != first->curve; });
     for (auto use = first; use != last; ++use) {
-      const bool is_shared = std::any_of(first, last, [&](const Use &other) {
-        return &other != &*use && coincide(set.curves[use->curve], *use->image, *other.image);
-      });
+      bool is_shared = false, is_shared_in_leaflet = false;
+      for (auto other = first; other != last && !is_shared_in_leaflet; ++other) {
+        if (other == use || !coincide(set.curves[use->curve], *use->image, *other->image)) continue;
+        is_shared = true;
+        is_shared_in_leaflet = other->image->leaflet_id == use->image->leaflet_id;
+      }
       std::uint8_t &of_patch = view(sides)[use->image->patch_id];
       if (!is_shared) of_patch = static_cast<std::uint8_t>(of_patch | use->side);
+      if (!is_shared_in_leaflet && use->side == rim_v1) of_patch = static_cast<std::uint8_t>(of_patch | free_v1);
     }
     first = last;
   }

@@ -41,7 +41,7 @@ struct TriangleSet {
   std::int64_t n_zero_area = 0;           // number of triangles that were left out
   double error_bound = 0;                 // bounds the distance to the smooth valve, placed; 0 for surfaces from arrays
   Vector<std::uint8_t> rim_sides;    // an entry for each patch_id, bits of PatchRim; empty for surfaces from arrays
-  Vector<VerticesOfPatch> patches;        // ascending by first vertex; empty for surfaces from arrays
+  Vector<VerticesOfPatch> patches;   // ascending by first vertex; empty for surfaces from arrays
   std::uint64_t connectivity = 0;    // number of the triangles' plan, or 0 (surface/triangulate_fixed.cpp)
   Grouping grouping;                 // empty if the triangles were made without groups
   Vector<LevelledGrid> moved_grids;  // grids of triangles with velocities from patches

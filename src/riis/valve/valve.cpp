@@ -104,6 +104,22 @@ void Valve::set_open_state(const Valve &open) {
   open_ = ValveState(open.state_);  // copied first, because member-by-member assignment could fail half way
 }
 
+Valve::Disc Valve::disc() const {
+  constexpr std::string_view shift = "translation";
+  Disc disc{0, 0, 0};
+  double n_shifts = 0;
+  for (std::size_t i = 0; i < kind_->parameters.size(); ++i) {
+    const std::string_view name = kind_->parameters[i].name;
+    const std::array<double, 3> &value = state_.values[i];
+    if (name == "root_radius" || name == "radius") disc.radius = value[0];
+    if (name != shift && !is_of_a_leaflet(kind_->parameters[i], shift)) continue;
+    ++n_shifts;
+    disc.x += (value[0] - disc.x) / n_shifts;
+    disc.y += (value[1] - disc.y) / n_shifts;
+  }
+  return disc;
+}
+
 namespace {
 
 constexpr const char *fixed_for = ", but the surface's triangulation is fixed for ";

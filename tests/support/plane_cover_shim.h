@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * C wrappers of the program's measurement of the orifice. */
-#ifndef RIIS_TESTS_ORIFICE_SHIM_H
-#define RIIS_TESTS_ORIFICE_SHIM_H
+ * The part of an outline that triangles leave uncovered (geometry/plane_cover.hpp), as C wrappers. */
+#ifndef RIIS_TESTS_PLANE_COVER_SHIM_H
+#define RIIS_TESTS_PLANE_COVER_SHIM_H
 
 #include <stdint.h>
 
@@ -21,6 +21,14 @@ double shim_uncovered_circle(double radius, const double centre[2], int64_t n_tr
  *   points  (3, 2, n_segments) */
 double shim_uncovered_inside(int64_t n_segments, const double *points, int64_t n_triangles, const double *corners,
                              int64_t n_lines);
+
+/* Triangles on common vertices, which grow by `reach`: the area that they leave of a circle, and the length of its edge.
+ *   xy         (2, n_vertices)
+ *   vertex_id  (3, n_triangles) */
+double shim_area_beyond(double radius, const double centre[2], int64_t n_vertices, const double *xy,
+                        int64_t n_triangles, const int64_t *vertex_id, double reach);
+double shim_edge_beyond(double radius, const double centre[2], int64_t n_vertices, const double *xy,
+                        int64_t n_triangles, const int64_t *vertex_id, double reach);
 
 #ifdef __cplusplus
 }

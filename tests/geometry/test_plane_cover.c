@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The orifice of `riis states`, compared with closed forms and with counts of points. */
-#include "orifice_shim.h"
+ * The part of an outline that triangles leave uncovered, compared with closed forms and with counts of points. */
+#include "plane_cover_shim.h"
 #include "test_support.h"
 
 static const double pi = 3.14159265358979323846;
-enum { n_lines = 2048 }; /* as in the program */
+enum { n_lines = 2048, n_edge_lines = 512 }; /* the library's */
 
 static void rotated(double x, double y, double angle, const double *centre, double *to) {
   to[0] = centre[0] + cos(angle) * x - sin(angle) * y;
@@ -30,7 +30,7 @@ static void test_circle(void **state) {
 static void test_ring(void **state) {
   (void)state;
   enum { m = 90 };
-  random_source random = random_start("test_orifice");
+  random_source random = random_start("test_plane_cover");
   static double corners[2 * m][6];
   for (int turn = 0; turn < 20; ++turn) {
     const double centre[2] = {random_between(&random, -2, 2), random_between(&random, -2, 2)};
@@ -53,11 +53,11 @@ static void test_ring(void **state) {
   }
 }
 
-/* A half plane through the centre covers half the circle, in any direction. The program's lines run along x, so an edge along
+/* A half plane through the centre covers half the circle, in any direction. The lines run along x, so an edge along
  * x is the worst case. */
 static void test_half(void **state) {
   (void)state;
-  random_source random = random_start("test_orifice");
+  random_source random = random_start("test_plane_cover");
   for (int turn = 0; turn < 100; ++turn) {
     const double centre[2] = {random_between(&random, -2, 2), random_between(&random, -2, 2)};
     const double radius = 1.1, angle = turn < 4 ? turn * pi / 2 : random_between(&random, 0, 2 * pi);
@@ -87,7 +87,7 @@ static void test_random(void **state) {
   enum { n_side = 600, n_triangles = 12 };
   const double square[4][6] = {{-1, -1, 0, 1, -1, 5}, {1, -1, 5, 1, 1, 0}, {-1, 1, 2, 1, 1, 0}, {-1, -1, 0, -1, 1, 2}};
   const double origin[2] = {0, 0};
-  random_source random = random_start("test_orifice");
+  random_source random = random_start("test_plane_cover");
   for (int turn = 0; turn < 6; ++turn) {
     double corners[n_triangles][6];
     for (int i = 0; i < 6 * n_triangles; ++i) corners[i / 6][i % 6] = random_between(&random, -1.3, 1.3);
@@ -119,10 +119,62 @@ static void test_open_lines(void **state) {
   }
 }
 
+/* A round plate in the circle grows: a ring remains, or a hole in a plate closes. */
+static void test_growing(void **state) {
+  (void)state;
+  enum { m = 720 };
+  static double xy[2 * (2 * m + 1)];
+  static int64_t ids[3 * 2 * m];
+  random_source random = random_start("test_plane_cover");
+  const double step = 2 * pi / m;
+  for (int turn = 0; turn < 20; ++turn) {
+    const double centre[2] = {random_between(&random, -2, 2), random_between(&random, -2, 2)};
+    const double radius = random_between(&random, 0.5, 2), size = radius * random_between(&random, 0.3, 0.7);
+    const double reach = size * random_between(&random, 0.05, 0.3), first = random_between(&random, 0, 2 * pi);
+    const int is_plate = turn % 2; /* otherwise a ring round a hole */
+    for (int i = 0; i < m; ++i) {
+      rotated(size, 0, first + i * step, centre, xy + 2 * i);
+      rotated(is_plate ? 0 : 1.2 * radius, 0, first + i * step, centre, xy + 2 * (m + i));
+      const int next = (i + 1) % m, apart = turn % 4 < 2; /* both windings */
+      const int64_t a[3] = {i, apart ? m + i : next, apart ? next : m + i}, b[3] = {next, m + i, m + next};
+      memcpy(ids + 6 * i, a, sizeof a);
+      memcpy(ids + 6 * i + 3, b, sizeof b);
+    }
+    const double edge = is_plate ? size + reach : size - reach; /* its radius */
+    const double area = is_plate ? pi * (radius * radius - edge * edge) : pi * edge * edge;
+    CHECK_NEAR(shim_area_beyond(radius, centre, 2 * m, xy, 2 * m, ids, reach), area, 2e-4 * pi * radius * radius);
+    CHECK_NEAR(shim_edge_beyond(radius, centre, 2 * m, xy, 2 * m, ids, reach), 2 * pi * edge,
+               16 * radius / n_edge_lines); /* a spacing where each of eight arcs ends */
+    CHECK_NEAR(shim_area_beyond(radius, centre, 2 * m, xy, 2 * m, ids, 2 * radius), 0, 0);
+    CHECK_NEAR(shim_edge_beyond(radius, centre, 2 * m, xy, 2 * m, ids, 2 * radius), 0, 0);
+  }
+}
+
+/* A square plate, turned: its edge grows by arcs at the corners. */
+static void test_growing_square(void **state) {
+  (void)state;
+  random_source random = random_start("test_plane_cover");
+  const int64_t ids[6] = {0, 1, 2, 0, 2, 3};
+  for (int turn = 0; turn < 40; ++turn) {
+    const double centre[2] = {random_between(&random, -2, 2), random_between(&random, -2, 2)};
+    const double half = 0.5, reach = turn % 3 ? random_between(&random, 0.01, 0.2) : 0;
+    const double angle = turn < 4 ? turn * pi / 4 : random_between(&random, 0, 2 * pi);
+    double xy[8];
+    rotated(-half, -half, angle, centre, xy);
+    rotated(half, -half, angle, centre, xy + 2);
+    rotated(half, half, angle, centre, xy + 4);
+    rotated(-half, half, angle, centre, xy + 6);
+    const double area = pi - (4 * half * half + 8 * half * reach + pi * reach * reach);
+    CHECK_NEAR(shim_area_beyond(1, centre, 4, xy, 2, ids, reach), area, 2e-3);
+    CHECK_NEAR(shim_edge_beyond(1, centre, 4, xy, 2, ids, reach), 8 * half + 2 * pi * reach, 16 * 2.0 / n_edge_lines);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_circle), cmocka_unit_test(test_ring),       cmocka_unit_test(test_half),
-      cmocka_unit_test(test_random), cmocka_unit_test(test_open_lines),
+      cmocka_unit_test(test_circle),         cmocka_unit_test(test_ring),       cmocka_unit_test(test_half),
+      cmocka_unit_test(test_random),         cmocka_unit_test(test_open_lines), cmocka_unit_test(test_growing),
+      cmocka_unit_test(test_growing_square),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

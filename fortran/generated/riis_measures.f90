@@ -1,0 +1,280 @@
+! SPDX-License-Identifier: Apache-2.0
+! Generated from fortran/templates/riis_measures.fypp by fortran/expand_templates.sh: edit that template, not this file.
+!> What a valve means for the flow: leaflets, orifice, leak, first passage, cells across the band and swept volume of riis.h, as
+!! a part of module riis.
+module riis_measures
+  use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int8, int32, int64
+  use riis_c, c_find_first_passage => riis_find_first_passage
+  use riis_support
+  use riis_valves, only: riis_valve
+  use riis_frames, only: riis_keyframes
+  use riis_surfaces, only: riis_surface
+  use riis_meshes, only: riis_mesh
+  use riis_marking, only: riis_marks
+  implicit none
+  private
+  public :: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_leak, riis_get_cells_across, &
+    riis_get_swept_volume, riis_find_first_passage
+
+  !> Gives the volume that a valve or keyframes sweep.
+  interface riis_get_swept_volume
+    module procedure swept_volume_of_valve
+    module procedure swept_volume_of_keyframes
+  end interface riis_get_swept_volume
+
+  !> Finds the opening at which a valve first lets a mesh pass.
+  interface riis_find_first_passage
+    module procedure find_first_passage_int32, find_first_passage_int64
+  end interface riis_find_first_passage
+
+contains
+
+  !> Gives the number of the surface's leaflets.
+  subroutine riis_get_n_leaflets(surface, n_leaflets, status)
+    class(riis_surface), intent(in) :: surface              !< Created.
+    integer(int64), intent(inout) :: n_leaflets             !< Left alone on an error.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
+    code = check_created(surface%c_handle(), 'the surface')
+    if (code == RIIS_OK) code = riis_surface_get_n_leaflets(surface%c_handle(), n_leaflets)
+    call finish(code, status)
+  end subroutine riis_get_n_leaflets
+
+  !> Gives the sizes of a leaflet. Errors: RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks.
+  subroutine riis_get_leaflet(surface, leaflet_num, leaflet, status)
+    class(riis_surface), intent(in) :: surface              !< Created.
+    class(*), intent(in) :: leaflet_num                     !< integer, 1 to n_leaflets, ascending by leaflet_id.
+    type(riis_leaflet), intent(inout) :: leaflet            !< Left alone on an error.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
+    integer(int64) :: num
+    code = check_created(surface%c_handle(), 'the surface')
+    call get_integer(leaflet_num, 'leaflet_num', num, code)
+    if (code == RIIS_OK) code = riis_surface_get_leaflet(surface%c_handle(), num - 1, leaflet, c_sizeof(leaflet))
+    call finish(code, status)
+  end subroutine riis_get_leaflet
+
+  ! Makes a resistance of the arguments. Does nothing after an error.
+  subroutine get_resistance(R, half_thickness, rim, made, code)
+    real(c_double), intent(in), optional :: R, half_thickness
+    class(*), intent(in), optional :: rim
+    type(riis_resistance), intent(inout) :: made
+    integer(riis_status), intent(inout) :: code
+    if (code == RIIS_OK) code = riis_resistance_init(made, c_sizeof(made))
+    if (present(R)) made%R = R
+    if (present(half_thickness)) made%half_thickness = half_thickness
+    call get_integer(rim, 'rim', made%rim, code)
+  end subroutine get_resistance
+
+  !> Measures the orifice of a valve's surface: the area that its triangles leave uncovered along the valve's axis, and the
+  !! effective area that the band leaves to the flow. Errors: RIIS_INVALID_ARGUMENT for an argument out of range, and for a
+  !! surface from arrays or keyframes.
+  subroutine riis_get_orifice(surface, orifice, half_thickness, rim, status)
+    class(riis_surface), intent(in) :: surface              !< Created from a valve.
+    type(riis_orifice), intent(inout) :: orifice            !< Left alone on an error.
+    real(c_double), intent(in), optional :: half_thickness  !< eps of the resistance. Default RIIS_AUTO: the surface's.
+    class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_resistance) :: made
+    integer(riis_status) :: code
+    code = check_created(surface%c_handle(), 'the surface')
+    call get_resistance(half_thickness=half_thickness, rim=rim, made=made, code=code)
+    if (code == RIIS_OK) code = riis_surface_get_orifice(surface%c_handle(), made, orifice, c_sizeof(orifice))
+    call finish(code, status)
+  end subroutine riis_get_orifice
+
+  !> Tells the ideal leak of a closed surface: the volume flow through it at a pressure drop, drop * (eps / R) * area. The
+  !! bileaflet housing does not count. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
+  subroutine riis_get_leak(surface, R, drop, flow, half_thickness, status)
+    class(riis_surface), intent(in) :: surface              !< Created, closed.
+    real(c_double), intent(in) :: R                         !< > 0, at most 1e60, mass / (length time): kg/(m s).
+    real(c_double), intent(in) :: drop                      !< Pressure upstream less that downstream, magnitude at most 1e30.
+    real(c_double), intent(inout) :: flow                   !< Left alone on an error.
+    real(c_double), intent(in), optional :: half_thickness  !< eps of the resistance. Default RIIS_AUTO: the surface's.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_resistance) :: made
+    integer(riis_status) :: code
+    code = check_created(surface%c_handle(), 'the surface')
+    call get_resistance(R, half_thickness, made=made, code=code)
+    if (code == RIIS_OK) code = riis_surface_get_leak(surface%c_handle(), made, drop, flow)
+    call finish(code, status)
+  end subroutine riis_get_leak
+
+  !> Tells how many mesh edges lie across the band around the surface, by the edges with a marked node. Errors:
+  !! RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks of another mesh or never marked with.
+  subroutine riis_get_cells_across(marks, mesh, cells, status)
+    class(riis_marks), intent(in) :: marks                  !< From riis_mark_nodes.
+    class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
+    type(riis_cells_across), intent(inout) :: cells         !< Left alone on an error.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
+    code = check_created(marks%c_handle(), 'the object marks')
+    if (code == RIIS_OK) code = check_created(mesh%c_handle(), 'mesh')
+    if (code == RIIS_OK) code = riis_marks_get_cells_across(marks%c_handle(), mesh%c_handle(), cells, c_sizeof(cells))
+    call finish(code, status)
+  end subroutine riis_get_cells_across
+
+  ! Makes the options that count for a swept volume. Does nothing after an error.
+  subroutine get_sweep(leaflet_id, scale, flip_normals, n_threads, options, id, code)
+    class(*), intent(in), optional :: leaflet_id, n_threads
+    real(c_double), intent(in), optional :: scale
+    logical, intent(in), optional :: flip_normals
+    type(riis_surface_options), intent(inout) :: options
+    integer(int32), intent(inout) :: id
+    integer(riis_status), intent(inout) :: code
+    id = RIIS_ALL_LEAFLETS
+    if (code == RIIS_OK) code = riis_surface_options_init(options, c_sizeof(options))
+    if (present(scale)) options%scale = scale
+    if (present(flip_normals)) options%flip_normals = merge(1, 0, flip_normals)
+    call get_integer(leaflet_id, 'leaflet_id', id, code)
+    call get_integer(n_threads, 'n_threads', options%n_threads, code)
+  end subroutine get_sweep
+
+  !> Gives the volume that a valve sweeps between two openings, in mesh units cubed: the integral of u_surface . n over surface
+  !! and time, positive along the normals. Errors: RIIS_INVALID_ARGUMENT for an opening out of range and a leaflet that the
+  !! valve lacks; RIIS_INVALID_PARAMETER for parameters that do not go together, and for a valve with only one state.
+  subroutine swept_volume_of_valve(valve, opening_from, opening_to, volume, leaflet_id, scale, flip_normals, n_threads, status)
+    class(riis_valve), intent(in) :: valve                  !< Created. Its own opening does not count.
+    real(c_double), intent(in) :: opening_from              !< 0 to 1.
+    real(c_double), intent(in) :: opening_to                !< 0 to 1.
+    real(c_double), intent(inout) :: volume                 !< Left alone on an error.
+    class(*), intent(in), optional :: leaflet_id            !< integer, RIIS_LEAFLET_*. Default RIIS_ALL_LEAFLETS.
+    real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12. Default 1.
+    logical, intent(in), optional :: flip_normals           !< .true. changes the sign. Default .false.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_surface_options) :: options
+    integer(int32) :: id
+    integer(riis_status) :: code
+    code = check_created(valve%c_handle(), 'the valve')
+    call get_sweep(leaflet_id, scale, flip_normals, n_threads, options, id, code)
+    if (code == RIIS_OK) &
+      code = riis_valve_get_swept_volume(valve%c_handle(), opening_from, opening_to, options, id, volume)
+    call finish(code, status)
+  end subroutine swept_volume_of_valve
+
+  !> Gives the volume that keyframes sweep between two times. Errors: RIIS_INVALID_ARGUMENT for a leaflet that no face has;
+  !! RIIS_LIMIT_EXCEEDED for more than 1,000,000 keys between the times.
+  subroutine swept_volume_of_keyframes(keyframes, time_from, time_to, volume, leaflet_id, scale, flip_normals, status)
+    class(riis_keyframes), intent(in) :: keyframes          !< Created.
+    real(c_double), intent(in) :: time_from                 !< Magnitude at most 1e30.
+    real(c_double), intent(in) :: time_to                   !< Magnitude at most 1e30.
+    real(c_double), intent(inout) :: volume                 !< Left alone on an error.
+    class(*), intent(in), optional :: leaflet_id            !< integer, the caller's. Default RIIS_ALL_LEAFLETS.
+    real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12. Default 1.
+    logical, intent(in), optional :: flip_normals           !< .true. changes the sign. Default .false.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_surface_options) :: options
+    integer(int32) :: id
+    integer(riis_status) :: code
+    code = check_created(keyframes%c_handle(), 'keyframes')
+    call get_sweep(leaflet_id, scale, flip_normals, options=options, id=id, code=code)
+    if (code == RIIS_OK) &
+      code = riis_keyframes_get_swept_volume(keyframes%c_handle(), time_from, time_to, options, id, volume)
+    call finish(code, status)
+  end subroutine swept_volume_of_keyframes
+
+  !> Finds the opening at which riis_find_passage first finds a passage: it tries 0, 1/8, 2/8, ... until one is open, and then
+  !! halves the last step. Errors: those of riis_surface%create and riis_find_passage, with the opening.
+  subroutine find_first_passage_int32(valve, mesh, from_num, to_num, first, half_thickness, tolerance, scale, &
+      rotation_axis, rotation_angle, translation, opening_tolerance, node_mask, n_threads, status)
+    class(riis_valve), intent(in) :: valve                  !< Created. Its own opening does not count.
+    class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. It need not have been marked.
+    integer(int32), intent(in) :: from_num(:)               !< Nodes where paths begin, counted from 1, in any order; copied.
+    integer(int32), intent(in) :: to_num(:)                 !< Nodes where they end; copied.
+    type(riis_first_passage), intent(inout) :: first        !< node_id counts from 0. Left alone on an error.
+    real(c_double), intent(in), optional :: half_thickness  !< As of riis_surface%create.
+    real(c_double), intent(in), optional :: tolerance       !< As of riis_surface%create.
+    real(c_double), intent(in), optional :: scale           !< As of riis_surface%create.
+    real(c_double), intent(in), optional :: rotation_axis(3) !< As of riis_surface%create.
+    real(c_double), intent(in), optional :: rotation_angle  !< As of riis_surface%create.
+    real(c_double), intent(in), optional :: translation(3)  !< As of riis_surface%create.
+    real(c_double), intent(in), optional :: opening_tolerance !< 1e-6 to 1. Default 1e-3.
+    logical, intent(in), optional :: node_mask(:)           !< (n_nodes): nodes with .false. are on no path; copied. Default:
+                                                            !! all nodes.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_surface_options), target :: surface
+    integer(riis_status) :: code
+    code = riis_surface_options_init(surface, c_sizeof(surface))
+    if (present(half_thickness)) surface%half_thickness = half_thickness
+    if (present(tolerance)) surface%tolerance = tolerance
+    if (present(scale)) surface%scale = scale
+    if (present(rotation_axis)) surface%rotation_axis = rotation_axis
+    if (present(rotation_angle)) surface%rotation_angle = rotation_angle
+    if (present(translation)) surface%translation = translation
+    call get_integer(n_threads, 'n_threads', surface%n_threads, code)
+    call find(valve, mesh, int(from_num, int64) - 1, int(to_num, int64) - 1, surface, opening_tolerance, node_mask, first, code)
+    call finish(code, status)
+  end subroutine find_first_passage_int32
+
+  !> Does the same with node numbers of another kind.
+  subroutine find_first_passage_int64(valve, mesh, from_num, to_num, first, half_thickness, tolerance, scale, &
+      rotation_axis, rotation_angle, translation, opening_tolerance, node_mask, n_threads, status)
+    class(riis_valve), intent(in) :: valve                  !< Created. Its own opening does not count.
+    class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. It need not have been marked.
+    integer(int64), intent(in) :: from_num(:)               !< Nodes where paths begin, counted from 1, in any order; copied.
+    integer(int64), intent(in) :: to_num(:)                 !< Nodes where they end; copied.
+    type(riis_first_passage), intent(inout) :: first        !< node_id counts from 0. Left alone on an error.
+    real(c_double), intent(in), optional :: half_thickness  !< As of riis_surface%create.
+    real(c_double), intent(in), optional :: tolerance       !< As of riis_surface%create.
+    real(c_double), intent(in), optional :: scale           !< As of riis_surface%create.
+    real(c_double), intent(in), optional :: rotation_axis(3) !< As of riis_surface%create.
+    real(c_double), intent(in), optional :: rotation_angle  !< As of riis_surface%create.
+    real(c_double), intent(in), optional :: translation(3)  !< As of riis_surface%create.
+    real(c_double), intent(in), optional :: opening_tolerance !< 1e-6 to 1. Default 1e-3.
+    logical, intent(in), optional :: node_mask(:)           !< (n_nodes): nodes with .false. are on no path; copied. Default:
+                                                            !! all nodes.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_surface_options), target :: surface
+    integer(riis_status) :: code
+    code = riis_surface_options_init(surface, c_sizeof(surface))
+    if (present(half_thickness)) surface%half_thickness = half_thickness
+    if (present(tolerance)) surface%tolerance = tolerance
+    if (present(scale)) surface%scale = scale
+    if (present(rotation_axis)) surface%rotation_axis = rotation_axis
+    if (present(rotation_angle)) surface%rotation_angle = rotation_angle
+    if (present(translation)) surface%translation = translation
+    call get_integer(n_threads, 'n_threads', surface%n_threads, code)
+    call find(valve, mesh, int(from_num, int64) - 1, int(to_num, int64) - 1, surface, opening_tolerance, node_mask, first, code)
+    call finish(code, status)
+  end subroutine find_first_passage_int64
+
+  ! This is the common part of both kinds. It does nothing after an error.
+  subroutine find(valve, mesh, from, to, surface, opening_tolerance, node_mask, first, code)
+    class(riis_valve), intent(in) :: valve
+    class(riis_mesh), intent(in) :: mesh
+    integer(int64), intent(in), contiguous :: from(:), to(:)
+    type(riis_surface_options), intent(in), target :: surface
+    real(c_double), intent(in), optional :: opening_tolerance
+    logical, intent(in), optional :: node_mask(:)
+    type(riis_first_passage), intent(inout) :: first
+    integer(riis_status), intent(inout) :: code
+    type(riis_passage_ends) :: ends
+    type(riis_mark_options), target :: marking
+    type(riis_first_passage_options) :: options
+    integer(int8), allocatable, target :: bytes(:)
+    if (code == RIIS_OK) code = check_created(valve%c_handle(), 'the valve')
+    if (code == RIIS_OK) code = check_created(mesh%c_handle(), 'mesh')
+    if (code == RIIS_OK) code = riis_passage_ends_init(ends, c_sizeof(ends))
+    if (code == RIIS_OK) code = riis_mark_options_init(marking, c_sizeof(marking))
+    if (code == RIIS_OK) code = riis_first_passage_options_init(options, c_sizeof(options))
+    call get_mask(node_mask, bytes, code)
+    if (code == RIIS_OK .and. present(node_mask)) then
+      code = check_size(size(node_mask, kind=int64), mesh%n_nodes(), 'node_mask', 'nodes')
+      if (size(node_mask) > 0) marking%node_mask = c_loc(bytes)
+    end if
+    if (code /= RIIS_OK) return
+    ends%n_from = size(from, kind=int64)
+    ends%from = location_of(from)
+    ends%n_to = size(to, kind=int64)
+    ends%to = location_of(to)
+    marking%n_threads = surface%n_threads
+    options%surface = c_loc(surface)
+    options%marking = c_loc(marking)
+    if (present(opening_tolerance)) options%tolerance = opening_tolerance
+    code = c_find_first_passage(valve%c_handle(), mesh%c_handle(), ends, options, first, c_sizeof(first))
+  end subroutine find
+end module riis_measures

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a valve means for the flow: leaflets, orifice, leak, first passage, cells across and swept volume.
+#include "arguments.hpp"
+#include "errors.hpp"
+#include "module.hpp"
+
+namespace riis_python {
+namespace {
+
+nb::object leaflets(Surface &self) {
+  const Reading reading(self.usage, "surface");
+  std::int64_t n = 0;
+  call_shortly(riis_surface_get_n_leaflets(self.handle, &n));
+  nb::list made;
+  for (std::int64_t i = 0; i < n; ++i) {
+    riis_leaflet sizes;
+    call_shortly(riis_surface_get_leaflet(self.handle, i, &sizes, sizeof sizes));
+    made.append(record("LeafletSizes")(sizes.leaflet_id, sizes.n_triangles, sizes.area, sizes.free_edge));
+  }
+  return made;
+}
+
+nb::object orifice(Surface &self, nb::handle half_thickness, nb::handle rim) {
+  const Reading reading(self.usage, "surface");
+  const riis_resistance model = resistance_of(nb::float_(0.0), half_thickness, rim);
+  riis_orifice made;
+  call_library([&] { return riis_surface_get_orifice(self.handle, &model, &made, sizeof made); });
+  static const char *const outlines[] = {"none", "disc", "attachment"};
+  return record("Orifice")(made.area, made.outline_area, made.perimeter, made.effective_area, made.rim_reach,
+                           made.half_thickness, made.radius, array_of(made.axis, "float64"), outlines[made.outline]);
+}
+
+double leak(Surface &self, nb::handle drop, nb::handle R, nb::handle half_thickness) {
+  const Reading reading(self.usage, "surface");
+  const riis_resistance model = resistance_of(R, half_thickness, nb::none());
+  const double pressure = number(drop, "drop");
+  double flow = 0;
+  call_library([&] { return riis_surface_get_leak(self.handle, &model, pressure, &flow); });
+  return flow;
+}
+
+std::int32_t leaflet_or_all(nb::handle leaflet_id) {
+  return leaflet_id.is_none() ? std::int32_t{RIIS_ALL_LEAFLETS} : integer32(leaflet_id, "leaflet_id");
+}
+
+riis_surface_options sweep_options(nb::handle scale, nb::handle n_threads) {
+  riis_surface_options options;
+  call_shortly(riis_surface_options_init(&options, sizeof options));
+  options.scale = number(scale, "scale");
+  options.n_threads = thread_count(n_threads);
+  return options;
+}
+
+double swept_by_valve(Valve &self, nb::handle from_, nb::handle to_, nb::handle leaflet_id, nb::handle scale,
+                      nb::handle n_threads) {
+  const Reading reading(self.usage, "valve");
+  const riis_surface_options options = sweep_options(scale, n_threads);
+  const double from = number(from_, "opening_from"), to = number(to_, "opening_to");
+  const std::int32_t id = leaflet_or_all(leaflet_id);
+  double volume = 0;
+  call_library([&] { return riis_valve_get_swept_volume(self.handle, from, to, &options, id, &volume); });
+  return volume;
+}
+
+double swept_by_keyframes(Keyframes &self, nb::handle from_, nb::handle to_, nb::handle leaflet_id, nb::handle scale) {
+  const Reading reading(self.usage, "keyframes");
+  const riis_surface_options options = sweep_options(scale, nb::int_(0));
+  const double from = number(from_, "time_from"), to = number(to_, "time_to");
+  const std::int32_t id = leaflet_or_all(leaflet_id);
+  double volume = 0;
+  call_library([&] { return riis_keyframes_get_swept_volume(self.handle, from, to, &options, id, &volume); });
+  return volume;
+}
+
+nb::object cells_across(Marks &self, nb::handle mesh_) {
+  Mesh &mesh = object<Mesh>(mesh_, "mesh");
+  const Reading reading_marks(self.usage, "marks"), reading_mesh(mesh.usage, "mesh");
+  self.check_threads("marks");
+  riis_cells_across made;
+  call_library([&] { return riis_marks_get_cells_across(self.handle, mesh.handle, &made, sizeof made); });
+  return record("CellsAcross")(made.least, made.mean, made.most, made.shortest_edge, made.mean_edge, made.longest_edge,
+                               made.half_thickness, made.n_edges);
+}
+
+nb::object find_first_passage(nb::handle valve_, nb::handle mesh_, nb::handle from_, nb::handle to_,
+                              nb::handle opening_tolerance, nb::handle mask, nb::handle n_threads,
+                              const nb::kwargs &surface_options) {
+  Valve &valve = object<Valve>(valve_, "valve");
+  Mesh &mesh = object<Mesh>(mesh_, "mesh");
+  const Reading reading_valve(valve.usage, "valve"), reading_mesh(mesh.usage, "mesh");
+  const MarkOptions marking(mesh, mask, n_threads);
+  riis_surface_options surface;
+  call_shortly(riis_surface_options_init(&surface, sizeof surface));
+  set_surface_options(surface, surface_options, "find_first_passage");
+  surface.n_threads = marking.options.n_threads;
+  const Array from = Array::of<std::int64_t>(from_, "from_ids"), to = Array::of<std::int64_t>(to_, "to_ids");
+  from.expect({-1});
+  to.expect({-1});
+  riis_passage_ends ends;
+  call_shortly(riis_passage_ends_init(&ends, sizeof ends));
+  ends.n_from = from.size(0);
+  ends.from = from.data<std::int64_t>();
+  ends.n_to = to.size(0);
+  ends.to = to.data<std::int64_t>();
+  riis_first_passage_options options;
+  call_shortly(riis_first_passage_options_init(&options, sizeof options));
+  options.surface = &surface;
+  options.marking = &marking.options;
+  options.tolerance = number(opening_tolerance, "opening_tolerance");
+  if (!(options.tolerance >= 1e-6 && options.tolerance <= 1))
+    refuse_value("opening_tolerance", "is ", number(opening_tolerance, "opening_tolerance"),
+                 "; it must be from 1e-06 to 1");
+  riis_first_passage found;
+  call_library(
+      [&] { return riis_find_first_passage(valve.handle, mesh.handle, &ends, &options, &found, sizeof found); });
+  static const char *const states[] = {"found", "always", "never", "none"};
+  return record("FirstPassage")(states[found.state], found.opening, found.closed_opening, found.node_id, found.distance,
+                                array_of(found.point, "float64"), found.n_openings, found.seconds);
+}
+
+#define RIIS_RIM_MODEL "half_thickness: float | None = None, rim: typing.Literal['round', 'cut'] = 'round'"
+#define RIIS_SWEEP "leaflet_id: int | None = None, scale: float = 1.0"
+
+// Adds a method to a class that another part made.
+template <class Function, class... Extra>
+void add_method(nb::module_ &module, const char *type, const char *name, Function function, const Extra &...extra) {
+  nb::cpp_function_def(function, nb::scope(module.attr(type)), nb::name(name), nb::is_method(), extra...);
+}
+
+}  // namespace
+
+void add_measures(nb::module_ &module) {
+  add_method(module, "Surface", "leaflets", &leaflets,
+             nb::sig("def leaflets(self) -> list[riis._records.LeafletSizes]"),
+             "Returns the sizes of each leaflet, ascending by leaflet_id.");
+  add_method(
+      module, "Surface", "orifice", &orifice, nb::kw_only(), nb::arg("half_thickness").none() = nb::none(),
+      nb::arg("rim").none() = "round", nb::sig("def orifice(self, *, " RIIS_RIM_MODEL ") -> riis._records.Orifice"),
+      R"(Measures the orifice of a valve's surface: what its triangles leave uncovered, seen along the valve's axis.
+
+half_thickness  eps of the resistance; None: that of the surface
+rim             'round' or 'cut', as of the resistance)");
+  add_method(module, "Surface", "leak", &leak, nb::arg("drop").none(), nb::kw_only(), nb::arg("R").none(),
+             nb::arg("half_thickness").none() = nb::none(),
+             nb::sig("def leak(self, drop: float, *, R: float, half_thickness: float | None = None) -> float"),
+             R"(Returns the ideal leak of a closed surface: the volume flow drop * (eps / R) * area.
+
+drop            pressure upstream less that downstream
+R               mass / (length time), such as kg/(m s), above 0
+half_thickness  eps of the resistance; None: that of the surface)");
+  add_method(module, "Valve", "swept_volume", &swept_by_valve, nb::arg("opening_from").none(),
+             nb::arg("opening_to").none(), nb::kw_only(), nb::arg("leaflet_id").none() = nb::none(),
+             nb::arg("scale").none() = 1.0, nb::arg("n_threads").none() = 0,
+             nb::sig("def swept_volume(self, opening_from: float, opening_to: float, *, " RIIS_SWEEP
+                     ", n_threads: int = 0) -> float"),
+             R"(Returns the volume that the valve sweeps between two openings, positive along the normals.
+
+leaflet_id  one leaflet; None: all
+scale       turns lengths into the mesh's unit)");
+  add_method(module, "Keyframes", "swept_volume", &swept_by_keyframes, nb::arg("time_from").none(),
+             nb::arg("time_to").none(), nb::kw_only(), nb::arg("leaflet_id").none() = nb::none(),
+             nb::arg("scale").none() = 1.0,
+             nb::sig("def swept_volume(self, time_from: float, time_to: float, *, " RIIS_SWEEP ") -> float"),
+             "Returns the volume that the frames sweep between two times, positive along the normals.");
+  add_method(module, "Marks", "cells_across", &cells_across, nb::arg("mesh").none(),
+             nb::sig("def cells_across(self, mesh: Mesh) -> riis._records.CellsAcross"),
+             R"(Tells how many mesh edges lie across the band, by the edges of the adjacency with a marked node.
+
+mesh  that of the marking)");
+  module.def("find_first_passage", &find_first_passage, nb::arg("valve").none(), nb::arg("mesh").none(),
+             nb::arg("from_ids").none(), nb::arg("to_ids").none(), nb::kw_only(),
+             nb::arg("opening_tolerance").none() = 1e-3, nb::arg("mask").none() = nb::none(),
+             nb::arg("n_threads").none() = 0, nb::arg("options"),
+             nb::sig("def find_first_passage(valve: Valve, mesh: Mesh, from_ids: numpy.typing.NDArray[numpy.int64], "
+                     "to_ids: numpy.typing.NDArray[numpy.int64], *, opening_tolerance: float = 1e-3, mask: "
+                     "numpy.typing.NDArray[numpy.bool_] | numpy.typing.NDArray[numpy.uint8] | None = None, n_threads: "
+                     "int = 0, **options: typing.Any) -> riis._records.FirstPassage"),
+             R"(Finds the opening at which a valve first lets the mesh pass from one set of nodes to another.
+
+from_ids, to_ids   as for find_passage
+opening_tolerance  1e-6 to 1
+options            those of riis.Surface
+
+The call tries 0, 1/8, 2/8, ... until one is open, and then halves the last step.)");
+}
+
+}  // namespace riis_python

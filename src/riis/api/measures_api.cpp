@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+// Leaflets, orifice, leak, first passage, cells across and swept volume: argument checks around these measures.
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+#include "api/handles.hpp"
+#include "api/structs.hpp"
+#include "api/surface_options.hpp"
+#include "base/errors.hpp"
+#include "base/integer_array.hpp"
+#include "common/array_view.hpp"
+#include "marking/cells_across.hpp"
+#include "surface/orifice.hpp"
+#include "surface/swept_volume.hpp"
+
+using riis::check_range;
+using riis::guarded;
+using riis::require;
+using riis::require_handle;
+
+namespace {
+
+const riis_first_passage_options default_first_passage{sizeof(riis_first_passage_options), nullptr, nullptr, 1e-3};
+
+// NULL stands for the defaults. R is not checked.
+riis_resistance resistance_for(const riis_resistance *resistance, const riis::Surface &surface) {
+  riis_resistance defaults;
+  riis_resistance_init(&defaults, sizeof defaults);
+  riis_resistance whole = riis::completed(resistance, "resistance", defaults);
+  if (whole.half_thickness == RIIS_AUTO) whole.half_thickness = surface.half_thickness();
+  check_range("resistance", "half_thickness", whole.half_thickness, 1e-50, 1e50);
+  if (whole.rim != RIIS_RIM_ROUND && whole.rim != RIIS_RIM_CUT)
+    riis::fail(RIIS_INVALID_ARGUMENT, "resistance.rim is ", whole.rim, "; it must be RIIS_RIM_ROUND or RIIS_RIM_CUT");
+  riis::check_reserved("resistance.reserved", whole.reserved);
+  return whole;
+}
+
+riis_orifice orifice_of(const riis::Surface &surface, const riis::ValveFrame &frame,
+                        const riis_resistance &resistance) {
+  const double c = resistance.rim == RIIS_RIM_CUT ? riis::rim_reach_cut : riis::rim_reach_round;
+  const double eps = resistance.half_thickness;
+  const riis::Orifice found = riis::measure_orifice(surface.triangles(), frame, {c * eps, 0.1 * eps});
+  const riis::Vec3 axis = frame.placement.rotation * riis::Vec3{0, 0, 1};
+  const double radius = found.outline == RIIS_OUTLINE_DISC ? frame.placement.scale * frame.disc.radius : 0;
+  return {found.area,
+          found.outline_area,
+          found.perimeter,
+          found.effective_area,
+          c,
+          eps,
+          radius,
+          {axis.x, axis.y, axis.z},
+          found.outline,
+          0};
+}
+
+// Tries openings of a valve in a mesh. The calls within are those of a caller, so their refusals are the same.
+class PassageTrials {
+ public:
+  PassageTrials(const riis_valve *valve, const riis_mesh *mesh, const riis_passage_ends *ends,
+                const riis_first_passage_options &options)
+      : valve_(valve->valve), mesh_(mesh), ends_(ends), options_(options) {}
+  ~PassageTrials() { riis_surface_destroy(&surface_); }
+  PassageTrials(const PassageTrials &) = delete;
+  PassageTrials &operator=(const PassageTrials &) = delete;
+
+  riis_passage at(double opening) {
+    ++n;
+    valve_.set("opening", 1, &opening);
+    const riis_valve moved{{}, valve_};
+    check(surface_ ? riis_surface_update(surface_, &moved, nullptr)
+                   : riis_surface_create(&moved, options_.surface, &surface_),
+          "options.surface: ", opening);
+    riis_passage passage;
+    check(riis_find_passage(surface_, mesh_, ends_, options_.marking, &passage, sizeof passage), "", opening);
+    return passage;
+  }
+
+  std::int32_t n = 0;
+
+ private:
+  static void check(riis_status status, const char *argument, double opening) {
+    if (status != RIIS_OK) riis::fail(status, "at the opening ", opening, ": ", argument, riis_last_error());
+  }
+
+  riis::Valve valve_;
+  const riis_mesh *mesh_;
+  const riis_passage_ends *ends_;
+  const riis_first_passage_options &options_;
+  riis_surface *surface_ = nullptr;
+};
+
+riis_first_passage found_at(double opening, double closed_opening, const riis_passage &passage, std::int32_t state) {
+  return {opening,
+          closed_opening,
+          passage.node_id,
+          passage.distance,
+          {passage.point[0], passage.point[1], passage.point[2]},
+          0,
+          0,
+          state};
+}
+
+riis_first_passage first_passage(PassageTrials &trials, double tolerance) {
+  constexpr int n_coarse = 8;
+  riis_passage passage = trials.at(0);
+  if (passage.state == RIIS_PASSAGE_NONE) return found_at(0, 0, passage, RIIS_FIRST_PASSAGE_NONE);
+  if (passage.state == RIIS_PASSAGE_OPEN) return found_at(0, 0, passage, RIIS_FIRST_PASSAGE_ALWAYS);
+  double closed = 0, open = 0;
+  for (int i = 1; i <= n_coarse && passage.state != RIIS_PASSAGE_OPEN; ++i) {
+    closed = open;
+    open = static_cast<double>(i) / n_coarse;
+    passage = trials.at(open);
+  }
+  if (passage.state != RIIS_PASSAGE_OPEN) return found_at(1, 1, passage, RIIS_FIRST_PASSAGE_NEVER);
+  while (open - closed > tolerance) {
+    const double middle = 0.5 * (closed + open);
+    const riis_passage tried = trials.at(middle);
+    if (tried.state == RIIS_PASSAGE_OPEN)
+      open = middle, passage = tried;
+    else
+      closed = middle;
+  }
+  return found_at(open, closed, passage, RIIS_FIRST_PASSAGE_FOUND);
+}
+
+// Adds the volumes of the leaflet, or of all, and places the sum. `owner` has the leaflets.
+double placed_volume(const riis::SweptVolumes &volumes, std::int32_t leaflet_id, const char *owner,
+                     const riis_surface_options &options) {
+  double sum = 0;
+  for (const auto &[id, volume] : volumes)
+    if (leaflet_id == RIIS_ALL_LEAFLETS || id == leaflet_id) sum += volume;
+  if (leaflet_id != RIIS_ALL_LEAFLETS && volumes.count(leaflet_id) == 0)
+    riis::fail(RIIS_INVALID_ARGUMENT, "leaflet_id is ", leaflet_id, ", which the ", owner,
+               " lack; RIIS_ALL_LEAFLETS, -1, stands for all");
+  const double scale = options.scale;
+  return (options.flip_normals ? -1 : 1) * (scale * scale * scale) * sum;
+}
+
+riis_surface_options checked_options(const riis_surface_options *options) {
+  const riis_surface_options whole = riis::completed(options, "options", riis::default_surface_options);
+  riis::check_options(whole);
+  return whole;
+}
+
+void check_time(const char *name, double time) { check_range("", name, time, -1e30, 1e30); }
+
+}  // namespace
+
+extern "C" {
+
+riis_status riis_surface_get_n_leaflets(const riis_surface *surface, int64_t *n_leaflets) {
+  return guarded([&] {
+    const riis::Surface &content = riis::content_of(surface);
+    const std::vector<riis_leaflet> leaflets = riis::leaflets_of(content.triangles());
+    *require(n_leaflets, "n_leaflets") = riis::view(leaflets).size();
+  });
+}
+
+riis_status riis_surface_get_leaflet(const riis_surface *surface, int64_t leaflet, riis_leaflet *sizes,
+                                     int64_t struct_size) {
+  return guarded([&] {
+    const std::vector<riis_leaflet> leaflets = riis::leaflets_of(riis::content_of(surface).triangles());
+    const auto n = riis::view(leaflets).size();
+    if (leaflet < 0 || leaflet >= n)
+      riis::fail(RIIS_INVALID_ARGUMENT, "leaflet is ", leaflet, "; the surface has ", n, ", from 0");
+    riis::write_struct(sizes, struct_size, "sizes", riis::view(leaflets)[leaflet]);
+  });
+}
+
+riis_status riis_surface_get_orifice(const riis_surface *surface, const riis_resistance *resistance,
+                                     riis_orifice *orifice, int64_t struct_size) {
+  return guarded([&] {
+    const riis::Surface &content = riis::content_of(surface);
+    const riis_resistance whole = resistance_for(resistance, content);
+    riis::check_struct_size<riis_orifice>(struct_size, "orifice");
+    require(orifice, "orifice");
+    if (!content.frame())
+      riis::fail(RIIS_INVALID_ARGUMENT,
+                 "surface was made from arrays or keyframes, which have no axis and no outline: an orifice needs one "
+                 "from a valve");
+    riis::write_struct(orifice, struct_size, "orifice", orifice_of(content, *content.frame(), whole));
+  });
+}
+
+riis_status riis_surface_get_leak(const riis_surface *surface, const riis_resistance *resistance, double drop,
+                                  double *flow) {
+  return guarded([&] {
+    const riis::Surface &content = riis::content_of(surface);
+    const riis_resistance whole = resistance_for(require(resistance, "resistance"), content);
+    if (!(whole.R > 0 && whole.R <= 1e60))
+      riis::fail(RIIS_INVALID_ARGUMENT, "resistance.R is ", whole.R, "; it must be above 0 and at most 1e+60");
+    check_range("", "drop", drop, -1e30, 1e30);
+    require(flow, "flow");
+    const double area =
+        content.frame() ? riis::area_without(content.triangles(), content.frame()->housing) : content.area();
+    *flow = drop * (whole.half_thickness / whole.R) * area;
+  });
+}
+
+riis_status riis_first_passage_options_init(riis_first_passage_options *options, int64_t struct_size) {
+  return guarded([&] { riis::init_struct(options, struct_size, "options", default_first_passage); });
+}
+
+riis_status riis_find_first_passage(const riis_valve *valve, const riis_mesh *mesh, const riis_passage_ends *ends,
+                                    const riis_first_passage_options *options, riis_first_passage *first,
+                                    int64_t struct_size) {
+  return guarded([&] {
+    const auto start = std::chrono::steady_clock::now();
+    require_handle(valve, "valve");
+    require_handle(mesh, "mesh");
+    require(ends, "ends");
+    const riis_first_passage_options whole = riis::completed(options, "options", default_first_passage);
+    check_range("options", "tolerance", whole.tolerance, 1e-6, 1);
+    riis::check_struct_size<riis_first_passage>(struct_size, "first");
+    require(first, "first");
+    PassageTrials trials(valve, mesh, ends, whole);
+    riis_first_passage found = first_passage(trials, whole.tolerance);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    found.seconds = elapsed.count();
+    found.n_openings = trials.n;
+    riis::write_struct(first, struct_size, "first", found);
+  });
+}
+
+riis_status riis_marks_get_cells_across(const riis_marks *marks, const riis_mesh *mesh, riis_cells_across *cells,
+                                        int64_t struct_size) {
+  return guarded([&] {
+    const riis::Marks &content = require_handle(marks, "marks")->marks;
+    const riis::Mesh &nodes = require_handle(mesh, "mesh")->mesh;
+    riis::check_struct_size<riis_cells_across>(struct_size, "cells");
+    require(cells, "cells");
+    if (!nodes.adjacency().has_value())
+      riis::fail(RIIS_INVALID_ARGUMENT, "mesh has no adjacency, whose edges are measured: see riis_mesh_set_adjacency");
+    if (!content.was_marked) riis::fail(RIIS_INVALID_ARGUMENT, "marks are empty: call riis_mark_nodes with them first");
+    if (content.stats.n_nodes != nodes.nodes().n)
+      riis::fail(RIIS_INVALID_ARGUMENT, "marks are of a mesh with ", content.stats.n_nodes, " nodes, mesh has ",
+                 nodes.nodes().n);
+    const int n_threads = riis::threads_for(0, nodes.nodes().n, riis::nodes_per_thread);
+    riis::write_struct(cells, struct_size, "cells", riis::cells_across(content, nodes, *nodes.adjacency(), n_threads));
+  });
+}
+
+riis_status riis_valve_get_swept_volume(const riis_valve *valve, double opening_from, double opening_to,
+                                        const riis_surface_options *options, int32_t leaflet_id, double *volume) {
+  return guarded([&] {
+    const riis::Valve &content = require_handle(valve, "valve")->valve;
+    check_range("", "opening_from", opening_from, 0, 1);
+    check_range("", "opening_to", opening_to, 0, 1);
+    const riis_surface_options whole = checked_options(options);
+    require(volume, "volume");
+    constexpr std::int64_t triangles_at_all_openings = 4'000'000;
+    const int n_threads =
+        riis::threads_for(whole.n_threads, "options.n_threads", triangles_at_all_openings, riis::triangles_per_thread);
+    *volume = placed_volume(riis::swept_volumes(content, opening_from, opening_to, n_threads), leaflet_id,
+                            "patches of the valve", whole);
+  });
+}
+
+riis_status riis_keyframes_get_swept_volume(const riis_keyframes *keyframes, double time_from, double time_to,
+                                            const riis_surface_options *options, int32_t leaflet_id, double *volume) {
+  return guarded([&] {
+    const riis::Keyframes &frames = require_handle(keyframes, "keyframes")->keyframes;
+    check_time("time_from", time_from);
+    check_time("time_to", time_to);
+    const riis_surface_options whole = checked_options(options);
+    require(volume, "volume");
+    *volume =
+        placed_volume(riis::swept_volumes(frames, time_from, time_to), leaflet_id, "faces of the keyframes", whole);
+  });
+}
+}

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/plane_cover.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <unordered_map>
+#include <utility>
+
+#include "common/array_view.hpp"
+
+namespace riis {
+namespace {
+
+// The end of a span on a line. `along` is the length of the edge there between lines that are 1 apart. It is 0 for edges that
+// are left to lines in the other direction.
+struct End {
+  double x, along;
+};
+
+struct Span {
+  End begin, end;
+};
+
+// The lines along x in the middle of equal strips of the outline.
+class ScanLines {
+ public:
+  ScanLines(const Outline &outline, std::int64_t n) : n_(n) {
+    if (outline.radius > 0) {
+      bottom_ = outline.centre[1] - outline.radius, top_ = outline.centre[1] + outline.radius;
+      return;
+    }
+    for (const auto &edge : outline.edges)
+      for (const PlanePoint &p : edge) bottom_ = std::min(bottom_, p[1]), top_ = std::max(top_, p[1]);
+  }
+  std::int64_t n() const { return n_; }
+  double spacing() const { return (top_ - bottom_) / static_cast<double>(n_); }
+  double y(std::int64_t i) const { return bottom_ + (static_cast<double>(i) + 0.5) * spacing(); }
+  // Returns the first line at or above y, or n if there is none.
+  std::int64_t first_from(double y) const {
+    const double place = std::ceil((y - bottom_) / spacing() - 0.5);
+    return static_cast<std::int64_t>(std::clamp(place, 0.0, static_cast<double>(n_)));
+  }
+
+ private:
+  std::int64_t n_;
+  double bottom_ = std::numeric_limits<double>::infinity(), top_ = -bottom_;
+};
+
+double x_at(const PlanePoint &a, const PlanePoint &b, double y) {
+  return a[0] + (b[0] - a[0]) * ((y - a[1]) / (b[1] - a[1]));
+}
+
+// Lines along y count the flat edges. An edge at 45 degrees belongs to the lines along x.
+double length_along(double dx, double dy, bool counts_equal) {
+  const double across = std::abs(dy), beside = std::abs(dx);
+  if (across < beside || (across == beside && !counts_equal)) return 0;
+  return std::hypot(dx, dy) / across;
+}
+
+// Calls visit(i, x) for each line that the edge meets. The edge's upper end does not count. Both directions give the same x, so
+// that neighbours leave no gap.
+template <class Visit>
+void for_each_crossing(const ScanLines &lines, PlanePoint a, PlanePoint b, const Visit &visit) {
+  if (b[1] < a[1]) std::swap(a, b);
+  const std::int64_t end = lines.first_from(b[1]);
+  for (std::int64_t i = lines.first_from(a[1]); i < end; ++i) visit(i, x_at(a, b, lines.y(i)));
+}
+
+using SpansOfLines = std::vector<std::vector<Span>>;
+
+SpansOfLines circle_spans(const Outline &circle, const ScanLines &lines) {
+  SpansOfLines spans(static_cast<std::size_t>(lines.n()));
+  for (std::int64_t i = 0; i < lines.n(); ++i) {
+    const double y = lines.y(i) - circle.centre[1];
+    const double half = std::sqrt(std::max(0.0, (circle.radius - y) * (circle.radius + y)));
+    view(spans)[i].push_back({{circle.centre[0] - half, 0}, {circle.centre[0] + half, 0}});
+  }
+  return spans;
+}
+
+SpansOfLines inside(const Outline &outline, const ScanLines &lines) {
+  if (outline.radius > 0) return circle_spans(outline, lines);
+  std::vector<std::vector<double>> crossings(static_cast<std::size_t>(lines.n()));
+  for (const auto &[a, b] : outline.edges)
+    for_each_crossing(lines, a, b, [&](std::int64_t i, double x) { view(crossings)[i].push_back(x); });
+  SpansOfLines spans(crossings.size());
+  for (std::size_t i = 0; i < crossings.size(); ++i) {
+    std::sort(crossings[i].begin(), crossings[i].end());
+    for (std::size_t k = 1; k < crossings[i].size(); k += 2)
+      spans[i].push_back({{crossings[i][k - 1], 0}, {crossings[i][k], 0}});
+  }
+  return spans;
+}
+
+// Collects the spans of convex shapes, which meet a line in at most one span each.
+class Covered {
+ public:
+  Covered(const ScanLines &lines, bool counts_equal)
+      : spans(static_cast<std::size_t>(lines.n())),
+        lines_(lines),
+        counts_equal_(counts_equal),
+        of_shape_(spans.size(), -1) {}
+
+  void begin_shape() { ++shape_; }
+
+  void add_edge(const PlanePoint &a, const PlanePoint &b) {
+    const double along = length_along(b[0] - a[0], b[1] - a[1], counts_equal_);
+    for_each_crossing(lines_, a, b, [&](std::int64_t i, double x) { widen(i, {x, along}); });
+  }
+
+  void add_disc(const PlanePoint &centre, double radius) {
+    const std::int64_t end = lines_.first_from(centre[1] + radius);
+    for (std::int64_t i = lines_.first_from(centre[1] - radius); i < end; ++i) {
+      const double y = lines_.y(i) - centre[1];
+      const double half = std::sqrt(std::max(0.0, (radius - y) * (radius + y)));
+      const double along = length_along(y, half, counts_equal_);  // the circle runs across its radius (half, y)
+      widen(i, {centre[0] - half, along});
+      widen(i, {centre[0] + half, along});
+    }
+  }
+
+  SpansOfLines spans;
+
+ private:
+  void widen(std::int64_t i, const End &at) {
+    if (view(of_shape_)[i] != shape_) {
+      view(of_shape_)[i] = shape_;
+      view(spans)[i].push_back({at, at});
+      return;
+    }
+    Span &span = view(spans)[i].back();
+    if (at.x < span.begin.x) span.begin = at;
+    if (at.x > span.end.x) span.end = at;
+  }
+
+  const ScanLines &lines_;
+  bool counts_equal_;
+  std::vector<std::int64_t> of_shape_;
+  std::int64_t shape_ = -1;
+};
+
+// A point is within `reach` of the triangles if it is in one of them, or within reach of the rim.
+SpansOfLines covered(const Cover &cover, double reach, const ScanLines &lines, bool counts_equal) {
+  Covered made(lines, counts_equal);
+  for (const PlaneTriangle &corner : cover.triangles) {
+    made.begin_shape();
+    for (std::size_t k = 0; k < 3; ++k) made.add_edge(corner[k], corner[(k + 1) % 3]);
+  }
+  if (!(reach > 0)) return std::move(made.spans);
+  for (const auto &[a, b] : cover.rim) {
+    const double dx = b[0] - a[0], dy = b[1] - a[1], size = std::hypot(dx, dy);
+    made.begin_shape();
+    made.add_disc(a, reach);
+    made.add_disc(b, reach);
+    if (!(size > 0)) continue;
+    for (const double aside : {reach / size, -reach / size}) {
+      const double x = -aside * dy, y = aside * dx;
+      made.add_edge({a[0] + x, a[1] + y}, {b[0] + x, b[1] + y});
+    }
+  }
+  return std::move(made.spans);
+}
+
+double total(const std::vector<Span> &spans) {
+  double sum = 0;
+  for (const Span &span : spans) sum += span.end.x - span.begin.x;
+  return sum;
+}
+
+struct Uncovered {
+  double length = 0, edge = 0;
+};
+
+// Measures what the covers leave uncovered of disjoint spans, and the edges of the covers that bound it.
+Uncovered without(const std::vector<Span> &spans, std::vector<Span> covers) {
+  std::sort(covers.begin(), covers.end(), [](const Span &a, const Span &b) { return a.begin.x < b.begin.x; });
+  Uncovered made;
+  for (const Span &span : spans) {
+    End at{span.begin.x, 0};
+    for (const Span &cover : covers) {
+      if (cover.begin.x >= span.end.x) break;
+      if (cover.begin.x > at.x) {
+        made.length += cover.begin.x - at.x;
+        made.edge += at.along + cover.begin.along;
+      }
+      if (cover.end.x > at.x) at = cover.end;
+    }
+    if (at.x < span.end.x) {
+      made.length += span.end.x - at.x;
+      made.edge += at.along;
+    }
+  }
+  return made;
+}
+
+Uncovered uncovered(const Outline &outline, const Cover &cover, double reach, std::int64_t n_lines, bool counts_equal) {
+  const ScanLines lines(outline, n_lines);
+  const SpansOfLines insides = inside(outline, lines);
+  SpansOfLines covers = covered(cover, reach, lines, counts_equal);
+  Uncovered sum;
+  for (std::size_t i = 0; i < insides.size(); ++i) {
+    const Uncovered of_line = without(insides[i], std::move(covers[i]));
+    sum.length += of_line.length;
+    sum.edge += of_line.edge;
+  }
+  return {sum.length * lines.spacing(), sum.edge * lines.spacing()};
+}
+
+PlanePoint swapped(const PlanePoint &p) { return {p[1], p[0]}; }
+
+Outline swapped(const Outline &outline) {
+  Outline made{outline.radius, swapped(outline.centre), {}};
+  for (const auto &[a, b] : outline.edges) made.edges.push_back({swapped(a), swapped(b)});
+  return made;
+}
+
+Cover swapped(const Cover &cover) {
+  Cover made;
+  for (const auto &[a, b, c] : cover.triangles) made.triangles.push_back({swapped(a), swapped(b), swapped(c)});
+  for (const auto &[a, b] : cover.rim) made.rim.push_back({swapped(a), swapped(b)});
+  return made;
+}
+
+// Lines that are seen edge on enclose only an area by rounding.
+bool has_area(const Outline &outline) {
+  const double height = ScanLines(outline, 1).spacing();
+  return height > 0 && area_of(outline) > 1e-9 * height * height;
+}
+
+// Returns 1 or -1 for the side that the triangle is seen from, and 0 if it is seen edge on.
+int side_of(const PlaneTriangle &corner) {
+  const auto &[a, b, c] = corner;
+  const double first = (b[0] - a[0]) * (c[1] - a[1]), second = (b[1] - a[1]) * (c[0] - a[0]);
+  constexpr double rounding = 1e-12;
+  if (std::abs(first - second) <= rounding * (std::abs(first) + std::abs(second))) return 0;
+  return first > second ? 1 : -1;
+}
+
+}  // namespace
+
+Outline circle(double radius, const PlanePoint &centre) { return {radius, centre, {}}; }
+
+std::optional<Outline> closed_outline(const std::vector<std::vector<PlanePoint>> &lines) {
+  Outline outline;
+  std::map<PlanePoint, int> n_ends;
+  for (const auto &line : lines) {
+    for (std::size_t i = 1; i < line.size(); ++i) outline.edges.push_back({line[i - 1], line[i]});
+    for (const PlanePoint &end : {line.front(), line.back()}) ++n_ends[end];
+  }
+  const bool is_closed = std::all_of(n_ends.begin(), n_ends.end(), [](const auto &end) { return end.second % 2 == 0; });
+  if (lines.empty() || !is_closed || !has_area(outline)) return std::nullopt;
+  return outline;
+}
+
+Cover cover_of(const std::vector<PlanePoint> &vertices, const std::vector<std::int64_t> &vertex_id) {
+  // An edge in one triangle has one triangle's side in its sum, an edge between two that are seen from the same side has both.
+  struct Use {
+    int n = 0, sides = 0;
+  };
+  std::unordered_map<std::uint64_t, Use> uses;
+  uses.reserve(vertex_id.size());
+  const auto key = [](std::int64_t a, std::int64_t b) {
+    return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint64_t>(std::max(a, b));
+  };
+  const auto n = view(vertex_id).size() / 3;
+  const auto id = [&](std::int64_t triangle, std::int64_t k) { return view(vertex_id)[3 * triangle + k % 3]; };
+  Cover cover;
+  cover.triangles.reserve(vertex_id.size() / 3);
+  for (std::int64_t i = 0; i < n; ++i) {
+    cover.triangles.push_back({view(vertices)[id(i, 0)], view(vertices)[id(i, 1)], view(vertices)[id(i, 2)]});
+    const int side = side_of(cover.triangles.back());
+    for (int k = 0; k < 3; ++k) {
+      Use &use = uses[key(id(i, k), id(i, k + 1))];
+      ++use.n;
+      use.sides += side;
+    }
+  }
+  for (std::int64_t i = 0; i < n; ++i)
+    for (int k = 0; k < 3; ++k) {
+      Use &use = uses[key(id(i, k), id(i, k + 1))];
+      if (use.n < 1 || (use.n == 2 && std::abs(use.sides) == 2)) continue;
+      use.n = -1;  // once only
+      cover.rim.push_back({view(vertices)[id(i, k)], view(vertices)[id(i, k + 1)]});
+    }
+  return cover;
+}
+
+double area_of(const Outline &outline, std::int64_t n_lines) {
+  const ScanLines lines(outline, n_lines);
+  double length = 0;
+  for (const auto &spans : inside(outline, lines)) length += total(spans);
+  return length * lines.spacing();
+}
+
+double uncovered_area(const Outline &outline, const Cover &cover, double reach, std::int64_t n_lines) {
+  return uncovered(outline, cover, reach, n_lines, true).length;
+}
+
+double uncovered_edge(const Outline &outline, const Cover &cover, double reach, std::int64_t n_lines) {
+  return uncovered(outline, cover, reach, n_lines, true).edge +
+         uncovered(swapped(outline), swapped(cover), reach, n_lines, false).edge;
+}
+
+}  // namespace riis

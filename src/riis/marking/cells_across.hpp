@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// How many mesh edges lie across the band: the lengths of the edges with a marked node.
+// In: a marking, the mesh with its adjacency. Out: counts and lengths.
+#pragma once
+
+#include <riis/riis.h>
+
+#include "marking/adjacency.hpp"
+#include "marking/marks.hpp"
+#include "marking/mesh.hpp"
+
+namespace riis {
+
+// Fails with RIIS_INVALID_MESH if a coordinate is not usable.
+riis_cells_across cells_across(const Marks &marks, const Mesh &mesh, const Adjacency &adjacency, int n_threads);
+
+}  // namespace riis

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "surface/orifice.hpp"
+
+#include <map>
+#include <optional>
+
+#include "common/array_view.hpp"
+#include "geometry/plane_cover.hpp"
+#include "surface/side_lines.hpp"
+
+namespace riis {
+namespace {
+
+// Looks along the valve's axis: undoes the rotation and the translation, keeps the scale, and drops z.
+class AlongAxis {
+ public:
+  explicit AlongAxis(const Placement &placement)
+      : x_axis_(placement.rotation * Vec3{1, 0, 0}),
+        y_axis_(placement.rotation * Vec3{0, 1, 0}),
+        translation_(placement.translation) {}
+
+  PlanePoint operator()(Vec3 p) const {
+    const Vec3 from_origin = p - translation_;
+    return {dot(x_axis_, from_origin), dot(y_axis_, from_origin)};
+  }
+
+ private:
+  Vec3 x_axis_, y_axis_, translation_;
+};
+
+std::optional<Outline> outline_of(const TriangleSet &set, const ValveFrame &frame, const AlongAxis &seen) {
+  const Valve::Disc &disc = frame.disc;
+  const double scale = frame.placement.scale;
+  if (disc.radius > 0) return circle(scale * disc.radius, {scale * disc.x, scale * disc.y});
+  std::vector<std::vector<PlanePoint>> lines;
+  for (const SideLine &side : attachment(set)) {
+    lines.emplace_back();
+    for (const Vec3 &p : side.line) lines.back().push_back(seen(p));
+  }
+  return closed_outline(lines);
+}
+
+double area_of_triangle(const TriangleSet &set, std::int64_t i) {
+  const auto [a, b, c] = set.corners(i);
+  return 0.5 * length(cross(b - a, c - a));
+}
+
+}  // namespace
+
+Orifice measure_orifice(const TriangleSet &set, const ValveFrame &frame, const OrificeLimits &limits) {
+  const AlongAxis seen(frame.placement);
+  const std::optional<Outline> outline = outline_of(set, frame, seen);
+  if (!outline) return {0, 0, 0, 0, RIIS_OUTLINE_NONE};
+  std::vector<PlanePoint> vertices;
+  vertices.reserve(set.xyz.size() / 3);
+  for (std::int64_t i = 0; i < set.n_vertices(); ++i) vertices.push_back(seen(set.vertex(i)));
+  const Cover cover = cover_of(vertices, set.vertex_id);
+  return {uncovered_area(*outline, cover, 0), area_of(*outline), uncovered_edge(*outline, cover, limits.slit),
+          uncovered_area(*outline, cover, limits.reach),
+          outline->radius > 0 ? RIIS_OUTLINE_DISC : RIIS_OUTLINE_ATTACHMENT};
+}
+
+std::vector<riis_leaflet> leaflets_of(const TriangleSet &set) {
+  std::map<std::int32_t, riis_leaflet> found;
+  for (std::int64_t i = 0; i < set.n_triangles(); ++i) {
+    const std::int32_t id = view(set.leaflet_id)[i];
+    riis_leaflet &leaflet = found.try_emplace(id, riis_leaflet{0, 0, 0, id, 0}).first->second;
+    ++leaflet.n_triangles;
+    leaflet.area += area_of_triangle(set, i);
+  }
+  for (const SideLine &edge : free_edges(set)) found.at(edge.leaflet_id).free_edge += line_length(edge.line);
+  std::vector<riis_leaflet> leaflets;
+  for (const auto &[id, leaflet] : found) leaflets.push_back(leaflet);
+  return leaflets;
+}
+
+double area_without(const TriangleSet &set, std::int32_t leaflet_id) {
+  double area = 0;
+  for (const riis_leaflet &leaflet : leaflets_of(set))
+    if (leaflet.leaflet_id != leaflet_id) area += leaflet.area;
+  return area;
+}
+
+}  // namespace riis

@@ -1,0 +1,181 @@
+! SPDX-License-Identifier: Apache-2.0
+! Module riis: leaflets, orifice, leak, first passage, cells across and swept volume, against closed forms and other calls.
+program test_measures
+  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use checks
+  use riis
+  implicit none
+  real(c_double), parameter :: pi = acos(-1d0)
+  integer(riis_status) :: status
+
+  call test_orifices()
+  call test_swept_volumes()
+  call test_passages()
+  call finish()
+
+contains
+
+  subroutine test_orifices()
+    type(riis_valve) :: valve
+    type(riis_surface) :: surface, empty, plate
+    type(riis_orifice) :: orifice, placed
+    type(riis_leaflet) :: leaflet
+    type(riis_surface_info) :: info
+    real(c_double) :: xyz(3, 3), flow, area
+    integer(int64) :: n
+    integer :: i
+    call valve%create('trileaflet')
+    call valve%set('opening', 1d0)
+    call surface%create(valve)
+    call riis_get_orifice(surface, orifice)
+    call check(orifice%outline == RIIS_OUTLINE_DISC .and. abs(orifice%outline_area - pi * 1.25d0**2) < 1d-4, 'the disc')
+    call check(orifice%area > 3.8d0 .and. orifice%area < 3.95d0 .and. orifice%effective_area < orifice%area, 'the orifice')
+    call surface%update(valve, scale=2d0, rotation_axis=[1d0, 2d0, 3d0], rotation_angle=40d0, half_thickness=0.2d0)
+    call riis_get_orifice(surface, placed, half_thickness=0.2d0, rim=int(RIIS_RIM_ROUND, int64))
+    call check(abs(placed%area - 4 * orifice%area) < 1d-4 .and. abs(placed%perimeter - 2 * orifice%perimeter) < 1d-2 .and. &
+      abs(placed%effective_area - 4 * orifice%effective_area) < 1d-4, 'the orifice of a placed valve')
+    call riis_get_orifice(surface, orifice, rim=7, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'resistance.rim is 7')
+    call riis_get_orifice(surface, orifice, half_thickness=0d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'resistance.half_thickness is 0')
+    call riis_get_orifice(empty, orifice, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
+
+    call riis_get_n_leaflets(surface, n)
+    call check(n == 3, 'three leaflets')
+    area = 0
+    do i = 1, 3
+      call riis_get_leaflet(surface, i, leaflet)
+      area = area + leaflet%area
+      call check(leaflet%leaflet_id == i - 1 .and. leaflet%free_edge > 4.9d0, 'a leaflet')
+    end do
+    call surface%get_info(info)
+    call check(abs(area - info%area) < 1d-12 * area, 'leaflets share the surface')
+    call riis_get_leaflet(surface, 4_int64, leaflet, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'leaflet is 3')
+    call riis_get_n_leaflets(empty, n, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
+
+    call riis_get_leak(surface, 10d0, 50d0, flow)
+    call check(abs(flow - 50 * 0.2d0 / 10 * area) < 1d-12 * flow, 'the ideal leak')
+    call riis_get_leak(surface, 10d0, 50d0, flow, half_thickness=0.1d0)
+    call check(abs(flow - 50 * 0.1d0 / 10 * area) < 1d-12 * flow, 'of another half thickness')
+    call riis_get_leak(surface, 0d0, 50d0, flow, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'resistance.R is 0')
+    xyz = reshape([0d0, 0d0, 0d0, 1d0, 0d0, 0d0, 0d0, 1d0, 0d0], [3, 3])
+    call plate%create_from_arrays(xyz, reshape([1, 2, 3], [3, 1]))
+    call riis_get_orifice(plate, orifice, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'made from arrays or keyframes')
+    call plate%destroy()
+    call surface%destroy()
+    call valve%destroy()
+  end subroutine test_orifices
+
+  ! Halves of a disc turn; a triangle translates.
+  subroutine test_swept_volumes()
+    type(riis_valve) :: valve, empty
+    type(riis_keyframes) :: keyframes, none
+    real(c_double) :: whole, half, back, frames(3, 3, 2)
+    call valve%create('bileaflet')
+    call riis_get_swept_volume(valve, 0d0, 1d0, whole)
+    call riis_get_swept_volume(valve, 0d0, 1d0, half, RIIS_LEAFLET_POSITIVE, n_threads=2)
+    call riis_get_swept_volume(valve, 1d0, 0d0, back, int(RIIS_ALL_LEAFLETS, int64), scale=2d0)
+    call check(whole > 1 .and. abs(half - whole / 2) < 1d-12 .and. abs(back + 8 * whole) < 1d-12, 'the swept volume')
+    call riis_get_swept_volume(valve, 0d0, 1d0, back, flip_normals=.true.)
+    call check(abs(back + whole) < 1d-14, 'turned over')
+    call riis_get_swept_volume(valve, 0d0, 1.5d0, back, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'opening_to is 1.5')
+    call riis_get_swept_volume(valve, 0d0, 1d0, back, 9, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'leaflet_id is 9')
+    call riis_get_swept_volume(empty, 0d0, 1d0, back, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the valve was not created')
+    call valve%destroy()
+
+    frames(:, :, 1) = reshape([0d0, 0d0, 0d0, 1d0, 0d0, 0d0, 0d0, 1d0, 0d0], [3, 3])
+    frames(:, :, 2) = frames(:, :, 1) + spread([5d0, 6d0, 3d0], 2, 3)
+    call keyframes%create([0d0, 2d0], frames, reshape([1, 2, 3], [3, 1]), [4])
+    call riis_get_swept_volume(keyframes, 0.5d0, 1.5d0, half)
+    call check(abs(half - 0.75d0) < 1d-14, 'a prism')
+    call riis_get_swept_volume(keyframes, 0.5d0, 1.5d0, half, 4, scale=2d0, flip_normals=.true.)
+    call check(abs(half + 6) < 1d-13, 'a larger one')
+    call riis_get_swept_volume(keyframes, 0d0, 1d0, half, 3, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'leaflet_id is 3')
+    call riis_get_swept_volume(none, 0d0, 1d0, half, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'keyframes was not created')
+    call keyframes%destroy()
+  end subroutine test_swept_volumes
+
+  ! A box in which the valve reaches the walls, so that it closes.
+  subroutine test_passages()
+    integer, parameter :: n_side = 17, n_along = 41, n_nodes = n_side * n_side * n_along
+    type(riis_valve) :: valve, empty
+    type(riis_surface) :: surface
+    type(riis_mesh) :: mesh
+    type(riis_adjacency) :: adjacency
+    type(riis_marks) :: marks
+    type(riis_cells_across) :: cells
+    type(riis_first_passage) :: first, again
+    type(riis_passage) :: passage
+    real(c_double), allocatable, target :: xyz(:, :)
+    logical :: mask(n_nodes)
+    integer :: i, j, k, from(1), to(1)
+    allocate (xyz(3, n_nodes))
+    do k = 1, n_along
+      do j = 1, n_side
+        do i = 1, n_side
+          xyz(:, i + n_side * (j - 1 + n_side * (k - 1))) = 0.1d0 * [i - 9, j - 9, k - 21]
+        end do
+      end do
+    end do
+    from = (n_side**2 + 1) / 2
+    to = n_nodes - (n_side**2 - 1) / 2
+    call valve%create('trileaflet')
+    call mesh%create(xyz)
+    call riis_find_first_passage(valve, mesh, from, to, first, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'mesh has no adjacency')
+    call adjacency%create_from_grid(n_side, n_side, n_along)
+    call mesh%set_adjacency(adjacency)
+
+    call surface%create(valve)
+    call riis_get_cells_across(marks, mesh, cells, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object marks was not created')
+    call riis_mark_nodes(surface, mesh, marks)
+    call riis_get_cells_across(marks, mesh, cells)
+    call check(all(abs([cells%least, cells%mean, cells%most] - 2) < 1d-12) .and. cells%n_edges > 0 .and. &
+      abs(cells%mean_edge - 0.1d0) < 1d-14, 'two cells across')
+
+    call riis_find_first_passage(valve, mesh, from, to, first, opening_tolerance=0.01d0, n_threads=2)
+    call check(first%state == RIIS_FIRST_PASSAGE_FOUND .and. first%opening > 0 .and. first%opening < 0.5d0 .and. &
+      first%opening - first%closed_opening <= 0.01d0, 'the first passage')
+    call valve%set('opening', first%opening)
+    call surface%update(valve)
+    call riis_find_passage(surface, mesh, from, to, passage)
+    call check(passage%state == RIIS_PASSAGE_OPEN .and. passage%node_id == first%node_id, 'it is open')
+    call valve%set('opening', first%closed_opening)
+    call surface%update(valve)
+    call riis_find_passage(surface, mesh, from, to, passage)
+    call check(passage%state == RIIS_PASSAGE_CLOSED, 'before, it is closed')
+    call riis_find_first_passage(valve, mesh, int(from, int64), int(to, int64), again, half_thickness=0.1d0, &
+      tolerance=0.05d0, scale=1d0, rotation_axis=[0d0, 0d0, 2d0], rotation_angle=120d0, translation=[0d0, 0d0, 0d0], &
+      opening_tolerance=0.01d0)
+    call check(abs(again%opening - first%opening) < 0.05d0, 'turned by a third')
+    mask = .true.
+    mask(n_side**2 + 1:2 * n_side**2) = .false.
+    call riis_find_first_passage(valve, mesh, from, to, again, node_mask=mask)
+    call check(again%state == RIIS_FIRST_PASSAGE_NONE .and. again%node_id == -1, 'behind a mask')
+    call riis_find_first_passage(valve, mesh, from, to, again, opening_tolerance=2d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.tolerance is 2')
+    call riis_find_first_passage(valve, mesh, [0], to, again, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'ends.from[0] is -1')
+    call riis_find_first_passage(valve, mesh, from, to, again, half_thickness=-2d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'half_thickness is -2')
+    call riis_find_first_passage(empty, mesh, from, to, again, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the valve was not created')
+    call mesh%destroy()
+    call adjacency%destroy()
+    call marks%destroy()
+    call surface%destroy()
+    call valve%destroy()
+  end subroutine test_passages
+end program test_measures

@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Leaflets, orifices and ideal leaks of surfaces. Areas are compared with counts of points seen along the axis, perimeters with
+ * differences of areas, and placed valves with the same valves where they are made. */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+
+#include "shapes.h"
+
+static random_source rng;
+
+static double between(double low, double high) { return random_between(&rng, low, high); }
+
+static riis_resistance resistance(double half_thickness, int32_t rim) {
+  riis_resistance made;
+  CHECK_OK(riis_resistance_init(&made, sizeof made));
+  made.half_thickness = half_thickness;
+  made.rim = rim;
+  return made;
+}
+
+static riis_orifice orifice_of(const riis_surface *surface, const riis_resistance *how) {
+  riis_orifice orifice;
+  memset(&orifice, 0x5a, sizeof orifice);
+  CHECK_OK(riis_surface_get_orifice(surface, how, &orifice, sizeof orifice));
+  assert_int_equal(orifice.reserved, 0);
+  return orifice;
+}
+
+enum { n_kinds = 4 };
+static const char *const kinds[n_kinds] = {"aortic", "mitral", "trileaflet", "bileaflet"};
+
+static riis_valve *valve_at(int kind, double opening) {
+  riis_valve *valve = new_valve(kinds[kind]);
+  if (kind == 0) CHECK_OK(riis_valve_set_scalar(valve, "leaflet_angle", between(45, 60)));
+  if (kind == 1) CHECK_OK(riis_valve_set_scalar(valve, "surface_angle", between(-20, 20)));
+  if (kind == 2) CHECK_OK(riis_valve_set_scalar(valve, "leaflet_height", between(1.3, 1.6)));
+  if (kind == 3 && between(0, 1) < 0.5) CHECK_OK(riis_valve_set_scalar(valve, "ring_height", 0.4));
+  CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
+  return valve;
+}
+
+static double distance_to_segment(const double *p, const double *a, const double *b) {
+  const double x = b[0] - a[0], y = b[1] - a[1], size = x * x + y * y;
+  double t = size > 0 ? ((p[0] - a[0]) * x + (p[1] - a[1]) * y) / size : 0;
+  t = fmin(fmax(t, 0), 1);
+  return hypot(p[0] - a[0] - t * x, p[1] - a[1] - t * y);
+}
+
+/* The distance of a point of the plane from a triangle that is seen along z. */
+static double distance_to(const double *p, const double corner[3][2]) {
+  int n_left = 0, n_right = 0;
+  double nearest = INFINITY;
+  for (int k = 0; k < 3; ++k) {
+    const double *a = corner[k], *b = corner[(k + 1) % 3];
+    const double side = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+    n_left += side >= 0, n_right += side <= 0;
+    nearest = fmin(nearest, distance_to_segment(p, a, b));
+  }
+  return n_left == 3 || n_right == 3 ? 0 : nearest;
+}
+
+/* The orifice of a disc about the z axis is the share of its points that no triangle covers, or is near to. */
+static void areas_are_counts_of_points(void **state) {
+  (void)state;
+  enum { n_side = 121 };
+  for (int trial = 0; trial < 2 * n_kinds; ++trial) {
+    const int kind = trial % n_kinds;
+    if (kind == 1) continue; /* the outline is no disc */
+    riis_surface_options options = surface_options();
+    options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
+    const riis_surface *surface = new_surface(valve_at(kind, between(0.3, 1)), &options);
+    const riis_resistance how = resistance(between(0.03, 0.2), trial % 2 ? RIIS_RIM_CUT : RIIS_RIM_ROUND);
+    const riis_orifice found = orifice_of(surface, &how);
+    const riis_triangles all = triangles_of(surface);
+    assert_int_equal(found.outline, RIIS_OUTLINE_DISC);
+    const double reach = found.rim_reach * found.half_thickness;
+    int n_uncovered = 0, n_far = 0;
+    for (int i = 0; i < n_side * n_side; ++i) {
+      const double x = (2 * (i % n_side) + 1.0) / n_side - 1, y = (2 * (i / n_side) + 1.0) / n_side - 1;
+      /* Turned, so that straight edges do not run along rows of points. */
+      const double p[2] = {found.radius * (0.8 * x - 0.6 * y), found.radius * (0.6 * x + 0.8 * y)};
+      if (hypot(x, y) > 1) continue;
+      double nearest = INFINITY;
+      for (int64_t t = 0; t < all.n_triangles && nearest > 0; ++t) {
+        double corner[3][2];
+        for (int k = 0; k < 3; ++k) memcpy(corner[k], all.xyz + 3 * all.vertex_id[3 * t + k], sizeof corner[k]);
+        nearest = fmin(nearest, distance_to(p, corner));
+      }
+      n_uncovered += nearest > 0, n_far += nearest > reach;
+    }
+    const double cell = pow(2 * found.radius / n_side, 2), disc = acos(-1) * found.radius * found.radius;
+    CHECK_NEAR(found.outline_area, disc, 1e-5 * disc);
+    CHECK_NEAR(found.area, cell * n_uncovered, 0.01 * disc);
+    CHECK_NEAR(found.effective_area, cell * n_far, 0.01 * disc);
+    CHECK_AT_MOST(found.effective_area, found.area);
+  }
+}
+
+/* A longer edge loses more area when it moves inwards. */
+static void perimeters_are_derivatives_of_areas(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 2 * n_kinds; ++trial) {
+    const riis_surface *surface = new_surface(valve_at(trial % n_kinds, between(0.5, 1)), NULL);
+    const riis_resistance how = resistance(0.1, RIIS_RIM_ROUND);
+    const riis_orifice found = orifice_of(surface, &how);
+    const double slit = 0.1 * how.half_thickness, step = 0.3 * slit;
+    const riis_resistance less = resistance((slit - step) / found.rim_reach, RIIS_RIM_ROUND),
+                          more = resistance((slit + step) / found.rim_reach, RIIS_RIM_ROUND);
+    const double lost = orifice_of(surface, &less).effective_area - orifice_of(surface, &more).effective_area;
+    CHECK_NEAR(found.perimeter, lost / (2 * step), 0.06 * found.perimeter);
+    printf("%s: perimeter %.4f, by areas %.4f\n", kinds[trial % n_kinds], found.perimeter, lost / (2 * step));
+    assert_true(found.perimeter > 4 && found.effective_area > 0);
+    const double first_order = found.area - found.rim_reach * found.half_thickness * found.perimeter;
+    CHECK_NEAR(found.effective_area, first_order, 0.3 * found.perimeter * found.half_thickness);
+  }
+}
+
+/* Placed anywhere, the valve has its orifice times scale squared. */
+static void placements_keep_orifices(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 3 * n_kinds; ++trial) {
+    const riis_valve *valve = valve_at(trial % n_kinds, trial < n_kinds ? 1 : between(0.2, 1));
+    riis_surface_options options = surface_options();
+    options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
+    const riis_orifice own_frame = orifice_of(new_surface(valve, &options), NULL);
+    const double s = options.scale = pow(10, between(-3, 3));
+    for (int c = 0; c < 3; ++c)
+      options.rotation_axis[c] = between(-1, 1) + (c == 1 ? 2 : 0), options.translation[c] = s * between(-3, 3);
+    options.rotation_angle = between(-180, 180);
+    options.flip_normals = trial % 2;
+    const riis_surface *surface = new_surface(valve, &options);
+    const riis_orifice found = orifice_of(surface, NULL);
+    assert_int_equal(found.outline, trial % n_kinds == 1 ? RIIS_OUTLINE_ATTACHMENT : RIIS_OUTLINE_DISC);
+    CHECK_NEAR(found.area, s * s * own_frame.area, 1e-6 * s * s * own_frame.outline_area);
+    CHECK_NEAR(found.outline_area, s * s * own_frame.outline_area, 1e-9 * s * s * own_frame.outline_area);
+    CHECK_NEAR(found.effective_area, s * s * own_frame.effective_area, 1e-6 * s * s * own_frame.outline_area);
+    CHECK_NEAR(found.perimeter, s * own_frame.perimeter, 1e-3 * s * own_frame.perimeter);
+    CHECK_NEAR(found.radius, s * own_frame.radius, 1e-14 * s);
+    CHECK_NEAR(found.half_thickness, 0.1 * s, 1e-14 * s);
+    CHECK_NEAR(hypot(hypot(found.axis[0], found.axis[1]), found.axis[2]), 1, 1e-14);
+    /* Rodrigues' formula for (0, 0, 1) */
+    const double *k = options.rotation_axis, size = hypot(hypot(k[0], k[1]), k[2]);
+    const double angle = options.rotation_angle * acos(-1) / 180, z = k[2] / size;
+    CHECK_NEAR(found.axis[0], sin(angle) * k[1] / size + (1 - cos(angle)) * z * k[0] / size, 1e-13);
+    CHECK_NEAR(found.axis[1], -sin(angle) * k[0] / size + (1 - cos(angle)) * z * k[1] / size, 1e-13);
+    CHECK_NEAR(found.axis[2], cos(angle) + (1 - cos(angle)) * z * z, 1e-13);
+  }
+}
+
+static riis_leaflet leaflet_of(const riis_surface *surface, int64_t leaflet) {
+  riis_leaflet made;
+  memset(&made, 0x5a, sizeof made);
+  CHECK_OK(riis_surface_get_leaflet(surface, leaflet, &made, sizeof made));
+  assert_int_equal(made.reserved, 0);
+  return made;
+}
+
+static void leaflets_share_the_surface(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 2 * n_kinds; ++trial) {
+    const riis_surface *surface = new_surface(valve_at(trial % n_kinds, trial < n_kinds ? 0 : between(0, 1)), NULL);
+    const riis_surface_info info = info_of(surface);
+    int64_t n = -7, n_triangles = 0;
+    double area = 0;
+    CHECK_OK(riis_surface_get_n_leaflets(surface, &n));
+    for (int64_t i = 0; i < n; ++i) {
+      const riis_leaflet leaflet = leaflet_of(surface, i);
+      assert_int_equal(leaflet.leaflet_id, i);
+      n_triangles += leaflet.n_triangles;
+      area += leaflet.area;
+      assert_true(leaflet.free_edge > 0);
+    }
+    assert_int_equal(n_triangles, info.n_triangles);
+    CHECK_NEAR(area, info.area, 1e-13 * info.area);
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "leaflet is -1", riis_surface_get_leaflet(surface, -1, NULL, 32));
+    riis_leaflet none;
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, n == 2 ? "leaflet is 2|has 2" : "leaflet is 3|has 3",
+                  riis_surface_get_leaflet(surface, n, &none, sizeof none));
+  }
+  /* Closed cusps of the trileaflet valve have straight edges from the wall to the axis and back. */
+  const riis_surface *closed = surface_of_kind("trileaflet", NULL);
+  for (int i = 0; i < 3; ++i) CHECK_NEAR(leaflet_of(closed, i).free_edge, 2.5, 1e-12);
+  const shape square = unit_square();
+  CHECK_NEAR(leaflet_of(surface_of(&square, NULL), 0).free_edge, 1, 1e-15);
+}
+
+static void leaks_are_ideal(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 10; ++trial) {
+    riis_surface_options options = surface_options();
+    options.half_thickness = between(0.05, 0.2);
+    const riis_surface *surface = new_surface(valve_at(trial % n_kinds, 0), &options);
+    riis_resistance how = resistance(trial % 2 ? RIIS_AUTO : 0.07, RIIS_RIM_ROUND);
+    how.R = pow(10, between(0, 6));
+    const double drop = between(-1e5, 1e5), eps = trial % 2 ? options.half_thickness : 0.07;
+    const double area = leaflet_of(surface, 0).area + leaflet_of(surface, 1).area +
+                        (trial % n_kinds == 0 || trial % n_kinds == 2 ? leaflet_of(surface, 2).area : 0);
+    double flow = 0;
+    CHECK_OK(riis_surface_get_leak(surface, &how, drop, &flow));
+    CHECK_NEAR(flow, drop * eps / how.R * area, 1e-14 * fabs(flow));
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "drop is nan", riis_surface_get_leak(surface, &how, NAN, &flow));
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "flow is NULL", riis_surface_get_leak(surface, &how, 1, NULL));
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance is NULL", riis_surface_get_leak(surface, NULL, 1, &flow));
+    how.R = 0;
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.R is 0|above 0", riis_surface_get_leak(surface, &how, 1, &flow));
+    how.R = NAN;
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.R is nan", riis_surface_get_leak(surface, &how, 1, &flow));
+  }
+}
+
+static void wrong_calls_are_refused(void **state) {
+  (void)state;
+  riis_orifice orifice;
+  riis_surface *surface = surface_of_kind("mitral", NULL);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface is NULL",
+                riis_surface_get_orifice(NULL, NULL, &orifice, sizeof orifice));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "orifice is NULL",
+                riis_surface_get_orifice(surface, NULL, NULL, sizeof orifice));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "orifice is 8", riis_surface_get_orifice(surface, NULL, &orifice, 8));
+  riis_resistance how = resistance(0, RIIS_RIM_ROUND);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.half_thickness is 0",
+                riis_surface_get_orifice(surface, &how, &orifice, sizeof orifice));
+  how = resistance(0.1, 2);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.rim is 2",
+                riis_surface_get_orifice(surface, &how, &orifice, sizeof orifice));
+  how = resistance(0.1, RIIS_RIM_CUT);
+  how.reserved = 3;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.reserved is 3",
+                riis_surface_get_orifice(surface, &how, &orifice, sizeof orifice));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_leaflets is NULL", riis_surface_get_n_leaflets(surface, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "sizes is NULL", riis_surface_get_leaflet(surface, 0, NULL, 32));
+
+  const double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const int32_t ids[3] = {0, 1, 2};
+  const riis_surface_arrays arrays = triangle_arrays(3, xyz, 1, ids);
+  const riis_surface *from_arrays = surface_from(&arrays, NULL);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface was made from arrays or keyframes",
+                riis_surface_get_orifice(from_arrays, NULL, &orifice, sizeof orifice));
+  CHECK_NEAR(leaflet_of(from_arrays, 0).area, 0.5, 1e-16);
+  CHECK_NEAR(leaflet_of(from_arrays, 0).free_edge, 0, 0);
+  how = resistance(0.1, RIIS_RIM_ROUND);
+  how.R = 5;
+  double flow = 0;
+  CHECK_OK(riis_surface_get_leak(from_arrays, &how, 10, &flow));
+  CHECK_NEAR(flow, 0.1, 1e-16);
+  CHECK_OK(riis_surface_update_from_arrays(surface, &arrays, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface was made from arrays or keyframes",
+                riis_surface_get_orifice(surface, NULL, &orifice, sizeof orifice));
+
+  const shape square = unit_square();
+  const riis_orifice none = orifice_of(surface_of(&square, NULL), NULL);
+  assert_int_equal(none.outline, RIIS_OUTLINE_NONE);
+  CHECK_NEAR(none.area + none.outline_area + none.perimeter + none.effective_area + none.radius, 0, 0);
+  CHECK_NEAR(none.axis[2], 1, 0);
+}
+
+int main(void) {
+  rng = random_start("test_orifice");
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(areas_are_counts_of_points),
+      cmocka_unit_test(perimeters_are_derivatives_of_areas),
+      cmocka_unit_test(placements_keep_orifices),
+      cmocka_unit_test(leaflets_share_the_surface),
+      cmocka_unit_test(leaks_are_ideal),
+      cmocka_unit_test(wrong_calls_are_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,324 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Swept volumes against sums over moving updates, closed forms of leaflets that turn and of patches that translate, the volume of
+ * closed frames, and conservation. */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+
+#include "shapes.h"
+
+static random_source rng;
+
+static const double pi = 3.14159265358979323846;
+
+static double between(double low, double high) { return random_between(&rng, low, high); }
+
+static double swept(const riis_valve *valve, double from, double to, const riis_surface_options *options,
+                    int32_t leaflet_id) {
+  double volume = -7;
+  CHECK_OK(riis_valve_get_swept_volume(valve, from, to, options, leaflet_id, &volume));
+  return volume;
+}
+
+static void set(riis_valve *valve, const char *name, double value) {
+  CHECK_OK(riis_valve_set_scalar(valve, name, value));
+}
+
+enum { n_kinds = 4 };
+static const char *const kinds[n_kinds] = {"aortic", "mitral", "trileaflet", "bileaflet"};
+
+/* A valve of a kind with some parameters of its own. */
+static riis_valve *random_valve(int kind) {
+  riis_valve *valve = new_valve(kinds[kind]);
+  if (kind == 0) set(valve, "leaflet_angle", between(45, 60));
+  if (kind == 1) set(valve, "surface_angle", between(-20, 20));
+  if (kind == 2) set(valve, "leaflet_height", between(1.3, 1.6));
+  if (kind == 3) set(valve, "closed_angle", between(20, 40));
+  return valve;
+}
+
+static void random_placement(riis_surface_options *options) {
+  options->scale = pow(10, between(-1, 1));
+  for (int c = 0; c < 3; ++c) {
+    options->rotation_axis[c] = between(-1, 1) + (c == 1 ? 2 : 0);
+    options->translation[c] = options->scale * between(-3, 3);
+  }
+  options->rotation_angle = between(-180, 180);
+}
+
+/* The mean of u . n over a step, times its time, on the triangles in its middle. */
+static double rate_on(const riis_surface *surface, int32_t leaflet_id) {
+  const riis_triangles all = triangles_of(surface);
+  double sum = 0;
+  for (int64_t i = 0; i < all.n_triangles; ++i) {
+    if (leaflet_id >= 0 && all.leaflet_id[i] != leaflet_id) continue;
+    const double *p[3], *u[3];
+    double e[3], f[3], mean[3];
+    for (int k = 0; k < 3; ++k)
+      p[k] = all.xyz + 3 * all.vertex_id[3 * i + k], u[k] = all.velocity + 3 * all.vertex_id[3 * i + k];
+    for (int c = 0; c < 3; ++c)
+      e[c] = p[1][c] - p[0][c], f[c] = p[2][c] - p[0][c], mean[c] = (u[0][c] + u[1][c] + u[2][c]) / 3;
+    sum += 0.5 * (mean[0] * (e[1] * f[2] - e[2] * f[1]) + mean[1] * (e[2] * f[0] - e[0] * f[2]) +
+                  mean[2] * (e[0] * f[1] - e[1] * f[0]));
+  }
+  return sum;
+}
+
+/* Fine steps in time, summed by brute force over triangles of moving updates. */
+static double by_steps(riis_valve *valve, double from, double to, const riis_surface_options *options,
+                       int32_t leaflet_id) {
+  enum { n_steps = 12 };
+  riis_valve *before = NULL;
+  CHECK_OK(riis_valve_copy(valve, &before));
+  own(before);
+  set(valve, "opening", from);
+  riis_surface *surface = new_surface(valve, options);
+  double sum = 0;
+  for (int i = 0; i < n_steps; ++i)
+    for (int half = 0; half < 2; ++half) {
+      const double width = (to - from) / n_steps, end = from + width * (i + half);
+      set(valve, "opening", from + width * (i + 0.5));
+      set(before, "opening", fmin(fmax(end, 0), 1));
+      CHECK_OK(riis_surface_update_moving(surface, valve, before, half ? -0.5 : 0.5, NULL, NULL));
+      sum += 0.5 * rate_on(surface, leaflet_id);
+    }
+  free_one_owned(surface), free_one_owned(before);
+  return sum;
+}
+
+static void volumes_are_sums_over_steps(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 2 * n_kinds; ++trial) {
+    riis_valve *valve = random_valve(trial % n_kinds);
+    riis_surface_options options = surface_options();
+    if (trial >= n_kinds) random_placement(&options);
+    options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
+    options.flip_normals = trial >= n_kinds;
+    options.tolerance = 0.004; /* the error of these sums grows with it */
+    const double from = trial < n_kinds ? 0 : between(0, 1), to = trial < n_kinds ? 1 : between(0, 1);
+    for (int32_t leaflet_id = -1; leaflet_id < 1; ++leaflet_id) {
+      const double whole = fabs(swept(valve, 0, 1, &options, leaflet_id));
+      CHECK_NEAR(swept(valve, from, to, &options, leaflet_id), by_steps(valve, from, to, &options, leaflet_id),
+                 1e-3 * whole);
+    }
+  }
+}
+
+static double value_of(const riis_valve *valve, const char *name) {
+  double value = 0;
+  CHECK_OK(riis_valve_get(valve, name, 1, &value));
+  return value;
+}
+
+/* A leaflet that turns about its hinge sweeps the angle times the moment of its area about the hinge. */
+static void rigid_leaflets_sweep_their_moments(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 20; ++trial) {
+    riis_valve *valve = new_valve("bileaflet");
+    set(valve, "closed_angle", between(15, 45));
+    set(valve, "open_angle", between(70, 90));
+    if (trial % 2) set(valve, "ring_height", 0.5);
+    const double R = value_of(valve, "radius"), x0 = 0.5 * value_of(valve, "gap");
+    const double offset = value_of(valve, "hinge_offset"), closed = value_of(valve, "closed_angle") * pi / 180;
+    const double half = sqrt(R * R - x0 * x0), area = R * R * acos(x0 / R) - x0 * half;
+    const double moment = (2.0 / 3 * half * half * half - offset * area) / pow(cos(closed), 2);
+    const double from = between(0, 1), to = between(0, 1);
+    const double angle = (to - from) * (value_of(valve, "open_angle") * pi / 180 - closed);
+    const double whole = fabs(moment) * pi / 2;
+    CHECK_NEAR(swept(valve, from, to, NULL, RIIS_LEAFLET_POSITIVE), angle * moment, 2e-4 * whole);
+    CHECK_NEAR(swept(valve, from, to, NULL, RIIS_LEAFLET_NEGATIVE), angle * moment, 2e-4 * whole);
+    if (trial % 2) CHECK_NEAR(swept(valve, from, to, NULL, RIIS_LEAFLET_HOUSING), 0, 0);
+    CHECK_NEAR(swept(valve, from, to, NULL, RIIS_ALL_LEAFLETS), 2 * angle * moment, 4e-4 * whole);
+    free_one_owned(valve);
+  }
+}
+
+/* A square that translates sweeps its area times the shift along its normal. */
+static void squares_sweep_boxes(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 10; ++trial) {
+    const shape closed = unit_square();
+    shape moved = unit_square();
+    double shift[3];
+    for (int c = 0; c < 3; ++c) shift[c] = between(-2, 2);
+    for (int64_t i = 0; i < moved.n_curves; ++i)
+      for (int k = 0; k <= moved.degree[i]; ++k)
+        for (int c = 0; c < 3; ++c) moved.control[i][k][c] += shift[c];
+    riis_valve *valve = valve_from(&closed), *open = valve_from(&moved);
+    CHECK_REFUSED(RIIS_INVALID_PARAMETER, "opening is 0.5|one state",
+                  riis_valve_get_swept_volume(valve, 0, 0.5, NULL, RIIS_ALL_LEAFLETS, shift));
+    CHECK_NEAR(swept(valve, 0, 0, NULL, 0), 0, 0);
+    CHECK_OK(riis_valve_set_open_state(valve, open));
+    riis_surface_options options = surface_options();
+    random_placement(&options);
+    options.flip_normals = trial % 2;
+    const double from = between(0, 1), to = between(0, 1), size = pow(options.scale, 3);
+    CHECK_NEAR(swept(valve, from, to, &options, 0), (trial % 2 ? -1 : 1) * size * (to - from) * shift[2], 1e-13 * size);
+    free_one_owned(valve), free_one_owned(open);
+  }
+}
+
+static void volumes_are_conserved(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 3 * n_kinds; ++trial) {
+    riis_valve *valve = random_valve(trial % n_kinds);
+    const double a = between(0, 1), b = between(0, 1), c = between(0, 1);
+    riis_surface_options options = surface_options(), placed = surface_options();
+    random_placement(&placed);
+    const double whole = fabs(swept(valve, 0, 1, NULL, RIIS_ALL_LEAFLETS));
+    const double there = swept(valve, a, b, NULL, RIIS_ALL_LEAFLETS);
+    CHECK_SAME(swept(valve, b, a, NULL, RIIS_ALL_LEAFLETS), -there);
+    CHECK_NEAR(there + swept(valve, b, c, NULL, RIIS_ALL_LEAFLETS), swept(valve, a, c, NULL, RIIS_ALL_LEAFLETS),
+               1e-4 * whole);
+    CHECK_NEAR(swept(valve, 0, 0.25, NULL, -1) + swept(valve, 0.25, 1, NULL, -1), swept(valve, 0, 1, NULL, -1),
+               1e-13 * whole);
+    CHECK_NEAR(swept(valve, a, b, &placed, RIIS_ALL_LEAFLETS), pow(placed.scale, 3) * there,
+               1e-14 * pow(placed.scale, 3) * whole);
+    double sum = 0;
+    for (int32_t id = 0; id < (trial % n_kinds % 2 ? 2 : 3); ++id) sum += swept(valve, a, b, NULL, id);
+    CHECK_NEAR(sum, there, 1e-13 * whole);
+    set(valve, "opening", c);
+    for (int32_t n = 1; n < 5; n += 2) {
+      options.n_threads = n;
+      CHECK_SAME(swept(valve, a, b, &options, RIIS_ALL_LEAFLETS), there);
+    }
+    options.flip_normals = 1;
+    CHECK_SAME(swept(valve, a, b, &options, RIIS_ALL_LEAFLETS), -there);
+    free_one_owned(valve);
+  }
+}
+
+/* --- Keyframes ----------------------------------------------------------------------------------------------------------- */
+
+enum { n_keys = 4 };
+static const int32_t faces[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2}; /* a tetrahedron, seen from outside */
+
+static double volume_of(const double *x) {
+  double e[3][3];
+  for (int k = 0; k < 3; ++k)
+    for (int c = 0; c < 3; ++c) e[k][c] = x[3 * (k + 1) + c] - x[c];
+  return (e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) + e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
+          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
+         6;
+}
+
+static riis_keyframes *random_keyframes(double xyz[n_keys][12], const double *time, int32_t interpolation,
+                                        double period) {
+  for (int k = 0; k < n_keys; ++k)
+    for (int i = 0; i < 12; ++i) xyz[k][i] = (i / 3 == i % 3 + 1) + between(-0.2, 0.2);
+  if (period > 0) memcpy(xyz[n_keys - 1], xyz[0], sizeof xyz[0]);
+  riis_surface_arrays arrays = triangle_arrays(4, NULL, 4, faces);
+  const int32_t leaflet_id[4] = {5, 5, 5, 8};
+  arrays.leaflet_id = leaflet_id;
+  riis_keyframe_arrays frames;
+  riis_keyframes *keyframes = NULL;
+  CHECK_OK(riis_keyframe_arrays_init(&frames, sizeof frames));
+  frames.n_keys = n_keys;
+  frames.n_vertices = 4;
+  frames.time = time;
+  frames.xyz = xyz;
+  frames.interpolation = interpolation;
+  frames.period = period;
+  CHECK_OK(riis_keyframes_create(&arrays, &frames, &keyframes));
+  return own(keyframes);
+}
+
+static double swept_by(const riis_keyframes *keyframes, double from, double to, const riis_surface_options *options,
+                       int32_t leaflet_id) {
+  double volume = -7;
+  CHECK_OK(riis_keyframes_get_swept_volume(keyframes, from, to, options, leaflet_id, &volume));
+  return volume;
+}
+
+/* The volume of the tetrahedron at a time. */
+static double volume_at(const riis_keyframes *keyframes, double time) {
+  riis_surface *surface = NULL;
+  CHECK_OK(riis_surface_create_from_keyframes(keyframes, time, 0, NULL, &surface));
+  const double volume = volume_of(triangles_of(surface).xyz);
+  riis_surface_destroy(&surface);
+  return volume;
+}
+
+/* What a closed surface sweeps is the change of the volume inside. */
+static void closed_frames_sweep_what_they_gain(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 40; ++trial) {
+    const double time[n_keys] = {-1, 0.5, 2, 3};
+    double xyz[n_keys][12];
+    const int is_cubic = trial % 2, repeats = trial / 2 % 2;
+    riis_keyframes *keyframes =
+        random_keyframes(xyz, time, is_cubic ? RIIS_INTERPOLATION_CUBIC : RIIS_INTERPOLATION_LINEAR, repeats ? 4 : 0);
+    riis_surface_options options = surface_options();
+    random_placement(&options);
+    const double from = between(-9, 9), to = between(-9, 9), size = pow(options.scale, 3);
+    const double gained = volume_at(keyframes, to) - volume_at(keyframes, from);
+    const double tolerance = is_cubic ? 1e-3 : 1e-13;
+    CHECK_NEAR(swept_by(keyframes, from, to, NULL, RIIS_ALL_LEAFLETS), gained, tolerance);
+    CHECK_NEAR(swept_by(keyframes, from, to, &options, RIIS_ALL_LEAFLETS), size * gained, size * tolerance);
+    CHECK_NEAR(swept_by(keyframes, from, to, NULL, 5) + swept_by(keyframes, from, to, NULL, 8), gained, tolerance);
+    CHECK_NEAR(swept_by(keyframes, to, from, NULL, 5), -swept_by(keyframes, from, to, NULL, 5), 0);
+    if (repeats) CHECK_NEAR(swept_by(keyframes, from, from + 4, NULL, RIIS_ALL_LEAFLETS), 0, 1e-12);
+    free_one_owned(keyframes);
+  }
+}
+
+/* --- Refusals -------------------------------------------------------------------------------------------------------------- */
+
+static void wrong_calls_are_refused(void **state) {
+  (void)state;
+  riis_valve *valve = new_valve("mitral");
+  riis_surface_options options = surface_options();
+  double volume = -7;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve is NULL", riis_valve_get_swept_volume(NULL, 0, 1, NULL, -1, &volume));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "volume is NULL", riis_valve_get_swept_volume(valve, 0, 1, NULL, -1, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "opening_from is -0.5|0 to 1",
+                riis_valve_get_swept_volume(valve, -0.5, 1, NULL, -1, &volume));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "opening_to is nan|0 to 1",
+                riis_valve_get_swept_volume(valve, 0, NAN, NULL, -1, &volume));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "leaflet_id is 2|patches of the valve lack",
+                riis_valve_get_swept_volume(valve, 0, 1, NULL, 2, &volume));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "leaflet_id is -2", riis_valve_get_swept_volume(valve, 0, 1, NULL, -2, &volume));
+  options.scale = 0;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.scale is 0",
+                riis_valve_get_swept_volume(valve, 0, 1, &options, -1, &volume));
+  options = surface_options();
+  options.struct_size = 12;
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 12",
+                riis_valve_get_swept_volume(valve, 0, 1, &options, -1, &volume));
+  riis_valve *tall = new_valve("trileaflet");
+  set(tall, "leaflet_height", 30);
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "leaflet_height is 30",
+                riis_valve_get_swept_volume(tall, 0, 1, NULL, -1, &volume));
+
+  const double time[n_keys] = {0, 1e-30, 2e-30, 1};
+  double xyz[n_keys][12];
+  riis_keyframes *keyframes = random_keyframes(xyz, time, RIIS_INTERPOLATION_LINEAR, 1);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "keyframes is NULL",
+                riis_keyframes_get_swept_volume(NULL, 0, 1, NULL, -1, &volume));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "volume is NULL",
+                riis_keyframes_get_swept_volume(keyframes, 0, 1, NULL, -1, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "time_from is inf",
+                riis_keyframes_get_swept_volume(keyframes, INFINITY, 1, NULL, -1, &volume));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "time_to is 2e+30",
+                riis_keyframes_get_swept_volume(keyframes, 0, 2e30, NULL, -1, &volume));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "leaflet_id is 7|faces of the keyframes lack",
+                riis_keyframes_get_swept_volume(keyframes, 0, 1, NULL, 7, &volume));
+  CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "time_to, 1e+20|1000000 keys",
+                riis_keyframes_get_swept_volume(keyframes, 0, 1e20, NULL, -1, &volume));
+  CHECK_NEAR(volume, -7, 0);
+}
+
+int main(void) {
+  rng = random_start("test_swept_volume");
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(volumes_are_sums_over_steps),
+      cmocka_unit_test(rigid_leaflets_sweep_their_moments),
+      cmocka_unit_test(squares_sweep_boxes),
+      cmocka_unit_test(volumes_are_conserved),
+      cmocka_unit_test(closed_frames_sweep_what_they_gain),
+      cmocka_unit_test(wrong_calls_are_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
