@@ -14,6 +14,7 @@
 #include "cyclicPolyPatch.H"
 #include "fvOptions.H"
 #include "fvcFlux.H"
+#include "surfaceInterpolate.H"
 #include "lduMatrix.H"
 #include "processorPolyPatch.H"
 #include "regionSplit.H"
@@ -83,9 +84,10 @@ class riisNetSource : public regIOobject {
 void riisNetSource::compute(const fvMesh &mesh, const Valves &valves, bool hasReference) {
   const scalar dt = mesh.time().deltaTValue();
   const scalarField &volume = mesh.V();
-  // K dt / rho, and the velocity with which the equation's H/A imposes that of the leaflets. It has the name of H/A, so that the
-  // solver's own scheme interpolates it to the faces.
+  // K dt / rho, its share of A in the momentum equation, and the velocity of the leaflets times this share, as H/A has it. That
+  // one bears the name of H/A, so that the solver's own scheme interpolates it to the faces.
   volScalarField strength(IOobject("riisStrength", mesh.time().timeName(), mesh), mesh, dimensionedScalar(dimless, Zero));
+  volScalarField share(IOobject("riisShare", mesh.time().timeName(), mesh), mesh, dimensionedScalar(dimless, Zero));
   volVectorField imposed(IOobject("HbyA", mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE, false), mesh,
                          dimensionedVector(dimVelocity, Zero));
   for (const fv::riisValve *valve : valves) {
@@ -94,12 +96,16 @@ void riisNetSource::compute(const fvMesh &mesh, const Valves &valves, bool hasRe
     if (valve->KU()) imposed.primitiveFieldRef() += valve->KU()->primitiveField() * (dt / valve->rho());
   }
   imposed.primitiveFieldRef() /= 1 + strength.primitiveField();
+  share.primitiveFieldRef() = strength.primitiveField() / (1 + strength.primitiveField());
   volumes_.setSize(mesh.nCells());
   volumes_ = 0;
   if (gMax(mag(imposed.primitiveField())()) == 0) return;
   strength.correctBoundaryConditions();
+  share.correctBoundaryConditions();
   imposed.correctBoundaryConditions();
-  const surfaceScalarField flux(fvc::flux(imposed));
+  // Divided by the share on the face, so that leaflets of one velocity give no source where K varies.
+  const surfaceScalarField flux(fvc::flux(imposed) /
+                                (fvc::interpolate(share, "flux(HbyA)") + dimensionedScalar("least", dimless, VSMALL)));
 
   boolList resisted(mesh.nFaces(), false);
   const labelUList &owner = mesh.owner(), &neighbour = mesh.neighbour();
