@@ -176,7 +176,7 @@ class riisSource : public lduMatrix::solver {
   solverPerformance solve(scalarField &psi, const scalarField &source, const direction component) const override {
     const auto *mesh = dynamic_cast<const fvMesh *>(&matrix_.mesh());
     if (!mesh) {
-      FatalErrorInFunction << "riisSource, the solver of " << fieldName_ << ", is for cells of finite volumes"
+      FatalErrorInFunction << "riisSource solves for " << fieldName_ << ", which has no mesh of finite volumes"
                            << exit(FatalError);
     }
     const word name = controlDict_.get<word>("linearSolver");
@@ -186,7 +186,7 @@ class riisSource : public lduMatrix::solver {
     const Valves valves = valvesOf(*mesh, fieldName_);
     if (valves.empty()) {
       FatalIOErrorInFunction(controlDict_)
-          << "riisSource is the solver of " << fieldName_ << ", and fvOptions has no riisValve with this pressure"
+          << "riisSource solves for " << fieldName_ << ", and fvOptions has no riisValve with this pressure"
           << exit(FatalIOError);
     }
     const word key = "riisSource." + fieldName_;
