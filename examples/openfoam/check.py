@@ -278,7 +278,7 @@ def moving(cases):
             require(rows.shape == whole.shape, f"{name} has {len(whole)} steps, not {len(rows)}")
             largest = abs(rows - whole).max()
             print(f"  {name:<24} {largest:.1e} N")
-            require(largest < 1e-4, f"{name} has the forces of {first} to 1e-4 N: {largest:.1e}")
+            require(largest < 1e-3, f"{name} has the forces of {first} to 1e-3 N: {largest:.1e}")
     still = [forces(cases / f"rest-{solver}") for solver in ("PCG", "riisSource")]
     require((still[0] == still[1]).all() and abs(still[0][-1, 3]) > 0.01,
             f"a valve at rest has the same force, not 0, with riisSource and without: {still[0][-1, 3]} and {still[1][-1, 3]} N")

@@ -321,7 +321,7 @@ of_closed() {
 of_twice() {
   local options=$of_cases/$1/system/fvOptions
   of_set "$1" system/fvOptions aorticValve/resistance 5e3 &&
-    sed -n '/^aorticValve/,$ s/^aorticValve/secondValve/p; /^aorticValve/,$ p' "$options" | sed 2d >"$options.second" &&
+    sed -n '/^aorticValve/,$ p' "$options" | sed '1 s/aorticValve/secondValve/' >"$options.second" &&
     cat "$options.second" >>"$options"
 }
 
