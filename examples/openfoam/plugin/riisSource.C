@@ -10,16 +10,16 @@
 // is bounded only by resisted faces and walls. With A outward, u_f as the equation has it, and |set| its volume:
 //   S = 1/|set| * sum over the resisted faces of the set of u_f . A in sealed sets, and 0 elsewhere.
 #include "addToRunTimeSelectionTable.H"
-#include "emptyPolyPatch.H"
 #include "cyclicPolyPatch.H"
+#include "emptyPolyPatch.H"
 #include "fvOptions.H"
 #include "fvcFlux.H"
-#include "surfaceInterpolate.H"
 #include "lduMatrix.H"
 #include "processorPolyPatch.H"
 #include "regionSplit.H"
 #include "riisValve.H"
 #include "surfaceFields.H"
+#include "surfaceInterpolate.H"
 #include "symmetryPlanePolyPatch.H"
 #include "symmetryPolyPatch.H"
 #include "wallPolyPatch.H"
@@ -86,10 +86,11 @@ void riisNetSource::compute(const fvMesh &mesh, const Valves &valves, bool hasRe
   const scalarField &volume = mesh.V();
   // K dt / rho, its share of A in the momentum equation, and the velocity of the leaflets times this share, as H/A has it. That
   // one bears the name of H/A, so that the solver's own scheme interpolates it to the faces.
-  volScalarField strength(IOobject("riisStrength", mesh.time().timeName(), mesh), mesh, dimensionedScalar(dimless, Zero));
+  volScalarField strength(IOobject("riisStrength", mesh.time().timeName(), mesh), mesh,
+                          dimensionedScalar(dimless, Zero));
   volScalarField share(IOobject("riisShare", mesh.time().timeName(), mesh), mesh, dimensionedScalar(dimless, Zero));
-  volVectorField imposed(IOobject("HbyA", mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE, false), mesh,
-                         dimensionedVector(dimVelocity, Zero));
+  volVectorField imposed(IOobject("HbyA", mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE, false),
+                         mesh, dimensionedVector(dimVelocity, Zero));
   for (const fv::riisValve *valve : valves) {
     if (!valve->isOn()) continue;
     strength.primitiveFieldRef() += valve->K().primitiveField() * (dt / valve->rho());
@@ -181,7 +182,8 @@ class riisSource : public lduMatrix::solver {
     }
     const word name = controlDict_.get<word>("linearSolver");
     if (name == typeName) {
-      FatalIOErrorInFunction(controlDict_) << "linearSolver is riisSource, and must be another solver" << exit(FatalIOError);
+      FatalIOErrorInFunction(controlDict_)
+          << "linearSolver is riisSource, and must be another solver" << exit(FatalIOError);
     }
     const Valves valves = valvesOf(*mesh, fieldName_);
     if (valves.empty()) {
