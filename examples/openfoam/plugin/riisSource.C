@@ -196,8 +196,8 @@ class riisSource : public lduMatrix::solver {
     const bool hasReference = !mesh->lookupObject<volScalarField>(fieldName_).needReference();
     const scalarField &volumes = mesh->lookupObjectRef<riisNetSource>(key).ofThisStep(*mesh, valves, hasReference);
 
-    // OpenFOAM's laplacian of p is negative on the diagonal, and div(p') = div(u) - S then has -S V on the right. An equation that
-    // is written with the other sign has +S V.
+    // OpenFOAM's laplacian of p is negative on the diagonal, and the equation laplacian(rAU, p) = div(HbyA) - S has -S V on the
+    // right. An equation that is written with the other sign has +S V.
     const scalar sign = gSum(matrix_.diag()) < 0 ? -1 : 1;
     dictionary controls(controlDict_);
     controls.set("solver", name);
