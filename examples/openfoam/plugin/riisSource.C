@@ -2,9 +2,9 @@
 // A linear solver for the pressure that lets a moving valve change the volume of cells which its band seals off.
 //
 // The band imposes the velocity of the leaflets, and that is not free of divergence on the mesh: it points through walls,
-// leaflets stretch, it jumps from one leaflet to the next. Where every face of a cell is resisted, nothing can flow to make up for
-// it, and the pressure becomes what a force of K needs. This solver adds a source to the right-hand side of the equation of p, and
-// then calls the solver that its dictionary names as linearSolver. README.md says how to switch it on.
+// leaflets stretch, it jumps from one leaflet to the next. Where every face of a cell is resisted, nothing can flow to make up
+// for it, and the pressure becomes what a force of K needs. This solver adds a source to the right-hand side of the equation of
+// p, and then calls the solver that its dictionary names as linearSolver. README.md says how to switch it on.
 //
 // A face is resisted if K dt > rho in both of its cells. A sealed set consists of cells that are joined through other faces, and
 // is bounded only by resisted faces and walls. With A outward, u_f as the equation has it, and |set| its volume:
