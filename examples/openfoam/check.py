@@ -285,7 +285,7 @@ def moving(cases):
     print(f"  {'a valve at rest':<24} {0:.1e} N")
 
     stroke = 0.48 * numpy.tan(numpy.radians(1))  # of the plate in the middle of the duct
-    print(f"A plate moves by {1e3 * stroke:.3f} mm in a duct of 1 cm2. Volume at the inlet and the outlet, and their mean, in ml:")
+    print(f"A plate moves by {1e3 * stroke:.3f} mm in a duct of 1 cm2. Volume at inlet and outlet, in ml, and their mean:")
     for name in (f"plate-{n}-{solver}" for n in (10, 20) for solver in ("PCG", "riisSource")):
         inlet, outlet = (foam.table(cases / name, function) for function in ("inflow", "outflow"))
         require(len(inlet) == len(outlet) == 40, f"{name} has 40 steps, not {len(inlet)} and {len(outlet)}")
@@ -323,8 +323,8 @@ def pictures(case, still, out):
 
 
 if __name__ == "__main__":
-    commands = {"marks": marks, "zones": zones, "drops": drops, "sizes": sizes, "hexahedra": hexahedra, "moving": moving, "beat": beat,
-                "restart": restart, "nan": nan, "pictures": pictures}
+    commands = {"marks": marks, "zones": zones, "drops": drops, "sizes": sizes, "hexahedra": hexahedra, "moving": moving,
+                "beat": beat, "restart": restart, "nan": nan, "pictures": pictures}
     if len(sys.argv) < 3 or sys.argv[1] not in commands:
         raise SystemExit(f"usage: check.py {'|'.join(commands)} ARGUMENT...")
     commands[sys.argv[1]](*sys.argv[2:])

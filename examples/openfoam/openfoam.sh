@@ -269,7 +269,7 @@ END
     grep -q '^Mesh OK' "$folder/checkMesh.log" && touch "$folder/complete"
 }
 
-# of_block FOLDER LOWER UPPER CELLS: blockMesh's dictionary of a box with its corners and cells. It has an inlet, an outlet, walls.
+# of_block FOLDER LOWER UPPER CELLS: blockMesh's dictionary of a box, with an inlet, an outlet and walls.
 of_block() {
   local a b
   read -r -a a <<<"$2"
@@ -344,7 +344,8 @@ of_sum() {
 
 # of_jet NAME N SOLVER: a heartbeat until the valve is open, in cubes.
 of_jet() {
-  of_moving "$1" "hexahedra-$2" "$(of_band "$2")" "$3" 0 && cp "$openfoam_here"/case/system/{fvOptions,functions} "$of_cases/$1/system" &&
+  of_moving "$1" "hexahedra-$2" "$(of_band "$2")" "$3" 0 &&
+    cp "$openfoam_here"/case/system/{fvOptions,functions} "$of_cases/$1/system" &&
     cp "$openfoam_here/case/0/p" "$of_cases/$1/0" &&
     of_set "$1" system/fvOptions aorticValve/halfThickness "$(of_band "$2")" aorticValve/resistance 1e4 &&
     of_set "$1" system/controlDict endTime 0.1 writeInterval 100 || return
@@ -377,10 +378,12 @@ openfoam_moving() {
   done
   for n in 2 4; do
     of_moving "ranks-$n" hexahedra-24 "$(of_band 24)" riisSource 0 && of_run "ranks-$n" "$n" &&
-      of_moving "tetrahedra-ranks-$n" "mesh-$of_size" "$of_half_thickness" riisSource 0 && of_run "tetrahedra-ranks-$n" "$n" || return
+      of_moving "tetrahedra-ranks-$n" "mesh-$of_size" "$of_half_thickness" riisSource 0 &&
+      of_run "tetrahedra-ranks-$n" "$n" || return
   done
   of_moving two-valves hexahedra-24 "$(of_band 24)" riisSource 0 && of_twice two-valves && of_run two-valves 1 &&
-    of_moving pisoFoam hexahedra-24 "$(of_band 24)" riisSource 0 && sed -i 's/^PIMPLE/PISO/' "$of_cases/pisoFoam/system/fvSolution" &&
+    of_moving pisoFoam hexahedra-24 "$(of_band 24)" riisSource 0 &&
+    sed -i 's/^PIMPLE/PISO/' "$of_cases/pisoFoam/system/fvSolution" &&
     of_logged pisoFoam pisoFoam timeout 3600 "${of_with[@]}" pisoFoam -case "$of_cases/pisoFoam" || return
   for solver in PCG riisSource; do
     of_moving "rest-$solver" hexahedra-24 "$(of_band 24)" "$solver" 0 &&
@@ -493,10 +496,12 @@ openfoam_refusals() {
     of_refused "a library that is not in the path" no-library 'Unknown fvOption type riisValve' &&
     of_bad no-valve && of_solver no-valve riisSource && rm "$of_cases/no-valve/$dict" &&
     of_set no-valve system/controlDict libs '("libriisFvOption.so")' &&
-    of_refused "riisSource without a valve" no-valve 'riisSource solves for p, and fvOptions has no riisValve with this pressure' &&
+    of_refused "riisSource without a valve" no-valve \
+      'riisSource solves for p, and fvOptions has no riisValve with this pressure' &&
     of_bad other-pressure && of_solver other-pressure riisSource && of_set other-pressure "$dict" aorticValve/p static \
       aorticValve/opening '{ law constant; opening 0; }' &&
-    of_refused "riisSource for another pressure" other-pressure 'riisSource solves for p, and fvOptions has no riisValve with this' &&
+    of_refused "riisSource for another pressure" other-pressure \
+      'riisSource solves for p, and fvOptions has no riisValve with this pressure' &&
     of_bad no-solver && of_set no-solver system/fvSolution solvers/p/solver riisSource &&
     of_refused "riisSource without a solver" no-solver "Entry 'linearSolver' not found in dictionary" &&
     of_bad itself && of_set itself system/fvSolution solvers/p/solver riisSource solvers/p/linearSolver riisSource &&
