@@ -231,6 +231,91 @@ def nan(pressure, owner):
     pathlib.Path(pressure).write_bytes(binary.replace(old, b"internalField " + values + b";"))
 
 
+def forces(case):
+    """Time and force of the flow on the valve in each step, by the last pressure corrector: (n, 4). Valves add up."""
+    logs = sorted(pathlib.Path(case).glob("log.p*Foam"))
+    if not logs:
+        raise SystemExit(f"{case} has no log.p*Foam")
+    rows = []
+    for block in re.split(r"\nTime = ", foam.text(logs[-1]))[1:]:
+        last = dict(re.findall(r"riis (\w+): force of the flow \((.*?)\) N", block))
+        require(last, f"{logs[-1]} has the force in the step of time {block.split()[0]}")
+        values = [[float(word) for word in text.split()] for text in last.values()]
+        rows.append([float(block.split()[0]), *numpy.sum(values, axis=0)])
+    rows = numpy.array(rows)
+    require(len(rows) > 3 and numpy.isfinite(rows).all(), f"{logs[-1]} has more than three steps, and finite forces")
+    return rows
+
+
+def moving(cases):
+    """Forces, volumes and jets of moving valves, with riisSource and without it."""
+    cases = pathlib.Path(cases)
+    opens = [f"{mesh}-{solver}" for mesh in ("hexahedra-24", "hexahedra-32", "tetrahedra", "box-24", "box-32")
+             for solver in ("PCG", "riisSource")]
+    print("The valve opens in 40 ms between equal pressures, in closed boxes from opening 0.3. The largest forces, in N, and the"
+          " same for Fz later than 20 ms. Symmetry demands 0 across:")
+    print(f"  {'':<24} {'across':>7} {'Fz up':>7} {'Fz down':>8} {'|Fz| later':>10}")
+    across, later = {}, {}
+    for name in opens:
+        rows = forces(cases / name)
+        require(len(rows) == 40, f"{name} has 40 steps, not {len(rows)}")
+        across[name] = numpy.hypot(rows[:, 1], rows[:, 2]).max()
+        later[name] = abs(rows[rows[:, 0] > 0.0201, 3]).max()
+        print(f"  {name:<24} {across[name]:>7.3f} {rows[:, 3].max():>7.3f} {rows[:, 3].min():>8.3f} {later[name]:>10.3f}")
+    for name in opens:
+        if name.endswith("riisSource"):
+            require(across[name] < 0.1, f"{name}: the force across is less than 0.1 N: {across[name]:.3f}")
+            require(later[name] < 0.15, f"{name}: |Fz| is less than 0.15 N after 20 ms: {later[name]:.3f}")
+        else:
+            require(later[name] > 0.15, f"{name}: |Fz| after 20 ms is what riisSource cures: {later[name]:.3f} N")
+
+    print("The same, by other ranks, solvers and valves. The largest difference of a force from that of 1 rank:")
+    for first, names in (("hexahedra-24-riisSource", ("ranks-2", "ranks-4", "two-valves", "pisoFoam")),
+                         ("tetrahedra-riisSource", ("tetrahedra-ranks-2", "tetrahedra-ranks-4"))):
+        whole = forces(cases / first)
+        for name in names:
+            rows = forces(cases / name)
+            require(rows.shape == whole.shape, f"{name} has {len(whole)} steps, not {len(rows)}")
+            largest = abs(rows - whole).max()
+            print(f"  {name:<24} {largest:.1e} N")
+            require(largest < 1e-3, f"{name} has the forces of {first} to 1e-3 N: {largest:.1e}")
+    still = [forces(cases / f"rest-{solver}") for solver in ("PCG", "riisSource")]
+    require((still[0] == still[1]).all() and abs(still[0][-1, 3]) > 0.01,
+            f"a valve at rest has the same force, not 0, with riisSource and without: {still[0][-1, 3]} and {still[1][-1, 3]} N")
+    print(f"  {'a valve at rest':<24} {0:.1e} N")
+
+    stroke = 0.48 * numpy.tan(numpy.radians(1))  # of the plate in the middle of the duct
+    print(f"A plate moves by {1e3 * stroke:.3f} mm in a duct of 1 cm2. Volume at inlet and outlet, in ml, and their mean:")
+    for name in (f"plate-{n}-{solver}" for n in (10, 20) for solver in ("PCG", "riisSource")):
+        inlet, outlet = (foam.table(cases / name, function) for function in ("inflow", "outflow"))
+        require(len(inlet) == len(outlet) == 40, f"{name} has 40 steps, not {len(inlet)} and {len(outlet)}")
+        volume_in, volume_out = -1e-3 * inlet[:, 1].sum(), 1e-3 * outlet[:, 1].sum()
+        share = (volume_in + volume_out) / 2 / (1e-4 * stroke)
+        print(f"  {name:<24} {1e6 * volume_in:.5f} {1e6 * volume_out:.5f}: {100 * share:.3f} % of area times stroke")
+        require(abs(share - 1) < 0.01, f"{name}: the mean volume is area times stroke to 1 %: {share:.5f} of it")
+
+    print("A pressure opens the valve. Largest upward speeds while it opens, in m/s, 1.5 mm above the closed free edges and"
+          " anywhere. v is sqrt(2 dp / rho), with the largest pressure difference since the opening began:")
+    for name in ("jet-PCG", "jet-riisSource"):
+        opening = foam.steps(cases / name)[:, 1]
+        below, above = foam.table(cases / name, "below"), foam.table(cases / name, "above")
+        speeds = [up(cases / name, function) for function in ("jet", "fastest")]
+        moves = (opening > 0) & (numpy.r_[0, opening[:-1]] < 0.999)
+        require(moves.any() and opening[-1] > 0.999, f"the valve of {name} opens: its opening is {opening[-1]} at the end")
+        speed = numpy.sqrt(2 * numpy.maximum.accumulate(numpy.where(moves, below[:, 1] - above[:, 1], 0)))
+        jet, fastest = ((values[moves] / speed[moves]).max() for values in speeds)
+        print(f"  {name:<24} {speeds[0][moves].max():.2f}, {jet:.2f} v; anywhere {speeds[1][moves].max():.2f}, {fastest:.2f} v")
+        require(jet < 1.05, f"{name}: the jet is at most 1.05 v: {jet:.3f}")
+
+
+def up(case, function):
+    """The upward part of a velocity that a function object has written, in each step."""
+    paths = sorted(pathlib.Path(case).glob(f"postProcessing/{function}/*/*FieldValue.dat"))
+    found = re.findall(r"^[0-9.e-]+\s+\(\S+ \S+ (\S+)\)", foam.text(paths[0]) if paths else "", re.MULTILINE)
+    require(found, f"{case} has velocities in a file postProcessing/{function}/*/*FieldValue.dat")
+    return numpy.array(found, float)
+
+
 def pictures(case, still, out):
     import draw
     draw.beat(case, still, pathlib.Path(out) / "beat.png")
@@ -238,8 +323,8 @@ def pictures(case, still, out):
 
 
 if __name__ == "__main__":
-    commands = {"marks": marks, "zones": zones, "drops": drops, "sizes": sizes, "hexahedra": hexahedra, "beat": beat,
-                "restart": restart, "nan": nan, "pictures": pictures}
+    commands = {"marks": marks, "zones": zones, "drops": drops, "sizes": sizes, "hexahedra": hexahedra, "moving": moving,
+                "beat": beat, "restart": restart, "nan": nan, "pictures": pictures}
     if len(sys.argv) < 3 or sys.argv[1] not in commands:
         raise SystemExit(f"usage: check.py {'|'.join(commands)} ARGUMENT...")
     commands[sys.argv[1]](*sys.argv[2:])

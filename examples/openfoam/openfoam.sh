@@ -47,6 +47,8 @@ openfoam() {
   of_check marks "$of_cases/marks-1" "$of_cases/marks-2" "$of_cases/marks-4" | tee "$of_out/marks.txt"
   step "a steady flow: closed valve, OpenFOAM's porosity, open valve, no valve" openfoam_drops
   of_check drops "$of_cases" | tee "$of_out/drops.txt"
+  step "moving valves, with riisSource and without it" openfoam_moving
+  of_check moving "$of_cases" | tee "$of_out/moving.txt"
   if [[ ${1:-} != --short ]]; then
     step "a steady flow through the closed valve in four meshes" openfoam_sizes
     of_check sizes "$of_cases"/closed-0.* | tee "$of_out/sizes.txt"
@@ -242,6 +244,156 @@ openfoam_drops() {
   done
 }
 
+# openfoam_hexahedra N: the root of cubes, N to 36 mm, in hexahedra-N. A box of cubes loses those outside of the root's surface.
+openfoam_hexahedra() {
+  local folder=$of_work/hexahedra-$1 layers=$(((13 * $1 + 6) / 12)) top
+  [[ ! -e $folder/complete || $openfoam_here/root.geo -nt $folder/complete ]] || return 0
+  top=$(awk -v n="$1" -v layers="$layers" 'BEGIN { printf "%.17g", -0.017 + layers * 0.036 / n }')
+  rm -rf "$folder"
+  cp -r "$openfoam_here/case" "$folder" && mkdir -p "$folder/constant/triSurface" &&
+    gmsh -2 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -setnumber size 0.08 -format stl -o "$folder/root.stl" \
+      "$openfoam_here/root.geo" &&
+    of_block "$folder" "-0.018 -0.018 -0.017" "0.018 0.018 $top" "$1 $1 $layers" || return
+  cat >"$folder/system/topoSetDict" <<END
+FoamFile { version 2.0; format ascii; class dictionary; object topoSetDict; }
+actions
+(
+    {
+        name root; type cellSet; action new; source surfaceToCell; file "root.stl"; outsidePoints ((0.0175 0.0175 0));
+        includeCut true; includeInside true; includeOutside false; nearDistance -1; curvature -100;
+    }
+);
+END
+  blockMesh -case "$folder" && (cd "$folder" && topoSet && subsetMesh -overwrite root -patch wall) &&
+    checkMesh -case "$folder" -constant | tee "$folder/checkMesh.log" &&
+    grep -q '^Mesh OK' "$folder/checkMesh.log" && touch "$folder/complete"
+}
+
+# of_block FOLDER LOWER UPPER CELLS: blockMesh's dictionary of a box, with an inlet, an outlet and walls.
+of_block() {
+  local a b
+  read -r -a a <<<"$2"
+  read -r -a b <<<"$3"
+  cat >"$1/system/blockMeshDict" <<END
+FoamFile { version 2.0; format ascii; class dictionary; object blockMeshDict; }
+vertices
+(
+    (${a[0]} ${a[1]} ${a[2]}) (${b[0]} ${a[1]} ${a[2]}) (${b[0]} ${b[1]} ${a[2]}) (${a[0]} ${b[1]} ${a[2]})
+    (${a[0]} ${a[1]} ${b[2]}) (${b[0]} ${a[1]} ${b[2]}) (${b[0]} ${b[1]} ${b[2]}) (${a[0]} ${b[1]} ${b[2]})
+);
+blocks (hex (0 1 2 3 4 5 6 7) ($4) simpleGrading (1 1 1));
+boundary
+(
+    inlet { type patch; faces ((0 3 2 1)); }
+    outlet { type patch; faces ((4 5 6 7)); }
+    wall { type wall; faces ((0 1 5 4) (1 2 6 5) (2 3 7 6) (3 0 4 7)); }
+);
+END
+}
+
+# of_moving NAME MESH HALF_THICKNESS SOLVER OPENING: the valve opens from OPENING within 40 ms, between equal pressures.
+of_moving() {
+  local name=$1
+  rm -rf "${of_cases:?}/$name"
+  cp -r "$openfoam_here/case" "$of_cases/$name" &&
+    cp -r "$of_work/$2/constant/polyMesh" "$of_cases/$name/constant" &&
+    rm "$of_cases/$name/system/functions" &&
+    of_set "$name" system/fvOptions aorticValve/halfThickness "$3" aorticValve/resistance 1e4 aorticValve/writeLeaflets no \
+      aorticValve/opening "{ law times; openingStart 0; openingSeconds 0.04; closingStart 1; closingSeconds 0.04; closed $5; }" &&
+    of_set "$name" 0/p boundaryField '{ "inlet|outlet" { type fixedValue; value uniform 0; } wall { type zeroGradient; } }' &&
+    of_set "$name" system/controlDict endTime 0.04 writeInterval 40 &&
+    of_solver "$name" "$4"
+}
+
+# of_solver NAME SOLVER: PCG solves for the pressure, by itself or called by riisSource.
+of_solver() {
+  [[ $2 == PCG ]] || of_set "$1" system/fvSolution solvers/p/solver riisSource solvers/p/linearSolver PCG
+}
+
+# of_closed NAME: a closed box, whose ends are walls.
+of_closed() {
+  of_set "$1" 0/p boundaryField '{ ".*" { type zeroGradient; } }' && of_set "$1" 0/U boundaryField '{ ".*" { type noSlip; } }' &&
+    of_set "$1" system/fvSolution PIMPLE/pRefCell 0 PIMPLE/pRefValue 0 &&
+    sed -i 's/type  *patch;/type wall;/' "$of_cases/$1/constant/polyMesh/boundary"
+}
+
+# of_twice NAME: two valves at the same place, each with half the resistance.
+of_twice() {
+  local options=$of_cases/$1/system/fvOptions
+  of_set "$1" system/fvOptions aorticValve/resistance 5e3 &&
+    sed -n '/^aorticValve/,$ p' "$options" | sed '1 s/aorticValve/secondValve/' >"$options.second" &&
+    cat "$options.second" >>"$options"
+}
+
+# of_plate NAME CELLS SOLVER: a plate across a duct of 10 mm. It is a small part of a leaflet of 1.1 m, which turns by a degree
+# about a hinge in a distance of 48 cm.
+of_plate() {
+  of_moving "$1" "hexahedra-24" "$(awk -v n="$2" 'BEGIN { print 0.015 / n }')" "$3" 0 &&
+    of_set "$1" system/fvOptions aorticValve/valve '{ kind bileaflet; closed_angle 0; open_angle 1; }' \
+      aorticValve/placement '{ scale 1; }' &&
+    of_block "$of_cases/$1" "0.695 0.295 -0.01" "0.705 0.305 0.02" "$2 $2 $((3 * $2))" &&
+    blockMesh -case "$of_cases/$1" >/dev/null &&
+    of_sum "$1" inflow inlet && of_sum "$1" outflow outlet && of_run "$1" 1
+}
+
+# of_sum NAME FUNCTION PATCH: a table of the flow through a patch.
+of_sum() {
+  printf '%s { type surfaceFieldValue; libs (fieldFunctionObjects); regionType patch; name %s; operation sum; fields (phi);
+    writeFields no; log no; }\n' "$2" "$3" >>"$of_cases/$1/system/functions"
+}
+
+# of_jet NAME N SOLVER: a heartbeat until the valve is open, in cubes.
+of_jet() {
+  of_moving "$1" "hexahedra-$2" "$(of_band "$2")" "$3" 0 &&
+    cp "$openfoam_here"/case/system/{fvOptions,functions} "$of_cases/$1/system" &&
+    cp "$openfoam_here/case/0/p" "$of_cases/$1/0" &&
+    of_set "$1" system/fvOptions aorticValve/halfThickness "$(of_band "$2")" aorticValve/resistance 1e4 &&
+    of_set "$1" system/controlDict endTime 0.1 writeInterval 100 || return
+  cat >>"$of_cases/$1/system/functions" <<'END'
+below { $upstream; name below; sampledSurfaceDict { pointAndNormalDict { point (0 0 -0.014); } } }
+above { $upstream; name above; sampledSurfaceDict { pointAndNormalDict { point (0 0 0.006); } } }
+jet { $upstream; name jet; operation max; fields (U); sampledSurfaceDict { pointAndNormalDict { point (0 0 0.0015); } } }
+fastest { type volFieldValue; libs (fieldFunctionObjects); regionType all; operation max; fields (U); writeFields no; log no; }
+END
+  of_run "$1" 1
+}
+
+# of_band N: 1.5 edges of a cube.
+of_band() { awk -v n="$1" 'BEGIN { printf "%.17g", 1.5 * 0.036 / n }'; }
+
+openfoam_moving() {
+  local n solver
+  for n in 24 32; do
+    openfoam_hexahedra "$n" || return
+    for solver in PCG riisSource; do
+      of_moving "hexahedra-$n-$solver" "hexahedra-$n" "$(of_band "$n")" "$solver" 0 && of_run "hexahedra-$n-$solver" 1 &&
+        of_moving "box-$n-$solver" "hexahedra-$n" "$(of_band "$n")" "$solver" 0.3 && of_closed "box-$n-$solver" &&
+        of_run "box-$n-$solver" 1 || return
+    done
+  done
+  for solver in PCG riisSource; do
+    of_moving "tetrahedra-$solver" "mesh-$of_size" "$of_half_thickness" "$solver" 0 && of_run "tetrahedra-$solver" 1 &&
+      of_plate "plate-10-$solver" 10 "$solver" && of_plate "plate-20-$solver" 20 "$solver" &&
+      of_jet "jet-$solver" 24 "$solver" || return
+  done
+  for n in 2 4; do
+    of_moving "ranks-$n" hexahedra-24 "$(of_band 24)" riisSource 0 && of_run "ranks-$n" "$n" &&
+      of_moving "tetrahedra-ranks-$n" "mesh-$of_size" "$of_half_thickness" riisSource 0 &&
+      of_run "tetrahedra-ranks-$n" "$n" || return
+  done
+  of_moving two-valves hexahedra-24 "$(of_band 24)" riisSource 0 && of_twice two-valves && of_run two-valves 1 &&
+    of_moving pisoFoam hexahedra-24 "$(of_band 24)" riisSource 0 &&
+    sed -i 's/^PIMPLE/PISO/' "$of_cases/pisoFoam/system/fvSolution" &&
+    of_logged pisoFoam pisoFoam timeout 3600 "${of_with[@]}" pisoFoam -case "$of_cases/pisoFoam" || return
+  for solver in PCG riisSource; do
+    of_moving "rest-$solver" hexahedra-24 "$(of_band 24)" "$solver" 0 &&
+      of_set "rest-$solver" system/fvOptions aorticValve/opening '{ law constant; opening 0.5; }' &&
+      of_set "rest-$solver" 0/p boundaryField/inlet '{ type fixedValue; value uniform 0.5; }' boundaryField/outlet \
+        '{ type fixedValue; value uniform 0; }' &&
+      of_set "rest-$solver" system/controlDict endTime 0.005 writeInterval 5 && of_run "rest-$solver" 1 || return
+  done
+}
+
 openfoam_sizes() {
   local size
   for size in 0.16 0.125 0.1 0.08; do
@@ -342,6 +494,20 @@ openfoam_refusals() {
     of_refused "a pressure that is NaN" not-a-number 'at time 0.001: RIIS_INVALID_ARGUMENT: pressure_difference' &&
     of_bad no-library && of_set no-library "$dict" aorticValve/libs '("libnoValve.so")' &&
     of_refused "a library that is not in the path" no-library 'Unknown fvOption type riisValve' &&
+    of_bad no-valve && of_solver no-valve riisSource && rm "$of_cases/no-valve/$dict" &&
+    of_set no-valve system/controlDict libs '("libriisFvOption.so")' &&
+    of_refused "riisSource without a valve" no-valve \
+      'riisSource solves for p, and fvOptions has no riisValve with this pressure' &&
+    of_bad other-pressure && of_solver other-pressure riisSource && of_set other-pressure "$dict" aorticValve/p static \
+      aorticValve/opening '{ law constant; opening 0; }' &&
+    of_refused "riisSource for another pressure" other-pressure \
+      'riisSource solves for p, and fvOptions has no riisValve with this pressure' &&
+    of_bad no-solver && of_set no-solver system/fvSolution solvers/p/solver riisSource &&
+    of_refused "riisSource without a solver" no-solver "Entry 'linearSolver' not found in dictionary" &&
+    of_bad itself && of_set itself system/fvSolution solvers/p/solver riisSource solvers/p/linearSolver riisSource &&
+    of_refused "riisSource that calls itself" itself 'linearSolver is riisSource, and must be another solver' &&
+    of_bad unknown-solver && of_set unknown-solver system/fvSolution solvers/p/solver riisSource solvers/p/linearSolver PGC &&
+    of_refused "a solver that OpenFOAM lacks" unknown-solver 'Unknown symmetric matrix solver type PGC' &&
     of_bad other-state && of_height other-state 1.123456789012 &&
     of_run other-state 1 && mv "$of_cases/other-state/0.002" "$of_cases/other-state/0.02" &&
     of_set other-state system/controlDict startTime 0.02 endTime 0.021 &&

@@ -125,5 +125,14 @@ grep -q 'leaflet_height 1.123456789012;' "$of_cases/tall/system/fvOptions" || pr
 echo 'valve { kind aortic; }' >"$of_cases/tall/system/fvOptions"
 ends 1 "" of_height tall 1.123456789012
 
+# The second valve is a copy of the first with another name.
+mkdir -p "$of_cases/twice/system"
+first=$'{\n    type riisValve;\n}'
+printf 'FoamFile { }\naorticValve\n%s\n' "$first" >"$of_cases/twice/system/fvOptions"
+of_set() { :; }
+ends 0 "" of_twice twice
+[[ $(<"$of_cases/twice/system/fvOptions") == $'FoamFile { }\naorticValve\n'"$first"$'\nsecondValve\n'"$first" ]] ||
+  problem "the second valve is not a copy: $(<"$of_cases/twice/system/fvOptions")"
+
 ((failed)) || echo "the checks of openfoam.sh refuse what they must"
 exit "$failed"

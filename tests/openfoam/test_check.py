@@ -397,6 +397,113 @@ class Hexahedra(Files):
         self.assertEqual((found[1][0], found[2]), (0.667, (1, 1)))
 
 
+class Moving(Files):
+    """Cases of moving valves whose forces, volumes and jets are made up."""
+    OPENS = ("hexahedra-24", "hexahedra-32", "tetrahedra", "box-24", "box-32")
+    SAME = ("ranks-2", "ranks-4", "two-valves", "pisoFoam", "tetrahedra-ranks-2", "tetrahedra-ranks-4")
+
+    def setUp(self):
+        super().setUp()
+        self.times = 1e-3 * numpy.arange(1, 41)
+        self.opening = numpy.minimum(1, numpy.arange(1, 41) / 20)
+        self.stroke = 0.48 * numpy.tan(numpy.pi / 180)
+        for mesh in self.OPENS:
+            self.forces(f"{mesh}-PCG", [0.3, 0.4, 0.5])
+            self.forces(f"{mesh}-riisSource", [0.03, 0.04, 0.1])
+        for name in self.SAME:
+            self.forces(name, [0.03, 0.04, 0.1])
+        # Two valves share the force. The second line of a valve is that of its last corrector.
+        self.forces("two-valves", [0.015, 0.02, 0.05], ("first", "second"))
+        (self.folder / "pisoFoam/log.pimpleFoam").rename(self.folder / "pisoFoam/log.pisoFoam")
+        for solver in ("PCG", "riisSource"):
+            self.forces(f"rest-{solver}", [0, 0, 0.2])
+            for cells in (10, 20):
+                self.plate(f"plate-{cells}-{solver}", 1, 1)
+            self.jet(f"jet-{solver}", 1.0, 1.9)
+
+    def forces(self, name, force, valves=("aorticValve",)):
+        lines = "".join(f"riis {valve}: force of the flow (9 9 9) N\n" for valve in valves)
+        lines += "".join(f"riis {valve}: force of the flow ({force[0]} {force[1]} {force[2]}) N\n" for valve in valves)
+        self.write(self.folder / name / "log.pimpleFoam",
+                   "Create time\n" + "".join(f"\nTime = {time:.3f}\n\n{lines}" for time in self.times))
+
+    def plate(self, name, share_in, share_out):
+        flow = 1e-4 * self.stroke / 0.04
+        self.table(self.folder / name, "inflow", self.times, [-flow * share_in] * 40)
+        self.table(self.folder / name, "outflow", self.times, [flow * share_out] * 40)
+
+    def jet(self, name, jet, fastest):
+        """Speeds over sqrt(2 dp / rho), which is 1 m/s."""
+        case = self.folder / name
+        self.log(case, self.times, self.opening, [100] * 40)
+        self.table(case, "below", self.times, [1.5] * 40)
+        self.table(case, "above", self.times, [1.0] * 40)
+        for function, speed, kind in (("jet", jet, "surface"), ("fastest", fastest, "vol")):
+            self.write(case / f"postProcessing/{function}/0/{kind}FieldValue.dat",
+                       "# Time max(U)\n" + "".join(f"{time:.3f}\t(9 9 {speed})\n" for time in self.times))
+
+    def refused(self, words):
+        self.stopped(words, check.moving, self.folder)
+
+    def test_good_cases(self):
+        printed = self.printed(check.moving, self.folder)
+        self.assertRegex(printed, r"tetrahedra-riisSource +0\.050 +0\.100 +0\.100 +0\.100\n")
+        self.assertRegex(printed, r"two-valves +\d\.\de-1\d N|two-valves +0\.0e\+00 N")
+        self.assertRegex(printed, r"plate-20-PCG .*: 100\.000 % of area times stroke")
+        self.assertRegex(printed, r"jet-riisSource +1\.00, 1\.00 v; anywhere 1\.90, 1\.90 v")
+
+    def test_a_force_across_or_along(self):
+        self.forces("box-32-riisSource", [0.08, -0.07, 0.1])
+        self.refused("box-32-riisSource: the force across is less than 0.1 N: 0.106")
+        self.forces("box-32-riisSource", [0.08, 0, -0.16])
+        self.refused("box-32-riisSource: |Fz| is less than 0.15 N after 20 ms: 0.160")
+
+    def test_nothing_to_cure(self):
+        self.forces("tetrahedra-PCG", [0.3, 0.4, -0.1])
+        self.refused("tetrahedra-PCG: |Fz| after 20 ms is what riisSource cures: 0.100 N")
+
+    def test_other_forces(self):
+        for name in self.SAME:
+            with self.subTest(name=name):
+                self.setUp()
+                path = sorted((self.folder / name).glob("log.*"))[0]
+                text = path.read_text()
+                at = text.rindex(": force of the flow (")
+                path.write_text(text[:at] + re.sub(r"\((\S+)", lambda x: f"({float(x[1]) + 2e-3}", text[at:], count=1))
+                self.refused(f"{name} has the forces of ")
+
+    def test_a_valve_at_rest(self):
+        self.forces("rest-riisSource", [0, 0, 0.2000001])
+        self.refused("a valve at rest has the same force, not 0, with riisSource and without: 0.2 and 0.2000001 N")
+        for solver in ("PCG", "riisSource"):
+            self.forces(f"rest-{solver}", [0, 0, 0])
+        self.refused("a valve at rest has the same force, not 0")
+
+    def test_a_volume(self):
+        self.plate("plate-20-riisSource", 0.97, 1.005)
+        self.refused("plate-20-riisSource: the mean volume is area times stroke to 1 %: 0.98750 of it")
+
+    def test_a_jet(self):
+        self.jet("jet-PCG", 1.06, 1.9)
+        self.refused("jet-PCG: the jet is at most 1.05 v: 1.060")
+        self.opening[:] *= 0.5
+        self.jet("jet-PCG", 1.0, 1.9)
+        self.refused("the valve of jet-PCG opens: its opening is 0.5 at the end")
+
+    def test_missing_lines(self):
+        self.replace(self.folder / "rest-PCG/log.pimpleFoam", "force of the flow (9 9 9) N\nriis aorticValve: force", "")
+        self.refused("log.pimpleFoam has the force in the step of time 0.001")
+        self.setUp()
+        (self.folder / "ranks-4/log.pimpleFoam").unlink()
+        self.refused("ranks-4 has no log.p*Foam")
+        self.setUp()
+        (self.folder / "jet-PCG/postProcessing/jet/0/surfaceFieldValue.dat").unlink()
+        self.refused("jet-PCG has velocities in a file postProcessing/jet/*/*FieldValue.dat")
+        self.setUp()
+        self.table(self.folder / "plate-10-PCG", "outflow", self.times[1:], [1] * 39)
+        self.refused("plate-10-PCG has 40 steps, not 40 and 39")
+
+
 class Beat(Files):
     def setUp(self):
         super().setUp()

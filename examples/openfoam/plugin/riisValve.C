@@ -517,6 +517,13 @@ void riisValve::addSup(const volScalarField &, fvMatrix<vector> &eqn, const labe
       << "pimpleFoam" << exit(FatalError);
 }
 
+void riisValve::correct(volVectorField &U) {
+  vectorField force(K_.primitiveField() * U.primitiveField());
+  if (withVelocity_) force -= KU_->primitiveField();
+  const vector sum = gSum(vectorField(force * mesh_.V().field()));
+  Info << "riis " << name_ << ": force of the flow " << sum << " N" << endl;
+}
+
 bool riisValve::read(const dictionary &dict) {
   if (dict == dict_) return true;
   dict_ = dict;
