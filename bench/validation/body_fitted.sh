@@ -1,0 +1,149 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The same open leaflets as walls of no thickness in a body-fitted mesh and as obstacles of riis, in the same solver and flow:
+# bench/validation/body_fitted.sh FOLDER [--quick]
+# FOLDER gets the table body_fitted.txt, the rows body_fitted.json, pictures, and the cases. A case that is there is not run again.
+set -euo pipefail
+here=$(dirname -- "$(readlink -f -- "$0")")
+[[ ${1:-} && ${1:-} != -* && (${2:-} == '' || ${2:-} == --quick) && $# -le 2 ]] || {
+  echo "usage: bench/validation/body_fitted.sh FOLDER [--quick]" >&2
+  exit 2
+}
+mkdir -p "$1"
+out=$(readlink -f -- "$1")
+quick=${2:-}
+cd -- "$here/../.."
+
+# openfoam.sh fetches OpenFOAM's headers and builds the plug-in. It uses these.
+build=build n_jobs=$(nproc)
+say() { printf '==> %s\n' "$*"; }
+step() {
+  say "$1"
+  "${@:2}"
+}
+# shellcheck source=examples/openfoam/openfoam.sh
+. examples/openfoam/openfoam.sh
+of_work=$PWD/$build/openfoam
+mkdir -p "$of_work" "$out/meshes" "$out/cases"
+openfoam_has_source || exit 1
+openfoam_build >"$out/build.log" 2>&1 || {
+  tail -n 40 "$out/build.log" >&2
+  exit 1
+}
+openfoam_environment
+
+# logged LOG COMMAND...: runs the command with its output in the file. Shows the file's end if it fails.
+logged() {
+  "${@:2}" >"$1" 2>&1 && return
+  printf 'failed: %s; the end of %s:\n' "${*:2}" "$1" >&2
+  tail -n 20 "$1" >&2
+  return 1
+}
+
+# OpenFOAM's own check of a function object, in the folder of the mesh. It replaces that of openfoam.sh.
+openfoam_function_object() { "${of_with[@]}" postProcess -case "$mesh" -func writeCellCentres -time 0; }
+
+# make_mesh NAME VALVE FITTED SIZE BAND [FAR]: lengths in centimetres, as in VALVE.geo. Leaves the mesh in meshes/NAME.
+# VALVE is the name of the file, a hyphen, and the opening.
+make_mesh() {
+  mesh=$out/meshes/$1
+  [[ ! -e $mesh/complete ]] || return 0
+  rm -rf "$mesh"
+  cp -r "$here/steady_case" "$mesh"
+  logged "$mesh/log.gmsh" gmsh -3 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -setnumber opening "${2#*-}" -setnumber fitted "$3" \
+    -setnumber size "$4" -setnumber band "$5" -setnumber far "${6:-0.13}" -format msh22 -o "$mesh/mesh.msh" "$here/${2%%-*}.geo" &&
+    logged "$mesh/log.gmshToFoam" gmshToFoam -case "$mesh" "$mesh/mesh.msh" || return
+  sed -i '/^ *wall$/,/}/s/patch;/wall;/; /^ *planes$/,/}/s/patch;/symmetry;/; /physicalType/d' "$mesh/constant/polyMesh/boundary"
+  if (($3)); then
+    logged "$mesh/log.createBaffles" createBaffles -case "$mesh" -overwrite || return
+    cp -r "$here/steady_case/0" "$mesh" # createBaffles gave the new walls conditions of their own
+  fi
+  logged "$mesh/log.checkMesh" checkMesh -case "$mesh" -constant && grep -q '^Mesh OK' "$mesh/log.checkMesh" &&
+    rm "$mesh/mesh.msh" && touch "$mesh/complete"
+}
+
+# run_case NAME MESH VALVE [EPS RIM RESISTANCE]: EPS in metres; a fitted mesh has none.
+run_case() {
+  local case=$out/cases/$1
+  [[ ! -e $case/complete ]] || return 0
+  rm -rf "$case"
+  cp -r "$here/steady_case" "$case"
+  cp -r "$out/meshes/$2/constant/polyMesh" "$case/constant"
+  if [[ ${4:-} ]]; then
+    sed -i "s/halfThickness .*/halfThickness $4;/; s/rim .*/rim $5;/; s/resistance .*/resistance $6;/; s/kind .*/kind ${3%%-*}; }/
+      s/opening 1;/opening ${3#*-};/" "$case/system/fvOptions"
+  else
+    rm "$case/system/fvOptions"
+  fi
+  logged "$case/log.simpleFoam" timeout 3600 "${of_with[@]}" simpleFoam -case "$case" && touch "$case/complete" &&
+    rm -rf "$case/constant/polyMesh" && say "$1"
+}
+
+# in_turn FUNCTION LINES: calls the function with the words of each line, as many at a time as there are processors.
+in_turn() {
+  local line words pids=() pid status=0
+  while read -r line; do
+    [[ $line ]] || continue
+    read -ra words <<<"$line"
+    "$1" "${words[@]}" &
+    pids+=($!)
+    if ((${#pids[@]} >= n_jobs)); then
+      wait "${pids[0]}" || status=1
+      pids=("${pids[@]:1}")
+    fi
+  done <<<"$2"
+  for pid in "${pids[@]}"; do wait "$pid" || status=1; done
+  return "$status"
+}
+
+# The case of a valve with walls: fitted-VALVE-SIZE. That of riis: riis-VALVE-EPS-SIZE-RIM-RESISTANCE. SIZE is the length of the
+# edges in the band. Lengths are in centimetres.
+meshes='' cases=''
+# fitted VALVE SIZE [FAR]
+fitted() {
+  meshes+="fitted-$1-$2${3:+-$3} $1 1 $2 0.06 ${3:-}"$'\n'
+  cases+="fitted-$1-$2${3:+-$3} fitted-$1-$2${3:+-$3} $1"$'\n'
+}
+# obstacle VALVE EPS SIZE RIM [RESISTANCE]: its mesh has edges of SIZE as far as EPS and one edge more.
+obstacle() {
+  local name=free-$1-$2-$3 line
+  line="$name $1 0 $3 $(awk -v a="$2" -v b="$3" 'BEGIN { print a + b }')"
+  [[ $meshes == *"$line"* ]] || meshes+=$line$'\n'
+  cases+="riis-$1-$2-$3-$4-${5:-1e3} $name $1 $(awk -v a="$2" 'BEGIN { print a / 100 }') $4 ${5:-1e3}"$'\n'
+}
+
+if [[ $quick ]]; then
+  fitted bileaflet-1 0.1
+  fitted bileaflet-1 0.05
+  for rim in round cut; do
+    obstacle bileaflet-1 0.1 0.05 "$rim"
+    obstacle bileaflet-1 0.07 0.035 "$rim"
+  done
+else
+  for size in 0.1 0.07 0.05 0.035 0.025; do fitted bileaflet-1 "$size"; done
+  fitted bileaflet-1 0.035 0.09
+  for valve in bileaflet-1 bileaflet-0.75 bileaflet-0.5; do
+    [[ $valve == bileaflet-1 ]] || for size in 0.05 0.035 0.025; do fitted "$valve" "$size"; done
+    for rim in round cut; do
+      obstacle "$valve" 0.1 0.05 "$rim"
+      obstacle "$valve" 0.07 0.035 "$rim"
+      obstacle "$valve" 0.05 0.025 "$rim"
+    done
+  done
+  # A thinner leaflet, more cells across the band, and other resistances.
+  for rim in round cut; do
+    obstacle bileaflet-1 0.035 0.0175 "$rim"
+    obstacle bileaflet-1 0.1 0.1 "$rim"
+    obstacle bileaflet-1 0.1 0.025 "$rim"
+  done
+  obstacle bileaflet-1 0.1 0.05 round 1e2
+  obstacle bileaflet-1 0.1 0.05 round 1e4
+fi
+
+in_turn make_mesh "$meshes"
+mesh=$out/meshes/$(head -n 1 <<<"$meshes" | cut -d ' ' -f 1)
+openfoam_digests
+in_turn run_case "$cases"
+python=python3
+[[ ! -x /usr/bin/python3 ]] || python=/usr/bin/python3
+"$python" -B "$here/body_fitted.py" "$out" | tee "$out/body_fitted.txt"
