@@ -26,47 +26,7 @@ leaf() = BooleanIntersection { Surface{outline}; Delete; }{ Surface{quarter}; De
 Rotate {{0, 1, 0}, {0, 0, 0}, -angle} { Surface{leaf()}; }
 along = -hinge / Cos(closed);
 Translate {along * (Cos(angle) - Cos(closed)), 0, along * Sin(angle)} { Surface{leaf()}; }
-leaf() = BooleanIntersection { Surface{leaf()}; Delete; }{ Volume{fluid()}; };
-If (fitted)
-  parts() = BooleanFragments { Volume{fluid()}; Delete; }{ Surface{leaf()}; Delete; };
-  fluid() = Volume{:};
-EndIf
 
-tolerance = 1e-4;
-x_plane() = Surface In BoundingBox {-tolerance, -9, -9, tolerance, 9, 9};
-y_plane() = Surface In BoundingBox {-9, -tolerance, -9, 9, tolerance, 9};
-inlet() = Surface In BoundingBox {-9, -9, -1.3 - tolerance, 9, 9, -1.3 + tolerance};
-outlet() = Surface In BoundingBox {-9, -9, 2.7 - tolerance, 9, 9, 2.7 + tolerance};
-wall() = Abs(Boundary { Volume{fluid()}; });
-wall() -= {x_plane(), y_plane(), inlet(), outlet()};
-If (fitted)
-  leaf() = Surface{:};
-  leaf() -= {wall(), x_plane(), y_plane(), inlet(), outlet()};
-EndIf
-Printf("leaflet surfaces: %g, first %g; wall surfaces %g", #leaf(), leaf(0), #wall());
-
-Physical Volume("blood") = fluid();
-Physical Surface("inlet") = inlet();
-Physical Surface("outlet") = outlet();
-Physical Surface("wall") = wall();
-Physical Surface("planes") = {x_plane(), y_plane()};
-If (fitted)
-  Physical Surface("leaflet") = leaf();
-EndIf
-
-Field[1] = Distance;
-Field[1].FacesList = {leaf()};
-Field[1].NNodesByEdge = 120;
-Field[2] = Threshold;
-Field[2].IField = 1;
-Field[2].LcMin = size;
-Field[2].LcMax = far;
-Field[2].DistMin = band;
-Field[2].DistMax = band + (far - size) / 0.25;
-Background Field = 2;
-Mesh.CharacteristicLengthExtendFromBoundary = 0;
-Mesh.CharacteristicLengthFromPoints = 0;
-Mesh.CharacteristicLengthFromCurvature = 0;
-Mesh.CharacteristicLengthMax = far;
-Mesh.Algorithm3D = 1;
-Mesh.Optimize = 1;
+z_range() = {-1.3, 2.7};
+plane_boxes() = {0, -9, -9, 0, 9, 9, -9, 0, -9, 9, 0, 9};
+Include "fluid.geo";

@@ -166,6 +166,7 @@ void riisValve::readAll() {
     FatalIOErrorInFunction(coeffs_) << "rim is '" << rim << "', and must be round or cut" << exit(FatalIOError);
   }
   resistance_.rim = rim == "cut" ? RIIS_RIM_CUT : RIIS_RIM_ROUND;
+  if (rim == "cut") markOptions_.fields |= RIIS_FIELD_RIM;
 }
 
 void riisValve::readValve(const dictionary &dict) {
