@@ -62,6 +62,12 @@ make_mesh() {
     rm "$mesh/mesh.msh" && touch "$mesh/complete"
 }
 
+# set_valve CASE VALVE EPS RIM RESISTANCE
+set_valve() {
+  sed -i "s/halfThickness .*/halfThickness $3;/; s/rim .*/rim $4;/; s/resistance .*/resistance $5;/; s/kind .*/kind ${2%%-*}; }/
+    s/opening 1;/opening ${2#*-};/" "$1/system/fvOptions"
+}
+
 # run_case NAME MESH VALVE [EPS RIM RESISTANCE]: EPS in metres; a fitted mesh has none.
 run_case() {
   local case=$out/cases/$1
@@ -70,13 +76,28 @@ run_case() {
   cp -r "$here/steady_case" "$case"
   cp -r "$out/meshes/$2/constant/polyMesh" "$case/constant"
   if [[ ${4:-} ]]; then
-    sed -i "s/halfThickness .*/halfThickness $4;/; s/rim .*/rim $5;/; s/resistance .*/resistance $6;/; s/kind .*/kind ${3%%-*}; }/
-      s/opening 1;/opening ${3#*-};/" "$case/system/fvOptions"
+    set_valve "$case" "${@:3}"
   else
     rm "$case/system/fvOptions"
   fi
   logged "$case/log.simpleFoam" timeout 3600 "${of_with[@]}" simpleFoam -case "$case" && touch "$case/complete" &&
     rm -rf "$case/constant/polyMesh" && say "$1"
+}
+
+# same_leaflets VALVE: the leaflets of the fitted mesh, leaflets-VALVE/fitted.msh, and those of the library beside them. The half
+# thickness of 0.1 mm makes the library's triangles exact to 0.005 mm.
+same_leaflets() {
+  local case=$out/leaflets-$1 first
+  [[ ! -e $case/complete ]] || return 0
+  first=$(find "$out/meshes" -maxdepth 1 -name "free-$1-*" | sort | tail -n 1)
+  rm -rf "$case"
+  cp -r "$first" "$case" && set_valve "$case" "$1" 1e-4 round 1e3 && sed -i 's/velocity no;/velocity no; writeLeaflets yes;/' \
+    "$case/system/fvOptions" && sed -i 's/endTime .*/endTime 1;/; s/writeInterval .*/writeInterval 1;/' "$case/system/controlDict" &&
+    logged "$case/log.simpleFoam" "${of_with[@]}" simpleFoam -case "$case" &&
+    mv "$case/postProcessing/valve/1/leaflets.vtk" "$case" || return
+  logged "$case/log.gmsh" gmsh -2 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -setnumber opening "${1#*-}" -setnumber fitted 1 \
+    -setnumber size 0.05 -setnumber band 0.1 -format msh22 -o "$case/fitted.msh" "$here/${1%%-*}.geo" &&
+    rm -rf "$case"/[0-9]* "$case/constant" "$case/postProcessing" && touch "$case/complete"
 }
 
 # in_turn FUNCTION LINES: calls the function with the words of each line, as many at a time as there are processors.
@@ -99,7 +120,7 @@ in_turn() {
 # The case of a valve with walls: fitted-VALVE-SIZE. That of riis: riis-VALVE-EPS-SIZE-RIM-RESISTANCE. SIZE is the length of the
 # edges in the band. Lengths are in centimetres.
 meshes='' cases=''
-# fitted VALVE SIZE [FAR]
+# fitted VALVE SIZE [FAR]: FAR is the length of the edges elsewhere, 0.13 if it is not given.
 fitted() {
   meshes+="fitted-$1-$2${3:+-$3} $1 1 $2 0.06 ${3:-}"$'\n'
   cases+="fitted-$1-$2${3:+-$3} fitted-$1-$2${3:+-$3} $1"$'\n'
@@ -112,6 +133,7 @@ obstacle() {
   cases+="riis-$1-$2-$3-$4-${5:-1e3} $name $1 $(awk -v a="$2" 'BEGIN { print a / 100 }') $4 ${5:-1e3}"$'\n'
 }
 
+valves=(bileaflet-1)
 if [[ $quick ]]; then
   fitted bileaflet-1 0.1
   fitted bileaflet-1 0.05
@@ -122,7 +144,8 @@ if [[ $quick ]]; then
 else
   for size in 0.1 0.07 0.05 0.035 0.025; do fitted bileaflet-1 "$size"; done
   fitted bileaflet-1 0.035 0.09
-  for valve in bileaflet-1 bileaflet-0.75 bileaflet-0.5; do
+  valves+=(bileaflet-0.75 bileaflet-0.5)
+  for valve in "${valves[@]}"; do
     [[ $valve == bileaflet-1 ]] || for size in 0.05 0.035 0.025; do fitted "$valve" "$size"; done
     for rim in round cut; do
       obstacle "$valve" 0.1 0.05 "$rim"
@@ -138,12 +161,20 @@ else
   done
   obstacle bileaflet-1 0.1 0.05 round 1e2
   obstacle bileaflet-1 0.1 0.05 round 1e4
+  valves+=(trileaflet-1)
+  for size in 0.05 0.035 0.025; do fitted trileaflet-1 "$size"; done
+  for rim in round cut; do
+    obstacle trileaflet-1 0.1 0.05 "$rim"
+    obstacle trileaflet-1 0.07 0.035 "$rim"
+    obstacle trileaflet-1 0.05 0.025 "$rim"
+  done
 fi
 
 in_turn make_mesh "$meshes"
 mesh=$out/meshes/$(head -n 1 <<<"$meshes" | cut -d ' ' -f 1)
 openfoam_digests
 in_turn run_case "$cases"
+in_turn same_leaflets "$(printf '%s\n' "${valves[@]}")"
 python=python3
 [[ ! -x /usr/bin/python3 ]] || python=/usr/bin/python3
 "$python" -B "$here/body_fitted.py" "$out" | tee "$out/body_fitted.txt"
