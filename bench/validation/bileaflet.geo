@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A quarter of the open bileaflet valve in a tube that widens behind it, in centimetres. The planes x = 0 and y = 0 are planes of
-// symmetry. With fitted = 1 the leaflet is a surface of the mesh, else the mesh only has the same sizes:
-// gmsh -3 -setnumber Mesh.ScalingFactor 0.01 -setnumber fitted 1 -setnumber size 0.05 -setnumber band 0.1 -format msh22 -o mesh.msh FILE
+// A quarter of the open bileaflet valve in a tube that widens behind it, in centimetres. The planes x = 0 and y = 0 are planes
+// of symmetry. With fitted = 1 the leaflet is a surface of the mesh, else the mesh only has the same sizes:
+// gmsh -3 -setnumber Mesh.ScalingFactor 0.01 -setnumber fitted 1 -setnumber size 0.05 -setnumber band 0.1 -format msh22 FILE
 SetFactory("OpenCASCADE");
 DefineConstant[ fitted = 1 ];
 DefineConstant[ size = 0.05 ];  // of the edges in the band

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The tables, rows and pictures of body_fitted.sh: the effective area of open leaflets as walls of no thickness and as obstacles of
-riis. body_fitted.py FOLDER reads the cases in FOLDER, prints the tables, and leaves body_fitted.json and the pictures there."""
+"""The tables, rows and pictures of body_fitted.sh: the effective area of open leaflets as walls of no thickness and as obstacles
+of riis. body_fitted.py FOLDER reads the cases in FOLDER, prints the tables, and leaves body_fitted.json and the pictures there."""
 import json
 import pathlib
 import re
@@ -93,12 +93,20 @@ class Run:
 
 def order_of(sizes, values):
     """Order and limit by Richardson from three grids of a constant ratio; without an order the finest value."""
+    if len(values) < 3:
+        return None, values[-1]
     (a, b, c), ratio = values[-3:], sizes[-2] / sizes[-1]
     share = (a - b) / (b - c) if b != c else 0
     if share <= 1:
         return None, c
     order = numpy.log(share) / numpy.log(ratio)
     return float(order), float(c + (c - b) / (ratio ** order - 1))
+
+
+def chosen(runs):
+    """The runs of riis with the usual resistance and two edges to eps, from large to small eps."""
+    return sorted((run for run in runs if not run.fitted and run.resistance == 1e3 and abs(run.eps / run.size - 2) < 1e-6),
+                  key=lambda run: -run.eps)
 
 
 def line(eps, area):
@@ -137,7 +145,8 @@ def msh_leaflet(path):
         return [one.split() for one in lines[at + 2:at + 2 + int(lines[at + 1])]]
     number = next(int(words[1]) for words in section("$PhysicalNames") if words[2] == '"leaflet"')
     place = {int(words[0]): [float(x) for x in words[1:4]] for words in section("$Nodes")}
-    corners = [[int(x) for x in words[-3:]] for words in section("$Elements") if words[1] == "2" and int(words[3]) == number]
+    elements = section("$Elements")
+    corners = [[int(x) for x in words[-3:]] for words in elements if words[1] == "2" and int(words[3]) == number]
     return numpy.array([[place[k] for k in triangle] for triangle in corners])
 
 
@@ -162,8 +171,9 @@ def picture(runs, path):
         slices = sorted((run.folder / "postProcessing/slices").iterdir(), key=lambda p: float(p.name))[-1]
         for axis, name, across, up in ((axes[0][column], "along", 2, 0), (axes[1][column], "across", 0, 1)):
             points, corners, velocity = foam.triangles(slices / f"{name}.vtk")
-            drawn = axis.tripcolor(1e3 * points[:, across], 1e3 * points[:, up], corners, numpy.linalg.norm(velocity, axis=1),
-                                   shading="gouraud", cmap="viridis", vmin=0, vmax=max(one.jet for one in runs))
+            speed = numpy.linalg.norm(velocity, axis=1)
+            drawn = axis.tripcolor(1e3 * points[:, across], 1e3 * points[:, up], corners, speed, shading="gouraud",
+                                   cmap="viridis", vmin=0, vmax=max(one.jet for one in runs))
             axis.set_aspect("equal")
             axis.set_xlabel(f"{'xyz'[across]}, mm")
             axis.set_ylabel(f"{'xyz'[up]}, mm")
@@ -175,9 +185,8 @@ def picture(runs, path):
 
 
 def machine():
-    model = next((one.split(":")[1].strip() for one in foam.text("/proc/cpuinfo").splitlines() if one.startswith("model name")), "")
-    count = sum(one.startswith("processor") for one in foam.text("/proc/cpuinfo").splitlines())
-    return f"{model}, {count} processors"
+    models = re.findall(r"^model name\s*: (.*)$", foam.text("/proc/cpuinfo"), re.MULTILINE)
+    return f"{models[0]}, {len(models)} processors" if models else "unknown"
 
 
 def commit():
@@ -197,7 +206,7 @@ def compare(valve, opening, runs, folder):
     print("  edges, mm    cells  steps  drop, Pa  total, Pa  area, cm2")
     for run in fitted:
         print(f"  {10 * run.size:>9g} {run.cells:>8,} {run.steps:>6} {run.drop:>9.2f} {run.total:>10.2f} {run.area:>10.4f}")
-    order, body = order_of([run.size for run in fitted], [run.area for run in fitted]) if len(fitted) > 2 else (None, fitted[-1].area)
+    order, body = order_of([run.size for run in fitted], [run.area for run in fitted])
     print(f"  order {'none' if order is None else f'{order:.2f}'}, {body:.4f} cm2 are the reference")
     for run in mine:
         if run.fitted and run.far != 0.13:
@@ -211,8 +220,7 @@ def compare(valve, opening, runs, folder):
               f" {run.drop:>9.2f} {run.area:>10.4f} {100 * (run.area / body - 1):>+8.2f} %")
     rows = []
     for rim in ("round", "cut"):
-        three = sorted((one for one in obstacles if one.rim == rim and one.resistance == 1e3 and abs(one.eps / one.size - 2) < 1e-6),
-                       key=lambda one: -one.eps)
+        three = [one for one in chosen(obstacles) if one.rim == rim]
         if len(three) < 2:
             continue
         eps, area = numpy.array([one.eps for one in three]), numpy.array([one.area for one in three])
@@ -240,8 +248,8 @@ def compare(valve, opening, runs, folder):
             "note": f"the straight line in eps is {100 * (at_zero / body - 1):+.2f} % off at eps 0; c of A - c eps P is"
                     f" {c_line:.3f} ({low:.3f} to {high:.3f}), P = {perimeter:.2f} cm; with the middle c the areas are"
                     f" {100 * (predicted.min() / body - 1):+.1f} to {100 * (predicted.max() / body - 1):+.1f} % off"})
-    best = [fitted[-1]] + sorted((one for one in obstacles if one.rim == "round" and one.resistance == 1e3), key=lambda one: -one.eps)
-    picture([best[0], best[1], best[-1]], folder / f"{valve}-{opening:g}.png")
+    shown = [one for one in chosen(obstacles) if one.rim == "round"]
+    picture([fitted[-1], shown[0], shown[-1]], folder / f"{valve}-{opening:g}.png")
     return rows
 
 
@@ -254,9 +262,8 @@ def clinical(runs):
         mine = [run for run in runs if (run.valve, run.opening) == (valve, opening)]
         geometric, _ = outline(valve, opening)
         walls = min((run for run in mine if run.fitted and run.far == 0.13), key=lambda run: run.size)
-        chosen = [walls] + sorted((run for run in mine if not run.fitted and run.rim == "round" and run.resistance == 1e3
-                                   and abs(run.eps / run.size - 2) < 1e-6), key=lambda run: -run.eps)
-        for run in chosen:
+        shown = [walls] + [run for run in chosen(mine) if run.rim == "round"]
+        for run in shown:
             name = "walls" if run.fitted else f"riis, eps {10 * run.eps:g} mm, round"
             print(f"  {valve:<12} {opening:>7g}  {name:<22} {geometric:>10.3f} {run.area:>10.3f} {run.area / geometric:>10.3f}"
                   f" {run.gorlin():>7.3f} {run.flow / run.jet * 1e-2:>11.3f} {run.total / MMHG:>12.3f}")
@@ -267,7 +274,7 @@ def clinical(runs):
             "source": "F. A. Flachskampf et al., J Am Coll Cardiol 15, 1990, 1173-1180, abstract: 23 orifices of 0.3 to 2.5 cm2",
             "solver": "OpenFOAM 1912 simpleFoam, tetrahedra",
             "grids": [{"h": round(run.size * 1e-2, 7), "eps": round(run.eps * 1e-2, 7), "rim": run.rim or "walls",
-                       "value": round(run.area / geometric, 4)} for run in chosen],
+                       "value": round(run.area / geometric, 4)} for run in shown],
             "order": None, "extrapolated": None, "deviation": None, "bar": None,
             "note": f"Gorlin {walls.gorlin():.2f} cm2, continuity {walls.flow / walls.jet * 1e-2:.2f} cm2, effective"
                     f" {walls.area:.2f} cm2, geometric {geometric:.2f} cm2, of walls at ten times blood's viscosity"})
@@ -279,7 +286,7 @@ def clinical(runs):
                 "source": "On-X heart valve, instructions for use, table of aortic haemodynamic results: 25 mm, 33 and 25 patients",
                 "solver": "OpenFOAM 1912 simpleFoam, tetrahedra",
                 "grids": [{"h": round(run.size * 1e-2, 7), "eps": round(run.eps * 1e-2, 7), "rim": run.rim or "walls",
-                           "value": round(run.area, 4)} for run in chosen],
+                           "value": round(run.area, 4)} for run in shown],
                 "order": None, "extrapolated": None, "deviation": None, "bar": None,
                 "note": f"at {walls.flow:.0f} ml/s and ten times blood's viscosity the drop of total pressure is"
                         f" {walls.total / MMHG:.1f} mmHg; the patients' mean gradients are 7.5 +- 3.8 and 3.7 +- 2.2 mmHg, at"

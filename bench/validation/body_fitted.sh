@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # The same open leaflets as walls of no thickness in a body-fitted mesh and as obstacles of riis, in the same solver and flow:
 # bench/validation/body_fitted.sh FOLDER [--quick]
-# FOLDER gets the table body_fitted.txt, the rows body_fitted.json, pictures, and the cases. A case that is there is not run again.
+# FOLDER gets the table body_fitted.txt, the rows body_fitted.json, pictures, and the cases. A case that is there is not run
+# again.
 set -euo pipefail
 here=$(dirname -- "$(readlink -f -- "$0")")
 [[ ${1:-} && ${1:-} != -* && (${2:-} == '' || ${2:-} == --quick) && $# -le 2 ]] || {
@@ -50,8 +51,9 @@ make_mesh() {
   [[ ! -e $mesh/complete ]] || return 0
   rm -rf "$mesh"
   cp -r "$here/steady_case" "$mesh"
-  logged "$mesh/log.gmsh" gmsh -3 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -setnumber opening "${2#*-}" -setnumber fitted "$3" \
-    -setnumber size "$4" -setnumber band "$5" -setnumber far "${6:-0.13}" -format msh22 -o "$mesh/mesh.msh" "$here/${2%%-*}.geo" &&
+  logged "$mesh/log.gmsh" gmsh -3 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -setnumber opening "${2#*-}" \
+    -setnumber fitted "$3" -setnumber size "$4" -setnumber band "$5" -setnumber far "${6:-0.13}" \
+    -format msh22 -o "$mesh/mesh.msh" "$here/${2%%-*}.geo" &&
     logged "$mesh/log.gmshToFoam" gmshToFoam -case "$mesh" "$mesh/mesh.msh" || return
   sed -i '/^ *wall$/,/}/s/patch;/wall;/; /^ *planes$/,/}/s/patch;/symmetry;/; /physicalType/d' "$mesh/constant/polyMesh/boundary"
   if (($3)); then
@@ -84,6 +86,32 @@ run_case() {
     rm -rf "$case/constant/polyMesh" && say "$1"
 }
 
+# run_blood NAME: goes on from the case in time, with blood's viscosity, in blood/NAME.
+run_blood() {
+  local case=$out/blood/$1 mesh=$1 from
+  [[ ! -e $case/complete ]] || return 0
+  if [[ $mesh == riis-* ]]; then
+    mesh=free-${mesh#riis-}
+    mesh=${mesh%-*-*}
+  fi
+  from=$(find "$out/cases/$1" -maxdepth 1 -name '[1-9]*')
+  rm -rf "$case"
+  mkdir -p "$out/blood"
+  cp -r "$out/cases/$1" "$case"
+  rm -rf "$case"/[0-9]* "$case/postProcessing" "$case/complete"
+  cp -r "$from" "$case/0"
+  rm -rf "$case/0/uniform"
+  cp -r "$out/meshes/$mesh/constant/polyMesh" "$case/constant"
+  sed -i 's/nu .*/nu 3.3e-6;/' "$case/constant/transportProperties"
+  sed -i 's/steadyState/backward/; s/bounded Gauss/Gauss/' "$case/system/fvSchemes"
+  sed -i 's/deltaT .*/deltaT 1e-4; adjustTimeStep yes; maxCo 6; maxDeltaT 1e-3;/; s/endTime .*/endTime 0.1;/
+    s/writeControl timeStep;/writeControl adjustableRunTime;/; s/writeInterval .*/writeInterval 0.1;/' "$case/system/controlDict"
+  sed -i 's/^    U {/    pFinal { $p; relTol 0.01; }\n    "U|UFinal" {/; s/^SIMPLE/PIMPLE { nCorrectors 2; nOuterCorrectors 1; }\nSIMPLE/
+    s/^relaxationFactors.*//' "$case/system/fvSolution"
+  logged "$case/log.pimpleFoam" timeout 3600 "${of_with[@]}" pimpleFoam -case "$case" && touch "$case/complete" &&
+    rm -rf "$case/constant/polyMesh" && say "$1, in time"
+}
+
 # same_leaflets VALVE: the leaflets of the fitted mesh, leaflets-VALVE/fitted.msh, and those of the library beside them. The half
 # thickness of 0.1 mm makes the library's triangles exact to 0.005 mm.
 same_leaflets() {
@@ -91,8 +119,9 @@ same_leaflets() {
   [[ ! -e $case/complete ]] || return 0
   first=$(find "$out/meshes" -maxdepth 1 -name "free-$1-*" | sort | tail -n 1)
   rm -rf "$case"
-  cp -r "$first" "$case" && set_valve "$case" "$1" 1e-4 round 1e3 && sed -i 's/velocity no;/velocity no; writeLeaflets yes;/' \
-    "$case/system/fvOptions" && sed -i 's/endTime .*/endTime 1;/; s/writeInterval .*/writeInterval 1;/' "$case/system/controlDict" &&
+  cp -r "$first" "$case" && set_valve "$case" "$1" 1e-4 round 1e3 &&
+    sed -i 's/velocity no;/velocity no; writeLeaflets yes;/' "$case/system/fvOptions" &&
+    sed -i 's/endTime .*/endTime 1;/; s/writeInterval .*/writeInterval 1;/' "$case/system/controlDict" &&
     logged "$case/log.simpleFoam" "${of_with[@]}" simpleFoam -case "$case" &&
     mv "$case/postProcessing/valve/1/leaflets.vtk" "$case" || return
   logged "$case/log.gmsh" gmsh -2 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -setnumber opening "${1#*-}" -setnumber fitted 1 \
@@ -119,7 +148,7 @@ in_turn() {
 
 # The case of a valve with walls: fitted-VALVE-SIZE. That of riis: riis-VALVE-EPS-SIZE-RIM-RESISTANCE. SIZE is the length of the
 # edges in the band. Lengths are in centimetres.
-meshes='' cases=''
+meshes='' cases='' blood=''
 # fitted VALVE SIZE [FAR]: FAR is the length of the edges elsewhere, 0.13 if it is not given.
 fitted() {
   meshes+="fitted-$1-$2${3:+-$3} $1 1 $2 0.06 ${3:-}"$'\n'
@@ -161,6 +190,9 @@ else
   done
   obstacle bileaflet-1 0.1 0.05 round 1e2
   obstacle bileaflet-1 0.1 0.05 round 1e4
+  blood='fitted-bileaflet-1-0.05
+    riis-bileaflet-1-0.1-0.05-round-1e3
+    riis-bileaflet-1-0.07-0.035-round-1e3'
   valves+=(trileaflet-1)
   for size in 0.05 0.035 0.025; do fitted trileaflet-1 "$size"; done
   for rim in round cut; do
@@ -174,6 +206,7 @@ in_turn make_mesh "$meshes"
 mesh=$out/meshes/$(head -n 1 <<<"$meshes" | cut -d ' ' -f 1)
 openfoam_digests
 in_turn run_case "$cases"
+in_turn run_blood "$blood"
 in_turn same_leaflets "$(printf '%s\n' "${valves[@]}")"
 python=python3
 [[ ! -x /usr/bin/python3 ]] || python=/usr/bin/python3

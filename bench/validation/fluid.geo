@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The end of bileaflet.geo and trileaflet.geo: the leaflet's surface in the mesh, names of surfaces, sizes of edges. In: fluid(),
-// leaf(), the lists z_range() and plane_boxes() (six numbers a box) that hold the ends and the planes of symmetry, and the options.
+// The end of bileaflet.geo and trileaflet.geo: the leaflet's surface in the mesh, names of surfaces, sizes of edges. In:
+// fluid(), leaf(), the lists z_range() and plane_boxes() (six numbers a box) that hold the ends and the planes of
+// symmetry, and the options.
 tolerance = 2e-3; // boxes of curved surfaces are wider than these
 leaf() = BooleanIntersection { Surface{leaf()}; Delete; }{ Volume{fluid()}; };
 If (fitted)

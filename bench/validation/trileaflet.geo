@@ -50,7 +50,8 @@ For upper In {0:1}
     bow = (1 - v) * (upper ? bend_in - bend_x : 0) + v * (upper ? edge_in - edge_x : bend_in - bend_x);
     For j In {0:n_u}
       u = j / n_u;
-      Point(start + i * (n_u + 1) + j) = {(1 - u) * sym_x + u * sin_x + bow * (u - u^2), u * sin_y, (1 - u) * sym_z + u * sin_z - height};
+      x = (1 - u) * sym_x + u * sin_x + bow * (u - u^2);
+      Point(start + i * (n_u + 1) + j) = {x, u * sin_y, (1 - u) * sym_z + u * sin_z - height};
     EndFor
   EndFor
   lower[] = {}; higher[] = {}; middle[] = {}; outer[] = {}; inside[] = {};
