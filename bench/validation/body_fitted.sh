@@ -106,8 +106,8 @@ run_blood() {
   sed -i 's/steadyState/backward/; s/bounded Gauss/Gauss/' "$case/system/fvSchemes"
   sed -i 's/deltaT .*/deltaT 1e-4; adjustTimeStep yes; maxCo 6; maxDeltaT 1e-3;/; s/endTime .*/endTime 0.1;/
     s/writeControl timeStep;/writeControl adjustableRunTime;/; s/writeInterval .*/writeInterval 0.1;/' "$case/system/controlDict"
-  sed -i 's/^    U {/    pFinal { $p; relTol 0.01; }\n    "U|UFinal" {/; s/^SIMPLE/PIMPLE { nCorrectors 2; nOuterCorrectors 1; }\nSIMPLE/
-    s/^relaxationFactors.*//' "$case/system/fvSolution"
+  sed -i 's/^    U {/    pFinal { $p; relTol 0.01; }\n    "U|UFinal" {/
+    s/^SIMPLE/PIMPLE { nCorrectors 2; nOuterCorrectors 1; }\nSIMPLE/; s/^relaxationFactors.*//' "$case/system/fvSolution"
   logged "$case/log.pimpleFoam" timeout 3600 "${of_with[@]}" pimpleFoam -case "$case" && touch "$case/complete" &&
     rm -rf "$case/constant/polyMesh" && say "$1, in time"
 }
