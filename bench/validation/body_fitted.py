@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The tables, rows and pictures of body_fitted.sh: the effective area of open leaflets as walls of no thickness and as obstacles
-of riis. body_fitted.py FOLDER reads the cases in FOLDER, prints the tables, and leaves body_fitted.json and the pictures there."""
+of riis. body_fitted.py FOLDER reads the cases in FOLDER, prints the tables, and leaves body_fitted.json and pictures there."""
 import json
 import pathlib
 import re
@@ -199,7 +199,8 @@ def machine():
 
 
 def commit():
-    found = subprocess.run(["git", "-C", str(ROOT), "describe", "--always", "--dirty"], capture_output=True, text=True, check=False)
+    command = ["git", "-C", str(ROOT), "describe", "--always", "--dirty"]
+    found = subprocess.run(command, capture_output=True, text=True, check=False)
     return found.stdout.strip() or "unknown"
 
 
@@ -236,7 +237,7 @@ def compare(valve, opening, runs, folder):
         at_zero, slope = line(eps, area)
         c_line, c_each = -slope / perimeter, (body - area) / (eps * perimeter)
         in_eps = numpy.polyfit(numpy.log(eps), numpy.log(numpy.abs(body - area)), 1)[0]
-        print(f"  rim {rim}: a straight line gives {at_zero:.4f} cm2 at eps 0, {100 * (at_zero / body - 1):+.2f} % of the walls;"
+        print(f"  rim {rim}: a straight line gives {at_zero:.4f} cm2 at eps 0, {100 * (at_zero / body - 1):+.2f} % off the walls;"
               f" order in eps {in_eps:.2f}")
         print(f"    area = area of walls - c eps P, P = {perimeter:.3f} cm: c = {c_line:.3f} of the line; from each eps"
               f" {', '.join(f'{c:.3f}' for c in c_each)}; over the discharge coefficient {body / geometric:.3f}:"
