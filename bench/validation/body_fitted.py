@@ -223,13 +223,25 @@ def compare(valve, opening, runs, folder):
             same = next(one for one in fitted if one.size == run.size)
             print(f"  edges of at most {10 * run.far:g} mm elsewhere instead of 1.3 mm, {run.cells:,} cells: {run.area:.4f} cm2,"
                   f" {100 * (run.area / same.area - 1):+.2f} %")
+
+    def c_of(run):
+        return (body - run.area) / (run.eps * perimeter)
     print("  riis, R in kg/(m s)")
-    print("  eps, mm  edges, mm    cells  steps  rim       R  drop, Pa  area, cm2  of walls")
+    print("  eps, mm  edges, mm    cells  steps  rim       R  drop, Pa  area, cm2  off walls      c")
     for run in sorted(obstacles, key=lambda one: (-one.eps, -one.size, one.rim, one.resistance)):
         print(f"  {10 * run.eps:>7g} {10 * run.size:>10g} {run.cells:>8,} {run.steps:>6}  {run.rim:<5} {run.resistance:>5g}"
-              f" {run.drop:>9.2f} {run.area:>10.4f} {100 * (run.area / body - 1):>+8.2f} %")
+              f" {run.drop:>9.2f} {run.area:>10.4f} {100 * (run.area / body - 1):>+8.2f} %  {c_of(run):>5.3f}")
     rows = []
     for rim in ("round", "cut"):
+        # The largest half thickness also has other edges and resistances.
+        first = [one for one in obstacles if one.rim == rim and one.eps == max(other.eps for other in obstacles)]
+        others = ""
+        for words, some in (("edges", [one for one in first if one.resistance == 1e3]),
+                            ("R", [one for one in first if abs(one.eps / one.size - 2) < 1e-6])):
+            values = [(10 * one.size if words == "edges" else one.resistance, c_of(one)) for one in some]
+            if len(values) > 1:
+                others += f"; {words} {min(values)[0]:g} to {max(values)[0]:g}{' mm' if words == 'edges' else ''} at ε" \
+                          f" {10 * first[0].eps:g} mm: {min(c for _, c in values):.2f} to {max(c for _, c in values):.2f}"
         three = [one for one in chosen(obstacles) if one.rim == rim]
         if len(three) < 2:
             continue
@@ -260,7 +272,7 @@ def compare(valve, opening, runs, folder):
                      "quantity": f"{what}: effective area on a line through all ε, at ε = 0, cm²", **common,
                      "deviation": round(float(at_zero / body - 1), 4), "bar": LINE_BAR if opening == 1 else None,
                      "note": f"A − c ε P with P = {perimeter:.2f} cm: c {c_line:.2f} of the line, {min(c_each):.2f} to"
-                             f" {max(c_each):.2f} of single ε; over the discharge coefficient {c_line * geometric / body:.2f}"})
+                             f" {max(c_each):.2f} of single ε; over the discharge coefficient {c_line * geometric / body:.2f}{others}"})
     shown = [one for one in chosen(obstacles) if one.rim == "round"]
     picture([fitted[-1], shown[0], shown[-1]], folder / f"{valve}-{opening:g}.png")
     return rows
