@@ -266,13 +266,15 @@ def compare(valve, opening, runs, folder):
                   "extrapolated": round(float(at_zero), 4)}
         rows.append({"id": f"bodyfit_{valve}_{opening:g}_{rim}_finest",
                      "quantity": f"{what}: effective area at the least ε, cm²", **common,
-                     "deviation": round(float(three[-1].area / body - 1), 4), "bar": BAR if opening == 1 and three[-1].eps <= 0.05 else None,
+                     "deviation": round(float(three[-1].area / body - 1), 4),
+                     "bar": BAR if opening == 1 and three[-1].eps <= 0.05 else None,
                      "note": f"{share}{slit}"})
         rows.append({"id": f"bodyfit_{valve}_{opening:g}_{rim}_line",
                      "quantity": f"{what}: effective area on a line through all ε, at ε = 0, cm²", **common,
                      "deviation": round(float(at_zero / body - 1), 4), "bar": LINE_BAR if opening == 1 else None,
                      "note": f"A − c ε P with P = {perimeter:.2f} cm: c {c_line:.2f} of the line, {min(c_each):.2f} to"
-                             f" {max(c_each):.2f} of single ε; over the discharge coefficient {c_line * geometric / body:.2f}{others}"})
+                             f" {max(c_each):.2f} of single ε; over the discharge coefficient"
+                             f" {c_line * geometric / body:.2f}{others}"})
     shown = [one for one in chosen(obstacles) if one.rim == "round"]
     picture([fitted[-1], shown[0], shown[-1]], folder / f"{valve}-{opening:g}.png")
     return rows

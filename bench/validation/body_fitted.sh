@@ -3,8 +3,8 @@
 # The same open leaflets as walls of no thickness in a body-fitted mesh and as obstacles of riis, in the same solver and flow:
 # bench/validation/body_fitted.sh FOLDER [--quick]
 # A piece of the valve between its planes of symmetry lies in a tube. Blood enters at 0.5 m/s in all of its section, with ten
-# times its viscosity. The effective area is Q / sqrt(2 dp / rho). Here dp is the total pressure at the inlet less the pressure at the
-# outlet, which cuts the jet.
+# times its viscosity. The effective area is Q / sqrt(2 dp / rho). Here dp is the total pressure at the inlet less the pressure
+# at the outlet, which cuts the jet.
 # FOLDER gets the table body_fitted.txt, the rows body_fitted.json, pictures, and the cases. A case that is there is not run
 # again.
 set -euo pipefail
