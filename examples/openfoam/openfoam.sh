@@ -482,6 +482,8 @@ openfoam_refusals() {
     of_refused "an unknown key" unknown-key "unknown key 'closesBelow'" &&
     of_bad unknown-law && of_set unknown-law "$dict" aorticValve/opening/law swich &&
     of_refused "an unknown law" unknown-law "law is 'swich', and must be constant, times, table or switch" &&
+    of_bad unknown-rim && foamDictionary "$of_cases/unknown-rim/$dict" -entry aorticValve/rim -add square >/dev/null &&
+    of_refused "an unknown rim" unknown-rim "rim is 'square', and must be round or cut" &&
     of_bad wrong-unit && of_set wrong-unit "$dict" aorticValve/halfThickness '[0 2 0 0 0 0 0] 1e-3' &&
     of_refused "a half thickness in m2" wrong-unit 'The dimensions [0 2 0 0 0 0 0] provided do not match' &&
     of_bad no-half-thickness && of_set no-half-thickness "$dict" aorticValve/halfThickness 0 &&

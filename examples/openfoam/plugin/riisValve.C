@@ -119,7 +119,7 @@ void riisValve::check(riis_status status, const dictionary &dict) const {
 
 void riisValve::readAll() {
   refuseOthers(coeffs_, {"type", "active", "libs", "U", "p", "phi", "rho", "valve", "placement", "halfThickness",
-                         "resistance", "velocity", "opening", "nThreads", "writeLeaflets"});
+                         "resistance", "rim", "velocity", "opening", "nThreads", "writeLeaflets"});
   rho_.read(coeffs_);
   if (!(rho_.value() > 0)) {
     FatalIOErrorInFunction(coeffs_) << "rho is " << rho_.value() << ", and must be positive" << exit(FatalIOError);
@@ -161,6 +161,12 @@ void riisValve::readAll() {
     FatalIOErrorInFunction(coeffs_) << "resistance is " << resistance_.R << ", and must be at least 0"
                                     << exit(FatalIOError);
   }
+  const word rim = coeffs_.getOrDefault<word>("rim", "round");
+  if (rim != "round" && rim != "cut") {
+    FatalIOErrorInFunction(coeffs_) << "rim is '" << rim << "', and must be round or cut" << exit(FatalIOError);
+  }
+  resistance_.rim = rim == "cut" ? RIIS_RIM_CUT : RIIS_RIM_ROUND;
+  if (rim == "cut") markOptions_.fields |= RIIS_FIELD_RIM;
 }
 
 void riisValve::readValve(const dictionary &dict) {

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The end of bileaflet.geo and trileaflet.geo: the leaflet's surface in the mesh, names of surfaces, sizes of edges. In:
+// fluid(), leaf(), the lists z_range() and plane_boxes() (six numbers a box) that hold the ends and the planes of
+// symmetry, and the options.
+tolerance = 2e-3; // boxes of curved surfaces are wider than these
+leaf() = BooleanIntersection { Surface{leaf()}; Delete; }{ Volume{fluid()}; };
+If (fitted)
+  parts() = BooleanFragments { Volume{fluid()}; Delete; }{ Surface{leaf()}; Delete; };
+  fluid() = Volume{:};
+EndIf
+
+planes() = {};
+For i In {0:#plane_boxes() / 6 - 1}
+  b() = plane_boxes({6 * i : 6 * i + 5});
+  planes() += Surface In BoundingBox {b(0) - tolerance, b(1) - tolerance, b(2) - 1, b(3) + tolerance, b(4) + tolerance, b(5) + 1};
+EndFor
+inlet() = Surface In BoundingBox {-9, -9, z_range(0) - tolerance, 9, 9, z_range(0) + tolerance};
+outlet() = Surface In BoundingBox {-9, -9, z_range(1) - tolerance, 9, 9, z_range(1) + tolerance};
+wall() = Abs(CombinedBoundary { Volume{fluid()}; });
+wall() -= {planes(), inlet(), outlet()};
+If (fitted)
+  leaf() = Surface{:};
+  leaf() -= {wall(), planes(), inlet(), outlet()};
+EndIf
+Printf("surfaces: leaflet %g, wall %g, planes %g, volumes %g", #leaf(), #wall(), #planes(), #fluid());
+
+Physical Volume("blood") = fluid();
+Physical Surface("inlet") = inlet();
+Physical Surface("outlet") = outlet();
+Physical Surface("wall") = wall();
+Physical Surface("planes") = planes();
+If (fitted)
+  Physical Surface("leaflet") = leaf();
+EndIf
+
+Field[1] = Distance;
+Field[1].FacesList = {leaf()};
+Field[1].NNodesByEdge = 120;
+Field[2] = Threshold;
+Field[2].IField = 1;
+Field[2].LcMin = size;
+Field[2].LcMax = far;
+Field[2].DistMin = band;
+Field[2].DistMax = band + (far - size) / 0.25;
+Background Field = 2;
+Mesh.CharacteristicLengthExtendFromBoundary = 0;
+Mesh.CharacteristicLengthFromPoints = 0;
+Mesh.CharacteristicLengthFromCurvature = 0;
+Mesh.CharacteristicLengthMax = far;
+Mesh.Algorithm3D = 1;
+Mesh.Optimize = 1;
