@@ -21,7 +21,7 @@ class Flow:
 
     x, y     edges of the cells, ascending
     axial    y is a radius from 0 on, and all is multiplied by it
-    walls    "given": u and v are given on all four sides (set_boundary). "channel": u is 1 at the left, nothing flows through
+    walls    "given": u and v are given on all four sides (set_boundary). "channel": u is given at the left, nothing flows through
              the sides y, which do not rub, and at the right p is 0.
     """
 
@@ -238,6 +238,8 @@ def _factor(matrix):
 
 def graded(h, fine, ends, growth=1.1, largest=None):
     """Edges of cells from ends[0] to ends[1]: of size h from fine[0] to fine[1], growing outside by a factor each."""
+    if fine[0] < ends[0] - 1e-9 * h or fine[1] > ends[1] + 1e-9 * h:
+        raise ValueError(f"cells of {h} from {fine[0]} to {fine[1]} do not fit between {ends[0]} and {ends[1]}")
     n = max(1, round((fine[1] - fine[0]) / h))
     middle = np.linspace(fine[0], fine[0] + n * h, n + 1)
     return np.concatenate([_grow(h, middle[0], ends[0], growth, largest)[::-1], middle, _grow(h, middle[-1], ends[1], growth, largest)])

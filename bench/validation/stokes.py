@@ -18,17 +18,21 @@ def grid_of(eps, per_eps, along, across):
     h = eps / per_eps
     n, m = round(1.5 * per_eps + 1), round(2.5 * per_eps + 1)
     z = graded(h, ((-n - along) * h, (n - along) * h), (-BOX, BOX), 1.12)
-    r = graded(h, (1 - (m + across) * h, 1 + (m - across) * h), (0, BOX), 1.12)
+    inner = min(m, int(1 / h - across + 1e-9))  # cells of this size on the axis's side of the rim
+    r = graded(h, (1 - (inner + across) * h, 1 + (m - across) * h), (0, BOX), 1.12)
     return z, r
 
 
-def effective_radius(library, kind, eps, per_eps, rim, place=(0.0, 0.0)):
-    """kind: hole or disc. place: as grid_of has it. Returns a_eff and the number of cells."""
+def effective_radius(library, kind, eps, per_eps, rim, place=(0.0, 0.0), solid=False):
+    """kind: hole or disc. place: as grid_of has it. solid: the band is impenetrable. Returns a_eff and the number of cells."""
     z, r = grid_of(eps, per_eps, *place)
     flow = Flow(z, r, axial=True)
     surface = marking.disc(1.0) if kind == "disc" else marking.plate_with_hole(1.0, BOX + 4 * eps)
     points = np.vstack([flow.u_points(), flow.v_points()])
-    K = library.K(surface, eps, rim, np.stack([points[:, 1], 0 * points[:, 0], points[:, 0]], 1), marking.R / marking.MU)
+    if solid:
+        K = np.where(_in_band(kind, eps, rim, *points.T), 1e12, 0)
+    else:
+        K = library.K(surface, eps, rim, np.stack([points[:, 1], 0 * points[:, 0], points[:, 0]], 1), marking.R / marking.MU)
 
     def outer(a, r, z):
         # u_z, u_r on the box
@@ -65,14 +69,27 @@ def effective_radius(library, kind, eps, per_eps, rim, place=(0.0, 0.0)):
     return consistent(computed), flow.nx * flow.ny
 
 
+def solid_radius(library, kind, eps, per_eps, rim):
+    """The same for a solid plate with the shape of the band, whose square edges lie on faces. It does without the library."""
+    return effective_radius(library, kind, eps, per_eps, rim, solid=True)
+
+
+def _in_band(kind, eps, rim, z, r):
+    beyond = np.maximum(1 - r if kind == "hole" else r - 1, 0)  # off the plate's edge
+    rounding = 1e-9 * eps
+    if rim == "cut":
+        return (np.abs(z) <= eps + rounding) & (beyond <= rounding)
+    return np.hypot(z, beyond) <= eps + rounding
+
+
 def consistent(computed):
     """Returns the radius for which the box's velocities give the same radius. It is nearly linear in the box's."""
     given = [1.0, computed(1.0)]
     found = [given[1], computed(given[1])]
-    for _ in range(2):
+    for _ in range(6):
         slope = (found[-1] - found[-2]) / (given[-1] - given[-2])
         given.append(given[-1] + (found[-1] - given[-1]) / (1 - slope))
         found.append(computed(given[-1]))
-        if abs(found[-1] - given[-1]) < 1e-6:
+        if abs(found[-1] - given[-1]) < 1e-5:
             return found[-1]
     raise RuntimeError(f"the radius {found[-1]} does not fit the box's {given[-1]}")
