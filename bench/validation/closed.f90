@@ -3,7 +3,7 @@
 !! the closed aortic valve, and a plate that moves through a duct. It prints lines of words:
 !!   drop   CELLS_OF_EPS DROP_OVER_R_EPS_U     plate in a duct, mean of ten places between two faces; then the same with a
 !!   spread                                    largest less least of them
-!!   leak   CELLS LEAK_OVER_IDEAL              aortic valve at 80 mmHg, ideal: dp eps/R through the area of its leaflets
+!!   leak   CELLS LEAK_OVER_IDEAL              aortic valve at 80 mmHg, eps = 1.5 h, ideal: dp eps/R through the area of its leaflets
 !!   moving CELLS VOLUME_OVER_AREA_STROKE      mean of both ends; then "ends", their difference over area times stroke
 program closed
   use riis
@@ -25,7 +25,7 @@ program closed
     call moving_plate(8 * i / merge(2, 1, short))
   end do
   do i = 1, 3
-    call leaking_valve(merge(16 + 4 * (i - 1), 24 + 8 * (i - 1), short))
+    call leaking_valve(merge(16 + 8 * (i - 1), 24 + 12 * (i - 1), short))
   end do
 
 contains
@@ -101,7 +101,8 @@ contains
 
   subroutine leaking_valve(cells)
     integer, intent(in) :: cells
-    real(dp), parameter :: drop = 80 * 133.322_dp, eps = 1.5e-3_dp
+    real(dp), parameter :: drop = 80 * 133.322_dp
+    real(dp) :: eps
     type(flow), target :: fluid
     type(leaflets) :: valve
     type(riis_surface_info) :: info
@@ -109,6 +110,7 @@ contains
     integer :: i
     fluid = flow()
     call fluid%start([cells, cells, 6 * cells / 5], 0.033_dp / cells, [-0.0165_dp, -0.0165_dp, -0.018_dp], in_root)
+    eps = 1.5_dp * fluid%h
     valve%eps = eps
     valve%R = R
     call valve%valve%create(valve%kind, status)

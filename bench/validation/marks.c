@@ -15,8 +15,7 @@ static void fail(const char *message) {
 }
 
 static void check(riis_status status) {
-  if (status != RIIS_OK)
-    fail(riis_last_error());
+  if (status != RIIS_OK) fail(riis_last_error());
 }
 
 static double number(const char *name, const char *text) {
@@ -31,10 +30,8 @@ static double number(const char *name, const char *text) {
 
 static void *read_array(int64_t n, size_t size) {
   void *array = malloc(n > 0 ? (size_t)n * size : 1);
-  if (!array)
-    fail("out of memory");
-  if (fread(array, size, (size_t)n, stdin) != (size_t)n)
-    fail("the input ends early");
+  if (!array) fail("out of memory");
+  if (fread(array, size, (size_t)n, stdin) != (size_t)n) fail("the input ends early");
   return array;
 }
 
@@ -49,8 +46,7 @@ int main(int argc, char **argv) {
   double *vertices = read_array(3 * count[0], sizeof(double));
   int64_t *faces = read_array(3 * count[1], sizeof(int64_t));
   double *points = read_array(3 * count[2], sizeof(double)), *K = calloc((size_t)count[2] + 1, sizeof *K);
-  if (!K)
-    fail("out of memory");
+  if (!K) fail("out of memory");
 
   riis_surface_arrays arrays;
   riis_surface_options options;
@@ -80,8 +76,7 @@ int main(int argc, char **argv) {
   check(riis_marks_create(&marks));
   check(riis_mark_nodes(surface, mesh, &marking, marks));
   check(riis_marks_get_list(marks, RIIS_LIST_MARKED, &list, sizeof list));
-  for (int64_t i = 0; i < list.n_nodes; ++i)
-    K[list.node_id[i]] = list.K[i];
+  for (int64_t i = 0; i < list.n_nodes; ++i) K[list.node_id[i]] = list.K[i];
   if (fwrite(K, sizeof *K, (size_t)count[2], stdout) != (size_t)count[2] || fflush(stdout))
     fail("the output cannot be written");
   riis_marks_destroy(&marks);

@@ -140,7 +140,6 @@ def draw(rows, fields, folder):
     import numpy as np
 
     matplotlib.rcParams.update({"font.size": 8})
-    by_id = {row["id"]: row for row in rows}
     plot, axes = pyplot.subplots(1, 2, figsize=(8.5, 3.6), layout="constrained")
     for color, (kind, rim) in enumerate((k, r) for k in ("hole", "disc") for r in ("round", "cut")):
         some = [r for r in rows if r["id"].startswith(f"stokes_{kind}_{rim}_")]
@@ -154,8 +153,7 @@ def draw(rows, fields, folder):
             axes[1].plot(h + [0], c + [r["c"]], style + "-", color=f"C{color}", markersize=3, linewidth=0.8,
                          label=f"{label}, ε = a/{round(1 / e)}" if kind == "hole" else None)  # fmt: skip
     axes[0].set(xlabel="ε / a", ylabel="a_eff / a", title="effective radius in Stokes flow")
-    axes[1].set(xlabel="h / ε (0: extrapolated)", ylabel="c = |a − a_eff| / ε", title="c by cells in ε (hole blue and orange, disc green and red)")
-    axes[1].title.set_fontsize(7)
+    axes[1].set(xlabel="h / ε (0: extrapolated)", ylabel="c = |a − a_eff| / ε", title="c; green and red are the disc")
     axes[0].legend(fontsize=6)
     axes[1].legend(fontsize=5)
     for axis in axes:
@@ -184,7 +182,8 @@ def draw(rows, fields, folder):
         axis.contour(x, y, np.array(field["stream"]).T, levels=np.linspace(0, 0.999, 11), colors="w", linewidths=0.5)
         if rim == "round":
             angle = np.linspace(0, -np.pi, 60)
-            outline = (np.concatenate([[eps], eps * np.cos(angle), [-eps]]), np.concatenate([[4], 1 + eps * np.sin(angle), [4]]))
+            around = eps * np.cos(angle), 1 + eps * np.sin(angle)
+            outline = np.concatenate([[eps], around[0], [-eps]]), np.concatenate([[4], around[1], [4]])
         else:
             outline = (np.array([eps, eps, -eps, -eps]), np.array([4, 1, 1, 4]))
         axis.fill(*outline, facecolor="0.6", edgecolor="k", linewidth=0.6)
@@ -238,7 +237,8 @@ def main():
         results = compute(library, variant, arguments.processes, lambda text: print("   ", text, flush=True))
         rows = computed.stokes_rows(variant, results) + computed.closed_rows(library, arguments.flow, arguments.short)
         rows += computed.jet_rows(variant, results)
-        fields = {rim: computed.picture(results["jet", rim, 0.3, variant.jet_n, variant.jet_cells[-1], 1.0]) for rim in ("round", "cut")}
+        finest = 0.3, variant.jet_n, variant.jet_cells[-1], 1.0
+        fields = {rim: computed.picture(results["jet", rim, *finest]) for rim in ("round", "cut")}
         with open(saved, "w", encoding="utf-8") as file:
             json.dump({"about": {**machine(), "short": arguments.short}, "rows": rows, "fields": fields}, file, indent=1)
     with open(saved, encoding="utf-8") as file:
