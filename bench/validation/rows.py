@@ -90,11 +90,33 @@ def stokes_tasks(variant):
     middle = variant.stokes_n[1]
     tasks += [(("solid", kind, rim, cells), stokes.solid_radius, (kind, 1 / middle, cells, rim))
               for kind in SIGN for rim in ("round", "cut") for cells in variant.stokes_cells]
+    tasks += resistance_tasks(variant)
     for kind in variant.in_space:
         tasks.append((("space", kind), octant.effective_radius, (kind, 1 / 4, 2, "round")))
         tasks += [(("beside", kind, across), stokes.effective_radius, (kind, 1 / 4, 2, "round", (0.0, across)))
                   for across in ACROSS]
     return tasks
+
+
+FACTORS = (1.0, 1e-2, 1e-4)  # of blood's R
+
+
+def resistance_tasks(variant):
+    return [(("R", factor, cells), stokes.effective_radius,
+             ("hole", 1 / variant.stokes_n[1], cells, "round", PLACES[0], False, factor * marking.R / marking.MU))
+            for factor in FACTORS for cells in variant.stokes_cells]  # fmt: skip
+
+
+def resistance_rows(variant, results):
+    """What R does to a hole: the flow enters the band as far as (R/mu)^(-1/4), where K passes mu over the depth squared."""
+    n, rows, cells = variant.stokes_n[1], [], variant.stokes_cells
+    for factor in FACTORS:
+        made = row(f"R_{factor:g}", "stokes", f"c of the hole, round rim, ε = a/{n}, R/μ = {factor * marking.R / marking.MU:.1e}", None,
+                   "trend; the depth to which the flow enters is about 0.8 ε (R/μ)^(−1/4)", AXIAL, [1 / c for c in cells],
+                   [f"ε/h {c}" for c in cells], [(1 - results["R", factor, c][0]) * n for c in cells])  # fmt: skip
+        made["R_over_mu"] = factor * marking.R / marking.MU
+        rows.append(made)
+    return rows
 
 
 def stokes_rows(variant, results):
@@ -106,7 +128,7 @@ def stokes_rows(variant, results):
             radii = []
             for n in variant.stokes_n:
                 both = [[results["stokes", kind, rim, n, c, place][0] for place in PLACES] for c in cells]
-                # The reference is what eps = 0 would give: a deviation here is the effect of the half thickness.
+                # The reference is that of eps = 0, so a deviation here is the effect of the half thickness.
                 made = row(f"stokes_{kind}_{rim}_{n}", "stokes", f"{what[kind]}; {rim} rim, ε = a/{n}", 1.0, source[kind], AXIAL,
                            [1 / c for c in cells], [f"ε/h {c}" for c in cells], [np.mean(b) for b in both])  # fmt: skip
                 spread = abs(both[-1][0] - both[-1][1]) * n / 2
@@ -128,6 +150,7 @@ def stokes_rows(variant, results):
             rows.append(row(f"c_{kind}_{rim}", "stokes", f"c of a_eff = a {'−' if sign > 0 else '+'} c ε, {kind}, {rim} rim, "
                             f"ε = a/{n}", solid, f"solid plate of thickness 2 ε with {shape}, same solver, no slip", AXIAL,
                             [1 / c for c in cells], [f"ε/h {c}" for c in cells], values, 0.15))  # fmt: skip
+    rows += resistance_rows(variant, results)
     for kind in variant.in_space:
         beside = np.mean([results["beside", kind, across][0] for across in ACROSS])
         value = results["space", kind][0]

@@ -23,16 +23,16 @@ def grid_of(eps, per_eps, along, across):
     return z, r
 
 
-def effective_radius(library, kind, eps, per_eps, rim, place=(0.0, 0.0), solid=False):
+def effective_radius(library, kind, eps, per_eps, rim, place=(0.0, 0.0), solid=False, R_over_mu=marking.R / marking.MU):
     """kind: hole or disc. place: as grid_of has it. solid: the band is impenetrable. Returns a_eff and the number of cells."""
     z, r = grid_of(eps, per_eps, *place)
     flow = Flow(z, r, axial=True)
     surface = marking.disc(1.0) if kind == "disc" else marking.plate_with_hole(1.0, BOX + 4 * eps)
     points = np.vstack([flow.u_points(), flow.v_points()])
-    if solid:
+    if solid:  # no flow to speak of at any viscosity
         K = np.where(_in_band(kind, eps, rim, *points.T), 1e12, 0)
     else:
-        K = library.K(surface, eps, rim, np.stack([points[:, 1], 0 * points[:, 0], points[:, 0]], 1), marking.R / marking.MU)
+        K = library.K(surface, eps, rim, np.stack([points[:, 1], 0 * points[:, 0], points[:, 0]], 1), R_over_mu)
 
     def outer(a, r, z):
         # u_z, u_r on the box

@@ -18,7 +18,8 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 sys.path.insert(0, os.path.join(ROOT, "bench", "report"))
 GROUPS = ("stokes", "closed", "jets", "bodyfit", "clinical")
-FIELDS = ("id", "group", "quantity", "reference", "source", "solver", "grids", "order", "extrapolated", "deviation", "bar", "note")
+FIELDS = ("id", "group", "quantity", "reference", "source", "solver", "grids", "order", "extrapolated", "deviation", "bar",
+          "note")  # fmt: skip
 
 
 def compute(library, variant, n_processes, say):
@@ -70,7 +71,8 @@ def read_committed(path):
 def machine():
     with open("/proc/cpuinfo", encoding="utf-8") as file:
         names = [line.split(":", 1)[1].strip() for line in file if line.startswith("model name")]
-    commit = subprocess.run(["git", "-C", ROOT, "describe", "--always", "--dirty"], capture_output=True, text=True, check=False).stdout
+    words = ["git", "-C", ROOT, "describe", "--always", "--dirty"]
+    commit = subprocess.run(words, capture_output=True, text=True, check=False).stdout
     return {
         "commit": commit.strip() or "unknown", "machine": f"{names[0] if names else 'unknown'}, {os.cpu_count()} processors",
         "date": datetime.date.today().isoformat(),
@@ -121,6 +123,8 @@ def page_values(rows, about, committed, plots):
             values[f"range_{kind}_{rim}"] = f"{min(r['c'] for r in some):.2f} to {max(r['c'] for r in some):.2f}"
     values["slits"] = [{"rim": row["id"].split("_")[1], "n": row["id"].split("_")[2], "c": f"{row['c']:.2f}",
                         "order": _text(row["order"], 2) or "none"} for row in rows if row["id"].startswith("slit_")]  # fmt: skip
+    values["resistances"] = [{"ratio": f"{row['R_over_mu']:.0e}", "c": f"{row['extrapolated']:.2f}"} for row in rows
+                             if row["id"].startswith("R_")]  # fmt: skip
     jets = [row for row in rows if row["id"].startswith("jet_")]
     values["jet_finest"] = f"{max(100 * (row['grids'][-1]['value'] / row['reference'] - 1) for row in jets):.0f}"
     values["jet_worst"] = f"{max(abs(100 * row['deviation']) for row in jets):.1f}"
@@ -145,7 +149,8 @@ def draw(rows, fields, folder):
         some = [r for r in rows if r["id"].startswith(f"stokes_{kind}_{rim}_")]
         eps = [1 / int(r["id"].split("_")[-1]) for r in some]
         label = f"{kind}, {rim} rim"
-        axes[0].plot([0] + eps[::-1], [1] + [r["extrapolated"] for r in some][::-1], "o-", color=f"C{color}", markersize=3, label=label)
+        radii = [1] + [r["extrapolated"] for r in some][::-1]
+        axes[0].plot([0] + eps[::-1], radii, "o-", color=f"C{color}", markersize=3, label=label)
         for r, e, style in zip(some, eps, ("s", "^", "v")):
             h = [1 / float(g["n"].split()[-1]) for g in r["grids"]]
             sign = 1 if kind == "hole" else -1
@@ -167,8 +172,8 @@ def draw(rows, fields, folder):
         values = [g["value"] / row["reference"] for g in row["grids"]]
         words = row["id"].split("_")
         label = f"slit {words[1]} of channel" if words[0] == "jet" else f"b_eff, {words[1]} rim, ε = b/{words[2]}"
-        axes[0].plot(h + [0], values + [row["extrapolated"] / row["reference"]], "o-" if words[0] == "jet" else "s--", color=f"C{color}",
-                     markersize=3, linewidth=0.8, label=label)  # fmt: skip
+        axes[0].plot(h + [0], values + [row["extrapolated"] / row["reference"]], "o-" if words[0] == "jet" else "s--",
+                     color=f"C{color}", markersize=3, linewidth=0.8, label=label)  # fmt: skip
     axes[0].set(xlabel="h / b (0: extrapolated)", ylabel="over the reference", title="contraction, effective width")
     axes[0].axhspan(0.95, 1.05, color="0.92", zorder=0)
     axes[0].grid(True, linewidth=0.3)
@@ -209,8 +214,8 @@ def print_table(rows, say=print):
     for row in rows:
         deviation = "" if row["deviation"] is None else f"{100 * row['deviation']:+.2f} %"
         bar = "" if row["bar"] is None else f"{100 * row['bar']:g} %"
-        say(f"{row['id']:22} {_text(row['reference'], 5):>10} {row['extrapolated']:12.5g} {_text(row['order'], 2):>6} {deviation:>10} "
-            f"{bar:>6}")  # fmt: skip
+        reference, order = _text(row["reference"], 5), _text(row["order"], 2)
+        say(f"{row['id']:22} {reference:>10} {row['extrapolated']:12.5g} {order:>6} {deviation:>10} {bar:>6}")
 
 
 def main():
