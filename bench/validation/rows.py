@@ -108,11 +108,12 @@ def resistance_tasks(variant):
 
 
 def resistance_rows(variant, results):
-    """What R does to a hole: the flow enters the band as far as (R/mu)^(-1/4), where K passes mu over the depth squared."""
+    """What R does to a hole: the flow enters the band as far as (R/mu)^(-1/4), where K passes mu over the depth squared. With a
+    small R the plate leaks as well."""
     n, rows, cells = variant.stokes_n[1], [], variant.stokes_cells
     for factor in FACTORS:
         made = row(f"R_{factor:g}", "stokes", f"c of the hole, round rim, ε = a/{n}, R/μ = {factor * marking.R / marking.MU:.1e}", None,
-                   "trend; the depth to which the flow enters is about 0.8 ε (R/μ)^(−1/4)", AXIAL, [1 / c for c in cells],
+                   "trend: depth of the flow in the band about 0.8 ε (R/μ)^(−1/4), and the leak Δp ε/R of the plate", AXIAL, [1 / c for c in cells],
                    [f"ε/h {c}" for c in cells], [(1 - results["R", factor, c][0]) * n for c in cells])  # fmt: skip
         made["R_over_mu"] = factor * marking.R / marking.MU
         rows.append(made)

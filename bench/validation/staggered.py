@@ -69,7 +69,7 @@ class Flow:
     def viscous(self, mu, edge_u=None, edge_v=None):
         """The matrix and the right-hand side of -div(mu grad u), times volumes. mu: in cells, (nx, ny), or a number.
 
-        edge_u: u at the sides y, lower and upper, (nx + 1); None at a side that does not rub. edge_v: v at the ends x, (ny + 1)."""
+        edge_u: u at the sides y, lower and upper, (nx + 1); None where nothing rubs. edge_v: v at the ends x, (ny + 1)."""
         mu = np.broadcast_to(np.asarray(mu, float), (self.nx, self.ny))
         padded = np.pad(mu, 1, mode="edge")
         corner = (padded[1:, 1:] + padded[:-1, 1:] + padded[1:, :-1] + padded[:-1, :-1]) / 4
@@ -156,7 +156,8 @@ class Flow:
 
         def upstream(near, far, x_near, x_far):
             slope = np.where(x_near != x_far, (xf - x_near) / np.where(x_near != x_far, x_near - x_far, 1), 0)
-            return sp.csr_matrix((np.concatenate([1 + slope, -slope]), (np.tile(ids, 2), np.concatenate([near, far]))), (count, n))
+            weights, columns = np.concatenate([1 + slope, -slope]), np.concatenate([near, far])
+            return sp.csr_matrix((weights, (np.tile(ids, 2), columns)), (count, n))
 
         M = sp.csr_matrix((np.concatenate(m_values), (np.concatenate(m_rows), np.concatenate(m_columns))), (count, n))
         B = sp.csr_matrix((np.repeat([1.0, -1.0], count), (np.concatenate([l.astype(int), r.astype(int)]), np.tile(ids, 2))),
@@ -242,7 +243,8 @@ def graded(h, fine, ends, growth=1.1, largest=None):
         raise ValueError(f"cells of {h} from {fine[0]} to {fine[1]} do not fit between {ends[0]} and {ends[1]}")
     n = max(1, round((fine[1] - fine[0]) / h))
     middle = np.linspace(fine[0], fine[0] + n * h, n + 1)
-    return np.concatenate([_grow(h, middle[0], ends[0], growth, largest)[::-1], middle, _grow(h, middle[-1], ends[1], growth, largest)])
+    low, high = _grow(h, middle[0], ends[0], growth, largest), _grow(h, middle[-1], ends[1], growth, largest)
+    return np.concatenate([low[::-1], middle, high])
 
 
 def _grow(h, start, end, growth, largest):

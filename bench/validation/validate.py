@@ -242,8 +242,8 @@ def main():
         results = compute(library, variant, arguments.processes, lambda text: print("   ", text, flush=True))
         rows = computed.stokes_rows(variant, results) + computed.closed_rows(library, arguments.flow, arguments.short)
         rows += computed.jet_rows(variant, results)
-        finest = 0.3, variant.jet_n, variant.jet_cells[-1], 1.0
-        fields = {rim: computed.picture(results["jet", rim, *finest]) for rim in ("round", "cut")}
+        n, cells = variant.jet_n, variant.jet_cells[-1]
+        fields = {rim: computed.picture(results["jet", rim, 0.3, n, cells, 1.0]) for rim in ("round", "cut")}
         with open(saved, "w", encoding="utf-8") as file:
             json.dump({"about": {**machine(), "short": arguments.short}, "rows": rows, "fields": fields}, file, indent=1)
     with open(saved, encoding="utf-8") as file:
