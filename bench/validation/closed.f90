@@ -3,7 +3,7 @@
 !! the closed aortic valve, and a plate that moves through a duct. It prints lines of words:
 !!   drop   CELLS_OF_EPS DROP_OVER_R_EPS_U     plate in a duct, mean of ten places between two faces; then the same with a
 !!   spread                                    largest less least of them
-!!   leak   CELLS LEAK_OVER_IDEAL              aortic valve at 80 mmHg, eps = 1.5 h, ideal: dp eps/R through the area of its leaflets
+!!   leak   CELLS LEAK_OVER_IDEAL              aortic valve, 80 mmHg, eps = 1.5 h, ideal: dp eps/R through the leaflets
 !!   moving CELLS VOLUME_OVER_AREA_STROKE      mean of both ends; then "ends", their difference over area times stroke
 program closed
   use riis

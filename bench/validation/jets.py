@@ -2,7 +2,8 @@
 """Plane jets from a slit in a plate across a channel with slip walls: contraction, drop, pressure downstream.
 
 SI units. The slit's half width is B, the flow's speed in the slit U / share of the jet. Viscosity is a model of what mixes the
-jet, so it is small by the slit (REYNOLDS) and grows downstream. The walls do not rub, so the balance of momentum holds with any."""
+jet, so it is small by the slit (REYNOLDS) and grows downstream. The walls do not rub, so the balance of momentum holds with
+any viscosity."""
 
 import numpy as np
 

@@ -99,7 +99,8 @@ class _Component:
         shape = self.xyz.shape[:3]
         self.xyz = self.xyz.reshape(-1, 3)
         self.K = library.K(surface, eps, rim, self.xyz, marking.R / marking.MU)
-        self.A = sum(_kron(*[stiff[d] if d == e else mass[d] for d in range(3)]) for e in range(3)) + sp.diags(self.K * self.volume)
+        self.A = sum(_kron(*[stiff[d] if d == e else mass[d] for d in range(3)]) for e in range(3))
+        self.A = self.A + sp.diags(self.K * self.volume)
         free = np.ones(shape, bool)
         np.moveaxis(free, c, 0)[-1] = False
         if c != 2:

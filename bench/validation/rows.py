@@ -112,18 +112,22 @@ def resistance_rows(variant, results):
     small R the plate leaks as well."""
     n, rows, cells = variant.stokes_n[1], [], variant.stokes_cells
     for factor in FACTORS:
-        made = row(f"R_{factor:g}", "stokes", f"c of the hole, round rim, ε = a/{n}, R/μ = {factor * marking.R / marking.MU:.1e}", None,
-                   "trend: depth of the flow in the band about 0.8 ε (R/μ)^(−1/4), and the leak Δp ε/R of the plate", AXIAL, [1 / c for c in cells],
-                   [f"ε/h {c}" for c in cells], [(1 - results["R", factor, c][0]) * n for c in cells])  # fmt: skip
-        made["R_over_mu"] = factor * marking.R / marking.MU
+        ratio = factor * marking.R / marking.MU
+        made = row(f"R_{factor:g}", "stokes", f"c of the hole, round rim, ε = a/{n}, R/μ = {ratio:.1e}", None,
+                   "trend: depth of the flow in the band about 0.8 ε (R/μ)^(−1/4), and the leak Δp ε/R of the plate", AXIAL,
+                   [1 / c for c in cells], [f"ε/h {c}" for c in cells],
+                   [(1 - results["R", factor, c][0]) * n for c in cells])  # fmt: skip
+        made["R_over_mu"] = ratio
         rows.append(made)
     return rows
 
 
 def stokes_rows(variant, results):
     rows, cells, limits = [], variant.stokes_cells, {}
-    what = {"hole": "hole in a plate, a_eff / a by Q = a_eff³ Δp / (3 μ)", "disc": "disc broadside, a_eff / a by F = 16 μ a_eff U"}
-    source = {"hole": "Sampson 1891", "disc": "Oberbeck 1876; Happel and Brenner 1965"}
+    what = {"hole": "hole in a plate, a_eff / a by Q = a_eff³ Δp / (3 μ)",
+            "disc": "disc broadside, a_eff / a by F = 16 μ a_eff U"}  # fmt: skip
+    source = {"hole": "Sampson 1891, derived in bench/validation/exact.py",
+              "disc": "closed form derived in bench/validation/exact.py"}  # fmt: skip
     for kind, sign in SIGN.items():
         for rim in ("round", "cut"):
             radii = []
@@ -204,16 +208,16 @@ def closed_rows(library, flow_program=None, short=False):
 
     def of(name, key, quantity, reference, source, text, bar, note=""):
         n, values = zip(*found[name])
-        rows.append(row(key, "closed", quantity, reference, source, solver, [1 / x for x in n], [text.format(x) for x in n], values,
-                        bar, note))  # fmt: skip
+        names = [text.format(x) for x in n]
+        rows.append(row(key, "closed", quantity, reference, source, solver, [1 / x for x in n], names, values, bar, note))
 
     spread = max(value for _, value in found["spread"])
-    of("drop", "closed_drop", "drop of a plate across a duct in the step in which it closes, over (R/ε) u", 1.0, law, "ε/h {:.0f}",
-       0.01, f"ten places between two faces differ by {spread:.0e} at most")  # fmt: skip
-    of("moving", "moving_plate", "volume that a moving plate takes through a duct, over area times stroke (mean of both ends)", 1.0,
-       "no flow through the plate", "{:.0f} cells across", 0.01)  # fmt: skip
-    of("leak", "closed_leak", "leak of the closed aortic valve at 80 mmHg, ε = 1.5 h, over Δp ε/R times the area of its leaflets", 1.0,
-       "(R/ε) u on each leaflet by itself", "{:.0f} cells across", None,
+    of("drop", "closed_drop", "drop of a plate across a duct in the step in which it closes, over (R/ε) u", 1.0, law,
+       "ε/h {:.0f}", 0.01, f"ten places between two faces differ by {spread:.0e} at most")  # fmt: skip
+    of("moving", "moving_plate", "volume that a moving plate takes through a duct, over area times stroke (mean of both ends)",
+       1.0, "no flow through the plate", "{:.0f} cells across", 0.01)  # fmt: skip
+    of("leak", "closed_leak", "leak of the closed aortic valve at 80 mmHg, ε = 1.5 h, over Δp ε/R times the area of its leaflets",
+       1.0, "(R/ε) u on each leaflet by itself", "{:.0f} cells across", None,
        "less than 1, as the bands of two cusps that touch are one; it tends to 1 with ε")  # fmt: skip
     return rows
 
@@ -232,8 +236,8 @@ def jet_tasks(variant):
     if variant.in_space:  # the full variant
         tasks += [(("jet", rim, 0.3, 2 * n, c / 2, 1.0), jets.jet, (0.3, jets.B / n / 2, c / 2, rim))
                   for c in variant.jet_cells for rim in ("round", "cut")]
-    tasks += [(("jet", "cut", 0.3, n, c, s), jets.jet, (0.3, jets.B / n, c, "cut", 0.0, s)) for c in variant.jet_cells for s in SPEEDS
-              if s != 1.0]
+    tasks += [(("jet", "cut", 0.3, n, c, s), jets.jet, (0.3, jets.B / n, c, "cut", 0.0, s))
+              for c in variant.jet_cells for s in SPEEDS if s != 1.0]  # fmt: skip
     return tasks
 
 
@@ -265,16 +269,18 @@ def jet_rows(variant, results):
         rows.append(row(key, "jets", quantity, 1.0, source, PLANE, h, names, values, bar))
 
     some = [results["jet", "cut", 0.3, n, c, 1.0] for c in cells]
+    loss = [r["drop"] / (marking.RHO / 2 * (r["core"] - r["inlet"]) ** 2) for r in some]
+    rise = [(r["vena_drop"] - r["drop"]) / (marking.RHO * r["inlet"] * (r["core"] - r["inlet"])) for r in some]
     of("borda_carnot", "loss behind a slit of 0.3 of the channel over (ρ/2)(U_jet − U)²", "Borda-Carnot, with the jet's own speed",
-       [r["drop"] / (marking.RHO / 2 * (r["core"] - r["inlet"]) ** 2) for r in some], 0.05)  # fmt: skip
-    of("recovery", "rise of the pressure downstream of the jet over ρ U (U_jet − U)", "balance of momentum, with the jet's own speed",
-       [(r["vena_drop"] - r["drop"]) / (marking.RHO * r["inlet"] * (r["core"] - r["inlet"])) for r in some], 0.05)  # fmt: skip
+       loss, 0.05)  # fmt: skip
+    of("recovery", "rise of the pressure downstream of the jet over ρ U (U_jet − U)",
+       "balance of momentum, with the jet's own speed", rise, 0.05)  # fmt: skip
     exponents = []
     for c in cells:
         drops = [results["jet", "cut", 0.3, n, c, s]["drop"] for s in SPEEDS]
         exponents.append(math.log(drops[-1] / drops[0]) / math.log(SPEEDS[-1] / SPEEDS[0]))
-    rows.append(row("drop_exponent", "jets", "exponent of Q in the drop, from half to twice the flow", 2.0, "drop ∝ Q²", PLANE, h, names,
-                    exponents, 0.02))  # fmt: skip
+    rows.append(row("drop_exponent", "jets", "exponent of Q in the drop, from half to twice the flow", 2.0, "drop ∝ Q²", PLANE,
+                    h, names, exponents, 0.02))  # fmt: skip
     return rows
 
 
