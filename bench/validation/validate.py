@@ -86,6 +86,11 @@ def _text(value, digits=4):
     return "" if value is None else f"{value:.{digits}g}"
 
 
+def _range(row):
+    values = [grid["value"] for grid in row["grids"]]
+    return f"{min(values):.2f} to {max(values):.2f}"
+
+
 def table_of(rows):
     import report_text
 
@@ -121,8 +126,8 @@ def page_values(rows, about, committed, plots):
             values[f"order_eps_{kind}_{rim}"] = f"{order:.2f}" if order else "none"
             some = [r for r in rows if r["id"].startswith(f"stokes_{kind}_{rim}_")]
             values[f"range_{kind}_{rim}"] = f"{min(r['c'] for r in some):.2f} to {max(r['c'] for r in some):.2f}"
-    values["slits"] = [{"rim": row["id"].split("_")[1], "n": row["id"].split("_")[2], "c": f"{row['c']:.2f}",
-                        "order": _text(row["order"], 2) or "none"} for row in rows if row["id"].startswith("slit_")]  # fmt: skip
+    slits = [row for row in rows if row["id"].startswith("c_slit_")]
+    values["slits"] = [{"rim": row["id"].split("_")[2], "c": f"{row['extrapolated']:.2f}", "range": _range(row)} for row in slits]
     values["resistances"] = [{"ratio": f"{row['R_over_mu']:.0e}", "c": f"{row['extrapolated']:.2f}"} for row in rows
                              if row["id"].startswith("R_")]  # fmt: skip
     jets = [row for row in rows if row["id"].startswith("jet_")]
