@@ -284,8 +284,8 @@ def jet_rows(variant, results):
     some = [results["jet", "cut", 0.3, n, c, 1.0] for c in cells]
     loss = [r["drop"] / (marking.RHO / 2 * (r["core"] - r["inlet"]) ** 2) for r in some]
     rise = [(r["vena_drop"] - r["drop"]) / (marking.RHO * r["inlet"] * (r["core"] - r["inlet"])) for r in some]
-    of("borda_carnot", "loss behind a slit of 0.3 of the channel over (ρ/2)(U_jet − U)²", "Borda-Carnot, with the jet's own speed",
-       loss, 0.05)  # fmt: skip
+    of("borda_carnot", "loss behind a slit of 0.3 of the channel over (ρ/2)(U_jet − U)²",
+       "Borda-Carnot, with the jet's own speed", loss, 0.05)  # fmt: skip
     of("recovery", "rise of the pressure downstream of the jet over ρ U (U_jet − U)",
        "balance of momentum, with the jet's own speed", rise, 0.05)  # fmt: skip
     exponents = []

@@ -87,7 +87,7 @@ def _text(value, digits=4):
 
 
 def _range(row):
-    values = [grid["value"] for grid in row["grids"]]
+    values = [grid["value"] for grid in row["grids"][-2:]]
     return f"{min(values):.2f} to {max(values):.2f}"
 
 
@@ -120,6 +120,8 @@ def page_values(rows, about, committed, plots):
         for rim in ("round", "cut"):
             row = by_id[f"c_{kind}_{rim}"]
             values[f"c_{kind}_{rim}"] = f"{row['extrapolated']:.2f}"
+            for at in (0, 1):
+                values[f"less_{at}_{kind}_{rim}"] = f"{row['extrapolated'] - row['grids'][at]['value']:.2f}"
             orders = [r["order"] for r in rows if r["id"].startswith(f"stokes_{kind}_{rim}_") and r["order"]]
             values[f"order_h_{kind}_{rim}"] = f"{min(orders):.1f} to {max(orders):.1f}" if orders else "none"
             order = by_id[f"stokes_{kind}_{rim}"]["order"]
@@ -130,6 +132,8 @@ def page_values(rows, about, committed, plots):
     values["slits"] = [{"rim": row["id"].split("_")[2], "c": f"{row['extrapolated']:.2f}", "range": _range(row)} for row in slits]
     values["resistances"] = [{"ratio": f"{row['R_over_mu']:.0e}", "c": f"{row['extrapolated']:.2f}"} for row in rows
                              if row["id"].startswith("R_")]  # fmt: skip
+    for at, grid in enumerate(by_id["c_hole_round"]["grids"][:2]):
+        values[f"cells_{at}"] = grid["n"].split()[-1]
     jets = [row for row in rows if row["id"].startswith("jet_")]
     values["jet_finest"] = f"{max(100 * (row['grids'][-1]['value'] / row['reference'] - 1) for row in jets):.0f}"
     values["jet_worst"] = f"{max(abs(100 * row['deviation']) for row in jets):.1f}"
@@ -189,7 +193,7 @@ def draw(rows, fields, folder):
         x, y = np.array(field["x"]) / b, np.array(field["y"]) / b
         speed, eps = np.array(field["speed"]), field["eps"] / b
         image = axis.pcolormesh(x, y, speed.T, cmap="viridis", shading="nearest", vmin=0, vmax=1.8)
-        axis.contour(x, y, np.array(field["stream"]).T, levels=np.linspace(0, 0.999, 11), colors="w", linewidths=0.5)
+        axis.contour(x, y, np.array(field["stream"]).T, levels=np.linspace(0, 0.9, 10), colors="w", linewidths=0.5)
         if rim == "round":
             angle = np.linspace(0, -np.pi, 60)
             around = eps * np.cos(angle), 1 + eps * np.sin(angle)
