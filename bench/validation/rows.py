@@ -247,8 +247,9 @@ def slope_row(rim, n, thick, thin):
         raise ValueError(f"the rows {thick['id']} and {thin['id']} are not on the same grids")
     values = [(b["value"] - a["value"]) * 2 * n for a, b in zip(thick["grids"], thin["grids"])]
     names = [g["n"] for g in thick["grids"]]
-    return row(f"c_slit_{rim}", "jets", f"c of b_eff = b − c ε, {rim} rim, between ε = b/{n} and ε = b/{2 * n}", None, "trend", PLANE,
-               [1 / float(name.split()[-1]) for name in names], names, values, note="the same cells for both ε")  # fmt: skip
+    what = f"c of b_eff = b − c ε, {rim} rim, between ε = b/{n} and ε = b/{2 * n}"
+    return row(f"c_slit_{rim}", "jets", what, None, "trend", PLANE, [1 / float(name.split()[-1]) for name in names],
+               names, values, note="the same cells for both ε")  # fmt: skip
 
 
 def jet_rows(variant, results):

@@ -6,6 +6,7 @@ The order of a series, the reading of committed rows and the page are tried on m
 import copy
 import json
 import os
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -127,6 +128,28 @@ class Judged(unittest.TestCase):
                 validate.read_committed(path)
         self.assertIn("| effective area |", validate.table_of([made]))
         self.assertIn("**missed**", validate.table_of([{**made, "bar": 0.01}]))
+
+    def test_status(self):
+        # The page of made-up rows, of which one misses its bar or none does.
+        def made(key, group, bar=None):
+            grids = [f"b/h {n}" for n in (2, 4, 8)]
+            return {**rows.row(key, group, "", 1.0, "", "", (4, 2, 1), grids, [1.2, 1.2, 1.2], bar), "c": 1.0}
+
+        some = [made(f"{word}_{kind}_{rim}{end}", "stokes") for kind in rows.SIGN for rim in ("round", "cut")
+                for word, end in (("c", ""), ("stokes", ""), ("stokes", "_4"))]  # fmt: skip
+        field = {"x": [0.0, 0.01], "y": [0.0, 0.01], "speed": [[0, 1], [0, 1]], "stream": [[0, 1], [0, 1]], "eps": 0.002}
+        about = {"commit": "c", "machine": "m", "date": "d", "short": True}
+        for bar, status in ((0.3, 0), (0.1, 1)):
+            with tempfile.TemporaryDirectory() as folder:
+                with open(os.path.join(folder, "rows.json"), "w", encoding="utf-8") as file:
+                    all_rows = some + [made("jet_0.3", "jets", bar)]
+                    json.dump({"about": about, "rows": all_rows, "fields": {"round": field, "cut": field}}, file)
+                words = [sys.executable, "-B", validate.__file__, "--reuse", "--out", folder]
+                run = subprocess.run(words, capture_output=True, text=True, check=False)
+                self.assertEqual(run.returncode, status, run.stdout + run.stderr)
+                self.assertEqual("jet_0.3 is +20.00 % off, and its bar is 10 %" in run.stdout, bool(status))
+                with open(os.path.join(folder, "validation.md"), encoding="utf-8") as file:
+                    self.assertEqual("**missed**" in file.read(), bool(status))
 
     def test_grid_that_does_not_fit(self):
         with self.assertRaisesRegex(ValueError, "do not fit between 0 and 6"):
