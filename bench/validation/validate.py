@@ -1,0 +1,275 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""./run validate: computes the rows, draws, and makes docs/validation.md. rows.py says what a row is.
+
+validate.py --marks PROGRAM --flow PROGRAM --out FOLDER [--short] [--page FILE] [--reuse]
+The status is 1 if a row misses its bar. --reuse computes nothing and takes FOLDER/rows.json."""
+
+import argparse
+import datetime
+import json
+import multiprocessing
+import os
+import subprocess
+import sys
+import time
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+sys.path.insert(0, os.path.join(ROOT, "bench", "report"))
+GROUPS = ("stokes", "closed", "jets", "bodyfit", "clinical")
+FIELDS = ("id", "group", "quantity", "reference", "source", "solver", "grids", "order", "extrapolated", "deviation", "bar",
+          "note")  # fmt: skip
+
+
+def compute(library, variant, n_processes, say):
+    """{name: result} of all tasks. The longest come first, so that the processes end together."""
+    import rows
+
+    tasks = rows.jet_tasks(variant)[::-1] + rows.stokes_tasks(variant)[::-1]
+    results, start = {}, time.monotonic()
+    with multiprocessing.Pool(n_processes) as pool:
+        jobs = [(name, function, (library, *arguments)) for name, function, arguments in tasks]
+        for done, (name, result) in enumerate(pool.imap_unordered(_call, jobs), 1):
+            results[name] = result
+            if done % 10 == 0 or done == len(tasks):
+                say(f"{done} of {len(tasks)} flows, {time.monotonic() - start:.0f} s")
+    return results
+
+
+def _call(job):
+    name, function, arguments = job
+    return name, function(*arguments)
+
+
+def check_rows(rows, where):
+    """Refuses rows that the page cannot show; committed ones come from elsewhere."""
+    for number, row in enumerate(rows):
+        for field in FIELDS:
+            if field not in row:
+                raise SystemExit(f"{where}: row {number} ({row.get('id', '?')}) lacks the field {field}")
+        if row["group"] not in GROUPS:
+            raise SystemExit(f"{where}: row {row['id']} has the group '{row['group']}', which is none of {', '.join(GROUPS)}")
+    ids = [row["id"] for row in rows]
+    for key in ids:
+        if ids.count(key) > 1:
+            raise SystemExit(f"{where}: two rows have the id {key}")
+
+
+def read_committed(path):
+    """What ./run validate --all committed: {"commit", "machine", "command", "rows"}; None without the file."""
+    if not os.path.exists(path):
+        return None
+    with open(path, encoding="utf-8") as file:
+        found = json.load(file)
+    for field in ("commit", "machine", "command", "rows"):
+        if field not in found:
+            raise SystemExit(f"{path} lacks {field}")
+    return found
+
+
+def machine():
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        names = [line.split(":", 1)[1].strip() for line in file if line.startswith("model name")]
+    words = ["git", "-C", ROOT, "describe", "--always", "--dirty"]
+    commit = subprocess.run(words, capture_output=True, text=True, check=False).stdout
+    return {
+        "commit": commit.strip() or "unknown", "machine": f"{names[0] if names else 'unknown'}, {os.cpu_count()} processors",
+        "date": datetime.date.today().isoformat(),
+    }  # fmt: skip
+
+
+# -------------------------------------------------------------------------------------------------------------------- page
+
+
+def _text(value, digits=4):
+    return "" if value is None else f"{value:.{digits}g}"
+
+
+def _range(row):
+    values = [grid["value"] for grid in row["grids"][-2:]]
+    return f"{min(values):.2f} to {max(values):.2f}"
+
+
+def table_of(rows):
+    import report_text
+
+    lines = []
+    for row in rows:
+        deviation = "" if row["deviation"] is None else f"{100 * row['deviation']:+.2f} %"
+        if row["bar"] is not None:
+            deviation += f" (bar {100 * row['bar']:g} %)" + ("" if abs(row["deviation"]) <= row["bar"] else " **missed**")
+        grids = "<br>".join(f"{grid['n']}: {_text(grid['value'])}" for grid in row["grids"])
+        lines.append([row["quantity"], f"{_text(row['reference'])}<br>{row['source']}", grids, _text(row["order"], 2),
+                      _text(row["extrapolated"]), deviation, row["note"]])  # fmt: skip
+    heads = ["quantity", "reference", "ours", "order", "extrapolated", "deviation", "note"]
+    return report_text.table(heads, [[cell.replace("|", "\\|") for cell in line] for line in lines])
+
+
+def page_values(rows, about, committed, plots):
+    """What the template's prose takes."""
+    by_id = {row["id"]: row for row in rows}
+    values = {"command": "./run validate --short" if about["short"] else "./run validate", **about, "plots": plots}
+    for group in GROUPS:
+        chosen = [row for row in rows if row["group"] == group]
+        values[group] = bool(chosen)
+        values[group + "_table"] = table_of(chosen)
+        solvers = sorted({row["solver"] for row in chosen})
+        values[group + "_solvers"] = "; ".join(solvers)
+    for kind in ("hole", "disc"):
+        for rim in ("round", "cut"):
+            row = by_id[f"c_{kind}_{rim}"]
+            values[f"c_{kind}_{rim}"] = f"{row['extrapolated']:.2f}"
+            for at in (0, 1):
+                values[f"less_{at}_{kind}_{rim}"] = f"{row['extrapolated'] - row['grids'][at]['value']:.2f}"
+            orders = [r["order"] for r in rows if r["id"].startswith(f"stokes_{kind}_{rim}_") and r["order"]]
+            values[f"order_h_{kind}_{rim}"] = f"{min(orders):.1f} to {max(orders):.1f}" if orders else "none"
+            order = by_id[f"stokes_{kind}_{rim}"]["order"]
+            values[f"order_eps_{kind}_{rim}"] = f"{order:.2f}" if order else "none"
+            some = [r for r in rows if r["id"].startswith(f"stokes_{kind}_{rim}_")]
+            values[f"range_{kind}_{rim}"] = f"{min(r['c'] for r in some):.2f} to {max(r['c'] for r in some):.2f}"
+    slits = [row for row in rows if row["id"].startswith("c_slit_")]
+    values["slits"] = [{"rim": row["id"].split("_")[2], "c": f"{row['extrapolated']:.2f}", "range": _range(row)} for row in slits]
+    values["resistances"] = [{"ratio": f"{row['R_over_mu']:.0e}", "c": f"{row['extrapolated']:.2f}"} for row in rows
+                             if row["id"].startswith("R_")]  # fmt: skip
+    for at, grid in enumerate(by_id["c_hole_round"]["grids"][:2]):
+        values[f"cells_{at}"] = grid["n"].split()[-1]
+    jets = [row for row in rows if row["id"].startswith("jet_")]
+    values["jet_finest"] = f"{max(100 * (row['grids'][-1]['value'] / row['reference'] - 1) for row in jets):.0f}"
+    values["jet_worst"] = f"{max(abs(100 * row['deviation']) for row in jets):.1f}"
+    values["committed"] = committed and {"of_" + name: committed[name] for name in ("commit", "machine", "command")}
+    return values
+
+
+def draw(rows, fields, folder):
+    """validation-stokes.png and validation-jets.png; returns whether there is matplotlib."""
+    try:
+        import matplotlib
+    except ImportError:
+        print("==> no matplotlib (python3-matplotlib): the page is made without plots")
+        return False
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as pyplot
+    import numpy as np
+
+    matplotlib.rcParams.update({"font.size": 8})
+    plot, axes = pyplot.subplots(1, 2, figsize=(8.5, 3.6), layout="constrained")
+    for color, (kind, rim) in enumerate((k, r) for k in ("hole", "disc") for r in ("round", "cut")):
+        some = [r for r in rows if r["id"].startswith(f"stokes_{kind}_{rim}_")]
+        eps = [1 / int(r["id"].split("_")[-1]) for r in some]
+        label = f"{kind}, {rim} rim"
+        radii = [1] + [r["extrapolated"] for r in some][::-1]
+        axes[0].plot([0] + eps[::-1], radii, "o-", color=f"C{color}", markersize=3, label=label)
+        for r, e, style in zip(some, eps, ("s", "^", "v")):
+            h = [1 / float(g["n"].split()[-1]) for g in r["grids"]]
+            sign = 1 if kind == "hole" else -1
+            c = [sign * (1 - g["value"]) / e for g in r["grids"]]
+            axes[1].plot(h + [0], c + [r["c"]], style + "-", color=f"C{color}", markersize=3, linewidth=0.8,
+                         label=f"{label}, ε = a/{round(1 / e)}" if kind == "hole" else None)  # fmt: skip
+    axes[0].set(xlabel="ε / a", ylabel="a_eff / a", title="effective radius in Stokes flow")
+    axes[1].set(xlabel="h / ε (0: extrapolated)", ylabel="c = |a − a_eff| / ε", title="c; green and red are the disc")
+    axes[0].legend(fontsize=6)
+    axes[1].legend(fontsize=5)
+    for axis in axes:
+        axis.grid(True, linewidth=0.3)
+    plot.savefig(os.path.join(folder, "validation-stokes.png"), dpi=110, metadata={"Software": None})
+    pyplot.close(plot)
+
+    plot, axes = pyplot.subplots(1, 3, figsize=(10, 3.4), layout="constrained", width_ratios=(1, 1, 1))
+    for color, row in enumerate(r for r in rows if r["id"].startswith(("jet_", "slit_"))):
+        h = [1 / float(g["n"].split()[-1]) for g in row["grids"]]
+        values = [g["value"] / row["reference"] for g in row["grids"]]
+        words = row["id"].split("_")
+        label = f"slit {words[1]} of channel" if words[0] == "jet" else f"b_eff, {words[1]} rim, ε = b/{words[2]}"
+        axes[0].plot(h + [0], values + [row["extrapolated"] / row["reference"]], "o-" if words[0] == "jet" else "s--",
+                     color=f"C{color}", markersize=3, linewidth=0.8, label=label)  # fmt: skip
+    axes[0].set(xlabel="h / b (0: extrapolated)", ylabel="over the reference", title="contraction, effective width")
+    axes[0].axhspan(0.95, 1.05, color="0.92", zorder=0)
+    axes[0].grid(True, linewidth=0.3)
+    axes[0].legend(fontsize=5)
+    for axis, rim in zip(axes[1:], ("round", "cut")):
+        field = fields[rim]
+        b = 0.008
+        x, y = np.array(field["x"]) / b, np.array(field["y"]) / b
+        speed, eps = np.array(field["speed"]), field["eps"] / b
+        image = axis.pcolormesh(x, y, speed.T, cmap="viridis", shading="nearest", vmin=0, vmax=1.8)
+        axis.contour(x, y, np.array(field["stream"]).T, levels=np.linspace(0, 0.9, 10), colors="w", linewidths=0.5)
+        if rim == "round":
+            angle = np.linspace(0, -np.pi, 60)
+            around = eps * np.cos(angle), 1 + eps * np.sin(angle)
+            outline = np.concatenate([[eps], around[0], [-eps]]), np.concatenate([[4], around[1], [4]])
+        else:
+            outline = (np.array([eps, eps, -eps, -eps]), np.array([4, 1, 1, 4]))
+        axis.fill(*outline, facecolor="0.6", edgecolor="k", linewidth=0.6)
+        axis.set(xlim=(-1.5, 3), ylim=(0, 2.5), xlabel="x / b", ylabel="y / b", title=f"{rim} rim: speed, m/s, and streamlines")
+        axis.set_aspect("equal")
+    plot.colorbar(image, ax=axes[1:], shrink=0.8)
+    plot.savefig(os.path.join(folder, "validation-jets.png"), dpi=110, metadata={"Software": None})
+    pyplot.close(plot)
+    return True
+
+
+def make_page(path, rows, about, committed, plots):
+    import report_text
+
+    with open(os.path.join(HERE, "validation.template.md"), encoding="utf-8") as file:
+        template = report_text.Template(file.read())
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(template.fill(page_values(rows, about, committed, plots)))
+
+
+def print_table(rows, say=print):
+    say(f"{'row':22} {'reference':>10} {'extrapolated':>12} {'order':>6} {'deviation':>10} {'bar':>6}")
+    for row in rows:
+        deviation = "" if row["deviation"] is None else f"{100 * row['deviation']:+.2f} %"
+        bar = "" if row["bar"] is None else f"{100 * row['bar']:g} %"
+        reference, order = _text(row["reference"], 5), _text(row["order"], 2)
+        say(f"{row['id']:22} {reference:>10} {row['extrapolated']:12.5g} {order:>6} {deviation:>10} {bar:>6}")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--marks", help="the program of marks.c")
+    parser.add_argument("--flow", help="the program of closed.f90")
+    parser.add_argument("--out", required=True)
+    parser.add_argument("--short", action="store_true")
+    parser.add_argument("--reuse", action="store_true")
+    parser.add_argument("--processes", type=int, default=os.cpu_count())
+    parser.add_argument("--page", help="the page, and its plots beside it; without it FOLDER/validation.md")
+    arguments = parser.parse_args()
+    os.makedirs(arguments.out, exist_ok=True)
+    saved = os.path.join(arguments.out, "rows.json")
+    if not arguments.reuse:
+        import exact
+        import marking
+        import rows as computed
+
+        print("==> the closed forms by their own equations", flush=True)
+        exact.check()
+        variant = computed.SHORT if arguments.short else computed.FULL
+        library = marking.Library(arguments.marks)
+        results = compute(library, variant, arguments.processes, lambda text: print("   ", text, flush=True))
+        rows = computed.stokes_rows(variant, results) + computed.closed_rows(library, arguments.flow, arguments.short)
+        rows += computed.jet_rows(variant, results)
+        n, cells = variant.jet_n, variant.jet_cells[-1]
+        fields = {rim: computed.picture(results["jet", rim, 0.3, n, cells, 1.0]) for rim in ("round", "cut")}
+        with open(saved, "w", encoding="utf-8") as file:
+            json.dump({"about": {**machine(), "short": arguments.short}, "rows": rows, "fields": fields}, file, indent=1)
+    with open(saved, encoding="utf-8") as file:
+        found = json.load(file)
+    committed = read_committed(os.path.join(HERE, "all.json"))
+    rows = found["rows"] + (committed["rows"] if committed else [])
+    check_rows(rows, "rows of " + saved + " and all.json")
+    page = arguments.page or os.path.join(arguments.out, "validation.md")
+    plots = draw(rows, found["fields"], os.path.dirname(page) or ".")
+    make_page(page, rows, found["about"], committed, plots)
+    print_table(rows)
+    bad = [row for row in rows if row["bar"] is not None and not abs(row["deviation"]) <= row["bar"]]
+    for row in bad:
+        print(f"validate.py: {row['id']} is {100 * row['deviation']:+.2f} % off, and its bar is {100 * row['bar']:g} %")
+    print(f"==> left: {page}, {saved}")
+    sys.exit(1 if bad else 0)
+
+
+if __name__ == "__main__":
+    main()
