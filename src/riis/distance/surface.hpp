@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "distance/patch_distance.hpp"
-#include "surface/attachment.hpp"
 #include "surface/orifice.hpp"
 #include "surface/pseudonormals.hpp"
+#include "surface/side_lines.hpp"
 #include "surface/triangle_scene.hpp"
 #include "surface/triangle_set.hpp"
 #include "surface/velocity_bound.hpp"

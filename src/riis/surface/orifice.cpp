@@ -33,9 +33,9 @@ std::optional<Outline> outline_of(const TriangleSet &set, const ValveFrame &fram
   const double scale = frame.placement.scale;
   if (disc.radius > 0) return circle(scale * disc.radius, {scale * disc.x, scale * disc.y});
   std::vector<std::vector<PlanePoint>> lines;
-  for (const SideLine &side : attachment(set)) {
+  for (const SideLine &side : attached_sides(set)) {
     lines.emplace_back();
-    for (const Vec3 &p : side.line) lines.back().push_back(seen(p));
+    for (const std::int64_t id : side.vertex_id) lines.back().push_back(seen(set.vertex(id)));
   }
   return closed_outline(lines);
 }
@@ -68,7 +68,7 @@ std::vector<riis_leaflet> leaflets_of(const TriangleSet &set) {
     ++leaflet.n_triangles;
     leaflet.area += area_of_triangle(set, i);
   }
-  for (const SideLine &edge : free_edges(set)) found.at(edge.leaflet_id).free_edge += line_length(edge.line);
+  for (const SideLine &edge : free_edges(set)) found.at(edge.leaflet_id).free_edge += length_of(set, edge);
   std::vector<riis_leaflet> leaflets;
   for (const auto &[id, leaflet] : found) leaflets.push_back(leaflet);
   return leaflets;

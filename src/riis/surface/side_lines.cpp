@@ -2,7 +2,6 @@
 #include "surface/side_lines.hpp"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include "common/array_view.hpp"
@@ -11,73 +10,72 @@
 namespace riis {
 namespace {
 
-constexpr std::int64_t nowhere = -1;
-
-bool is_corner(const TriangleSet &set, std::int64_t id) {
-  return view(set.uv)[2 * id] == 0 && view(set.uv)[2 * id + 1] == 0;
+// Finds the vertices on a side of a patch, in ascending order along it. A vertex of a subdivided quad may lie where another
+// vertex lies; one of them stays.
+Vector<std::int64_t> vertices_on(const TriangleSet &set, std::int64_t begin, std::int64_t end, PatchRim side) {
+  const std::int64_t of_along = side == rim_v0 || side == rim_v1 ? 0 : 1;
+  const auto along = [&](std::int64_t id) { return view(set.uv)[2 * id + of_along]; };
+  Vector<std::int64_t> found;
+  for (std::int64_t id = begin; id < end; ++id)
+    if (sides_of_place(&view(set.uv)[2 * id]) & side) found.push_back(id);
+  std::sort(found.begin(), found.end(),
+            [&](std::int64_t a, std::int64_t b) { return along(a) != along(b) ? along(a) < along(b) : a < b; });
+  const auto is_same = [&](std::int64_t a, std::int64_t b) { return along(a) == along(b); };
+  found.erase(std::unique(found.begin(), found.end(), is_same), found.end());
+  return found;
 }
 
-// A patch's vertices are consecutive and begin at u = v = 0. A vertex that is in no triangle belongs to the patch that begins
-// before it. Such vertices come from triangles without area.
-std::vector<std::int64_t> triangles_of_vertices(const TriangleSet &set) {
-  std::vector<std::int64_t> triangle(static_cast<std::size_t>(set.n_vertices()), nowhere);
-  for (std::int64_t i = 0; i < 3 * set.n_triangles(); ++i) view(triangle)[view(set.vertex_id)[i]] = i / 3;
-  const auto patch_of = [&](std::int64_t id) { return view(set.patch_id)[view(triangle)[id]]; };
-  std::int64_t last = nowhere;  // the last vertex in a triangle
-  for (std::int64_t id = 0; id < set.n_vertices(); ++id) {
-    if (view(triangle)[id] == nowhere) continue;
-    const bool is_next_patch = last == nowhere || patch_of(last) != patch_of(id);
-    std::int64_t begin = last + 1;
-    while (is_next_patch && begin < id && !is_corner(set, begin)) ++begin;
-    for (std::int64_t gap = last + 1; gap < id; ++gap)
-      view(triangle)[gap] = gap < begin && last != nowhere ? view(triangle)[last] : view(triangle)[id];
-    last = id;
-  }
-  for (std::int64_t gap = last + 1; gap < set.n_vertices(); ++gap) view(triangle)[gap] = view(triangle)[last];
-  return triangle;
-}
-
-struct PointAlong {
-  double u;
-  Vec3 point;
-};
-
-Line line_of(std::vector<PointAlong> points) {
-  std::sort(points.begin(), points.end(), [](const PointAlong &a, const PointAlong &b) { return a.u < b.u; });
-  Line line;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (i == 0 || points[i].u != points[i - 1].u) line.push_back(points[i].point);
-  return line;
-}
-
-// Returns the lines v = 0 or v = 1 of the patches that have the bit.
-std::vector<SideLine> lines_with(const TriangleSet &set, std::uint8_t bit, double v) {
-  struct Found {
-    std::int32_t leaflet_id;
-    std::vector<PointAlong> points;
-  };
-  std::map<std::int32_t, Found> found;
-  if (set.rim_sides.empty() || set.n_triangles() == 0) return {};
-  const std::vector<std::int64_t> triangle = triangles_of_vertices(set);
-  for (std::int64_t id = 0; id < set.n_vertices(); ++id) {
-    const std::int32_t patch_id = view(set.patch_id)[view(triangle)[id]];
-    if ((view(set.rim_sides)[patch_id] & bit) == 0 || view(set.uv)[2 * id + 1] != v) continue;
-    Found &of_patch = found[patch_id];
-    of_patch.leaflet_id = view(set.leaflet_id)[view(triangle)[id]];
-    of_patch.points.push_back({view(set.uv)[2 * id], set.vertex(id)});
-  }
+// Returns the sides of all patches that choose(patch, rim) names, where rim has the patch's bits of PatchRim. 0 is no side.
+template <class Choose>
+std::vector<SideLine> sides(const TriangleSet &set, const Choose &choose) {
   std::vector<SideLine> lines;
-  for (auto &[patch_id, of_patch] : found) {
-    Line line = line_of(std::move(of_patch.points));
-    if (line_length(line) > 0) lines.push_back({of_patch.leaflet_id, std::move(line)});
+  const std::int64_t n = view(set.patches).size();
+  for (std::int64_t i = 0; i < n; ++i) {
+    const VerticesOfPatch &patch = view(set.patches)[i];
+    const std::int64_t end = i + 1 < n ? view(set.patches)[i + 1].first : set.n_vertices();
+    const int side = choose(patch, view(set.rim_sides)[patch.patch_id]);
+    if (side == 0) continue;
+    SideLine line{patch.leaflet_id, patch.patch_id, vertices_on(set, patch.first, end, static_cast<PatchRim>(side))};
+    if (length_of(set, line) > 0) lines.push_back(std::move(line));
   }
+  std::sort(lines.begin(), lines.end(), [](const SideLine &a, const SideLine &b) { return a.patch_id < b.patch_id; });
   return lines;
 }
 
 }  // namespace
 
-std::vector<SideLine> free_edges(const TriangleSet &set) { return lines_with(set, free_v1, 1); }
+double length_of(const TriangleSet &set, const SideLine &side) {
+  double length = 0;
+  for (std::size_t i = 1; i < side.vertex_id.size(); ++i)
+    length += distance(set.vertex(side.vertex_id[i - 1]), set.vertex(side.vertex_id[i]));
+  return length;
+}
 
-std::vector<SideLine> attachment(const TriangleSet &set) { return lines_with(set, rim_v0, 0); }
+std::vector<SideLine> free_edges(const TriangleSet &set) {
+  return sides(set, [](const VerticesOfPatch &, int rim) { return rim & free_v1 ? rim_v1 : 0; });
+}
+
+std::vector<SideLine> attached_sides(const TriangleSet &set) {
+  return sides(set, [](const VerticesOfPatch &patch, int rim) {
+    if (patch.attached == AttachedSide::none) return 0;
+    return rim & (patch.attached == AttachedSide::v0 ? rim_v0 : rim_u1);
+  });
+}
+
+Attachment attachment_of(const TriangleSet &set) {
+  Attachment made;
+  for (const SideLine &side : attached_sides(set))
+    for (std::size_t k = 1; k < side.vertex_id.size(); ++k) {
+      const std::int64_t from = side.vertex_id[k - 1], to = side.vertex_id[k];
+      const Vec3 a = set.vertex(from), b = set.vertex(to);
+      if (a == b) continue;
+      for (const double x : {a.x, a.y, a.z, b.x, b.y, b.z}) made.edges.push_back(x);
+      made.vertex_id.push_back(from);
+      made.vertex_id.push_back(to);
+      made.leaflet_id.push_back(side.leaflet_id);
+      made.patch_id.push_back(side.patch_id);
+    }
+  return made;
+}
 
 }  // namespace riis
