@@ -247,6 +247,7 @@ ExitCode run_series(Case &all) {
   // From here on, a signal waits for the end of a step. So the lists are always written, and the movie's frames are removed.
   const UnbrokenWrite unbroken;
   const MeshFile part = options.series.all_cells ? nullptr : part_of(file.get(), sweep.node_ids);
+  riis_vtk_mesh *const written = part ? part.get() : file.get();
   std::optional<SeriesPictures> pictures;
   if (SeriesPictures::are_wanted(options)) {
     // Pictures show the whole mesh, and they need other arrays in it.
@@ -255,7 +256,6 @@ ExitCode run_series(Case &all) {
   } else if (part) {
     file.reset();
   }
-  riis_vtk_mesh *const written = part ? part.get() : file.get();
   Writing writing(all, valves, written, pictures ? &*pictures : nullptr);
   writing.announce(n_nodes);
   const int64_t n_written = n_nodes_of(written);

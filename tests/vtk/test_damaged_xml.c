@@ -205,8 +205,12 @@ static void test_last_offsets(void **state) {
   assert_int_equal(shim_write_blocks(scratch_path("f.vtp"), SHIM_ASCII, 0, 64), 1);
   replace_text("f.vtp", "636\n", "1000000000000\n", "damaged.vtp");
   assert_int_equal(read_apart("damaged.vtp", "offsets of faces"), 0);
-  expect_refused(read_any("damaged.vtp"), RIIS_FILE_ERROR,
-                 "array connectivity must have 1000000000000 values and has at most ");
+  /* VTK 9.3 finds this fault itself, before the library compares the numbers. */
+  const riis_status status = read_any("damaged.vtp");
+  const bool by_vtk = strstr(riis_last_error(), "the \"offsets\" array is not long enough") != NULL;
+  expect_refused(status, RIIS_FILE_ERROR,
+                 by_vtk ? "damaged.vtp: Cannot read cell offsets from Polys"
+                        : "array connectivity must have 1000000000000 values and has at most ");
 }
 
 /* Damages a file like a bad disk or a bad transfer: some bytes get other values, mostly characters of base64 and digits. */

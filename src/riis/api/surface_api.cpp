@@ -13,7 +13,6 @@
 #include "base/integer_array.hpp"
 #include "pipeline/updatable_surface.hpp"
 
-using riis::check_range;
 using riis::guarded;
 using riis::require;
 using riis::require_handle;
