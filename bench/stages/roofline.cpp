@@ -240,7 +240,7 @@ class StagedSteps {
     Times times;
     times.update = nanoseconds(updated - start);
     times.regions = nanoseconds(measured.regions_end - updated) - n_boxes * of_clock;
-    // The difference of two readings includes the time of one reading, and another is made around it.
+    // An interval takes two readings of the clock. The time of one falls into the interval, that of the other into the rest.
     times.filter = nanoseconds(measured.filter) - n_filter * of_clock;
     times.decide = nanoseconds(measured.decide) - n_decide * of_clock;
     times.rest = nanoseconds(searched - measured.regions_end - measured.filter - measured.decide) -

@@ -45,7 +45,7 @@ def effective_radius(library, kind, eps, per_eps, rim, place=(0.0, 0.0), solid=F
         for at in (0, -1):
             u[at] = outer(a, flow.yc, np.full(flow.ny, flow.x[at]))[0]
         v[:, -1] = outer(a, np.full(flow.nx, flow.y[-1]), flow.xc)[1]
-        # The flow into the box is 0 to rounding on the grid as well.
+        # Corrects the outer velocities so that the net flow into the box is 0 on the grid too, up to rounding.
         area = flow.wc * flow.dy
         excess = area @ (u[-1] - u[0]) + flow.we[-1] * (flow.dx @ v[:, -1])
         v[:, -1] -= excess / (flow.we[-1] * (flow.x[-1] - flow.x[0]))
@@ -55,7 +55,7 @@ def effective_radius(library, kind, eps, per_eps, rim, place=(0.0, 0.0), solid=F
         if kind == "disc":
             force = 2 * np.pi * np.sum(K[: flow.n_u].reshape(u.shape) * u * flow.u_volume)
             return force / 16
-        # The drop between two rings, and the radius whose closed form has it.
+        # The drop between two rings, and the hole's radius for which the closed form has the same drop.
         j = flow.ny // 2
         drop = p[0, j] - p[-1, j]
         ends = np.array([flow.xc[0], flow.xc[-1]])
