@@ -26,7 +26,7 @@ void check_valve(const ValveOptions &options) {
   riis_valve *handle = nullptr;
   EXPECT(riis_valve_create(options.valve == "mitral" ? "mitral" : "aortic", &handle) == RIIS_OK, "%s",
          riis_last_error());
-  const Valve valve(handle);
+  const riis::Valve valve(handle);
   for (const std::string &setting : options.settings) set_from_text(valve.get(), setting);
 }
 

@@ -55,7 +55,7 @@ void read_parameters(const char *kind) {
 
 void read_valve() {
   is_taken([] {
-    riis::ValveFile valve_file(file().path());
+    riis::program::ValveFile valve_file(file().path());
     EXPECT(riis_valve_set_scalar(valve_file.valve(), "opening", 0.5) == RIIS_OK, "%s", riis_last_error());
     valve_file.check_opening();
     const Valve valve = valve_file.take_valve();
