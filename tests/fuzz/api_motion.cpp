@@ -49,7 +49,7 @@ void add_forces(Input &in, State &state) {
   const std::vector<double> parts_before = sums_of_parts, edges{in.number(), 0, 1, 2, in.sound_place(), 3};
   riis_flow_arrays flow = initialised(in, riis_flow_arrays_init);
   flow.n_nodes = n_given;
-  for (std::size_t c = 0; c < 3; ++c) flow.velocity[c] = values.data() + c;
+  for (std::size_t c = 0; c < 3 && n > 0; ++c) flow.velocity[c] = values.data() + c;
   flow.velocity_stride = 3;
   flow.weight = weights.data();
   riis_reaction reaction = initialised(in, riis_reaction_init);
