@@ -3,6 +3,8 @@
 
 #include <mutex>
 
+#include "base/fork_lock.hpp"
+
 namespace riis {
 namespace {
 
@@ -14,6 +16,7 @@ struct Sink {
 // Both objects are constant-initialised and never destroyed, so they can be used during the whole life of the process.
 std::mutex sink_mutex;
 Sink sink;
+[[maybe_unused]] const bool sink_is_free_in_children = is_free_in_children<sink_mutex>();
 
 Sink current_sink() noexcept {
   const std::lock_guard<std::mutex> lock(sink_mutex);

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/fork_lock.hpp"
 #include "parallel/keeps_arenas.hpp"
 
 namespace riis {
@@ -17,7 +18,6 @@ namespace {
 
 // The pool is not destroyed when the process exits, because destructors of the caller's static objects may still run walks.
 struct Pool {
-  std::mutex mutex;
   std::int64_t n_keepers = 0;
   std::size_t n_arenas = 0;
   PooledArena *idle = nullptr;  // a linked list, because giving back must not need memory
@@ -25,9 +25,11 @@ struct Pool {
 };
 Pool pool;
 static_assert(std::is_trivially_destructible_v<Pool>);
+std::mutex pool_mutex;
+[[maybe_unused]] const bool pool_is_free_in_children = is_free_in_children<pool_mutex>();
 
 PooledArena *take_idle(int n_threads) noexcept {
-  const std::lock_guard<std::mutex> lock(pool.mutex);
+  const std::lock_guard<std::mutex> lock(pool_mutex);
   for (PooledArena **place = &pool.idle; *place; place = &(*place)->next) {
     PooledArena *const arena = *place;
     if (arena->n_threads != n_threads) continue;
@@ -52,31 +54,31 @@ void destroy(PooledArena *first) noexcept {
 PooledArena *borrow_arena(int n_threads) {
   if (PooledArena *const idle = take_idle(n_threads)) return idle;
   auto *const made = new PooledArena(n_threads);
-  const std::lock_guard<std::mutex> lock(pool.mutex);
+  const std::lock_guard<std::mutex> lock(pool_mutex);
   ++pool.n_arenas;
   pool.process = getpid();
   return made;
 }
 
 void give_back(PooledArena *arena) noexcept {
-  const std::lock_guard<std::mutex> lock(pool.mutex);
+  const std::lock_guard<std::mutex> lock(pool_mutex);
   arena->next = std::exchange(pool.idle, arena);
 }
 
 std::size_t n_arenas() noexcept {
-  const std::lock_guard<std::mutex> lock(pool.mutex);
+  const std::lock_guard<std::mutex> lock(pool_mutex);
   return pool.n_arenas;
 }
 
 KeepsArenas::KeepsArenas() noexcept {
-  const std::lock_guard<std::mutex> lock(pool.mutex);
+  const std::lock_guard<std::mutex> lock(pool_mutex);
   ++pool.n_keepers;
 }
 
 KeepsArenas::~KeepsArenas() {
   PooledArena *first = nullptr;
   {
-    const std::lock_guard<std::mutex> lock(pool.mutex);
+    const std::lock_guard<std::mutex> lock(pool_mutex);
     --pool.n_keepers;
     // A child of fork() lacks the worker threads, and TBB might wait for what they held.
     if (pool.n_keepers > 0 || getpid() != pool.process) return;
