@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a valve means for the flow: leaflets, orifice, leak, first passage, cells across and swept volume.
+// Measures of a valve for the flow: leaflets, orifice, leak, first passage, cells across and swept volume.
 #include "arguments.hpp"
 #include "errors.hpp"
 #include "module.hpp"

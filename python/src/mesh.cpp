@@ -241,7 +241,7 @@ owner, neighbor  (n_faces,) int32 or int64, both of one type: the cells that a f
                   nb::sig("def from_grid(ni: int, nj: int, nk: int, *, n_threads: int = 0) -> Adjacency"),
                   "Makes the adjacency of a structured grid. Node (i, j, k) has the number i + ni (j + nj k).")
       .def_prop_ro("offsets", &offsets, nb::sig("def offsets(self) -> numpy.typing.NDArray[numpy.int64]"),
-                   "(n_rows + 1,): where each row begins in columns, and where the last one ends. A view.")
+                   "(n_rows + 1,): where each row begins in columns, and where the last row ends. A view.")
       .def_prop_ro("columns", &columns, nb::sig("def columns(self) -> " RIIS_IDS),
                    "The neighbours, one row after the other: int32 for fewer than 2**31 nodes, else int64. A view.")
       .def("__len__", [](Adjacency &self) { return static_cast<std::size_t>(rows_of(self).n_rows); })

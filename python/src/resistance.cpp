@@ -40,7 +40,7 @@ void add_to(Marks &result, nb::handle K_, nb::handle K_u_surface_, nb::handle R,
   call_library([&] { return riis_marks_add_resistance(result.handle, &model, &to); });
 }
 
-// An array of sums (n_rows, 3), or (3,) for n_rows -1, to which a call adds; none for None.
+// Returns the caller's array (n_rows, 3), or (3,) if n_rows is -1, to which a call adds sums. Returns no array for None.
 std::optional<Array> sums_of(nb::handle given, const char *name, std::int64_t n_rows) {
   if (given.is_none()) return std::nullopt;
   std::optional<Array> sums(Array::of<double>(given, name, Access::write));
@@ -53,7 +53,7 @@ std::optional<Array> sums_of(nb::handle given, const char *name, std::int64_t n_
 
 double *data_of(const std::optional<Array> &sums) { return sums ? sums->data<double>() : nullptr; }
 
-// Returns the number of rows of the first array that is given, 0 without one.
+// Returns the number of rows of the first array that is given, or 0 if both are None.
 std::int64_t n_rows_of(nb::handle first, const char *first_name, nb::handle second, const char *second_name) {
   if (first.is_none() && second.is_none()) return 0;
   const bool has_first = !first.is_none();

@@ -318,7 +318,7 @@ The velocity, in mesh units over the unit of dt, is the mean over the step.)")
           "velocities",
           [](Surface &self) { return vertex_array(self, &riis_triangles::velocity, 3, &Surface::velocities); },
           nb::sig("def velocities(self) -> numpy.typing.NDArray[numpy.float64] | None"),
-          "(n_vertices, 3): each vertex's velocity. None if the last update gave none.")
+          "(n_vertices, 3): each vertex's velocity. None if the last update gave no velocities.")
       .def_prop_ro("attachment", &attachment, nb::sig("def attachment(self) -> riis._records.Attachment"),
                    "The edges at which tissue or a stent holds the leaflets of a valve; a copy. Refused for arrays.")
       .def_prop_ro("triangles", &triangles, nb::sig("def triangles(self) -> riis._records.Triangles"),
