@@ -144,8 +144,8 @@ static void test_cells(void **state) {
   }
 }
 
-/* Compares a step's fields with those of the C interface. The velocity is the mean since the previous time, or since one first
- * step before the first time. */
+/* Compares a step's fields with those of the C interface. The velocity is the mean since the previous time. At the first time, it
+ * is the mean since one step before. */
 static void expect_fields(int step, const char *path) {
   static double xyz[3 * n_box], normal[3 * n_box], velocity[3 * n_box], momentum[3 * n_box], side[n_box], K[n_box];
   riis_valve *now = NULL, *before = NULL;
