@@ -72,7 +72,7 @@ def main(arguments):
         return 2
 
     for name, factor in machine.items():
-        print(f"{name}: {factor:.2f} times the baseline's")
+        print(f"{name}: {factor:.2f} times the baseline's time")
     spread = max(machine.values()) / min(machine.values())
     print(f"A loss of less than {spread:.2f} times may stay unseen, because the calibrations differ by as much.\n")
     bad = False
