@@ -226,7 +226,7 @@ from_cells, from_faces and from_grid make one. Columns ascend without repetition
 cells    (n_cells, 4, 5, 6 or 8) int32 or int64: tetrahedra, pyramids, prisms or hexahedra in the order of VTK; or, with
          offsets, (n,): the nodes of all cells, one cell after the other
 n_nodes  the mesh's number of nodes
-offsets  (n_cells + 1,) of the same type as cells: where each cell begins in cells, and where the last one ends)")
+offsets  (n_cells + 1,) of the same type as cells: where each cell begins in cells, and where the last cell ends)")
       .def_static(
           "from_faces", &from_faces, nb::arg("owner").none(), nb::arg("neighbor").none(), nb::arg("n_cells").none(),
           nb::kw_only(), nb::arg("index_base").none() = 0, nb::arg("n_threads").none() = 0,

@@ -162,23 +162,24 @@ rim             'round': every node within eps gets K; 'cut': nodes whose closes
                   " | None = None, edges: " RIIS_REALS " | None = None, edge_force: " RIIS_REALS
                   " | None = None, edge_moment: " RIIS_REALS
                   " | None = None, edge_leaflet_id: numpy.typing.NDArray[numpy.int32] | None = None) -> " RIIS_REALS),
-          R"(Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force, and returns it.
+          R"(Adds the force of the flow on the surface to force, and returns force.
 
-Each array of float64 that is given gets its sum added, by leaflet or by edge also. Moments and sums of edges need
-fields='point': a force acts at the closest point of the surface. Ranks add their sums. The shares of edges are for tissue codes,
-and no mechanics of a membrane.
+The force is the sum of weight * K * (velocity - u_surface). Sums are also added to the other float64 arrays that are given:
+moments, and forces and moments by leaflet and by edge. Moments and sums of edges need fields='point', because a force acts
+at the closest point of the surface. Ranks add their sums. The shares of edges are for tissue codes, and do not come from
+the mechanics of a membrane.
 
-velocity         (n_nodes, 3) float64: of the flow
-weight           (n_nodes,) float64: the volume that a node stands for, 0 for nodes of other ranks
+velocity         (n_nodes, 3) float64: the flow's velocity
+weight           (n_nodes,) float64: the volume that belongs to a node, 0 for nodes of other ranks
 force            (3,) float64; None: a new array
-moment           (3,): of the whole surface
-about            the point that moment and leaflet_moment are about; None: (0, 0, 0)
-leaflet_force    (n_leaflets, 3): n_leaflets is more than Surface.info.largest_leaflet_id
+moment           (3,): the moment on the whole surface
+about            the point of moment and leaflet_moment; None: (0, 0, 0)
+leaflet_force    (n_leaflets, 3): n_leaflets is above Surface.info.largest_leaflet_id
 leaflet_moment   (n_leaflets, 3)
-edges            (n_edges, 2, 3): both ends of each, such as Surface.attachment.edges
-edge_force       (n_edges, 3): of the nodes to whose closest points the edge is nearest, the first of equals
-edge_moment      (n_edges, 3): about the middle of each edge
-edge_leaflet_id  (n_edges,) int32: a node counts for the nearest edge of its leaflet; None: of all)")
+edges            (n_edges, 2, 3): both ends of each edge, such as Surface.attachment.edges
+edge_force       (n_edges, 3): a node's force goes to the edge nearest to its closest point, the first of equally near edges
+edge_moment      (n_edges, 3): the moments about the middle of each edge
+edge_leaflet_id  (n_edges,) int32: a node's force goes to the nearest edge of its leaflet; None: of all leaflets)")
       .def(
           "band_sums", &band_sums, nb::arg("value").none(), nb::arg("weight").none(), nb::arg("inner").none(),
           nb::arg("outer").none(),

@@ -284,9 +284,9 @@ The velocity is the mean from time - dt to time. If dt is None, it is the deriva
 valve_before      the earlier state, of the same kind
 dt                time from valve_before to valve; negative if time goes backwards
 placement_before  a dict of scale, rotation_axis, rotation_angle and translation of the earlier state; missing
-                  entries are as now
+                  entries have their present values
 
-The velocity, in mesh units over the unit of dt, is the mean over the step.)")
+The velocity is the mean over the step, in mesh units divided by the unit of dt.)")
       .def(
           "update_from_arrays", &update_from_arrays, nb::arg("vertices").none(), nb::arg("faces").none() = nb::none(),
           nb::kw_only(), nb::arg("leaflet_id").none() = nb::none(), nb::arg("velocities").none() = nb::none(),
