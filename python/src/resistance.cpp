@@ -147,22 +147,21 @@ R               mass / (length time), such as kg/(m s)
 half_thickness  eps, mesh units, at most the distance limit of the marking; None: the marking's half thickness
 rim             'round': every node within eps gets K; 'cut': nodes whose closest point is on the rim get none, which
                 needs fields='rim')")
-      .def(
-          "add_reaction", &add_reaction, nb::arg("velocity").none(), nb::arg("weight").none(),
-          nb::arg("force").none() = nb::none(), nb::kw_only(), nb::arg("R").none(),
-          nb::arg("half_thickness").none() = nb::none(), nb::arg("rim").none() = "round",
-          nb::arg("moment").none() = nb::none(), nb::arg("about").none() = nb::none(),
-          nb::arg("leaflet_force").none() = nb::none(), nb::arg("leaflet_moment").none() = nb::none(),
-          nb::arg("edges").none() = nb::none(), nb::arg("edge_force").none() = nb::none(),
-          nb::arg("edge_moment").none() = nb::none(), nb::arg("edge_leaflet_id").none() = nb::none(),
-          nb::sig("def add_reaction(self, velocity: " RIIS_REALS ", weight: " RIIS_REALS ", force: " RIIS_REALS
-                  " | None = None, *, " RIIS_MODEL ", moment: " RIIS_REALS
-                  " | None = None, about: collections.abc.Sequence[float] | " RIIS_REALS
-                  " | None = None, leaflet_force: " RIIS_REALS " | None = None, leaflet_moment: " RIIS_REALS
-                  " | None = None, edges: " RIIS_REALS " | None = None, edge_force: " RIIS_REALS
-                  " | None = None, edge_moment: " RIIS_REALS
-                  " | None = None, edge_leaflet_id: numpy.typing.NDArray[numpy.int32] | None = None) -> " RIIS_REALS),
-          R"(Adds the force of the flow on the surface to force, and returns force.
+      .def("add_reaction", &add_reaction, nb::arg("velocity").none(), nb::arg("weight").none(),
+           nb::arg("force").none() = nb::none(), nb::kw_only(), nb::arg("R").none(),
+           nb::arg("half_thickness").none() = nb::none(), nb::arg("rim").none() = "round",
+           nb::arg("moment").none() = nb::none(), nb::arg("about").none() = nb::none(),
+           nb::arg("leaflet_force").none() = nb::none(), nb::arg("leaflet_moment").none() = nb::none(),
+           nb::arg("edges").none() = nb::none(), nb::arg("edge_force").none() = nb::none(),
+           nb::arg("edge_moment").none() = nb::none(), nb::arg("edge_leaflet_id").none() = nb::none(),
+           nb::sig("def add_reaction(self, velocity: " RIIS_REALS ", weight: " RIIS_REALS ", force: " RIIS_REALS
+                   " | None = None, *, " RIIS_MODEL ", moment: " RIIS_REALS
+                   " | None = None, about: collections.abc.Sequence[float] | " RIIS_REALS
+                   " | None = None, leaflet_force: " RIIS_REALS " | None = None, leaflet_moment: " RIIS_REALS
+                   " | None = None, edges: " RIIS_REALS " | None = None, edge_force: " RIIS_REALS
+                   " | None = None, edge_moment: " RIIS_REALS
+                   " | None = None, edge_leaflet_id: numpy.typing.NDArray[numpy.int32] | None = None) -> " RIIS_REALS),
+           R"(Adds the force of the flow on the surface to force, and returns force.
 
 The force is the sum of weight * K * (velocity - u_surface). Sums are also added to the other float64 arrays that are given:
 moments, and forces and moments by leaflet and by edge. Moments and sums of edges need fields='point', because a force acts
