@@ -63,7 +63,7 @@ std::vector<idx_t> partition(Graph &graph, idx_t n_parts, std::vector<idx_t> &we
   std::exit(1);
 }
 
-// One rank. It has a whole surface of its own, as every rank has, and the nodes of one part.
+// A rank, with a whole surface of its own and the nodes of one part.
 class Rank {
  public:
   Rank(const CylinderNodes &nodes, std::vector<std::int64_t> ids)

@@ -179,7 +179,7 @@ static void test_pieces(void **state) {
               "0,0,8.5");
 }
 
-/* Two valves lie in a row. Either one alone closes the passage. */
+/* Two valves lie in a row. Either valve alone closes the passage. */
 static void test_cases(void **state) {
   (void)state;
   scratch_write_text("one.json",

@@ -15,7 +15,7 @@
 
 enum { n_times = 5, most_cells = 6 * n_box };
 static const double times[n_times] = {0, 0.1, 0.2, 0.3, 0.4};
-/* Linear between the keys (time 0, opening 0), (0.2, 1) and (0.4, 0.5). */
+/* The openings are linear between the keys (time 0, opening 0), (0.2, 1) and (0.4, 0.5). */
 static const double openings[n_times] = {0, 0.5, 1, 0.75, 0.5};
 static const char *const opening_texts[n_times] = {"0", "0.5", "1", "0.75", "0.5"};
 static const char *const cycle = "# a beat\ntime, opening\n0, 0\n\n0.2, 1\n0.4, 0.5\n";
