@@ -96,7 +96,7 @@ endfunction()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/riis-config.cmake.in ${PROJECT_BINARY_DIR}/riis-config.cmake
   INSTALL_DESTINATION ${riis_cmake_dir} NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
-# This follows the SONAME: within a major version, fields and functions are only appended.
+# The compatibility follows the SONAME: within a major version, fields and functions are only appended.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/riis-config-version.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/riis-config.cmake ${PROJECT_BINARY_DIR}/riis-config-version.cmake
   DESTINATION ${riis_cmake_dir})

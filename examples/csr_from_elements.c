@@ -15,8 +15,8 @@ static void check(riis_status status) {
   exit(EXIT_FAILURE);
 }
 
-/* Cuts each cube of the grid into six tetrahedra. Each follows three edges from the cube's first node to its last, with the
- * axes in another order. */
+/* Cuts each cube of the grid into six tetrahedra. Each tetrahedron follows three edges from the cube's first node to its last. No
+ * two tetrahedra follow the axes in the same order. */
 static void make_tetrahedra(void) {
   static const int axes[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   static const int step[3] = {1, n, n * n};

@@ -61,8 +61,8 @@ contains
       trim(merge('complete            ', 'perhaps not complete', stats%complete /= 0))
   end subroutine mark
 
-  ! Cuts each cube of the grid into six tetrahedra. Each follows three edges from the cube's first node to its last, with the axes
-  ! in another order.
+  ! Cuts each cube of the grid into six tetrahedra. Each tetrahedron follows three edges from the cube's first node to its last.
+  ! No two tetrahedra follow the axes in the same order.
   subroutine make_tetrahedra()
     integer, parameter :: step(3) = [1, n, n**2]
     integer, parameter :: axes(3, 6) = reshape([1, 2, 3, 1, 3, 2, 2, 1, 3, 2, 3, 1, 3, 1, 2, 3, 2, 1], [3, 6])

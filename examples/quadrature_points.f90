@@ -31,7 +31,7 @@ program quadrature_points
   call valve%create('mitral')
   call valve%set('opening', 0.5d0)
   call surface%create(valve, half_thickness=eps, scale=0.01d0) ! the valve is given in centimetres
-  ! One time step ago the valve was elsewhere. A leaflet that moves would have another opening there.
+  ! One time step ago the valve was elsewhere. If it also opened, the call would get a second valve with the earlier opening.
   call surface%update_moving(valve, valve, dt, translation=[0d0, 0d0, 0d0], translation_before=-speed * dt)
   call mesh%create(point)
 
@@ -59,8 +59,8 @@ program quadrature_points
 
 contains
 
-  ! Cuts each cube of the grid into six tetrahedra. Each follows three edges from the cube's first node to its last, with the axes
-  ! in another order.
+  ! Cuts each cube of the grid into six tetrahedra. Each tetrahedron follows three edges from the cube's first node to its last.
+  ! No two tetrahedra follow the axes in the same order.
   subroutine make_tetrahedra()
     integer, parameter :: axes(3, 6) = reshape([1, 2, 3, 1, 3, 2, 2, 1, 3, 2, 3, 1, 3, 1, 2, 3, 2, 1], [3, 6])
     integer, parameter :: step(3) = [1, n, n**2]

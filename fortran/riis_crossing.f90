@@ -12,8 +12,8 @@ module riis_crossing
 
   !> Pairs of triangles that cross, from %get_list. The crossings own the arrays, which count from 1. Lengths are in mesh units.
   type :: riis_crossing_list
-    integer(int64) :: n_pairs = 0                           !< The number of pairs. Without one, ids are -1, and other components
-                                                            !! but seconds 0.
+    integer(int64) :: n_pairs = 0                           !< The number of pairs. Without pairs, ids are -1, and all other
+                                                            !! components except seconds are 0.
     integer(int64), pointer :: triangle_id(:, :) => null()  !< (2, n_pairs), from 0, ascending.
     real(c_double), pointer :: point(:, :) => null()        !< (3, n_pairs): the middle of the pair's intersection.
     real(c_double), pointer :: depth(:) => null()           !< (n_pairs): the penetration depth.

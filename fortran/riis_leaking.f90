@@ -14,8 +14,8 @@ module riis_leaking
 
   !> Edges that leak, from %get_list. The leaks own the arrays, which count from 1. Lengths are in mesh units.
   type :: riis_leak_list
-    integer(int64) :: n_edges = 0                           !< The number of edges. Without one, node ids are -1, and other
-                                                            !! components but seconds 0.
+    integer(int64) :: n_edges = 0                           !< The number of edges. Without edges, node ids are -1, and other
+                                                            !! components except seconds are 0.
     integer(int64), pointer :: node_id(:, :) => null()      !< (2, n_edges), from 0, ascending: node_id + 1 are columns of xyz.
     real(c_double), pointer :: length(:) => null()          !< (n_edges).
     real(c_double), pointer :: distance(:) => null()        !< (n_edges): the distance of the edge's nearer node.

@@ -96,7 +96,7 @@ python_tutorial() {
 
 # python_needs_environment WORD: ends with a message unless ./run python has made the environment.
 python_needs_environment() {
-  [[ -x $python_folder/fresh/bin/python ]] || { echo "./run python $1: ./run python has to be run first" >&2; exit 2; }
+  [[ -x $python_folder/fresh/bin/python ]] || { echo "./run python $1: run ./run python first" >&2; exit 2; }
 }
 
 # python_package [tests|fit|tutorial]
@@ -116,7 +116,7 @@ python_package() {
       return
       ;;
     *)
-      echo "./run python: '$*' is not a word that it takes" >&2
+      echo "./run python: '$*' is not an argument of this command" >&2
       exit 2
       ;;
   esac
@@ -128,7 +128,7 @@ python_package() {
   step "repair the wheel" python_repair
   step "add the licences of its libraries" python_licences
   step "install it into a fresh environment" python_environment "$interpreter"
-  step "is it alone" python_is_alone
+  step "check that the module loads only its own libraries" python_is_alone
   step "check the types" "$python_folder/fresh/bin/mypy" --strict python/tests/typed.py
   python_tell
   say "test"

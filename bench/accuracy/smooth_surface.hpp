@@ -32,7 +32,7 @@ class SmoothSurface {
 
   // The relative error is the rounding of the curves' lengths, 1e-13.
   Vec3 at(std::size_t image, double u, double v) const;
-  // Computes derivatives by differences over `step`. u and v must be at least that far from 0 and 1.
+  // Computes derivatives by differences over `step`. u and v must be at least `step` away from 0 and 1.
   static constexpr double step = 1e-4;
   SurfacePoint describe(std::size_t image, double u, double v) const;
   // Returns all points (u[i], v[j]), with u running fastest. Every curve is evaluated once per line.

@@ -22,8 +22,8 @@ double height_of(double value) {
 
 Vec3 at(double x, double y) { return {x, y, 0}; }
 
-// Returns half widths from the lower to the upper end of the scale, with 1 for the widest. They are counts in bins, smoothed by a
-// Gaussian.
+// Returns half widths from the lower to the upper end of the scale. The widest is 1. The half widths are counts in bins, smoothed
+// by a Gaussian.
 std::vector<double> outline_of(const std::vector<double> &ascending) {
   constexpr std::size_t bins_per_power = 20;
   constexpr std::size_t n = static_cast<std::size_t>(most_power - least_power) * bins_per_power;

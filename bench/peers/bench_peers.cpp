@@ -277,6 +277,6 @@ int main(int argc, char **argv) {
     std::fprintf(stderr, "%s: cannot be written\n", argv[1]);
     return 1;
   }
-  if (!is_right) std::fprintf(stderr, "%s: not the same nodes are marked\n", argv[0]);
+  if (!is_right) std::fprintf(stderr, "%s: riis or CGAL marks other nodes than the loop\n", argv[0]);
   return is_right ? 0 : 1;
 }

@@ -68,7 +68,7 @@ PEERS = {
 
 
 def compared(np, truth, distance):
-    """Compares as riis_bench_peers does. Counts nodes that are marked differently, by reason."""
+    """Compares distances with the truth, as riis_bench_peers does. Counts nodes that are marked differently, by reason."""
     by_peer, marked = distance <= HALF_THICKNESS, truth <= HALF_THICKNESS
     reasons = collections.Counter()
     for i in np.flatnonzero(by_peer != marked):

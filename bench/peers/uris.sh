@@ -17,7 +17,7 @@ export_of_size() {
 
 uris() {
   local kind edge blocks
-  (($# == 0)) || { echo "./run uris: '$*' is not a word that it takes" >&2; exit 2; }
+  (($# == 0)) || { echo "./run uris: '$*' is not an argument of this command" >&2; exit 2; }
   install_missing
   step "configure" cmake --preset default
   step "build the program, its tests and the reader" cmake --build --preset default --parallel "$n_jobs" \

@@ -62,8 +62,8 @@ class BusyProcessors {
   std::vector<pid_t> processes_;
 };
 
-// When the handles of a marking are made. A solver keeps them. If its mesh moves, it may make the mesh each time. A subroutine
-// that keeps nothing between calls makes all of them each time.
+// Tells when a case makes the handles of a marking. A solver keeps all handles. A solver whose mesh moves may make a new mesh
+// each time. A subroutine that keeps nothing between calls makes all handles each time.
 enum class Made { before, mesh_each_time, all_each_time };
 
 struct Case {

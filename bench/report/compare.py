@@ -4,7 +4,7 @@
 
 Times are divided by those of the calibration benchmarks of the same run. So runs of two machines, or of one machine on two
 days, can be compared. There are two calibrations, for memory and for arithmetic. A benchmark may depend on either, so it
-counts as slower only if it is slower by both. If the machines' two calibrations differ much, a loss smaller than this
+counts as slower only if it is slower relative to both. If the machines' two calibrations differ much, a loss smaller than this
 difference is not noticed. --factor should not be below the difference, which the output gives.
 
 Exit status: 0, none is slower; 1, one is slower, is missing or ended early; 2, a file has the wrong content."""
@@ -72,7 +72,7 @@ def main(arguments):
         return 2
 
     for name, factor in machine.items():
-        print(f"{name}: {factor:.2f} times the baseline's")
+        print(f"{name}: {factor:.2f} times the baseline's time")
     spread = max(machine.values()) / min(machine.values())
     print(f"A loss of less than {spread:.2f} times may stay unseen, because the calibrations differ by as much.\n")
     bad = False

@@ -654,7 +654,7 @@ def write_figures(data, folder):
     with open(path, "w", encoding="utf-8") as file:
         json.dump({"figures": figures, "left_out": left_out}, file, indent=2)
         file.write("\n")
-    print(f"==> left: {path}, {len(figures)} figures")
+    print(f"==> wrote {path}, {len(figures)} figures")
     for text in left_out:
         print(f"==> not drawn: {text}")
 
@@ -708,7 +708,7 @@ def main(arguments):
         os.makedirs(os.path.dirname(path) or ".", exist_ok=True)
         with open(path, "w", encoding="utf-8") as file:
             file.write(template(name).fill(values))
-        print(f"==> left: {path}")
+        print(f"==> wrote {path}")
     return 0
 
 

@@ -118,7 +118,7 @@ class figure:
         try:
             import matplotlib
         except ImportError:
-            print("==> no matplotlib (python3-matplotlib): the page is made without plots")
+            print("==> matplotlib (python3-matplotlib) is missing: the page is made without plots")
             return None
         matplotlib.use("Agg")
         matplotlib.rcParams.update({"svg.hashsalt": "riis", "font.size": 8})

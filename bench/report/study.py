@@ -190,7 +190,7 @@ class Study:
         with open(path, "w", encoding="utf-8") as file:
             json.dump({"machine": self.record["machine"], **run, "milliseconds": times}, file, indent=2, sort_keys=True)
             file.write("\n")
-        print(f"==> left: {path}")
+        print(f"==> wrote {path}")
 
 
 def main(arguments):

@@ -9,8 +9,8 @@
 
 namespace bench {
 
-// Computes the distance of each node within a limit by a query, and infinity for other nodes. It is the fastest way to get
-// distances from CGAL. Times on one thread, with a million nodes of which 3 % are marked, and 2456 triangles:
+// Computes the distance of each node within a limit by a query, and infinity for other nodes. This class is the fastest way to
+// get distances from CGAL. Times on one thread, with a million nodes of which 3 % are marked, and 2456 triangles:
 //
 //   this class: a traversal with a shrinking limit, after a test of the tree's own box                50 ms
 //   the same with CGAL's test of a sphere and a box instead of the distance of a box                  62 ms

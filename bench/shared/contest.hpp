@@ -25,7 +25,7 @@ class Contest {
   void run();
 
   double least(const std::string &name) const;
-  // Returns the ratio of the two contenders' least times in each fifth of the run, and of these the median.
+  // Computes the ratio of the two contenders' least times for each fifth of the run, and returns the median of these ratios.
   double ratio(const std::string &above, const std::string &below) const;
   // Returns the reason why a contender was left out, or "" if it was not.
   std::string why_left_out(const std::string &name) const;

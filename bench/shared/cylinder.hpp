@@ -15,7 +15,7 @@ struct Cylinder {
 };
 
 // The cylinders of the aortic and of the mitral valve. The first is somewhat larger than the demo's cylinder, and the second is
-// the same as the demo's. About 4 % of the nodes are marked. The paper's ratio of 18 to 26 suggests this fraction.
+// the same as the demo's. About 4 % of the nodes are marked. The ratio of the paper's searches, 18 to 26, suggests this fraction.
 inline constexpr Cylinder cylinders[] = {{1.8, -1.6, 0.9, 0}, {2.4, -1.35, 2.1, 0.3}};
 
 // A wider cylinder around the aortic valve. About 3 % of the nodes are within 0.1 cm of the valve. The ratio of the paper's

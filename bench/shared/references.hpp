@@ -36,8 +36,8 @@ class EveryTriangle {
   std::vector<Prepared> triangles_;
 };
 
-// Computes the same by an Embree point query with a radius. Each triangle is a primitive, and distances are in double precision.
-// If no triangle is within the limit, the result is above it.
+// Computes the least distance to any triangle by an Embree point query with a radius. Each triangle is a primitive, and distances
+// are in double precision. If no triangle is within the limit, the result is above the limit.
 class PointQuery {
  public:
   explicit PointQuery(const Triangles &triangles);
@@ -56,7 +56,7 @@ class PaperSearch {
   PaperSearch(std::int64_t n_nodes, const double *xyz, const riis_csr &rows)
       : n_nodes_(n_nodes), xyz_(xyz), rows_(rows) {}
 
-  // Finds the nodes at which to begin. This does not belong to a search, which begins at the nodes of the last marking.
+  // Finds the nodes at which the first search begins. Later searches begin at the nodes of the last marking.
   void begin_at(const Triangles &triangles);
   // Returns the number of marked nodes. n_asked() returns the number of queried nodes.
   template <class Distance>

@@ -55,7 +55,7 @@ void pipeline_quads(benchmark::State &state, const char *kind) {
   for (auto _ : state) benchmark::DoNotOptimize(riis::make_grids(patches, max_error));
 }
 
-// Does the same and makes the placed triangles. Quads are not stored in between.
+// Flattens the curves and makes the placed triangles directly, without storing quads.
 void pipeline_triangles(benchmark::State &state, const char *kind) {
   const Valve valve = moved_valve(kind);
   const riis::PatchSet patches = valve->valve.make_patches();

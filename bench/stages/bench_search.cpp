@@ -161,7 +161,7 @@ void search_all_distances(benchmark::State &state) {
   count_time_per(state, "time/node", static_cast<double>(mesh.n_nodes()));
 }
 
-// The paper's exhaustive search itself: every node and every triangle, on one thread, with the library's kernel. Only every 50th
+// Runs the paper's exhaustive search: every node and every triangle, on one thread, with the library's kernel. Only every 50th
 // node is measured. "all_nodes_s" extrapolates the time to all nodes, since each takes the same time.
 void search_every_triangle(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
@@ -214,8 +214,8 @@ void search_paper_exhaustive(benchmark::State &state) {
       shortest.milliseconds() * static_cast<double>(mesh.n_nodes()) / static_cast<double>(n_sample);
 }
 
-// The paper's second search, also written plainly. It walks from marked nodes to their neighbours and measures each against every
-// triangle.
+// The paper's second search, also written plainly. It walks from marked nodes to their neighbours. It measures each of
+// these nodes against every triangle.
 void search_paper_neighbor(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const Triangles triangles(valve_of(state).first());

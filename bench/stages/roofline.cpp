@@ -240,7 +240,7 @@ class StagedSteps {
     Times times;
     times.update = nanoseconds(updated - start);
     times.regions = nanoseconds(measured.regions_end - updated) - n_boxes * of_clock;
-    // An interval takes two readings of the clock. The time of one falls into the interval, that of the other into the rest.
+    // An interval takes two readings of the clock. The time of one reading falls into the interval, and the other into the rest.
     times.filter = nanoseconds(measured.filter) - n_filter * of_clock;
     times.decide = nanoseconds(measured.decide) - n_decide * of_clock;
     times.rest = nanoseconds(searched - measured.regions_end - measured.filter - measured.decide) -

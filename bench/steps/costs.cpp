@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the cost of each call for the table in the README: the time of the shortest of repeated calls, and the memory that
-// stays with the handle. The meshes are cylinders of a million nodes around the valves, and the tolerance is 5 %. argv[1],
+// Measures the cost of each call for the table in docs/performance.md: the time of the shortest of repeated calls, and the memory
+// that stays with the handle. The meshes are cylinders of a million nodes around the valves, and the tolerance is 5 %. argv[1],
 // optional: thousands of nodes.
 #include <riis/riis.h>
 

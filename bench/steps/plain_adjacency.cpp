@@ -65,7 +65,7 @@ PlainRows plain_adjacency(const riis_mesh_cells &cells, int n_threads) {
   for (std::int64_t cell = 0; cell < cells.n_cells; ++cell)
     for (std::int64_t k = 0; k < size_of(cell); ++k)
       if (node_of(cell, k) < 0 || node_of(cell, k) >= cells.n_nodes) {
-        std::fprintf(stderr, "plain_adjacency: a cell has a node that there is not\n");
+        std::fprintf(stderr, "plain_adjacency: a cell names a node that does not exist\n");
         std::exit(1);
       }
 

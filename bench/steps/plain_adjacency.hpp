@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A former version of riis_adjacency_create_from_cells, from before it counted into 32-bit entries. It is the competitor of the
+// The former version of riis_adjacency_create_from_cells, which did not yet count into 32-bit entries. It competes with the
 // present version.
 #pragma once
 

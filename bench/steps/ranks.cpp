@@ -59,11 +59,11 @@ std::vector<idx_t> partition(Graph &graph, idx_t n_parts, std::vector<idx_t> &we
   if (METIS_PartGraphKway(&n_nodes, &n_weights, graph.offsets.data(), graph.columns.data(), weights.data(), nullptr,
                           nullptr, &n_parts, nullptr, nullptr, options, &cut, part.data()) == METIS_OK)
     return part;
-  std::fprintf(stderr, "METIS made no %lld parts\n", static_cast<long long>(n_parts));
+  std::fprintf(stderr, "METIS failed to make %lld parts\n", static_cast<long long>(n_parts));
   std::exit(1);
 }
 
-// One rank. It has a whole surface of its own, as every rank has, and the nodes of one part.
+// A rank, with a whole surface of its own and the nodes of one part.
 class Rank {
  public:
   Rank(const CylinderNodes &nodes, std::vector<std::int64_t> ids)
@@ -198,7 +198,7 @@ int main(int argc, char **argv) {
     for (std::vector<idx_t> *weights : {&equal, &both}) {
       const Cost cost = cost_of(nodes, partition(graph, n_parts, *weights), n_parts, together);
       if (!same_bits(whole, together)) {
-        std::fprintf(stderr, "the marks of %lld parts are not those of the whole mesh\n",
+        std::fprintf(stderr, "the marks of %lld parts differ from the marks of the whole mesh\n",
                      static_cast<long long>(n_parts));
         return 1;
       }
@@ -208,6 +208,6 @@ int main(int argc, char **argv) {
                   alone.marking_most / cost.marking_most);
     }
   }
-  std::printf("\nThe marks of all parts together are those of the whole mesh, bit for bit.\n");
+  std::printf("\nThe marks of all parts together equal the marks of the whole mesh, bit for bit.\n");
   return 0;
 }

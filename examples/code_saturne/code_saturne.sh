@@ -128,10 +128,10 @@ code_saturne_example() {
     step "closed valve: C and Fortran on 1 and 2 ranks, the solver's own zone" saturne_closed 10 20 1 2
   else
     step "closed valve: C and Fortran on 1, 2 and 4 ranks, the solver's own zone" saturne_closed 20 60 1 2 4
-    step "open valve, and none" saturne_open
-    step "a beat, on 1, 2 and 4 ranks, continued in the middle, and without a valve (the longest)" saturne_beat
+    step "open valve, and no valve" saturne_open
+    step "a beat on 1, 2 and 4 ranks, after a restart, and without a valve (the longest step)" saturne_beat
   fi
   "$python" -B examples/code_saturne/check.py "$folder/STUDY" "${parts[@]}" --out out/code_saturne |
     tee out/code_saturne/checks.md
-  say "left: out/code_saturne/checks.md, with the tables, and out/code_saturne/*.png"
+  say "wrote the tables, out/code_saturne/checks.md, and out/code_saturne/*.png"
 }

@@ -11,7 +11,7 @@ fenicsx_version=0.9 # the one of Debian 13
 # fenicsx
 fenicsx() {
   local here=$PWD/examples/fenicsx work=$PWD/build-python/fenicsx out=$PWD/out/fenicsx python fenicsx_log
-  (($# == 0)) || { echo "./run fenicsx: '$*' is not a word that it takes" >&2; exit 2; }
+  (($# == 0)) || { echo "./run fenicsx: '$*' is not an argument of this command" >&2; exit 2; }
   fenicsx_is_there || return 0
   packages=("${fenicsx_packages[@]}")
   install_missing
@@ -30,7 +30,7 @@ fenicsx() {
   step "the drop across the closed valve" fenicsx_in "$work" "$python" -B "$here/check.py" drops
   tee "$out/drops.txt" <"$fenicsx_log"
   step "draw" fenicsx_in "$work" "$python" -B "$here/check.py" picture "$work" "$out/velocity.png"
-  say "left: out/fenicsx/velocity.png, marks.txt and drops.txt; for ParaView out/fenicsx/flow.bp"
+  say "wrote out/fenicsx/velocity.png, marks.txt and drops.txt; for ParaView out/fenicsx/flow.bp"
 }
 
 # Says why nothing runs if the distribution lacks dolfinx, or has another version.

@@ -93,6 +93,6 @@ flow() {
   python=$(python_of_packages)
   step "draw" "$python" -B examples/flow_fortran/plots.py "$out"
   flow_story "$out"
-  say "left: $out/beat.png, $out/flow.mp4 and stills of it, $out/beat.csv, $out/frames"
+  say "wrote $out/beat.png, $out/flow.mp4 and stills of it, $out/beat.csv, $out/frames"
   [[ ! $short ]] || say "this was the short variant: a coarse grid, and the beat until the valve opens"
 }

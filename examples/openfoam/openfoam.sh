@@ -59,7 +59,7 @@ openfoam() {
   step "a restart in mid-cycle, with the valve and without one" openfoam_restart
   of_check restart "$of_cases/beat" "$of_cases/beat-restart" "$of_cases/flow" "$of_cases/flow-restart" | tee "$of_out/restart.txt"
   of_check pictures "$of_cases/beat" "$of_cases/beat-still" "$of_out"
-  say "left: out/openfoam/beat.png, out/openfoam/velocity.png, and the heartbeat in $of_cases/beat"
+  say "wrote out/openfoam/beat.png, out/openfoam/velocity.png, and the heartbeat in $of_cases/beat"
 }
 
 # Says why nothing runs if the distribution lacks the package.

@@ -367,20 +367,20 @@ module riis_c
     integer(c_int32_t) :: instructions
   end type riis_mark_options
 
-  !> c_null_ptr for arrays that were not requested, or with no nodes
+  !> c_null_ptr for arrays that were not requested or have no nodes
   type, bind(c) :: riis_mark_list
     integer(c_int64_t) :: n_nodes
     type(c_ptr) :: node_id     !< integer(c_int64_t), (n_nodes), ascending, from 0
     type(c_ptr) :: distance    !< real(c_double), (n_nodes)
     type(c_ptr) :: triangle_id !< integer(c_int64_t), (n_nodes), from 0
     type(c_ptr) :: leaflet_id  !< integer(c_int32_t), (n_nodes)
-    type(c_ptr) :: K           !< real(c_double), (n_nodes), by the options' resistance
-    type(c_ptr) :: K_u_surface !< real(c_double), (3, n_nodes), by the options' resistance
+    type(c_ptr) :: K           !< real(c_double), (n_nodes), by the resistance of the options
+    type(c_ptr) :: K_u_surface !< real(c_double), (3, n_nodes), by the resistance of the options
     type(c_ptr) :: point       !< real(c_double), (3, n_nodes), the closest point of the surface
     type(c_ptr) :: normal      !< real(c_double), (3, n_nodes), the unit normal of its triangle
     type(c_ptr) :: barycentric !< real(c_double), (3, n_nodes), the point's barycentric coordinates
     type(c_ptr) :: uv          !< real(c_double), (2, n_nodes), the point's u and v on its patch
-    type(c_ptr) :: velocity    !< real(c_double), (3, n_nodes), the velocity of the surface there
+    type(c_ptr) :: velocity    !< real(c_double), (3, n_nodes), the surface's velocity at the point
     type(c_ptr) :: side        !< integer(c_int32_t), (n_nodes), 1 downstream, -1 upstream, 0 on the surface or level
                                !! with its rim
     type(c_ptr) :: rim         !< integer(c_int32_t), (n_nodes), 1 if the point lies on the rim of the surface, else 0
@@ -451,9 +451,9 @@ module riis_c
 
   !> Sums over the nodes on either side of the surface: entry 1 is upstream, side -1, entry 2 downstream.
   type, bind(c) :: riis_band_sums
-    real(c_double) :: sum(2)         !< of weight * value
-    real(c_double) :: weight(2)      !< of weight
-    integer(c_int64_t) :: n_nodes(2) !< nodes in the band
+    real(c_double) :: sum(2)         !< the sums of weight * value
+    real(c_double) :: weight(2)      !< the sums of weight
+    integer(c_int64_t) :: n_nodes(2) !< the numbers of nodes in the band
   end type riis_band_sums
 
   type, bind(c) :: riis_band
@@ -1260,7 +1260,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_dense_arrays_init
 
-    !>   arrays  its arrays are written, every entry
+    !>   arrays  every entry of its arrays is written
     function riis_marks_get_dense(marks, arrays) result(status) bind(c, name='riis_marks_get_dense')
       import :: c_ptr, riis_dense_arrays, riis_status
       implicit none
@@ -1321,7 +1321,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_reaction_init
 
-    !>   reaction  its sums are added to
+    !>   reaction  values are added to its sums
     function riis_marks_add_reaction(marks, resistance, flow, reaction) result(status) &
         bind(c, name='riis_marks_add_reaction')
       import :: c_ptr, riis_flow_arrays, riis_reaction, riis_resistance, riis_status
@@ -1460,7 +1460,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_get_leaflet
 
-    !>   resistance   left out: all defaults
+    !>   resistance   if left out: all defaults
     !!   struct_size  c_sizeof(orifice)
     function riis_surface_get_orifice(surface, resistance, orifice, struct_size) result(status) &
         bind(c, name='riis_surface_get_orifice')
@@ -1493,7 +1493,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_first_passage_options_init
 
-    !>   options      left out: all defaults
+    !>   options      if left out: all defaults
     !!   struct_size  c_sizeof(first)
     function riis_find_first_passage(valve, mesh, ends, options, first, struct_size) result(status) &
         bind(c, name='riis_find_first_passage')
@@ -1520,7 +1520,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_marks_get_cells_across
 
-    !>   options  left out: all defaults
+    !>   options  if left out: all defaults
     function riis_valve_get_swept_volume(valve, opening_from, opening_to, options, leaflet_id, volume) result(status) &
         bind(c, name='riis_valve_get_swept_volume')
       import :: c_double, c_int32_t, c_ptr, riis_status, riis_surface_options
@@ -1533,7 +1533,7 @@ module riis_c
       integer(riis_status) :: status
     end function riis_valve_get_swept_volume
 
-    !>   options  left out: all defaults
+    !>   options  if left out: all defaults
     function riis_keyframes_get_swept_volume(keyframes, time_from, time_to, options, leaflet_id, volume) &
         result(status) bind(c, name='riis_keyframes_get_swept_volume')
       import :: c_double, c_int32_t, c_ptr, riis_status, riis_surface_options

@@ -165,7 +165,7 @@ subroutine riisf_surface_update(surface, valve, status)
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve))
 end subroutine riisf_surface_update
 
-!> Does the same with other options. They are those of riisf_surface_create.
+!> Does the same with other options, as in riisf_surface_create.
 subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, status)
   use, intrinsic :: iso_c_binding, only: c_double
@@ -285,7 +285,7 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thi
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
-  real(c_double), intent(in) :: scale_before              !< Of the earlier state, as are the next three.
+  real(c_double), intent(in) :: scale_before              !< For the earlier state, like the next three arguments.
   real(c_double), intent(in) :: rotation_axis_before(3)   !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle_before     !< Degrees.
   real(c_double), intent(in) :: translation_before(3)     !< Mesh units.

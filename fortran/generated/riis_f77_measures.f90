@@ -9,7 +9,7 @@ subroutine riisf_surface_n_leaflets(surface, n_leaflets, status)
   use riis_c, only: riis_status, RIIS_OK, riis_surface_get_n_leaflets
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: surface                   !< A surface.
+  integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int32), intent(inout) :: n_leaflets             !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64) :: n
@@ -24,11 +24,11 @@ subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_ed
   use riis_c, only: riis_leaflet, riis_status, RIIS_OK, riis_surface_get_leaflet
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: surface                   !< A surface.
+  integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int32), intent(in) :: leaflet_num               !< 1 to n_leaflets, ascending by leaflet_id.
   integer(int32), intent(inout) :: leaflet_id             !< From 0.
-  real(c_double), intent(inout) :: area                   !< Of its triangles.
-  real(c_double), intent(inout) :: free_edge              !< Length of its free edge; 0 from arrays.
+  real(c_double), intent(inout) :: area                   !< The area of its triangles.
+  real(c_double), intent(inout) :: free_edge              !< The length of its free edge; 0 for a surface from arrays.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_leaflet) :: leaflet
   status = riis_surface_get_leaflet(c_handle_of(surface), int(leaflet_num, int64) - 1, leaflet, c_sizeof(leaflet))
@@ -49,10 +49,10 @@ subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_are
   integer(int64), intent(in) :: surface                   !< A surface made from a valve.
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_*.
-  real(c_double), intent(inout) :: area                   !< That the triangles leave uncovered.
-  real(c_double), intent(inout) :: outline_area           !< Inside of the outline.
-  real(c_double), intent(inout) :: perimeter              !< Of the orifice along the triangles.
-  real(c_double), intent(inout) :: effective_area         !< That the band leaves to the flow.
+  real(c_double), intent(inout) :: area                   !< The area that the triangles leave uncovered.
+  real(c_double), intent(inout) :: outline_area           !< The area inside the outline.
+  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along triangles.
+  real(c_double), intent(inout) :: effective_area         !< The area that the band leaves to the flow.
   integer(int32), intent(inout) :: outline                !< RIIS_OUTLINE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -70,18 +70,18 @@ subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_are
   outline = orifice%outline
 end subroutine riisf_surface_orifice
 
-!> Tells the ideal leak of a closed surface: the volume flow through it at a pressure drop, drop * (eps / R) * area. The
-!! bileaflet housing does not count. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
+!> Tells the ideal leak of a closed surface: the volume flow through it at a pressure drop. The flow is drop * (eps / R) * area.
+!! The bileaflet housing does not count. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
 subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_c, only: riis_resistance, riis_status, RIIS_OK, riis_resistance_init, riis_surface_get_leak
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: surface                   !< A surface, closed.
+  integer(int64), intent(in) :: surface                   !< Must be created and closed.
   real(c_double), intent(in) :: R                         !< > 0, at most 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
-  real(c_double), intent(in) :: drop                      !< Pressure upstream less that downstream, magnitude at most 1e30.
+  real(c_double), intent(in) :: drop                      !< Upstream minus downstream pressure, magnitude at most 1e30.
   real(c_double), intent(inout) :: flow                   !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -93,7 +93,7 @@ subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
 end subroutine riisf_surface_leak
 
 !> Tells how many mesh edges lie across the band around the surface, by the edges with a marked node. Errors:
-!! RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks of another mesh or never marked with.
+!! RIIS_INVALID_ARGUMENT for a mesh without an adjacency, and for marks that do not come from a marking with this mesh.
 subroutine riisf_cells_across(marks, mesh, least, mean, most, mean_edge, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
@@ -118,17 +118,17 @@ end subroutine riisf_cells_across
 
 !> Gives the volume that a valve sweeps between two openings: the integral of u_surface . n over surface and time, positive along
 !! the normals. Errors: RIIS_INVALID_ARGUMENT for an opening out of range and for a leaflet that the valve lacks;
-!! RIIS_INVALID_PARAMETER for parameters that do not go together, and for a valve with only one state.
+!! RIIS_INVALID_PARAMETER for parameters that do not fit together, and for a valve with only one state.
 subroutine riisf_valve_swept_volume(valve, opening_from, opening_to, scale, leaflet_id, volume, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_options_init, riis_valve_get_swept_volume
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: valve                     !< A valve. Its own opening does not count.
+  integer(int64), intent(in) :: valve                     !< Must be created. Its own opening has no effect.
   real(c_double), intent(in) :: opening_from              !< 0 to 1.
   real(c_double), intent(in) :: opening_to                !< 0 to 1.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 for none.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   integer(int32), intent(in) :: leaflet_id                !< RIIS_LEAFLET_* or RIIS_ALL_LEAFLETS.
   real(c_double), intent(inout) :: volume                 !< Written on success, mesh units cubed.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -147,11 +147,11 @@ subroutine riisf_keyframes_swept_volume(keyframes, time_from, time_to, scale, le
   use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_keyframes_get_swept_volume, riis_surface_options_init
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: keyframes                 !< Created.
+  integer(int64), intent(in) :: keyframes                 !< Must be created.
   real(c_double), intent(in) :: time_from                 !< Magnitude at most 1e30.
   real(c_double), intent(in) :: time_to                   !< Magnitude at most 1e30.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 for none.
-  integer(int32), intent(in) :: leaflet_id                !< That of faces, or RIIS_ALL_LEAFLETS.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
+  integer(int32), intent(in) :: leaflet_id                !< A leaflet id of the faces, or RIIS_ALL_LEAFLETS.
   real(c_double), intent(inout) :: volume                 !< Written on success, mesh units cubed.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
@@ -172,12 +172,12 @@ subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num,
     riis_passage_ends_init
   use riis_support, only: c_handle_of, get_placement, out_of_memory
   implicit none
-  integer(int64), intent(in) :: valve                     !< A valve. Its own opening does not count.
-  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. It need not have been marked.
+  integer(int64), intent(in) :: valve                     !< Must be created. Its own opening has no effect.
+  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. A marking is not needed.
   integer(int32), intent(in) :: n_from                    !< At least 1.
   integer(int32), intent(in) :: from_num(n_from)          !< Nodes where paths begin, counted from 1, in any order.
   integer(int32), intent(in) :: n_to                      !< At least 1.
-  integer(int32), intent(in) :: to_num(n_to)              !< Nodes where they end.
+  integer(int32), intent(in) :: to_num(n_to)              !< Nodes where paths end.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
                                                           !! * half_thickness.
@@ -186,10 +186,10 @@ subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num,
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   real(c_double), intent(in) :: opening_tolerance         !< 1e-6 to 1, usually 1e-3.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
-  real(c_double), intent(inout) :: opening                !< That was tried and has a passage.
-  real(c_double), intent(inout) :: closed_opening         !< The largest below it that was tried.
+  real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
+  real(c_double), intent(inout) :: closed_opening         !< The largest opening below it that was tried.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options), target :: surface
   type(riis_mark_options), target :: marking
@@ -234,12 +234,12 @@ subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_n
     riis_passage_ends_init
   use riis_support, only: c_handle_of, get_placement, out_of_memory
   implicit none
-  integer(int64), intent(in) :: valve                     !< A valve. Its own opening does not count.
-  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. It need not have been marked.
+  integer(int64), intent(in) :: valve                     !< Must be created. Its own opening has no effect.
+  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. A marking is not needed.
   integer(int64), intent(in) :: n_from                    !< At least 1.
   integer(int64), intent(in) :: from_num(n_from)          !< Nodes where paths begin, counted from 1, in any order.
   integer(int64), intent(in) :: n_to                      !< At least 1.
-  integer(int64), intent(in) :: to_num(n_to)              !< Nodes where they end.
+  integer(int64), intent(in) :: to_num(n_to)              !< Nodes where paths end.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
                                                           !! * half_thickness.
@@ -248,10 +248,10 @@ subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_n
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   real(c_double), intent(in) :: opening_tolerance         !< 1e-6 to 1, usually 1e-3.
-  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
-  real(c_double), intent(inout) :: opening                !< That was tried and has a passage.
-  real(c_double), intent(inout) :: closed_opening         !< The largest below it that was tried.
+  real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
+  real(c_double), intent(inout) :: closed_opening         !< The largest opening below it that was tried.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options), target :: surface
   type(riis_mark_options), target :: marking

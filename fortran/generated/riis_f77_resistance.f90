@@ -350,10 +350,9 @@ subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocit
   status = add_reaction_to(c_handle_of(marks), made, int(n_nodes, int64), velocity, weight, to)
 end subroutine riisf_add_reaction_64
 
-!> Adds the force of the flow and its moment about a point, for the whole surface and for each leaflet. A force acts at the
-!! closest point of the surface. Ranks give the same point, and add their sums by a reduction. Errors: as of
-!! riisf_add_reaction; also for
-!! too few leaflets, naming the leaflet id.
+!> Adds the force of the flow and its moment about a point, for the whole surface and for each leaflet. The force of a node acts
+!! at the closest point of the surface. Ranks pass the same point, and add their sums by a reduction. Errors: as for
+!! riisf_add_reaction; RIIS_INVALID_ARGUMENT also for too few leaflets, naming the leaflet id.
 subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, &
     about, n_leaflets, force, moment, leaflet_force, leaflet_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -362,21 +361,21 @@ subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, ve
   use riis_calls, only: add_reaction_to
   use riis_support, only: c_handle_of, location_of
   implicit none
-  integer(int64), intent(in) :: marks                     !< Of riisf_mark_with_fields with RIIS_FIELD_POINT.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
                                                           !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), of the flow.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that a node stands for; 0 for the nodes
-                                                          !! of other ranks.
-  real(c_double), intent(in) :: about(3)                  !< The point that moments are about.
+  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that belongs to a node; 0 for nodes of other
+                                                          !! ranks.
+  real(c_double), intent(in) :: about(3)                  !< The point of the moments.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
-  real(c_double), intent(inout) :: force(3)               !< Added to: of the whole surface.
-  real(c_double), intent(inout) :: moment(3)              !< Added to: of the whole surface.
-  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets), added to; leaflet 0 has column 1.
-  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets), added to.
+  real(c_double), intent(inout) :: force(3)               !< The force on the whole surface is added.
+  real(c_double), intent(inout) :: moment(3)              !< The moment on the whole surface is added.
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): forces are added; leaflet 0 has column 1.
+  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moments are added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: made
   type(riis_reaction) :: to
@@ -404,21 +403,21 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
   use riis_calls, only: add_reaction_to
   use riis_support, only: c_handle_of, location_of
   implicit none
-  integer(int64), intent(in) :: marks                     !< Of riisf_mark_with_fields with RIIS_FIELD_POINT.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
                                                           !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), of the flow.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that a node stands for; 0 for the nodes
-                                                          !! of other ranks.
-  real(c_double), intent(in) :: about(3)                  !< The point that moments are about.
+  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that belongs to a node; 0 for nodes of other
+                                                          !! ranks.
+  real(c_double), intent(in) :: about(3)                  !< The point of the moments.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
-  real(c_double), intent(inout) :: force(3)               !< Added to: of the whole surface.
-  real(c_double), intent(inout) :: moment(3)              !< Added to: of the whole surface.
-  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets), added to; leaflet 0 has column 1.
-  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets), added to.
+  real(c_double), intent(inout) :: force(3)               !< The force on the whole surface is added.
+  real(c_double), intent(inout) :: moment(3)              !< The moment on the whole surface is added.
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): forces are added; leaflet 0 has column 1.
+  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moments are added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: made
   type(riis_reaction) :: to
@@ -437,10 +436,10 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
   status = add_reaction_to(c_handle_of(marks), made, int(n_nodes, int64), velocity, weight, to)
 end subroutine riisf_add_leaflet_reaction_64
 
-!> Adds the force of the flow, and its moment about the middle of an edge, to the edge that is nearest to a node's closest point;
-!! of equally near edges to the first. Edges get shares for tissue codes, which are no mechanics of a membrane. Ranks give the
-!! same edges, and add their sums by a reduction. Errors: as of riisf_add_reaction; also for a bad edge, and for a leaflet without
-!! an edge.
+!> Adds the force of the flow, and its moment about the edge's middle, to edges. The force of a node goes to the edge nearest to
+!! its closest point, or to the first of several equally near edges. These shares of edges are for tissue codes, and do not come
+!! from the mechanics of a membrane. Ranks pass the same edges, and add their sums by a reduction. Errors: as for
+!! riisf_add_reaction; RIIS_INVALID_ARGUMENT also for a bad edge, and for a leaflet without an edge.
 subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, &
     n_edges, edges, edge_leaflet_id, edge_force, edge_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -449,21 +448,22 @@ subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, veloc
   use riis_calls, only: add_reaction_to
   use riis_support, only: c_handle_of, location_of
   implicit none
-  integer(int64), intent(in) :: marks                     !< Of riisf_mark_with_fields with RIIS_FIELD_POINT.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
                                                           !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), of the flow.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that a node stands for; 0 for the nodes
-                                                          !! of other ranks.
+  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that belongs to a node; 0 for nodes of other
+                                                          !! ranks.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
-  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each.
-  integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node counts for the nearest edge of its leaflet. If
-                                                          !! the first is -1, that is all, and edges are for all leaflets.
-  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges), added to.
-  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges), added to; about the middle of each edge.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge.
+  integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its
+                                                          !! leaflet. If the first entry is -1, the other entries are not
+                                                          !! read, and each edge serves all leaflets.
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): forces are added.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): moments about each edge's middle are added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: made
   type(riis_reaction) :: to
@@ -490,21 +490,22 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
   use riis_calls, only: add_reaction_to
   use riis_support, only: c_handle_of, location_of
   implicit none
-  integer(int64), intent(in) :: marks                     !< Of riisf_mark_with_fields with RIIS_FIELD_POINT.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
                                                           !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), of the flow.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that a node stands for; 0 for the nodes
-                                                          !! of other ranks.
+  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that belongs to a node; 0 for nodes of other
+                                                          !! ranks.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
-  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each.
-  integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node counts for the nearest edge of its leaflet. If
-                                                          !! the first is -1, that is all, and edges are for all leaflets.
-  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges), added to.
-  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges), added to; about the middle of each edge.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge.
+  integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its
+                                                          !! leaflet. If the first entry is -1, the other entries are not
+                                                          !! read, and each edge serves all leaflets.
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): forces are added.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): moments about each edge's middle are added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: made
   type(riis_reaction) :: to

@@ -646,12 +646,12 @@ contains
     call finish(code, status)
   end subroutine marks_add_resistance
 
-  !> Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), and its moment, for the whole surface,
-  !! each leaflet and each edge. A force acts at the closest point of the surface. All are plain sums over nodes: ranks give the
-  !! same points and edges, and add their sums by a reduction. u_surface counts where the marking had RIIS_FIELD_VELOCITY, and is
-  !! 0 otherwise. Moments and sums of edges need RIIS_FIELD_POINT. Edges get shares for tissue codes, which are no mechanics of a
-  !! membrane. Errors: as of %add_resistance; RIIS_INVALID_ARGUMENT also for too few leaflets, for a leaflet without an edge, and
-  !! for a bad edge.
+  !> Adds the force of the flow on the surface and its moment, for the whole surface, for each leaflet and for each edge. The
+  !! force of a node is weight * K * (velocity - u_surface), and acts at the closest point of the surface. u_surface is used if
+  !! the marking had RIIS_FIELD_VELOCITY, and is 0 otherwise. Moments and the sums of edges need RIIS_FIELD_POINT. For tissue
+  !! codes, each edge gets a share of the forces, which does not come from the mechanics of a membrane. Ranks pass the same point
+  !! and edges, and add their sums by a reduction. Errors: as for %add_resistance; RIIS_INVALID_ARGUMENT also for too few
+  !! leaflets, for a leaflet without an edge, and for a bad edge.
   subroutine marks_add_reaction(this, R, velocity, weight, force, half_thickness, rim, moment, about, leaflet_force, &
       leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
@@ -664,22 +664,23 @@ contains
                                                             !! RIIS_AUTO: the half thickness of the marking.
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
                                                             !! RIIS_FIELD_RIM.
-    real(c_double), intent(inout), optional :: moment(:)    !< (3): added to.
+    real(c_double), intent(inout), optional :: moment(:)    !< (3): the moment is added.
     real(c_double), intent(in), optional :: about(:)        !< (3): the point of moment and leaflet_moment. Default 0.
-    real(c_double), intent(inout), optional :: leaflet_force(:, :) !< (3, n_leaflets): added to. n_leaflets is more than the
-                                                            !! surface's largest leaflet id; leaflet 0 has column 1.
-    real(c_double), intent(inout), optional :: leaflet_moment(:, :) !< (3, n_leaflets): added to.
-    real(c_double), intent(in), optional :: edges(:, :, :)  !< (3, 2, n_edges): both ends of each, such as those of
+    real(c_double), intent(inout), optional :: leaflet_force(:, :) !< (3, n_leaflets): forces are added. n_leaflets is above
+                                                            !! the surface's largest leaflet id; leaflet 0 has column 1.
+    real(c_double), intent(inout), optional :: leaflet_moment(:, :) !< (3, n_leaflets): moments are added.
+    real(c_double), intent(in), optional :: edges(:, :, :)  !< (3, 2, n_edges): both ends of each edge, as from
                                                             !! %get_attachment.
-    real(c_double), intent(inout), optional :: edge_force(:, :) !< (3, n_edges): added to. A node counts for the edge that is
-                                                            !! nearest to its closest point, the first of equals.
-    real(c_double), intent(inout), optional :: edge_moment(:, :) !< (3, n_edges): added to; about the middle of each edge.
-    integer(int32), intent(in), optional :: edge_leaflet_id(:) !< (n_edges): a node counts for the nearest edge of its
-                                                            !! leaflet. Default: of all.
+    real(c_double), intent(inout), optional :: edge_force(:, :) !< (3, n_edges): forces are added. A node's force goes to
+                                                            !! the edge nearest to its closest point, or to the first
+                                                            !! of several equally near edges.
+    real(c_double), intent(inout), optional :: edge_moment(:, :) !< (3, n_edges): moments about each edge's middle are added.
+    integer(int32), intent(in), optional :: edge_leaflet_id(:) !< (n_edges): a node's force goes to the nearest edge of
+                                                            !! its leaflet. Default: the nearest edge of all leaflets.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_resistance) :: made
     type(riis_reaction) :: to
-    ! Copies of the sums are contiguous whatever the caller's are, and so are those of the edges.
+    ! The library needs contiguous sums and edges, so it gets copies of the caller's arrays.
     real(c_double), target :: own_force(3), own_moment(3)
     real(c_double), pointer, contiguous :: own_leaflet_force(:, :), own_leaflet_moment(:, :), own_edge_force(:, :), &
       own_edge_moment(:, :)

@@ -32,8 +32,8 @@ contains
 
   !> Gives the number of the surface's leaflets.
   subroutine riis_get_n_leaflets(surface, n_leaflets, status)
-    class(riis_surface), intent(in) :: surface              !< Created.
-    integer(int64), intent(inout) :: n_leaflets             !< Left alone on an error.
+    class(riis_surface), intent(in) :: surface              !< Must be created.
+    integer(int64), intent(inout) :: n_leaflets             !< Unchanged on an error.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = check_created(surface%c_handle(), 'the surface')
@@ -43,9 +43,9 @@ contains
 
   !> Gives the sizes of a leaflet. Errors: RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks.
   subroutine riis_get_leaflet(surface, leaflet_num, leaflet, status)
-    class(riis_surface), intent(in) :: surface              !< Created.
+    class(riis_surface), intent(in) :: surface              !< Must be created.
     class(*), intent(in) :: leaflet_num                     !< integer, 1 to n_leaflets, ascending by leaflet_id.
-    type(riis_leaflet), intent(inout) :: leaflet            !< Left alone on an error.
+    type(riis_leaflet), intent(inout) :: leaflet            !< Unchanged on an error.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     integer(int64) :: num
@@ -71,8 +71,8 @@ contains
   !! effective area that the band leaves to the flow. Errors: RIIS_INVALID_ARGUMENT for an argument out of range, and for a
   !! surface from arrays or keyframes.
   subroutine riis_get_orifice(surface, orifice, half_thickness, rim, status)
-    class(riis_surface), intent(in) :: surface              !< Created from a valve.
-    type(riis_orifice), intent(inout) :: orifice            !< Left alone on an error.
+    class(riis_surface), intent(in) :: surface              !< Must be created from a valve.
+    type(riis_orifice), intent(inout) :: orifice            !< Unchanged on an error.
     real(c_double), intent(in), optional :: half_thickness  !< eps of the resistance. Default RIIS_AUTO: the surface's.
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
@@ -84,13 +84,13 @@ contains
     call finish(code, status)
   end subroutine riis_get_orifice
 
-  !> Tells the ideal leak of a closed surface: the volume flow through it at a pressure drop, drop * (eps / R) * area. The
-  !! bileaflet housing does not count. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
+  !> Tells the ideal leak of a closed surface: the volume flow through it at a pressure drop. The flow is drop * (eps / R) * area.
+  !! The bileaflet housing does not count. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
   subroutine riis_get_leak(surface, R, drop, flow, half_thickness, status)
-    class(riis_surface), intent(in) :: surface              !< Created, closed.
+    class(riis_surface), intent(in) :: surface              !< Must be created and closed.
     real(c_double), intent(in) :: R                         !< > 0, at most 1e60, mass / (length time): kg/(m s).
-    real(c_double), intent(in) :: drop                      !< Pressure upstream less that downstream, magnitude at most 1e30.
-    real(c_double), intent(inout) :: flow                   !< Left alone on an error.
+    real(c_double), intent(in) :: drop                      !< Upstream minus downstream pressure, magnitude at most 1e30.
+    real(c_double), intent(inout) :: flow                   !< Unchanged on an error.
     real(c_double), intent(in), optional :: half_thickness  !< eps of the resistance. Default RIIS_AUTO: the surface's.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_resistance) :: made
@@ -102,11 +102,11 @@ contains
   end subroutine riis_get_leak
 
   !> Tells how many mesh edges lie across the band around the surface, by the edges with a marked node. Errors:
-  !! RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks of another mesh or never marked with.
+  !! RIIS_INVALID_ARGUMENT for a mesh without an adjacency, and for marks that do not come from a marking with this mesh.
   subroutine riis_get_cells_across(marks, mesh, cells, status)
     class(riis_marks), intent(in) :: marks                  !< From riis_mark_nodes.
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
-    type(riis_cells_across), intent(inout) :: cells         !< Left alone on an error.
+    type(riis_cells_across), intent(inout) :: cells         !< Unchanged on an error.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     integer(riis_status) :: code
     code = check_created(marks%c_handle(), 'the object marks')
@@ -115,7 +115,7 @@ contains
     call finish(code, status)
   end subroutine riis_get_cells_across
 
-  ! Makes the options that count for a swept volume. Does nothing after an error.
+  ! Makes the options of a swept volume. Does nothing after an error.
   subroutine get_sweep(leaflet_id, scale, flip_normals, n_threads, options, id, code)
     class(*), intent(in), optional :: leaflet_id, n_threads
     real(c_double), intent(in), optional :: scale
@@ -133,16 +133,16 @@ contains
 
   !> Gives the volume that a valve sweeps between two openings, in mesh units cubed: the integral of u_surface . n over surface
   !! and time, positive along the normals. Errors: RIIS_INVALID_ARGUMENT for an opening out of range and a leaflet that the
-  !! valve lacks; RIIS_INVALID_PARAMETER for parameters that do not go together, and for a valve with only one state.
+  !! valve lacks; RIIS_INVALID_PARAMETER for parameters that do not fit together, and for a valve with only one state.
   subroutine swept_volume_of_valve(valve, opening_from, opening_to, volume, leaflet_id, scale, flip_normals, n_threads, status)
-    class(riis_valve), intent(in) :: valve                  !< Created. Its own opening does not count.
+    class(riis_valve), intent(in) :: valve                  !< Must be created. Its own opening has no effect.
     real(c_double), intent(in) :: opening_from              !< 0 to 1.
     real(c_double), intent(in) :: opening_to                !< 0 to 1.
-    real(c_double), intent(inout) :: volume                 !< Left alone on an error.
+    real(c_double), intent(inout) :: volume                 !< Unchanged on an error.
     class(*), intent(in), optional :: leaflet_id            !< integer, RIIS_LEAFLET_*. Default RIIS_ALL_LEAFLETS.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12. Default 1.
     logical, intent(in), optional :: flip_normals           !< .true. changes the sign. Default .false.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_surface_options) :: options
     integer(int32) :: id
@@ -157,10 +157,10 @@ contains
   !> Gives the volume that keyframes sweep between two times. Errors: RIIS_INVALID_ARGUMENT for a leaflet that no face has;
   !! RIIS_LIMIT_EXCEEDED for more than 1,000,000 keys between the times.
   subroutine swept_volume_of_keyframes(keyframes, time_from, time_to, volume, leaflet_id, scale, flip_normals, status)
-    class(riis_keyframes), intent(in) :: keyframes          !< Created.
+    class(riis_keyframes), intent(in) :: keyframes          !< Must be created.
     real(c_double), intent(in) :: time_from                 !< Magnitude at most 1e30.
     real(c_double), intent(in) :: time_to                   !< Magnitude at most 1e30.
-    real(c_double), intent(inout) :: volume                 !< Left alone on an error.
+    real(c_double), intent(inout) :: volume                 !< Unchanged on an error.
     class(*), intent(in), optional :: leaflet_id            !< integer, the caller's. Default RIIS_ALL_LEAFLETS.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12. Default 1.
     logical, intent(in), optional :: flip_normals           !< .true. changes the sign. Default .false.
@@ -179,21 +179,21 @@ contains
   !! halves the last step. Errors: those of riis_surface%create and riis_find_passage, with the opening.
   subroutine find_first_passage_int32(valve, mesh, from_num, to_num, first, half_thickness, tolerance, scale, &
       rotation_axis, rotation_angle, translation, opening_tolerance, node_mask, n_threads, status)
-    class(riis_valve), intent(in) :: valve                  !< Created. Its own opening does not count.
-    class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. It need not have been marked.
+    class(riis_valve), intent(in) :: valve                  !< Must be created. Its own opening has no effect.
+    class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. A marking is not needed.
     integer(int32), intent(in) :: from_num(:)               !< Nodes where paths begin, counted from 1, in any order; copied.
-    integer(int32), intent(in) :: to_num(:)                 !< Nodes where they end; copied.
-    type(riis_first_passage), intent(inout) :: first        !< node_id counts from 0. Left alone on an error.
-    real(c_double), intent(in), optional :: half_thickness  !< As of riis_surface%create.
-    real(c_double), intent(in), optional :: tolerance       !< As of riis_surface%create.
-    real(c_double), intent(in), optional :: scale           !< As of riis_surface%create.
-    real(c_double), intent(in), optional :: rotation_axis(3) !< As of riis_surface%create.
-    real(c_double), intent(in), optional :: rotation_angle  !< As of riis_surface%create.
-    real(c_double), intent(in), optional :: translation(3)  !< As of riis_surface%create.
+    integer(int32), intent(in) :: to_num(:)                 !< Nodes where paths end; copied.
+    type(riis_first_passage), intent(inout) :: first        !< node_id counts from 0. Unchanged on an error.
+    real(c_double), intent(in), optional :: half_thickness  !< As for riis_surface%create.
+    real(c_double), intent(in), optional :: tolerance       !< As for riis_surface%create.
+    real(c_double), intent(in), optional :: scale           !< As for riis_surface%create.
+    real(c_double), intent(in), optional :: rotation_axis(3) !< As for riis_surface%create.
+    real(c_double), intent(in), optional :: rotation_angle  !< As for riis_surface%create.
+    real(c_double), intent(in), optional :: translation(3)  !< As for riis_surface%create.
     real(c_double), intent(in), optional :: opening_tolerance !< 1e-6 to 1. Default 1e-3.
     logical, intent(in), optional :: node_mask(:)           !< (n_nodes): nodes with .false. are on no path; copied. Default:
                                                             !! all nodes.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_surface_options), target :: surface
     integer(riis_status) :: code
@@ -212,21 +212,21 @@ contains
   !> Does the same with node numbers of another kind.
   subroutine find_first_passage_int64(valve, mesh, from_num, to_num, first, half_thickness, tolerance, scale, &
       rotation_axis, rotation_angle, translation, opening_tolerance, node_mask, n_threads, status)
-    class(riis_valve), intent(in) :: valve                  !< Created. Its own opening does not count.
-    class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. It need not have been marked.
+    class(riis_valve), intent(in) :: valve                  !< Must be created. Its own opening has no effect.
+    class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. A marking is not needed.
     integer(int64), intent(in) :: from_num(:)               !< Nodes where paths begin, counted from 1, in any order; copied.
-    integer(int64), intent(in) :: to_num(:)                 !< Nodes where they end; copied.
-    type(riis_first_passage), intent(inout) :: first        !< node_id counts from 0. Left alone on an error.
-    real(c_double), intent(in), optional :: half_thickness  !< As of riis_surface%create.
-    real(c_double), intent(in), optional :: tolerance       !< As of riis_surface%create.
-    real(c_double), intent(in), optional :: scale           !< As of riis_surface%create.
-    real(c_double), intent(in), optional :: rotation_axis(3) !< As of riis_surface%create.
-    real(c_double), intent(in), optional :: rotation_angle  !< As of riis_surface%create.
-    real(c_double), intent(in), optional :: translation(3)  !< As of riis_surface%create.
+    integer(int64), intent(in) :: to_num(:)                 !< Nodes where paths end; copied.
+    type(riis_first_passage), intent(inout) :: first        !< node_id counts from 0. Unchanged on an error.
+    real(c_double), intent(in), optional :: half_thickness  !< As for riis_surface%create.
+    real(c_double), intent(in), optional :: tolerance       !< As for riis_surface%create.
+    real(c_double), intent(in), optional :: scale           !< As for riis_surface%create.
+    real(c_double), intent(in), optional :: rotation_axis(3) !< As for riis_surface%create.
+    real(c_double), intent(in), optional :: rotation_angle  !< As for riis_surface%create.
+    real(c_double), intent(in), optional :: translation(3)  !< As for riis_surface%create.
     real(c_double), intent(in), optional :: opening_tolerance !< 1e-6 to 1. Default 1e-3.
     logical, intent(in), optional :: node_mask(:)           !< (n_nodes): nodes with .false. are on no path; copied. Default:
                                                             !! all nodes.
-    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as the work feeds.
+    class(*), intent(in), optional :: n_threads             !< integer, 1 to 1024. Default 0: as many as there is work for.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_surface_options), target :: surface
     integer(riis_status) :: code

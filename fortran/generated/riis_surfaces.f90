@@ -185,7 +185,7 @@ contains
     real(c_double), intent(in), optional :: measure_tolerance !< 1e-6 to 1, or RIIS_AUTO.
     integer(int32), intent(in), optional :: n_threads       !< 0 to 1024.
     integer(int32), intent(in), optional :: triangulation   !< RIIS_TRIANGULATION_*.
-    real(c_double), intent(in), optional :: scale_before    !< Of the earlier state, as are the next three. Default: as now.
+    real(c_double), intent(in), optional :: scale_before    !< For the earlier state, like the next three. Default: as now.
     real(c_double), intent(in), optional :: rotation_axis_before(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle_before !< Degrees.
     real(c_double), intent(in), optional :: translation_before(:) !< (3), mesh units.
@@ -768,12 +768,13 @@ contains
     call finish(code, status)
   end subroutine surface_get_triangles
 
-  !> Points to the edges at which tissue or a stent holds the leaflets of a valve, without a copy: where cusps meet the sinus, the
-  !! mitral annulus, the sides v = 0 of patches that no other patch has. A bileaflet valve has none. They are valid until the
-  !! surface's next update or its destruction. Do not write to them. Sizes are 0 on an error. Errors: RIIS_INVALID_ARGUMENT for a
-  !! surface from arrays, whose attached and free edges look alike.
+  !> Points to the edges at which tissue or a stent holds the leaflets of a valve, without a copy. These edges lie where cusps
+  !! meet the sinus, on the mitral annulus, and on the sides v = 0 that patches do not share. A bileaflet valve has no such edges.
+  !! The pointers are valid until the surface's next update or its destruction. Do not write to the arrays. Sizes are 0 on an
+  !! error. Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, because its attached and free edges cannot be
+  !! distinguished.
   subroutine surface_get_attachment(this, attachment, status)
-    class(riis_surface), intent(in) :: this                 !< Created.
+    class(riis_surface), intent(in) :: this                 !< Must be created.
     type(riis_attachment), intent(inout) :: attachment      !< Every component is set.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(c_attachment) :: made

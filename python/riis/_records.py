@@ -53,7 +53,7 @@ class Triangles(NamedTuple):
 
 
 class Attachment(NamedTuple):
-    """The edges at which tissue or a stent holds the leaflets of a valve. A bileaflet valve has none."""
+    """The edges at which tissue or a stent holds the leaflets of a valve. A bileaflet valve has no such edges."""
 
     edges: Reals  #: (n, 2, 3): both ends of each
     vertex_id: Ids  #: (n, 2): the vertices at the ends
@@ -164,7 +164,7 @@ class LeafletSizes(NamedTuple):
 
 
 class Orifice(NamedTuple):
-    """What a valve's triangles leave uncovered, seen along the valve's axis. Lengths are in mesh units."""
+    """The area that a valve's triangles leave uncovered, seen along the valve's axis. Lengths are in mesh units."""
 
     area: float
     outline_area: float  #: inside of the outline
@@ -178,7 +178,7 @@ class Orifice(NamedTuple):
 
 
 class CellsAcross(NamedTuple):
-    """How many mesh edges lie across the band: 2 * half_thickness over lengths of edges with a marked node."""
+    """The number of mesh edges across the band: 2 * half_thickness divided by the lengths of edges with a marked node."""
 
     least: float  #: over the longest
     mean: float  #: over the mean

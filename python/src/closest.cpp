@@ -102,7 +102,7 @@ void add_closest(nb::class_<Surface> &surface) {
           R"(Finds the closest points of many points, in parallel.
 
 points          (n, 3) float64 of any forward strides, mesh units
-distance        (n,) float64         each of these is True for a new array, False for none, or an array to write;
+distance        (n,) float64         each of these is True for a new array, False for no array, or an array to write;
 point           (n, 3) float64       riis.ClosestPoint describes their content
 barycentric     (n, 3) float64
 normal          (n, 3) float64

@@ -9,8 +9,9 @@
 
 namespace riis_python {
 
-// Returns whether this process is a child of fork(). Also returns whether another thread was inside the library at the fork.
+// Returns whether this process is a child of fork().
 bool is_forked() noexcept;
+// Returns whether another thread was inside the library at the fork.
 bool was_inside_at_fork() noexcept;
 // Returns how many forks led to this process.
 int fork_number() noexcept;

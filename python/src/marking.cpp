@@ -284,7 +284,7 @@ so they do not change.)");
                    "far_distance: float = 1e30) -> riis._records.Dense"),
            R"(Returns arrays with an entry for every node of the mesh.
 
-mark         (n_nodes,) bool: the marked nodes     each of these is True for a new array, False for none, or
+mark         (n_nodes,) bool: the marked nodes     each of these is True for a new array, False for no array, or
 distance     (n_nodes,) float64                    an array to write, in which every entry is written
 triangle_id  (n_nodes,) int64, -1 for far nodes
 leaflet_id   (n_nodes,) int32, -1 for far nodes

@@ -226,7 +226,7 @@ from_cells, from_faces and from_grid make one. Columns ascend without repetition
 cells    (n_cells, 4, 5, 6 or 8) int32 or int64: tetrahedra, pyramids, prisms or hexahedra in the order of VTK; or, with
          offsets, (n,): the nodes of all cells, one cell after the other
 n_nodes  the mesh's number of nodes
-offsets  (n_cells + 1,) of the same type as cells: where each cell begins in cells, and where the last one ends)")
+offsets  (n_cells + 1,) of the same type as cells: where each cell begins in cells, and where the last cell ends)")
       .def_static(
           "from_faces", &from_faces, nb::arg("owner").none(), nb::arg("neighbor").none(), nb::arg("n_cells").none(),
           nb::kw_only(), nb::arg("index_base").none() = 0, nb::arg("n_threads").none() = 0,
@@ -241,7 +241,7 @@ owner, neighbor  (n_faces,) int32 or int64, both of one type: the cells that a f
                   nb::sig("def from_grid(ni: int, nj: int, nk: int, *, n_threads: int = 0) -> Adjacency"),
                   "Makes the adjacency of a structured grid. Node (i, j, k) has the number i + ni (j + nj k).")
       .def_prop_ro("offsets", &offsets, nb::sig("def offsets(self) -> numpy.typing.NDArray[numpy.int64]"),
-                   "(n_rows + 1,): where each row begins in columns, and where the last one ends. A view.")
+                   "(n_rows + 1,): where each row begins in columns, and where the last row ends. A view.")
       .def_prop_ro("columns", &columns, nb::sig("def columns(self) -> " RIIS_IDS),
                    "The neighbours, one row after the other: int32 for fewer than 2**31 nodes, else int64. A view.")
       .def("__len__", [](Adjacency &self) { return static_cast<std::size_t>(rows_of(self).n_rows); })

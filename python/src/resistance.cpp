@@ -40,7 +40,7 @@ void add_to(Marks &result, nb::handle K_, nb::handle K_u_surface_, nb::handle R,
   call_library([&] { return riis_marks_add_resistance(result.handle, &model, &to); });
 }
 
-// An array of sums (n_rows, 3), or (3,) for n_rows -1, to which a call adds; none for None.
+// Returns the caller's array (n_rows, 3), or (3,) if n_rows is -1, to which a call adds sums. Returns no array for None.
 std::optional<Array> sums_of(nb::handle given, const char *name, std::int64_t n_rows) {
   if (given.is_none()) return std::nullopt;
   std::optional<Array> sums(Array::of<double>(given, name, Access::write));
@@ -53,7 +53,7 @@ std::optional<Array> sums_of(nb::handle given, const char *name, std::int64_t n_
 
 double *data_of(const std::optional<Array> &sums) { return sums ? sums->data<double>() : nullptr; }
 
-// Returns the number of rows of the first array that is given, 0 without one.
+// Returns the number of rows of the first array that is given, or 0 if both are None.
 std::int64_t n_rows_of(nb::handle first, const char *first_name, nb::handle second, const char *second_name) {
   if (first.is_none() && second.is_none()) return 0;
   const bool has_first = !first.is_none();
@@ -147,38 +147,38 @@ R               mass / (length time), such as kg/(m s)
 half_thickness  eps, mesh units, at most the distance limit of the marking; None: the marking's half thickness
 rim             'round': every node within eps gets K; 'cut': nodes whose closest point is on the rim get none, which
                 needs fields='rim')")
-      .def(
-          "add_reaction", &add_reaction, nb::arg("velocity").none(), nb::arg("weight").none(),
-          nb::arg("force").none() = nb::none(), nb::kw_only(), nb::arg("R").none(),
-          nb::arg("half_thickness").none() = nb::none(), nb::arg("rim").none() = "round",
-          nb::arg("moment").none() = nb::none(), nb::arg("about").none() = nb::none(),
-          nb::arg("leaflet_force").none() = nb::none(), nb::arg("leaflet_moment").none() = nb::none(),
-          nb::arg("edges").none() = nb::none(), nb::arg("edge_force").none() = nb::none(),
-          nb::arg("edge_moment").none() = nb::none(), nb::arg("edge_leaflet_id").none() = nb::none(),
-          nb::sig("def add_reaction(self, velocity: " RIIS_REALS ", weight: " RIIS_REALS ", force: " RIIS_REALS
-                  " | None = None, *, " RIIS_MODEL ", moment: " RIIS_REALS
-                  " | None = None, about: collections.abc.Sequence[float] | " RIIS_REALS
-                  " | None = None, leaflet_force: " RIIS_REALS " | None = None, leaflet_moment: " RIIS_REALS
-                  " | None = None, edges: " RIIS_REALS " | None = None, edge_force: " RIIS_REALS
-                  " | None = None, edge_moment: " RIIS_REALS
-                  " | None = None, edge_leaflet_id: numpy.typing.NDArray[numpy.int32] | None = None) -> " RIIS_REALS),
-          R"(Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force, and returns it.
+      .def("add_reaction", &add_reaction, nb::arg("velocity").none(), nb::arg("weight").none(),
+           nb::arg("force").none() = nb::none(), nb::kw_only(), nb::arg("R").none(),
+           nb::arg("half_thickness").none() = nb::none(), nb::arg("rim").none() = "round",
+           nb::arg("moment").none() = nb::none(), nb::arg("about").none() = nb::none(),
+           nb::arg("leaflet_force").none() = nb::none(), nb::arg("leaflet_moment").none() = nb::none(),
+           nb::arg("edges").none() = nb::none(), nb::arg("edge_force").none() = nb::none(),
+           nb::arg("edge_moment").none() = nb::none(), nb::arg("edge_leaflet_id").none() = nb::none(),
+           nb::sig("def add_reaction(self, velocity: " RIIS_REALS ", weight: " RIIS_REALS ", force: " RIIS_REALS
+                   " | None = None, *, " RIIS_MODEL ", moment: " RIIS_REALS
+                   " | None = None, about: collections.abc.Sequence[float] | " RIIS_REALS
+                   " | None = None, leaflet_force: " RIIS_REALS " | None = None, leaflet_moment: " RIIS_REALS
+                   " | None = None, edges: " RIIS_REALS " | None = None, edge_force: " RIIS_REALS
+                   " | None = None, edge_moment: " RIIS_REALS
+                   " | None = None, edge_leaflet_id: numpy.typing.NDArray[numpy.int32] | None = None) -> " RIIS_REALS),
+           R"(Adds the force of the flow on the surface to force, and returns force.
 
-Each array of float64 that is given gets its sum added, by leaflet or by edge also. Moments and sums of edges need
-fields='point': a force acts at the closest point of the surface. Ranks add their sums. The shares of edges are for tissue codes,
-and no mechanics of a membrane.
+The force is the sum of weight * K * (velocity - u_surface). Sums are also added to the other float64 arrays that are given:
+moments, and forces and moments by leaflet and by edge. Moments and sums of edges need fields='point', because a force acts
+at the closest point of the surface. Ranks add their sums. The shares of edges are for tissue codes, and do not come from
+the mechanics of a membrane.
 
-velocity         (n_nodes, 3) float64: of the flow
-weight           (n_nodes,) float64: the volume that a node stands for, 0 for nodes of other ranks
+velocity         (n_nodes, 3) float64: the flow's velocity
+weight           (n_nodes,) float64: the volume that belongs to a node, 0 for nodes of other ranks
 force            (3,) float64; None: a new array
-moment           (3,): of the whole surface
-about            the point that moment and leaflet_moment are about; None: (0, 0, 0)
-leaflet_force    (n_leaflets, 3): n_leaflets is more than Surface.info.largest_leaflet_id
+moment           (3,): the moment on the whole surface
+about            the point of moment and leaflet_moment; None: (0, 0, 0)
+leaflet_force    (n_leaflets, 3): n_leaflets is above Surface.info.largest_leaflet_id
 leaflet_moment   (n_leaflets, 3)
-edges            (n_edges, 2, 3): both ends of each, such as Surface.attachment.edges
-edge_force       (n_edges, 3): of the nodes to whose closest points the edge is nearest, the first of equals
-edge_moment      (n_edges, 3): about the middle of each edge
-edge_leaflet_id  (n_edges,) int32: a node counts for the nearest edge of its leaflet; None: of all)")
+edges            (n_edges, 2, 3): both ends of each edge, such as Surface.attachment.edges
+edge_force       (n_edges, 3): a node's force goes to the edge nearest to its closest point, the first of equally near edges
+edge_moment      (n_edges, 3): the moments about the middle of each edge
+edge_leaflet_id  (n_edges,) int32: a node's force goes to the nearest edge of its leaflet; None: of all leaflets)")
       .def(
           "band_sums", &band_sums, nb::arg("value").none(), nb::arg("weight").none(), nb::arg("inner").none(),
           nb::arg("outer").none(),

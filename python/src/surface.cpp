@@ -284,9 +284,9 @@ The velocity is the mean from time - dt to time. If dt is None, it is the deriva
 valve_before      the earlier state, of the same kind
 dt                time from valve_before to valve; negative if time goes backwards
 placement_before  a dict of scale, rotation_axis, rotation_angle and translation of the earlier state; missing
-                  entries are as now
+                  entries have their present values
 
-The velocity, in mesh units over the unit of dt, is the mean over the step.)")
+The velocity is the mean over the step, in mesh units divided by the unit of dt.)")
       .def(
           "update_from_arrays", &update_from_arrays, nb::arg("vertices").none(), nb::arg("faces").none() = nb::none(),
           nb::kw_only(), nb::arg("leaflet_id").none() = nb::none(), nb::arg("velocities").none() = nb::none(),
@@ -318,7 +318,7 @@ The velocity, in mesh units over the unit of dt, is the mean over the step.)")
           "velocities",
           [](Surface &self) { return vertex_array(self, &riis_triangles::velocity, 3, &Surface::velocities); },
           nb::sig("def velocities(self) -> numpy.typing.NDArray[numpy.float64] | None"),
-          "(n_vertices, 3): each vertex's velocity. None if the last update gave none.")
+          "(n_vertices, 3): each vertex's velocity. None if the last update gave no velocities.")
       .def_prop_ro("attachment", &attachment, nb::sig("def attachment(self) -> riis._records.Attachment"),
                    "The edges at which tissue or a stent holds the leaflets of a valve; a copy. Refused for arrays.")
       .def_prop_ro("triangles", &triangles, nb::sig("def triangles(self) -> riis._records.Triangles"),

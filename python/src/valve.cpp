@@ -298,7 +298,7 @@ The valve's only parameter is 'opening'. Arrays are copied.)")
       .def("__setstate__", &make_from_state, nb::arg("state"),
            nb::sig("def __setstate__(self, state: tuple[typing.Any, ...]) -> None"))
       .def("copy", &copy, nb::sig("def copy(self) -> Valve"),
-           "Returns a second valve with the same parameters and states.")
+           "Returns a copy: a valve with the same parameters and states.")
       .def("__copy__", &copy, nb::sig("def __copy__(self) -> Valve"))
       .def(
           "__deepcopy__", [](Valve &self, nb::handle) { return copy(self); }, nb::arg("memo").none(),

@@ -233,7 +233,7 @@ static void test_table(void **state) {
   assert_non_null(strstr(program_out, " 0.5 "));
 }
 
-/* A refusal of an unknown name suggests a near one. */
+/* A refusal of an unknown name suggests a similar name. */
 static void test_near_names(void **state) {
   (void)state;
   RUN_REFUSED(1, "'leaflet_angel' is not a parameter of the aortic valve; did you mean 'leaflet_angle'?", "params",

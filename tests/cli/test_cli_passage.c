@@ -83,7 +83,7 @@ static void test_open_valve(void **state) {
   assert_non_null(strstr(program_out, "\npassage   closed: at "));
 }
 
-/* What the valve and the mesh mean for the flow, against the library's calls. */
+/* The measures of valve and mesh for the flow equal those of the library's calls. */
 static void test_flow(void **state) {
   (void)state;
   RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, "--valve", "trileaflet", "--opening", "0",
@@ -179,7 +179,7 @@ static void test_pieces(void **state) {
               "0,0,8.5");
 }
 
-/* Two valves lie in a row. Either one alone closes the passage. */
+/* Two valves lie in a row. Either valve alone closes the passage. */
 static void test_cases(void **state) {
   (void)state;
   scratch_write_text("one.json",

@@ -15,7 +15,7 @@
 
 enum { n_times = 5, most_cells = 6 * n_box };
 static const double times[n_times] = {0, 0.1, 0.2, 0.3, 0.4};
-/* Linear between the keys (time 0, opening 0), (0.2, 1) and (0.4, 0.5). */
+/* The openings are linear between the keys (time 0, opening 0), (0.2, 1) and (0.4, 0.5). */
 static const double openings[n_times] = {0, 0.5, 1, 0.75, 0.5};
 static const char *const opening_texts[n_times] = {"0", "0.5", "1", "0.75", "0.5"};
 static const char *const cycle = "# a beat\ntime, opening\n0, 0\n\n0.2, 1\n0.4, 0.5\n";
@@ -144,8 +144,8 @@ static void test_cells(void **state) {
   }
 }
 
-/* Compares a step's fields with those of the C interface. The velocity is the mean since the previous time, or since one first
- * step before the first time. */
+/* Compares a step's fields with those of the C interface. The velocity is the mean since the previous time. At the first time, it
+ * is the mean since one step before. */
 static void expect_fields(int step, const char *path) {
   static double xyz[3 * n_box], normal[3 * n_box], velocity[3 * n_box], momentum[3 * n_box], side[n_box], K[n_box];
   riis_valve *now = NULL, *before = NULL;

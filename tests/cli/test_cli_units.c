@@ -271,7 +271,7 @@ static void test_half_thickness(void **state) {
   expect_warning(program_exit_code, "the half thickness is 0.001, the median edge of the mesh 0.1");
   expect_warning(program_exit_code, ": write --half-thickness 0.1\n");
   expect_cured(meshes[1], NULL);
-  /* If a mesh is coarse and no power of ten suits it, the advice is its edge length, unless that is also too large. */
+  /* If a mesh is coarse and no power of ten suits it, the advice is its edge length, unless this length is also too large. */
   const double far = 1.6;
   assert_int_equal(shim_write_box(scratch_path("coarse.vtu"), SHIM_RAW, 6, (double[3]){-far, -far, -far},
                                   (double[3]){far, far, far}, 0),

@@ -341,7 +341,7 @@ static rule_marks marks_of_closed(const char *kind) {
         found.delta += delta(closest.distance, eps);
         found.delta_lost += delta(closest.distance, eps) - delta(d, eps);
         if (closest.distance <= eps) found.largest_excess = fmax(found.largest_excess, d - closest.distance);
-        /* The triangles' middles lie on the surface, so none can be nearer. */
+        /* The triangles' middles lie on the surface, so no middle is nearer than the surface. */
         assert_true(d >= closest.distance - 1e-12);
         if (closest.distance < 0.3 * eps || closest.distance > eps || closest.side == 0) continue;
         ++found.n_sides;

@@ -188,7 +188,7 @@ static void test_second_run(void **state) {
   assert_int_equal(program_exit_code, 128 + SIGINT);
   assert_false(scratch_exists(".riis-held.vtu.lock"));
 }
-/* Stats replace a file, also if its name is a link. They are written into a device. */
+/* Stats replace a file, also if its name is a link. If the name is a device, they are written into the device. */
 static void test_stats_places(void **state) {
   (void)state;
   scratch_write_text("s.json", "before");

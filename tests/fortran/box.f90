@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-! The mesh that tests of module riis mark, a box of nodes around the aortic valve, and the marks that riis_c gives.
+! A box of nodes around the aortic valve, which the tests of module riis mark, and the expected marks, which riis_c gives.
 module box
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_loc, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
@@ -64,7 +64,7 @@ contains
     deallocate (target_xyz)
   end subroutine mark_from_c
 
-  ! Checks that marking a mesh gives the same as riis_c.
+  ! Checks that marking a mesh gives the same marks as riis_c.
   subroutine check_marking(mesh, what, search)
     type(riis_mesh), intent(in) :: mesh
     character(len=*), intent(in) :: what

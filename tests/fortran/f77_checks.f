@@ -1,7 +1,7 @@
 C     SPDX-License-Identifier: Apache-2.0
-C     What the tests in Fortran 77 are written with.
+C     Checks that the tests in Fortran 77 share.
 
-C     A call that has to succeed.
+C     Ends the test if the call failed.
       SUBROUTINE OK(STAT)
       INTEGER STAT
       CHARACTER*512 TEXT
@@ -10,7 +10,8 @@ C     A call that has to succeed.
       CALL FAILED(TEXT)
       END
 
-C     A call that has to be refused, with these words.
+C     Ends the test unless the call was refused with this status, and
+C     with a message that contains these words.
       SUBROUTINE WANT(STAT, WANTED, WORDS)
       INTEGER STAT, WANTED
       CHARACTER*(*) WORDS

@@ -1,7 +1,8 @@
 C     SPDX-License-Identifier: Apache-2.0
-C     The external subroutines, as a Fortran 77 code calls them: fixed
-C     form, implicit interfaces, include file. A box of nodes around the
-C     valve is marked in several ways; all have to agree.
+C     Tests the external subroutines as a Fortran 77 code calls them,
+C     with fixed form, implicit interfaces and the include file. A box
+C     of nodes around the valve is marked in several ways, and all
+C     results have to agree.
       PROGRAM TF77
       IMPLICIT NONE
       INCLUDE 'riisf.h'
@@ -78,7 +79,8 @@ C     The valve.
       CALL RIISF_VALVE_SET_OPEN_STATE(VALVE, OPENED, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'open is NULL')
 
-C     The surface, away and back.
+C     The surface first lies far away and marks nothing. Then it
+C     returns to the origin.
       CALL RIISF_SURFACE_CREATE(VALVE, 0.12D0, 0.05D0, 1D0, AXIS, 0D0,
      &  SHIFT, SURF, STAT)
       CALL OK(STAT)
@@ -103,7 +105,8 @@ C     The surface, away and back.
       CALL OK(STAT)
       IF (N .LT. 100 .OR. 2 * N .GT. NN) CALL FAILED('some are marked')
 
-C     Arrays that are too short, and those of the other kind.
+C     Arrays that are too short are refused. INTEGER*8 gives the same
+C     nodes.
       N2 = 0
       CALL RIISF_MARKED(RES, N - 1, N2, NODE2, DIST2, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'length is')
@@ -159,7 +162,8 @@ C     A wider limit.
       CALL RIISF_WITHIN_LIMIT(RES, 5, N2, NODE2, DIST2, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'length is 5')
 
-C     Distances by sampling: nearly the same nodes, no triangles.
+C     If distances are by sampling, nearly the same nodes are marked,
+C     and there are no triangles.
       CALL RIISF_SURFACE_MEASURE(SURF, VALVE, 0.12D0, 0.05D0, 1D0, AXIS,
      &  0D0, ZERO, RIIS_MEASURE_SAMPLING, 0.1D0, STAT)
       CALL OK(STAT)
@@ -182,7 +186,7 @@ C     Distances by sampling: nearly the same nodes, no triangles.
      &  0D0, ZERO, STAT)
       CALL OK(STAT)
 
-C     Other meshes; a node that moves in place.
+C     Makes other meshes. One node moves in place.
       CALL RIISF_MESH_CREATE_64(BIG, XYZ(1,1), XYZ(2,1), XYZ(3,1),
      &  3_8, MESH2, STAT)
       CALL OK(STAT)
@@ -217,7 +221,7 @@ C     Other meshes; a node that moves in place.
       IF (N2 .NE. 0) CALL FAILED('a mesh without nodes')
       CALL RIISF_MESH_DESTROY(MESH2)
 
-C     Rows of one's own.
+C     The caller's own rows.
       CALL RIISF_MESH_SET_ADJACENCY(MESH, NN, ROWS, COLS, 1, 0, STAT)
       CALL OK(STAT)
       CALL SAME(SURF, MESH, RIIS_SEARCH_NEIGHBOR, N, NODE)
@@ -240,7 +244,7 @@ C     Rows of one's own.
      &  1, RES, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'adjacency')
 
-C     Those that the library makes.
+C     Adjacencies that the library makes.
       DO 90 I = 1, NC
         OFFS(I) = 8 * I - 7
         OFFSL(I) = OFFS(I)
@@ -288,7 +292,7 @@ C     Leaks.
 C     Motion and resistance.
       CALL MOTION(VALVE, MESH, NN)
 
-C     The valve moves, and all goes.
+C     The valve moves. Then everything is destroyed.
       VALUES(1) = 1D0
       CALL RIISF_VALVE_SET(VALVE, 'opening', 1, VALUES, STAT)
       CALL OK(STAT)
@@ -312,7 +316,7 @@ C     The valve moves, and all goes.
       PRINT *, N, ' nodes marked'
       END
 
-C     The search has to mark these nodes.
+C     Checks that the search marks these nodes.
       SUBROUTINE SAME(SURF, MESH, SEARCH, N, NODE)
       INTEGER*8 SURF, MESH, RES
       INTEGER SEARCH, N, NODE(N), N2, I, STAT
@@ -497,8 +501,8 @@ C     node to the last one.
      &  POINT3(1) .NE. POINT(1)) CALL FAILED('the same passage')
       END
 
-C     What a valve means for the flow. The box is wider than the
-C     valve, so flow passes also when it is closed.
+C     Measures of the valve for the flow. The box is wider than the
+C     valve, so flow passes even if the valve is closed.
       SUBROUTINE MEANS(MESH, RES)
       INTEGER NN
       PARAMETER (NN = 9261)
@@ -560,7 +564,7 @@ C     valve, so flow passes also when it is closed.
       CALL RIISF_VALVE_DESTROY(VALVE)
       END
 
-C     A valve that moves by 0.01 in 2 ms, the fields of its closest
+C     The valve moves by 0.01 in 2 ms. Tests the fields of the closest
 C     points, and the resistance of the nodes.
       SUBROUTINE MOTION(VALVE, MESH, NN)
       INTEGER MN
@@ -599,7 +603,7 @@ C     points, and the resistance of the nodes.
       CALL RIISF_SURFACE_UPDATE_MOVING(SURF, VALVE, TWIN, 0D0, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'dt is 0')
 
-C     At rest.
+C     The valve is at rest, so the velocities are 0.
       CALL RIISF_SURFACE_UPDATE_MOVING(SURF, VALVE, TWIN, 1D0, STAT)
       CALL OK(STAT)
       CALL RIISF_MARK_WITH_FIELDS(SURF, MESH, 0.3D0, RIIS_SEARCH_AUTO,
@@ -610,7 +614,7 @@ C     At rest.
       CALL OK(STAT)
       IF (N .LT. 100 .OR. ABS(VEL(3,N)) .GT. 0D0) CALL FAILED('rest')
 
-C     On the way up.
+C     The surface moves upwards.
       CALL RIISF_SURFACE_PLACE_MOVING(SURF, VALVE, TWIN, 2D-3, 0.12D0,
      &  7D0, 1D0, AXIS, 0D0, ZERO, 1D0, AXIS, 0D0, BELOW, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'tolerance is 7')
@@ -681,7 +685,7 @@ C     On the way up.
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'length is 5')
       IF (I .NE. N2) CALL FAILED('how long it has to be')
 
-C     K, K u and the reaction to a flow of 6 upwards.
+C     Tests K, K u, and the reaction to a flow upwards with speed 6.
       DO 20 I = 1, NN
         K(I) = 0D0
         K2(I) = 1D0
@@ -801,7 +805,7 @@ C     K of the nodes in the lists is K in the array of all nodes.
       CALL RIISF_SURFACE_DESTROY(SURF)
       END
 
-C     Coordinates of both precisions, copied.
+C     Makes meshes that copy coordinates of both precisions.
       SUBROUTINE COPIES(SURF, NN, XYZ)
       INTEGER*8 SURF, MESH, RES, BIG
       INTEGER NN, STAT, N, N2, I, NODE(10000), NODE2(10000)
@@ -856,8 +860,8 @@ C     Coordinates of both precisions, copied.
       CALL RIISF_MARKS_DESTROY(RES)
       END
 
-C     The rows, cells and faces between neighbours of a box of M**3
-C     nodes, counted from 1.
+C     Gives the rows, the cells and the faces between neighbours of a
+C     box of M**3 nodes, counted from 1.
       SUBROUTINE ROWSOF(M, ROWS, COLS, CELLS, FACES, NFACES)
       INTEGER M, ROWS(*), COLS(*), CELLS(8,*), FACES(2,*), NFACES
       INTEGER I, J, K, L, N, C
@@ -994,7 +998,7 @@ C     Sums of leaflets and of edges add up to the force of the whole.
    50   CONTINUE
         IF (ABS(SUM) .GT. 1D-8) CALL FAILED('the sum of edges')
    60 CONTINUE
-C     The force is upwards: so is none of the moments.
+C     The force is upwards, so its moment has no component along z.
       IF (ABS(MW(3)) .GT. 1D-9 .OR. ABS(MW(1)) .LT. 1D-3)
      &  CALL FAILED('the moment')
       END

@@ -1,6 +1,6 @@
 C     SPDX-License-Identifier: Apache-2.0
-C     Laws of opening, frames in time and surfaces from arrays, as a
-C     Fortran 77 code calls them, against closed forms.
+C     Tests laws of opening, frames in time and surfaces from arrays, as
+C     a Fortran 77 code calls them, against closed forms.
       PROGRAM TF77M
       CALL TABLE
       CALL TIMES
@@ -13,7 +13,7 @@ C     Fortran 77 code calls them, against closed forms.
       PRINT *, 'motion by external subroutines'
       END
 
-C     Two numbers that have to be equal.
+C     Checks that two numbers are equal.
       SUBROUTINE NEAR(A, B, TEXT)
       DOUBLE PRECISION A, B
       CHARACTER*(*) TEXT
@@ -61,7 +61,8 @@ C     Two numbers that have to be equal.
       CALL NEAR(OPEN, 0.5D0, 'a refused call writes nothing')
       END
 
-C     To the end at once, and from a state that went through a file.
+C     A switch gives the same states in one run and after a restart from
+C     a file.
       SUBROUTINE SWITCH
       INCLUDE 'riisf.h'
       DOUBLE PRECISION S(7), ALL(7), T
@@ -141,8 +142,8 @@ C     Without a drive, friction stops the leaflet.
       CALL NEAR(S(1), 0.1D0, 'refused calls write nothing')
       END
 
-C     A square between z = 0 and z = 0.3. It marks nodes above it, which
-C     tells where it is, and how fast it moves.
+C     A square moves between z = 0 and z = 0.3. The marked nodes above
+C     the square show its height and its speed.
       SUBROUTINE FRAMES
       INCLUDE 'riisf.h'
       INTEGER*8 KEYS, KEYS2, SURF, BIG, IDSL(3,2)
@@ -271,8 +272,8 @@ C     The square rises by 0.3 in the first quarter.
       CALL RIISF_SURFACE_DESTROY(SURF)
       END
 
-C     What a surface consists of, and points beside a square at z = 0.1
-C     that rises with the speed 1.5.
+C     Tests a surface's vertices, velocities and closest points. The
+C     surface is a square at z = 0.1 that rises with the speed 1.5.
       SUBROUTINE CLOSE
       INCLUDE 'riisf.h'
       INTEGER NP
@@ -370,7 +371,7 @@ C     that rises with the speed 1.5.
       IF (D(1) .LT. RIIS_FAR_DISTANCE .OR. TRI(1) .NE. -1 .OR. D(3) .GT.
      &  0.2D0) CALL FAILED('a limit')
 
-C     By sampling there are no sides.
+C     A surface with distances by sampling has no sides.
       CALL RIISF_VALVE_CREATE('aortic', VALVE, STAT)
       CALL OK(STAT)
       CALL RIISF_SURFACE_MEASURE(SURF, VALVE, 0.12D0, 0.05D0, 1D0, AXIS,
@@ -383,7 +384,8 @@ C     By sampling there are no sides.
       CALL RIISF_SURFACE_DESTROY(SURF)
       END
 
-C     As many vertices at any opening, or not.
+C     A fixed triangulation keeps its number of vertices at every
+C     opening, and an adapted triangulation does not.
       SUBROUTINE FIXED
       INCLUDE 'riisf.h'
       INTEGER*8 SURF, VALVE
@@ -432,7 +434,7 @@ C     As many vertices at any opening, or not.
    10 CONTINUE
       END
 
-C     This value marks entries that are not written.
+C     Fills the arrays with a value that marks entries as not written.
       SUBROUTINE NOTHING(N, D, Q, NORMAL, TRI, LEAF, SIDE)
       INTEGER N, LEAF(N), SIDE(N), I, C
       INTEGER*8 TRI(N)
@@ -449,7 +451,8 @@ C     This value marks entries that are not written.
    20 CONTINUE
       END
 
-C     The points first, first + by, ... last have answers, others none.
+C     Checks that only the points first, first + by, ... last have
+C     results.
       SUBROUTINE BESIDE(N, P, D, Q, NORMAL, TRI, LEAF, SIDE, FIRST,
      &  LAST, BY)
       INTEGER N, LEAF(N), SIDE(N), FIRST, LAST, BY, I
@@ -477,7 +480,7 @@ C     The points first, first + by, ... last have answers, others none.
    10 CONTINUE
       END
 
-C     The corners of a square from -1 to 1, at a height.
+C     Gives the corners of a square from -1 to 1 at a height.
       SUBROUTINE CORNER(XYZ, HEIGHT)
       DOUBLE PRECISION XYZ(3,4), HEIGHT, SQUARE(2,4)
       INTEGER I
@@ -489,8 +492,8 @@ C     The corners of a square from -1 to 1, at a height.
    10 CONTINUE
       END
 
-C     The surface has to be this high over the z axis, and to rise with
-C     this speed: so say a node at z = 0.1 and one at z = 0.7.
+C     Checks the surface's height over the z axis and its upward speed,
+C     by a node at z = 0.1 and a node at z = 0.7.
       SUBROUTINE ABOVE(SURF, HEIGHT, SPEED)
       INCLUDE 'riisf.h'
       INTEGER*8 SURF, MESH, RES

@@ -151,7 +151,7 @@ contains
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the mesh was not created, or was destroyed')
   end subroutine test_mesh_errors
 
-  ! Meshes that copy temporaries of both precisions. The caller's arrays may be freed afterwards.
+  ! Tests meshes that copy temporaries of both precisions. The caller's arrays may be freed afterwards.
   subroutine test_copies()
     type(riis_mesh) :: mesh
     type(riis_marks) :: marks
@@ -220,7 +220,7 @@ contains
     call mesh%set_adjacency(small_offsets, small_columns, status=status)
     call check_ok(status, 'rows of 32 and 32 bits')
     call check_marking(mesh, 'rows of 32 and 32 bits', RIIS_SEARCH_NEIGHBOR)
-    ! Rows that count from 0, with ghost nodes.
+    ! These rows count from 0 and name ghost nodes.
     offsets_0 = offsets - 1
     columns_0 = columns - 1
     columns_0(1) = n_nodes + 4
@@ -285,7 +285,7 @@ contains
     call mesh%destroy()
   end subroutine test_row_errors
 
-  ! Adjacencies of all kinds: six tetrahedra to each cube of the box, hexahedra, faces and the grid.
+  ! Tests adjacencies of all kinds: from six tetrahedra in each cube of the box, from hexahedra, from faces and from the grid.
   subroutine test_adjacencies()
     integer, parameter :: corners(3, 8) = reshape([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1], &
       [3, 8])

@@ -199,7 +199,7 @@ contains
     call check(size(leaflets) > 0 .and. all(leaflets == 5) .and. all(patches == 0), 'the leaflet and patch ids')
     call valve%destroy()
 
-    ! The same patch with one side reversed, counted from 0, with integers of the other kind.
+    ! The same patch: one side is reversed, and curves and sides are integers of the other kind that count from 0.
     control(:, 3:4) = square(:, [3, 4])
     reversed = .false.
     reversed(2, 1) = .true.
@@ -515,7 +515,7 @@ contains
     call surface%destroy()
   end subroutine test_log
 
-  ! Calls with handles that were not created.
+  ! Calls refuse handles that were not created.
   subroutine test_empty()
     type(riis_triangles) :: all_triangles
     type(riis_valve) :: valve

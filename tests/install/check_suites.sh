@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # check_suites.sh CTEST SOURCE_DIR BUILD_DIR SCRATCH_FOLDER
 # ./run test must leave out the slow tests and no others. ./run quick must contain no slow test, and continuous integration must
-# run every part. CTest adds the fixtures of a chosen test, so a test that is not slow may have no slow fixture.
+# run every part. CTest adds the fixtures of a chosen test, so a test that is not slow must not have a slow fixture.
 set -euo pipefail
 ctest=$1 source=$2 build=$3 scratch=$4
 

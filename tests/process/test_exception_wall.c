@@ -56,9 +56,9 @@ static int update_without_memory(void) {
   return 0;
 }
 
-/* Runs in a child process too. The valve has many patches, and the first one already has too many quads. The library makes the
- * curves of a few patches before it counts the quads. It must not make all curves, which would take a gigabyte. Returns 0 if
- * this holds. */
+/* This check also runs in a child process. The valve has many patches, and the first one already has too many quads. The library
+ * makes the curves of a few patches before it counts the quads. It must not make all curves, which would take a gigabyte. Returns
+ * 0 if this holds. */
 static int refusal_with_little_memory(void) {
   enum { n_patches = 200, n_curves = 4 * n_patches };
   static const double ends[4][4] = {{0, 0, 1, 0}, {0, 1, 1, 1}, {0, 0, 0, 1}, {1, 0, 1, 1}};

@@ -36,7 +36,7 @@ static inline uint64_t add_valve(uint64_t digest, riis_valve *valve) {
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5 * half));
     const riis_status status = riis_surface_create(valve, &coarse, &surface);
     own(surface);
-    digest = add_bytes(digest, &status, sizeof status); /* the valve may have no open state, which gives a status */
+    digest = add_bytes(digest, &status, sizeof status); /* without an open state, the status is an error */
     if (!status) digest = add_surface(digest, surface);
     free_one_owned(surface);
   }

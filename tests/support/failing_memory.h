@@ -15,7 +15,7 @@ enum {
   MEMORY_OF_LIBRARY = 0, /* operator new called by the library's code, on any thread */
   MEMORY_OF_WORKERS = 1, /* the same, but on all threads except the one that calls memory_fail */
   MEMORY_OF_EMBREE = 2,  /* requests of Embree to its memory monitor */
-  MEMORY_OF_ALL = 3      /* these and malloc of any caller; not with sanitizers, which have their own malloc */
+  MEMORY_OF_ALL = 3 /* all of the above, and malloc of any caller; not with sanitizers, which have their own malloc */
 };
 
 /* Chooses the object that counts as the library: the one with this function. The default is the core. */

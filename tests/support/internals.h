@@ -170,8 +170,8 @@ typedef struct kernel_filter {
 int64_t kernels_filter(int set, const kernel_filter *filter, int32_t room, kernel_pair **pairs, int64_t *n_calls);
 /* Gives the squares of the first bounds: lower bounds by groups, lower_sq(32, n_groups), and upper bounds, upper_sq(32). */
 void kernels_first_bounds(int set, const kernel_filter *filter, float *lower_sq, float *upper_sq);
-/* Sets near(n_groups). Each entry has a bit for each of up to 16 boxes, of one node each, that the group may be near. Returns
- * the kernel's result. */
+/* Each of up to 16 boxes contains one node. Sets near(n_groups): an entry has one bit for each box, which is 1 if the group may
+ * be near the box. Returns the kernel's result. */
 int kernels_near_boxes(int set, const kernel_filter *filter, uint16_t *near);
 
 /* Gets the samples of a surface that measures distances by sampling. Returns their number n. The surface owns xyz(3, n). Their

@@ -200,7 +200,7 @@ static riis_status update_from_triangles(world *w) {
   return riis_surface_update_from_arrays(w->surface, &arrays, &options);
 }
 
-/* The first query with a side on this surface. */
+/* Makes the first query with a side on this surface. */
 static riis_status closest_point(world *w) {
   const double point[3] = {0.1, 0.2, 0.3};
   riis_closest closest, before;
