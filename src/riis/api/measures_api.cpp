@@ -215,6 +215,8 @@ riis_status riis_find_first_passage(const riis_valve *valve, const riis_mesh *me
     check_range("options", "tolerance", whole.tolerance, 1e-6, 1);
     riis::check_struct_size<riis_first_passage>(struct_size, "first");
     require(first, "first");
+    if (!valve->valve.can_open())
+      riis::fail(RIIS_INVALID_PARAMETER, "valve has only one state: set its open state with riis_valve_set_open_state");
     PassageTrials trials(valve, mesh, ends, whole);
     riis_first_passage found = first_passage(trials, whole.tolerance);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
