@@ -79,7 +79,7 @@ subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: surface                   !< A surface, closed.
-  real(c_double), intent(in) :: R                         !< > 0, at most 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 1e-60 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
   real(c_double), intent(in) :: drop                      !< Pressure upstream less that downstream, magnitude at most 1e30.
   real(c_double), intent(inout) :: flow                   !< Written on success.

@@ -88,7 +88,7 @@ contains
   !! bileaflet housing does not count. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
   subroutine riis_get_leak(surface, R, drop, flow, half_thickness, status)
     class(riis_surface), intent(in) :: surface              !< Created, closed.
-    real(c_double), intent(in) :: R                         !< > 0, at most 1e60, mass / (length time): kg/(m s).
+    real(c_double), intent(in) :: R                         !< 1e-60 to 1e60, mass / (length time): kg/(m s).
     real(c_double), intent(in) :: drop                      !< Pressure upstream less that downstream, magnitude at most 1e30.
     real(c_double), intent(inout) :: flow                   !< Left alone on an error.
     real(c_double), intent(in), optional :: half_thickness  !< eps of the resistance. Default RIIS_AUTO: the surface's.

@@ -205,9 +205,16 @@ static void leaks_are_ideal(void **state) {
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "flow is NULL", riis_surface_get_leak(surface, &how, 1, NULL));
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance is NULL", riis_surface_get_leak(surface, NULL, 1, &flow));
     how.R = 0;
-    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.R is 0|above 0", riis_surface_get_leak(surface, &how, 1, &flow));
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.R is 0|from 1e-60 to 1e+60",
+                  riis_surface_get_leak(surface, &how, 1, &flow));
     how.R = NAN;
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.R is nan", riis_surface_get_leak(surface, &how, 1, &flow));
+    /* A smaller R would make the flow infinite, and NaN without a drop. */
+    how.R = 1e-61;
+    CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.R is 1e-61", riis_surface_get_leak(surface, &how, 0, &flow));
+    how.R = 1e-60, how.half_thickness = 1e50;
+    CHECK_OK(riis_surface_get_leak(surface, &how, 1e30, &flow));
+    assert_true(isfinite(flow) && flow > 0);
   }
 }
 
@@ -257,6 +264,34 @@ static void wrong_calls_are_refused(void **state) {
   CHECK_NEAR(none.axis[2], 1, 0);
 }
 
+/* Two patches hang on arches in a plane through the axis, so that their outline is seen edge on. Placements round it. */
+static void outlines_seen_edge_on_are_none(void **state) {
+  (void)state;
+  shape wings = {0};
+  for (int side = -1; side <= 1; side += 2) {
+    const double arch[3][3] = {{-1, 0, 0}, {0, 0, side}, {1, 0, 0}};
+    const int32_t first = (int32_t)wings.n_curves;
+    add_curve(&wings, 2, arch);
+    add_line(&wings, -1, side, 0, 1, side, 0);
+    add_line(&wings, -1, 0, 0, -1, side, 0);
+    add_line(&wings, 1, 0, 0, 1, side, 0);
+    add_patch(&wings, first, first + 1, first + 2, first + 3);
+  }
+  for (int trial = 0; trial < 40; ++trial) {
+    riis_surface_options options = surface_options();
+    options.scale = pow(10, between(-3, 3));
+    options.rotation_angle = between(-180, 180);
+    options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
+    for (int c = 0; c < 3; ++c) {
+      options.rotation_axis[c] = between(-1, 1);
+      options.translation[c] = options.scale * between(-1, 1) * (trial % 4 == 3 ? 1e9 : 10);
+    }
+    const riis_orifice none = orifice_of(surface_of(&wings, &options), NULL);
+    assert_int_equal(none.outline, RIIS_OUTLINE_NONE);
+    CHECK_NEAR(none.area + none.outline_area, 0, 0);
+  }
+}
+
 int main(void) {
   rng = random_start("test_orifice");
   const struct CMUnitTest tests[] = {
@@ -266,6 +301,7 @@ int main(void) {
       cmocka_unit_test(leaflets_share_the_surface),
       cmocka_unit_test(leaks_are_ideal),
       cmocka_unit_test(wrong_calls_are_refused),
+      cmocka_unit_test(outlines_seen_edge_on_are_none),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -189,8 +189,7 @@ riis_status riis_surface_get_leak(const riis_surface *surface, const riis_resist
   return guarded([&] {
     const riis::Surface &content = riis::content_of(surface);
     const riis_resistance whole = resistance_for(require(resistance, "resistance"), content);
-    if (!(whole.R > 0 && whole.R <= 1e60))
-      riis::fail(RIIS_INVALID_ARGUMENT, "resistance.R is ", whole.R, "; it must be above 0 and at most 1e+60");
+    check_range("resistance", "R", whole.R, 1e-60, 1e60);
     check_range("", "drop", drop, -1e30, 1e30);
     require(flow, "flow");
     const double area =
