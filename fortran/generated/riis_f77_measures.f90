@@ -118,7 +118,7 @@ end subroutine riisf_cells_across
 
 !> Gives the volume that a valve sweeps between two openings: the integral of u_surface . n over surface and time, positive along
 !! the normals. Errors: RIIS_INVALID_ARGUMENT for an opening out of range and for a leaflet that the valve lacks;
-!! RIIS_INVALID_PARAMETER for parameters that do not go together, and for a valve with only one state.
+!! RIIS_INVALID_PARAMETER for parameters that do not go together, and for a valve with one state unless both are 0.
 subroutine riisf_valve_swept_volume(valve, opening_from, opening_to, scale, leaflet_id, volume, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
