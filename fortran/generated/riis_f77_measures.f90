@@ -79,7 +79,7 @@ subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
   use riis_support, only: c_handle_of
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created and closed.
-  real(c_double), intent(in) :: R                         !< > 0, at most 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: R                         !< 1e-60 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
   real(c_double), intent(in) :: drop                      !< Upstream minus downstream pressure, magnitude at most 1e30.
   real(c_double), intent(inout) :: flow                   !< Written on success.
@@ -118,7 +118,7 @@ end subroutine riisf_cells_across
 
 !> Gives the volume that a valve sweeps between two openings: the integral of u_surface . n over surface and time, positive along
 !! the normals. Errors: RIIS_INVALID_ARGUMENT for an opening out of range and for a leaflet that the valve lacks;
-!! RIIS_INVALID_PARAMETER for parameters that do not fit together, and for a valve with only one state.
+!! RIIS_INVALID_PARAMETER for parameters that do not fit together, and for a valve with one state unless both are 0.
 subroutine riisf_valve_swept_volume(valve, opening_from, opening_to, scale, leaflet_id, volume, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64

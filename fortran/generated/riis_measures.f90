@@ -88,7 +88,7 @@ contains
   !! The bileaflet housing does not count. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
   subroutine riis_get_leak(surface, R, drop, flow, half_thickness, status)
     class(riis_surface), intent(in) :: surface              !< Must be created and closed.
-    real(c_double), intent(in) :: R                         !< > 0, at most 1e60, mass / (length time): kg/(m s).
+    real(c_double), intent(in) :: R                         !< 1e-60 to 1e60, mass / (length time): kg/(m s).
     real(c_double), intent(in) :: drop                      !< Upstream minus downstream pressure, magnitude at most 1e30.
     real(c_double), intent(inout) :: flow                   !< Unchanged on an error.
     real(c_double), intent(in), optional :: half_thickness  !< eps of the resistance. Default RIIS_AUTO: the surface's.
@@ -133,7 +133,7 @@ contains
 
   !> Gives the volume that a valve sweeps between two openings, in mesh units cubed: the integral of u_surface . n over surface
   !! and time, positive along the normals. Errors: RIIS_INVALID_ARGUMENT for an opening out of range and a leaflet that the
-  !! valve lacks; RIIS_INVALID_PARAMETER for parameters that do not fit together, and for a valve with only one state.
+  !! valve lacks; RIIS_INVALID_PARAMETER for parameters that do not fit together, and for a valve with one state unless both are 0.
   subroutine swept_volume_of_valve(valve, opening_from, opening_to, volume, leaflet_id, scale, flip_normals, n_threads, status)
     class(riis_valve), intent(in) :: valve                  !< Must be created. Its own opening has no effect.
     real(c_double), intent(in) :: opening_from              !< 0 to 1.

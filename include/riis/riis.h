@@ -1068,7 +1068,7 @@ RIIS_API riis_status riis_surface_get_orifice(const riis_surface *surface, const
 
 /* Tells the ideal leak of a closed surface: the volume flow through it at a pressure drop, drop * (eps / R) * area.
  * The area is that of all triangles without the bileaflet housing. A solver leaks by its own drop (docs/solvers.md).
- *   resistance  R, greater than 0, and half_thickness count. RIIS_AUTO stands for the surface's half thickness
+ *   resistance  R, 1e-60 to 1e60, and half_thickness count. RIIS_AUTO stands for the surface's half thickness
  *   drop        pressure upstream less that downstream, magnitude at most 1e30
  *   flow        its unit is that of drop * area * eps / R: m^3/s in SI units
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value. */
@@ -1143,7 +1143,7 @@ enum {
  *   leaflet_id  RIIS_LEAFLET_*, or that of a patch, or RIIS_ALL_LEAFLETS
  * The result is within 1e-3 of the largest volume that a leaflet sweeps from 0 to 1 (docs/theory.md, section 15).
  * Errors: RIIS_INVALID_ARGUMENT for an opening out of range and for a leaflet that the valve lacks;
- * RIIS_INVALID_PARAMETER for parameters that do not go together, and for a valve with only one state. */
+ * RIIS_INVALID_PARAMETER for parameters that do not go together, and for a valve with one state unless both are 0. */
 RIIS_API riis_status riis_valve_get_swept_volume(const riis_valve *valve, double opening_from, double opening_to,
                                                  const riis_surface_options *options, int32_t leaflet_id,
                                                  double *volume);

@@ -321,7 +321,7 @@ REFUSED = {
         o.triangle, o.faces).orifice()),
     "rim of an orifice": (Argument, "rim: is 'square'", lambda o: o.surface.orifice(rim="square")),
     "half_thickness of an orifice": (Argument, "^half_thickness is 0", lambda o: o.surface.orifice(half_thickness=0.0)),
-    "R of a leak": (Argument, "R is 0; it must be above 0", lambda o: o.surface.leak(1.0, R=0.0)),
+    "R of a leak": (Argument, "R is 0; it must be from 1e-60 to 1e\\+60", lambda o: o.surface.leak(1.0, R=0.0)),
     "drop": (Argument, "^drop is nan", lambda o: o.surface.leak(math.nan, R=1.0)),
     "opening of a sweep": (Argument, "^opening_to is 2", lambda o: riis.Valve().swept_volume(0.0, 2.0)),
     "leaflet of a sweep": (Argument, "^leaflet_id is 9, .*; None stands for all$",

@@ -140,8 +140,11 @@ static void slits_open_at_their_width(void **state) {
   const two_ends e = {node_at(&nodes, 0, 0, -1), node_at(&nodes, 0, 0, 1)};
   const riis_passage_ends ends = ends_of(&e);
   riis_first_passage first;
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "at the opening 0.125|only one state",
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "valve has only one state|riis_valve_set_open_state",
                 riis_find_first_passage(valve, mesh, &ends, NULL, &first, sizeof first));
+  /* A valve that is open in its one state is refused, too. */
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "valve has only one state",
+                riis_find_first_passage(opened, mesh, &ends, NULL, &first, sizeof first));
   CHECK_OK(riis_valve_set_open_state(valve, opened));
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5)); /* does not count */
   for (int trial = 0; trial < 8; ++trial) {

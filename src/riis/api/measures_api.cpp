@@ -189,8 +189,7 @@ riis_status riis_surface_get_leak(const riis_surface *surface, const riis_resist
   return guarded([&] {
     const riis::Surface &content = riis::content_of(surface);
     const riis_resistance whole = resistance_for(require(resistance, "resistance"), content);
-    if (!(whole.R > 0 && whole.R <= 1e60))
-      riis::fail(RIIS_INVALID_ARGUMENT, "resistance.R is ", whole.R, "; it must be above 0 and at most 1e+60");
+    check_range("resistance", "R", whole.R, 1e-60, 1e60);
     check_range("", "drop", drop, -1e30, 1e30);
     require(flow, "flow");
     const double area =
@@ -215,6 +214,8 @@ riis_status riis_find_first_passage(const riis_valve *valve, const riis_mesh *me
     check_range("options", "tolerance", whole.tolerance, 1e-6, 1);
     riis::check_struct_size<riis_first_passage>(struct_size, "first");
     require(first, "first");
+    if (!valve->valve.can_open())
+      riis::fail(RIIS_INVALID_PARAMETER, "valve has only one state: set its open state with riis_valve_set_open_state");
     PassageTrials trials(valve, mesh, ends, whole);
     riis_first_passage found = first_passage(trials, whole.tolerance);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;

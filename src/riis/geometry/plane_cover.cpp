@@ -224,9 +224,10 @@ Cover swapped(const Cover &cover) {
 }
 
 // Lines that are seen edge on enclose only an area by rounding.
-bool has_area(const Outline &outline) {
-  const double height = ScanLines(outline, 1).spacing();
-  return height > 0 && area_of(outline) > 1e-9 * height * height;
+bool has_area(const Outline &outline, double rounding) {
+  const double height = ScanLines(outline, 1).spacing(), width = ScanLines(swapped(outline), 1).spacing();
+  const double size = std::max(height, width);
+  return height > 0 && area_of(outline) > std::max(1e-9 * size, rounding) * size;
 }
 
 // Returns 1 or -1 for the side that the triangle is seen from, and 0 if it is seen edge on.
@@ -242,7 +243,7 @@ int side_of(const PlaneTriangle &corner) {
 
 Outline circle(double radius, const PlanePoint &centre) { return {radius, centre, {}}; }
 
-std::optional<Outline> closed_outline(const std::vector<std::vector<PlanePoint>> &lines) {
+std::optional<Outline> closed_outline(const std::vector<std::vector<PlanePoint>> &lines, double rounding) {
   Outline outline;
   std::map<PlanePoint, int> n_ends;
   for (const auto &line : lines) {
@@ -250,7 +251,7 @@ std::optional<Outline> closed_outline(const std::vector<std::vector<PlanePoint>>
     for (const PlanePoint &end : {line.front(), line.back()}) ++n_ends[end];
   }
   const bool is_closed = std::all_of(n_ends.begin(), n_ends.end(), [](const auto &end) { return end.second % 2 == 0; });
-  if (lines.empty() || !is_closed || !has_area(outline)) return std::nullopt;
+  if (lines.empty() || !is_closed || !has_area(outline, rounding)) return std::nullopt;
   return outline;
 }
 

@@ -24,8 +24,8 @@ struct Outline {
 
 Outline circle(double radius, const PlanePoint &centre);
 // Returns the outline of these lines, or nothing if they enclose no area or are not closed. Closed lines have an even number of
-// ends at each place.
-std::optional<Outline> closed_outline(const std::vector<std::vector<PlanePoint>> &lines);
+// ends at each place. Coordinates may be off by `rounding`, which encloses an area, too.
+std::optional<Outline> closed_outline(const std::vector<std::vector<PlanePoint>> &lines, double rounding = 0);
 
 // Triangles, and the edges that may bound what they cover: all but edges between two triangles on opposite sides.
 struct Cover {

@@ -19,6 +19,9 @@ class AlongAxis {
         y_axis_(placement.rotation * Vec3{0, 1, 0}),
         translation_(placement.translation) {}
 
+  // Points far from the origin are rounded more.
+  double rounding() const { return 0x1p-48 * length(translation_); }
+
   PlanePoint operator()(Vec3 p) const {
     const Vec3 from_origin = p - translation_;
     return {dot(x_axis_, from_origin), dot(y_axis_, from_origin)};
@@ -37,7 +40,7 @@ std::optional<Outline> outline_of(const TriangleSet &set, const ValveFrame &fram
     lines.emplace_back();
     for (const std::int64_t id : side.vertex_id) lines.back().push_back(seen(set.vertex(id)));
   }
-  return closed_outline(lines);
+  return closed_outline(lines, seen.rounding());
 }
 
 double area_of_triangle(const TriangleSet &set, std::int64_t i) {
