@@ -133,7 +133,7 @@ contains
 
   !> Gives the volume that a valve sweeps between two openings, in mesh units cubed: the integral of u_surface . n over surface
   !! and time, positive along the normals. Errors: RIIS_INVALID_ARGUMENT for an opening out of range and a leaflet that the
-  !! valve lacks; RIIS_INVALID_PARAMETER for parameters that do not fit together, and for a valve with one state unless both are 0.
+  !! valve lacks; RIIS_INVALID_PARAMETER for parameters that do not fit together, and for a valve of one state unless both are 0.
   subroutine swept_volume_of_valve(valve, opening_from, opening_to, volume, leaflet_id, scale, flip_normals, n_threads, status)
     class(riis_valve), intent(in) :: valve                  !< Must be created. Its own opening has no effect.
     real(c_double), intent(in) :: opening_from              !< 0 to 1.
