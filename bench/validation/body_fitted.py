@@ -128,7 +128,7 @@ def line(eps, area):
 
 
 def far_from(points, triangles):
-    """Returns the largest distance of a point from the triangles. Each point is compared with each triangle, as points are few."""
+    """Returns the largest distance of a point from the triangles. Points are few, so each is compared with each triangle."""
     a, b, c = (triangles[:, k] for k in range(3))
     largest = 0.0
     for point in points:

@@ -48,8 +48,8 @@ logged() {
 # Runs one function object in the folder of the mesh, to see whether it works. Replaces the function in openfoam.sh.
 openfoam_function_object() { "${of_with[@]}" postProcess -case "$mesh" -func writeCellCentres -time 0; }
 
-# make_mesh NAME VALVE FITTED SIZE BAND [FAR]: makes a mesh with gmsh, in meshes/NAME. VALVE is the name of the .geo file, a hyphen,
-# and the opening. The other arguments are options of the .geo file. Lengths are in centimetres.
+# make_mesh NAME VALVE FITTED SIZE BAND [FAR]: makes a mesh with gmsh, in meshes/NAME. VALVE is the name of the .geo file, a
+# hyphen, and the opening. The other arguments are options of the .geo file. Lengths are in centimetres.
 make_mesh() {
   mesh=$out/meshes/$1
   [[ ! -e $mesh/complete ]] || return 0
