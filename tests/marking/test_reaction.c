@@ -497,8 +497,8 @@ static void check_case(int kind, int32_t triangulation, int trial) {
     assert_memory_equal(got, other, sizeof *got);
   }
 
-  /* The sums of leaflets, and the sums of edges, must add up to the sum of the whole. The sums of a leaflet's edges must add up to
-   * the sum of the leaflet. The error is at most 1e-12 of the sum of magnitudes. */
+  /* The sums of leaflets, and the sums of edges, must add up to the sum of the whole. The sums of a leaflet's edges must add up
+   * to the sum of the leaflet. The error is at most 1e-12 of the sum of magnitudes. */
   const double tolerance = 1e-12 * (double)expected->size, of_moments = 1e-12 * (double)expected->arm;
   for (int c = 0; c < 3; ++c) {
     double force = 0, moment = 0, edge_force = 0, edge_moment = 0, of_first = 0;
@@ -550,8 +550,8 @@ static void sums_are_those_of_plain_loops(void **state) {
 /* --- Symmetric valves ------------------------------------------------------------------------------------------------ */
 
 /* In a flow along the axis of a symmetric valve, a turn about the axis takes the force on one leaflet to the force on the next.
- * The same holds for moments. The axis is oblique to the rows of nodes. If a node is nearest to the line where two closed leaflets
- * touch, it belongs to the leaflet with the lower id. This makes a difference of up to 2.5 percent here. */
+ * The same holds for moments. The axis is oblique to the rows of nodes. If a node is nearest to the line where two closed
+ * leaflets touch, it belongs to the leaflet with the lower id. This makes a difference of up to 2.5 percent here. */
 static void leaflets_of_symmetric_valves_share_alike(void **state) {
   (void)state;
   const struct {

@@ -144,8 +144,8 @@ static void attachments_are_closed_lines(void **state) {
   }
 }
 
-/* The attachment of a square patch is its side v = 0. A bent side has several edges. A side that two patches share does not belong
- * to the attachment. A bileaflet valve has no attachment. */
+/* The attachment of a square patch is its side v = 0. A bent side has several edges. A side that two patches share does not
+ * belong to the attachment. A bileaflet valve has no attachment. */
 static void patches_are_held_at_v_0(void **state) {
   (void)state;
   for (int trial = 0; trial < 8; ++trial) {
