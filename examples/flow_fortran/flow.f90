@@ -11,7 +11,7 @@ program flow_through_valve
   use flow_stop, only: clocks, refuse, step_number, step_time
   implicit none
   real(dp), parameter :: width = 0.033_dp, length = 0.0396_dp, bottom = -0.018_dp ! [m] the box around the root
-  real(dp), parameter :: z_up = -0.014_dp, z_down = 0.006_dp, z_jet = 0.0015_dp   ! [m] heights at which pressures and the jet are taken
+  real(dp), parameter :: z_up = -0.014_dp, z_down = 0.006_dp, z_jet = 0.0015_dp   ! [m] heights of the pressures and the jet
   type(flow), target :: fluid
   type(leaflets) :: valve
   type(circulation) :: heart
