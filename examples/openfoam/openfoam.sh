@@ -294,8 +294,8 @@ boundary
 END
 }
 
-# of_moving NAME MESH HALF_THICKNESS SOLVER OPENING: makes a case in which the valve opens from OPENING within 40 ms, between equal
-# pressures.
+# of_moving NAME MESH HALF_THICKNESS SOLVER OPENING: makes a case in which the valve opens from OPENING within 40 ms, between
+# equal pressures.
 of_moving() {
   local name=$1
   rm -rf "${of_cases:?}/$name"
