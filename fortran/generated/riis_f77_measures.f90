@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! Generated from fortran/templates/riis_f77_measures.fypp by fortran/expand_templates.sh: edit that template, not this file.
-!> The external subroutines for what a valve means for the flow: leaflets, orifice, leak, first passage, cells across the band
+!> The external subroutines for the measures of a valve for a flow: leaflets, orifice, leak, first passage, cells across the band
 !! and swept volume. The conventions are those of riis_f77.f90.
 
 !> Gives the number of the surface's leaflets.
@@ -49,10 +49,10 @@ subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_are
   integer(int64), intent(in) :: surface                   !< A surface made from a valve.
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_*.
-  real(c_double), intent(inout) :: area                   !< That the triangles leave uncovered.
-  real(c_double), intent(inout) :: outline_area           !< Inside of the outline.
-  real(c_double), intent(inout) :: perimeter              !< Of the orifice along the triangles.
-  real(c_double), intent(inout) :: effective_area         !< That the band leaves to the flow.
+  real(c_double), intent(inout) :: area                   !< The area that the triangles do not cover.
+  real(c_double), intent(inout) :: outline_area           !< The area inside the outline.
+  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles.
+  real(c_double), intent(inout) :: effective_area         !< The area that the band leaves to the flow.
   integer(int32), intent(inout) :: outline                !< RIIS_OUTLINE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -70,8 +70,8 @@ subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_are
   outline = orifice%outline
 end subroutine riisf_surface_orifice
 
-!> Tells the ideal leak of a closed surface: the volume flow through it at a pressure drop, drop * (eps / R) * area. The
-!! bileaflet housing does not count. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
+!> Gives the ideal leak of a closed surface: the volume flow drop * (eps / R) * area that a pressure drop causes. The bileaflet
+!! housing does not count. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
 subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
@@ -92,8 +92,8 @@ subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
   status = riis_surface_get_leak(c_handle_of(surface), resistance, drop, flow)
 end subroutine riisf_surface_leak
 
-!> Tells how many mesh edges lie across the band around the surface, by the edges with a marked node. Errors:
-!! RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks of another mesh or never marked with.
+!> Computes the number of mesh edges across the band, from the lengths of the edges with a marked node. Errors:
+!! RIIS_INVALID_ARGUMENT for a mesh without adjacency, for marks of another mesh, and for empty marks.
 subroutine riisf_cells_across(marks, mesh, least, mean, most, mean_edge, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
@@ -188,8 +188,8 @@ subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num,
   real(c_double), intent(in) :: opening_tolerance         !< 1e-6 to 1, usually 1e-3.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
-  real(c_double), intent(inout) :: opening                !< That was tried and has a passage.
-  real(c_double), intent(inout) :: closed_opening         !< The largest below it that was tried.
+  real(c_double), intent(inout) :: opening                !< The first opening with a passage.
+  real(c_double), intent(inout) :: closed_opening         !< The largest tried opening below it.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options), target :: surface
   type(riis_mark_options), target :: marking
@@ -250,8 +250,8 @@ subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_n
   real(c_double), intent(in) :: opening_tolerance         !< 1e-6 to 1, usually 1e-3.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as the work feeds.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
-  real(c_double), intent(inout) :: opening                !< That was tried and has a passage.
-  real(c_double), intent(inout) :: closed_opening         !< The largest below it that was tried.
+  real(c_double), intent(inout) :: opening                !< The first opening with a passage.
+  real(c_double), intent(inout) :: closed_opening         !< The largest tried opening below it.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options), target :: surface
   type(riis_mark_options), target :: marking

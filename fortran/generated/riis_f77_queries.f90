@@ -114,7 +114,7 @@ subroutine riisf_surface_vertex_velocities_64(surface, length, n, velocity, stat
 end subroutine riisf_surface_vertex_velocities_64
 
 !> Copies the edges at which tissue or a stent holds the leaflets of a valve (riis_surface_get_attachment in riis.h) into the
-!! caller's arrays. Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, or if the arrays are too short: nothing but n is then
+!! caller's arrays. Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, or if the arrays are too short. Only n is then
 !! written.
 subroutine riisf_surface_attachment(surface, length, n, edges, leaflet_id, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
@@ -123,9 +123,9 @@ subroutine riisf_surface_attachment(surface, length, n, edges, leaflet_id, statu
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: surface                   !< Created.
-  integer(int32), intent(in) :: length                    !< How many edges the arrays have room for.
-  integer(int32), intent(inout) :: n                      !< How many edges there are, also if the arrays are too short.
-  real(c_double), intent(inout) :: edges(3, 2, *)         !< (3, 2, length): both ends of each; written up to n.
+  integer(int32), intent(in) :: length                    !< The number of edges for which the arrays have room.
+  integer(int32), intent(inout) :: n                      !< The number of edges, also if the arrays are too short.
+  real(c_double), intent(inout) :: edges(3, 2, *)         !< (3, 2, length): both ends of each edge; written up to n.
   integer(int32), intent(inout) :: leaflet_id(*)          !< (length): the leaflet that is attached there; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_attachment) :: made
@@ -152,9 +152,9 @@ subroutine riisf_surface_attachment_64(surface, length, n, edges, leaflet_id, st
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: surface                   !< Created.
-  integer(int64), intent(in) :: length                    !< How many edges the arrays have room for.
-  integer(int64), intent(inout) :: n                      !< How many edges there are, also if the arrays are too short.
-  real(c_double), intent(inout) :: edges(3, 2, *)         !< (3, 2, length): both ends of each; written up to n.
+  integer(int64), intent(in) :: length                    !< The number of edges for which the arrays have room.
+  integer(int64), intent(inout) :: n                      !< The number of edges, also if the arrays are too short.
+  real(c_double), intent(inout) :: edges(3, 2, *)         !< (3, 2, length): both ends of each edge; written up to n.
   integer(int32), intent(inout) :: leaflet_id(*)          !< (length): the leaflet that is attached there; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_attachment) :: made

@@ -350,9 +350,8 @@ subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocit
   status = add_reaction_to(c_handle_of(marks), made, int(n_nodes, int64), velocity, weight, to)
 end subroutine riisf_add_reaction_64
 
-!> Adds the force of the flow and its moment about a point, for the whole surface and for each leaflet. A force acts at the
-!! closest point of the surface. Ranks give the same point, and add their sums by a reduction. Errors: as of
-!! riisf_add_reaction; also for
+!> Adds the force of the flow and its moment about a point, for the whole surface and for each leaflet. A node's force acts at
+!! its closest point. With MPI all ranks pass the same point, and add up their sums. Errors: as of riisf_add_reaction; also for
 !! too few leaflets, naming the leaflet id.
 subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, &
     about, n_leaflets, force, moment, leaflet_force, leaflet_moment, status)
@@ -371,12 +370,13 @@ subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, ve
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), of the flow.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that a node stands for; 0 for the nodes
                                                           !! of other ranks.
-  real(c_double), intent(in) :: about(3)                  !< The point that moments are about.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of the moments.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
-  real(c_double), intent(inout) :: force(3)               !< Added to: of the whole surface.
-  real(c_double), intent(inout) :: moment(3)              !< Added to: of the whole surface.
-  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets), added to; leaflet 0 has column 1.
-  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets), added to.
+  real(c_double), intent(inout) :: force(3)               !< The force on the whole surface is added.
+  real(c_double), intent(inout) :: moment(3)              !< The moment on the whole surface is added.
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): each leaflet's force is added. Leaflet 0 has
+                                                          !! column 1.
+  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): each leaflet's moment is added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: made
   type(riis_reaction) :: to
@@ -413,12 +413,13 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), of the flow.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that a node stands for; 0 for the nodes
                                                           !! of other ranks.
-  real(c_double), intent(in) :: about(3)                  !< The point that moments are about.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of the moments.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
-  real(c_double), intent(inout) :: force(3)               !< Added to: of the whole surface.
-  real(c_double), intent(inout) :: moment(3)              !< Added to: of the whole surface.
-  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets), added to; leaflet 0 has column 1.
-  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets), added to.
+  real(c_double), intent(inout) :: force(3)               !< The force on the whole surface is added.
+  real(c_double), intent(inout) :: moment(3)              !< The moment on the whole surface is added.
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): each leaflet's force is added. Leaflet 0 has
+                                                          !! column 1.
+  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): each leaflet's moment is added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: made
   type(riis_reaction) :: to
@@ -437,10 +438,10 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
   status = add_reaction_to(c_handle_of(marks), made, int(n_nodes, int64), velocity, weight, to)
 end subroutine riisf_add_leaflet_reaction_64
 
-!> Adds the force of the flow, and its moment about the middle of an edge, to the edge that is nearest to a node's closest point;
-!! of equally near edges to the first. Edges get shares for tissue codes, which are no mechanics of a membrane. Ranks give the
-!! same edges, and add their sums by a reduction. Errors: as of riisf_add_reaction; also for a bad edge, and for a leaflet without
-!! an edge.
+!> Adds the force of the flow on each edge, and its moment about the middle of the edge. A node counts for the edge nearest to its
+!! closest point; if edges are equally near, the first one counts. The sums are loads for tissue codes, and do not model how a
+!! membrane carries loads to its edges. With MPI all ranks pass the same edges, and add up their sums. Errors: as of
+!! riisf_add_reaction; also for a bad edge, and for a leaflet without an edge.
 subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, &
     n_edges, edges, edge_leaflet_id, edge_force, edge_moment, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -459,11 +460,11 @@ subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, veloc
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that a node stands for; 0 for the nodes
                                                           !! of other ranks.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
-  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node counts for the nearest edge of its leaflet. If
-                                                          !! the first is -1, that is all, and edges are for all leaflets.
-  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges), added to.
-  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges), added to; about the middle of each edge.
+                                                          !! the first entry is -1, only it is read, and all edges count.
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): each edge's force is added.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): each edge's moment about its middle is added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: made
   type(riis_reaction) :: to
@@ -500,11 +501,11 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that a node stands for; 0 for the nodes
                                                           !! of other ranks.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
-  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node counts for the nearest edge of its leaflet. If
-                                                          !! the first is -1, that is all, and edges are for all leaflets.
-  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges), added to.
-  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges), added to; about the middle of each edge.
+                                                          !! the first entry is -1, only it is read, and all edges count.
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): each edge's force is added.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): each edge's moment about its middle is added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: made
   type(riis_reaction) :: to

@@ -647,11 +647,11 @@ contains
   end subroutine marks_add_resistance
 
   !> Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), and its moment, for the whole surface,
-  !! each leaflet and each edge. A force acts at the closest point of the surface. All are plain sums over nodes: ranks give the
-  !! same points and edges, and add their sums by a reduction. u_surface counts where the marking had RIIS_FIELD_VELOCITY, and is
-  !! 0 otherwise. Moments and sums of edges need RIIS_FIELD_POINT. Edges get shares for tissue codes, which are no mechanics of a
-  !! membrane. Errors: as of %add_resistance; RIIS_INVALID_ARGUMENT also for too few leaflets, for a leaflet without an edge, and
-  !! for a bad edge.
+  !! each leaflet and each edge. A node's force acts at its closest point. Each result is a plain sum over nodes. With MPI all
+  !! ranks pass the same points and edges, and add up their sums. u_surface is 0 if the marking lacked RIIS_FIELD_VELOCITY.
+  !! Moments and sums of edges need RIIS_FIELD_POINT. The sums of edges are loads for tissue codes. They do not model how a
+  !! membrane carries loads to its edges. Errors: as of %add_resistance; RIIS_INVALID_ARGUMENT also for too few leaflets, for a
+  !! leaflet without an edge, and for a bad edge.
   subroutine marks_add_reaction(this, R, velocity, weight, force, half_thickness, rim, moment, about, leaflet_force, &
       leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
@@ -664,22 +664,22 @@ contains
                                                             !! RIIS_AUTO: the half thickness of the marking.
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND; RIIS_RIM_CUT needs
                                                             !! RIIS_FIELD_RIM.
-    real(c_double), intent(inout), optional :: moment(:)    !< (3): added to.
-    real(c_double), intent(in), optional :: about(:)        !< (3): the point of moment and leaflet_moment. Default 0.
-    real(c_double), intent(inout), optional :: leaflet_force(:, :) !< (3, n_leaflets): added to. n_leaflets is more than the
-                                                            !! surface's largest leaflet id; leaflet 0 has column 1.
-    real(c_double), intent(inout), optional :: leaflet_moment(:, :) !< (3, n_leaflets): added to.
-    real(c_double), intent(in), optional :: edges(:, :, :)  !< (3, 2, n_edges): both ends of each, such as those of
+    real(c_double), intent(inout), optional :: moment(:)    !< (3): the moment is added.
+    real(c_double), intent(in), optional :: about(:)        !< (3): reference point of moment and leaflet_moment. Default 0.
+    real(c_double), intent(inout), optional :: leaflet_force(:, :) !< (3, n_leaflets): each leaflet's force is added. n_leaflets
+                                                            !! is more than the largest leaflet id; leaflet 0 has column 1.
+    real(c_double), intent(inout), optional :: leaflet_moment(:, :) !< (3, n_leaflets): each leaflet's moment is added.
+    real(c_double), intent(in), optional :: edges(:, :, :)  !< (3, 2, n_edges): both ends of each edge, for example from
                                                             !! %get_attachment.
-    real(c_double), intent(inout), optional :: edge_force(:, :) !< (3, n_edges): added to. A node counts for the edge that is
-                                                            !! nearest to its closest point, the first of equals.
-    real(c_double), intent(inout), optional :: edge_moment(:, :) !< (3, n_edges): added to; about the middle of each edge.
+    real(c_double), intent(inout), optional :: edge_force(:, :) !< (3, n_edges): each edge's force is added. A node counts for
+                                                            !! the edge nearest to its closest point; the first, if equally near.
+    real(c_double), intent(inout), optional :: edge_moment(:, :) !< (3, n_edges): each edge's moment about its middle is added.
     integer(int32), intent(in), optional :: edge_leaflet_id(:) !< (n_edges): a node counts for the nearest edge of its
-                                                            !! leaflet. Default: of all.
+                                                            !! leaflet. Default: for the nearest of all edges.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_resistance) :: made
     type(riis_reaction) :: to
-    ! Copies of the sums are contiguous whatever the caller's are, and so are those of the edges.
+    ! These copies of sums and edges are contiguous. The caller's arrays may be sections that are not.
     real(c_double), target :: own_force(3), own_moment(3)
     real(c_double), pointer, contiguous :: own_leaflet_force(:, :), own_leaflet_moment(:, :), own_edge_force(:, :), &
       own_edge_moment(:, :)

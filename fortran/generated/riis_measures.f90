@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! Generated from fortran/templates/riis_measures.fypp by fortran/expand_templates.sh: edit that template, not this file.
-!> What a valve means for the flow: leaflets, orifice, leak, first passage, cells across the band and swept volume of riis.h, as
-!! a part of module riis.
+!> The measures of a valve for a flow: leaflets, orifice, leak, first passage, cells across the band and swept volume of riis.h,
+!! as a part of module riis.
 module riis_measures
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
@@ -67,7 +67,7 @@ contains
     call get_integer(rim, 'rim', made%rim, code)
   end subroutine get_resistance
 
-  !> Measures the orifice of a valve's surface: the area that its triangles leave uncovered along the valve's axis, and the
+  !> Measures the orifice of a valve's surface: the area that its triangles do not cover, seen along the valve's axis, and the
   !! effective area that the band leaves to the flow. Errors: RIIS_INVALID_ARGUMENT for an argument out of range, and for a
   !! surface from arrays or keyframes.
   subroutine riis_get_orifice(surface, orifice, half_thickness, rim, status)
@@ -84,8 +84,8 @@ contains
     call finish(code, status)
   end subroutine riis_get_orifice
 
-  !> Tells the ideal leak of a closed surface: the volume flow through it at a pressure drop, drop * (eps / R) * area. The
-  !! bileaflet housing does not count. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
+  !> Gives the ideal leak of a closed surface: the volume flow drop * (eps / R) * area that a pressure drop causes. The bileaflet
+  !! housing does not count. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
   subroutine riis_get_leak(surface, R, drop, flow, half_thickness, status)
     class(riis_surface), intent(in) :: surface              !< Created, closed.
     real(c_double), intent(in) :: R                         !< > 0, at most 1e60, mass / (length time): kg/(m s).
@@ -101,8 +101,8 @@ contains
     call finish(code, status)
   end subroutine riis_get_leak
 
-  !> Tells how many mesh edges lie across the band around the surface, by the edges with a marked node. Errors:
-  !! RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks of another mesh or never marked with.
+  !> Computes the number of mesh edges across the band, from the lengths of the edges with a marked node. Errors:
+  !! RIIS_INVALID_ARGUMENT for a mesh without adjacency, for marks of another mesh, and for empty marks.
   subroutine riis_get_cells_across(marks, mesh, cells, status)
     class(riis_marks), intent(in) :: marks                  !< From riis_mark_nodes.
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.

@@ -768,10 +768,10 @@ contains
     call finish(code, status)
   end subroutine surface_get_triangles
 
-  !> Points to the edges at which tissue or a stent holds the leaflets of a valve, without a copy: where cusps meet the sinus, the
-  !! mitral annulus, the sides v = 0 of patches that no other patch has. A bileaflet valve has none. They are valid until the
-  !! surface's next update or its destruction. Do not write to them. Sizes are 0 on an error. Errors: RIIS_INVALID_ARGUMENT for a
-  !! surface from arrays, whose attached and free edges look alike.
+  !> Points to the edges at which tissue or a stent holds the leaflets of a valve, without a copy. Cusps are attached at the
+  !! sinus, mitral leaflets at the annulus, and patches at the sides v = 0 that only one patch has. A bileaflet valve has no attachment.
+  !! The pointers are valid until the surface's next update or its destruction. Do not write to the arrays. On an error all sizes
+  !! are 0. Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, because nothing tells which of its edges are attached.
   subroutine surface_get_attachment(this, attachment, status)
     class(riis_surface), intent(in) :: this                 !< Created.
     type(riis_attachment), intent(inout) :: attachment      !< Every component is set.

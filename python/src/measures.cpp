@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a valve means for the flow: leaflets, orifice, leak, first passage, cells across and swept volume.
+// Binds the measures of a valve for a flow: leaflets, orifice, leak, first passage, cells across and swept volume.
 #include "arguments.hpp"
 #include "errors.hpp"
 #include "module.hpp"
@@ -121,7 +121,7 @@ nb::object find_first_passage(nb::handle valve_, nb::handle mesh_, nb::handle fr
 #define RIIS_RIM_MODEL "half_thickness: float | None = None, rim: typing.Literal['round', 'cut'] = 'round'"
 #define RIIS_SWEEP "leaflet_id: int | None = None, scale: float = 1.0"
 
-// Adds a method to a class that another part made.
+// Adds a method to a class that another source file defined.
 template <class Function, class... Extra>
 void add_method(nb::module_ &module, const char *type, const char *name, Function function, const Extra &...extra) {
   nb::cpp_function_def(function, nb::scope(module.attr(type)), nb::name(name), nb::is_method(), extra...);
@@ -136,18 +136,18 @@ void add_measures(nb::module_ &module) {
   add_method(
       module, "Surface", "orifice", &orifice, nb::kw_only(), nb::arg("half_thickness").none() = nb::none(),
       nb::arg("rim").none() = "round", nb::sig("def orifice(self, *, " RIIS_RIM_MODEL ") -> riis._records.Orifice"),
-      R"(Measures the orifice of a valve's surface: what its triangles leave uncovered, seen along the valve's axis.
+      R"(Measures the orifice of a valve's surface: the area that its triangles do not cover, seen along the valve's axis.
 
-half_thickness  eps of the resistance; None: that of the surface
-rim             'round' or 'cut', as of the resistance)");
+half_thickness  eps of the resistance; None: the surface's half thickness
+rim             rim of the resistance, 'round' or 'cut')");
   add_method(module, "Surface", "leak", &leak, nb::arg("drop").none(), nb::kw_only(), nb::arg("R").none(),
              nb::arg("half_thickness").none() = nb::none(),
              nb::sig("def leak(self, drop: float, *, R: float, half_thickness: float | None = None) -> float"),
              R"(Returns the ideal leak of a closed surface: the volume flow drop * (eps / R) * area.
 
-drop            pressure upstream less that downstream
+drop            upstream pressure minus downstream pressure
 R               mass / (length time), such as kg/(m s), above 0
-half_thickness  eps of the resistance; None: that of the surface)");
+half_thickness  eps of the resistance; None: the surface's half thickness)");
   add_method(module, "Valve", "swept_volume", &swept_by_valve, nb::arg("opening_from").none(),
              nb::arg("opening_to").none(), nb::kw_only(), nb::arg("leaflet_id").none() = nb::none(),
              nb::arg("scale").none() = 1.0, nb::arg("n_threads").none() = 0,
@@ -155,8 +155,8 @@ half_thickness  eps of the resistance; None: that of the surface)");
                      ", n_threads: int = 0) -> float"),
              R"(Returns the volume that the valve sweeps between two openings, positive along the normals.
 
-leaflet_id  one leaflet; None: all
-scale       turns lengths into the mesh's unit)");
+leaflet_id  the leaflet; None: the sum over all leaflets
+scale       the valve's unit of length in mesh units)");
   add_method(module, "Keyframes", "swept_volume", &swept_by_keyframes, nb::arg("time_from").none(),
              nb::arg("time_to").none(), nb::kw_only(), nb::arg("leaflet_id").none() = nb::none(),
              nb::arg("scale").none() = 1.0,
@@ -164,9 +164,9 @@ scale       turns lengths into the mesh's unit)");
              "Returns the volume that the frames sweep between two times, positive along the normals.");
   add_method(module, "Marks", "cells_across", &cells_across, nb::arg("mesh").none(),
              nb::sig("def cells_across(self, mesh: Mesh) -> riis._records.CellsAcross"),
-             R"(Tells how many mesh edges lie across the band, by the edges of the adjacency with a marked node.
+             R"(Computes the number of mesh edges across the band, from the lengths of the edges with a marked node.
 
-mesh  that of the marking)");
+mesh  the mesh of the marking, with an adjacency)");
   module.def("find_first_passage", &find_first_passage, nb::arg("valve").none(), nb::arg("mesh").none(),
              nb::arg("from_ids").none(), nb::arg("to_ids").none(), nb::kw_only(),
              nb::arg("opening_tolerance").none() = 1e-3, nb::arg("mask").none() = nb::none(),
@@ -179,9 +179,9 @@ mesh  that of the marking)");
 
 from_ids, to_ids   as for find_passage
 opening_tolerance  1e-6 to 1
-options            those of riis.Surface
+options            options of riis.Surface
 
-The call tries 0, 1/8, 2/8, ... until one is open, and then halves the last step.)");
+The call tries the openings 0, 1/8, 2/8, ... until a passage is open, and then halves the last step.)");
 }
 
 }  // namespace riis_python

@@ -40,7 +40,7 @@ void add_to(Marks &result, nb::handle K_, nb::handle K_u_surface_, nb::handle R,
   call_library([&] { return riis_marks_add_resistance(result.handle, &model, &to); });
 }
 
-// An array of sums (n_rows, 3), or (3,) for n_rows -1, to which a call adds; none for None.
+// Returns the caller's array of sums. Its shape is (n_rows, 3), or (3,) if n_rows is -1. Returns nothing for None.
 std::optional<Array> sums_of(nb::handle given, const char *name, std::int64_t n_rows) {
   if (given.is_none()) return std::nullopt;
   std::optional<Array> sums(Array::of<double>(given, name, Access::write));
@@ -53,7 +53,7 @@ std::optional<Array> sums_of(nb::handle given, const char *name, std::int64_t n_
 
 double *data_of(const std::optional<Array> &sums) { return sums ? sums->data<double>() : nullptr; }
 
-// Returns the number of rows of the first array that is given, 0 without one.
+// Returns the number of rows of the first array that is not None, or 0 if both are None.
 std::int64_t n_rows_of(nb::handle first, const char *first_name, nb::handle second, const char *second_name) {
   if (first.is_none() && second.is_none()) return 0;
   const bool has_first = !first.is_none();
@@ -162,23 +162,23 @@ rim             'round': every node within eps gets K; 'cut': nodes whose closes
                   " | None = None, edges: " RIIS_REALS " | None = None, edge_force: " RIIS_REALS
                   " | None = None, edge_moment: " RIIS_REALS
                   " | None = None, edge_leaflet_id: numpy.typing.NDArray[numpy.int32] | None = None) -> " RIIS_REALS),
-          R"(Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force, and returns it.
+          R"(Adds the force of the flow on the surface, the sum of weight K (velocity - u_surface), to force. Returns force.
 
-Each array of float64 that is given gets its sum added, by leaflet or by edge also. Moments and sums of edges need
-fields='point': a force acts at the closest point of the surface. Ranks add their sums. The shares of edges are for tissue codes,
-and no mechanics of a membrane.
+The call also adds the other sums whose arrays are given, all float64. Moments and sums of edges need fields='point', because a
+node's force acts at its closest point. With MPI add up the sums of all ranks. The sums of edges are loads for tissue codes. They
+do not model how a membrane carries loads to its edges.
 
-velocity         (n_nodes, 3) float64: of the flow
+velocity         (n_nodes, 3) float64: the flow's velocity
 weight           (n_nodes,) float64: the volume that a node stands for, 0 for nodes of other ranks
-force            (3,) float64; None: a new array
-moment           (3,): of the whole surface
-about            the point that moment and leaflet_moment are about; None: (0, 0, 0)
-leaflet_force    (n_leaflets, 3): n_leaflets is more than Surface.info.largest_leaflet_id
-leaflet_moment   (n_leaflets, 3)
-edges            (n_edges, 2, 3): both ends of each, such as Surface.attachment.edges
-edge_force       (n_edges, 3): of the nodes to whose closest points the edge is nearest, the first of equals
-edge_moment      (n_edges, 3): about the middle of each edge
-edge_leaflet_id  (n_edges,) int32: a node counts for the nearest edge of its leaflet; None: of all)")
+force            (3,) float64: force on the whole surface; None: a new array
+moment           (3,): moment on the whole surface
+about            reference point of moment and leaflet_moment; None: (0, 0, 0)
+leaflet_force    (n_leaflets, 3): force on each leaflet; n_leaflets is more than Surface.info.largest_leaflet_id
+leaflet_moment   (n_leaflets, 3): moment on each leaflet
+edges            (n_edges, 2, 3): both ends of each edge, for example Surface.attachment.edges
+edge_force       (n_edges, 3): force of the nodes whose closest points are nearest to the edge; the first of equally near edges
+edge_moment      (n_edges, 3): moment of the same nodes about the middle of the edge
+edge_leaflet_id  (n_edges,) int32: a node counts for the nearest edge of its leaflet; None: for the nearest of all edges)")
       .def(
           "band_sums", &band_sums, nb::arg("value").none(), nb::arg("weight").none(), nb::arg("inner").none(),
           nb::arg("outer").none(),
