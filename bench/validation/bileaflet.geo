@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A quarter of the open bileaflet valve in a tube that widens behind it, in centimetres. The planes x = 0 and y = 0 are planes
-// of symmetry. With fitted = 1 the leaflet is a surface of the mesh, else the mesh only has the same sizes:
+// Makes a mesh of a quarter of the open bileaflet valve in a tube. The tube is wider downstream of the valve. Lengths are in
+// centimetres. The planes x = 0 and y = 0 are planes of symmetry. With fitted = 1 the leaflet is a surface of the mesh. Otherwise
+// the mesh has edges of the same lengths, but no leaflet:
 // gmsh -3 -setnumber Mesh.ScalingFactor 0.01 -setnumber fitted 1 -setnumber size 0.05 -setnumber band 0.1 -format msh22 FILE
 SetFactory("OpenCASCADE");
 DefineConstant[ fitted = 1 ];
-DefineConstant[ size = 0.05 ];  // of the edges in the band
-DefineConstant[ band = 0.1 ];   // half thickness of the band of that size
-DefineConstant[ far = 0.13 ];   // the largest edges
+DefineConstant[ size = 0.05 ];  // length of the edges in the band
+DefineConstant[ band = 0.1 ];   // half thickness of the band
+DefineConstant[ far = 0.13 ];   // length of the edges far from the band
 DefineConstant[ opening = 1 ];
 
 // The valve's defaults.
@@ -17,7 +18,7 @@ Cylinder(1) = {0, 0, -1.3, 0, 0, 1.6, R, Pi / 2};
 Cylinder(2) = {0, 0, 0.3, 0, 0, 2.4, 1.5, Pi / 2};
 fluid() = BooleanUnion { Volume{1}; Delete; }{ Volume{2}; Delete; };
 
-// Half an ellipse whose centre is the place of the closed leaflet's middle. docs/theory.md has the same turn about the hinge.
+// The leaflet is half an ellipse about the middle of the closed leaflet. It turns about the hinge as in docs/theory.md.
 outline = newreg;
 Disk(outline) = {0, 0, 0, R / Cos(closed), R};
 quarter = newreg;

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The tables, rows and pictures of body_fitted.sh: the effective area of open leaflets as walls of no thickness and as obstacles
-of riis. body_fitted.py FOLDER reads the cases in FOLDER, prints the tables, and leaves body_fitted.json and pictures there."""
+"""Makes the tables, rows and pictures of body_fitted.sh. They compare the effective area of open leaflets that are walls of no
+thickness with that of the same leaflets as obstacles of riis. body_fitted.py FOLDER reads the cases in FOLDER, prints the tables,
+and leaves body_fitted.json and pictures in FOLDER."""
 import json
 import pathlib
 import re
@@ -17,15 +18,16 @@ RHO = 1060.0  # kg/m3
 INLET = 0.5  # m/s, of steady_case/0/U
 MMHG = 133.322  # Pa
 GORLIN = 44.3  # cm2, ml/s and mmHg: the constant of Gorlin's formula for the aortic valve
-RADIUS = {"bileaflet": 1.1, "trileaflet": 1.22}  # of the tubes, in centimetres
-COPIES = {"bileaflet": 4, "trileaflet": 6}  # pieces of the whole valve, of which one is computed
-BAR = 0.1  # of the least eps
-LINE_BAR = 0.02  # of the line through all eps
+RADIUS = {"bileaflet": 1.1, "trileaflet": 1.22}  # radii of the tubes, in centimetres
+COPIES = {"bileaflet": 4, "trileaflet": 6}  # number of equal pieces of the valve; one piece is computed
+BAR = 0.1  # bar of the row for the smallest eps
+LINE_BAR = 0.02  # bar of the row for the line through all eps
 SOLVER = "OpenFOAM 1912, simpleFoam, tetrahedra"
 
 
 def outline(valve, opening, n=200001):
-    """Area in cm2 that the leaflets leave open and length in cm of their outlines in the tube, both seen along the flow."""
+    """Returns the area in cm2 that the leaflets leave open, and the length in cm of their outlines inside the tube. Both are
+    seen along the flow."""
     radius = RADIUS[valve]
     if valve == "bileaflet":  # docs/theory.md, section 14
         hinge, closed, now = 0.22, numpy.radians(30), numpy.radians(30 + 55 * opening)
@@ -38,7 +40,7 @@ def outline(valve, opening, n=200001):
         x, y_arc = edge + q * radius * numpy.cos(angle), radius * numpy.sin(angle)
         covered = numpy.trapz(arc - edge, y)
         length = top + _length_inside(x, y_arc, radius)
-    else:  # the free edge, a parabola, with nothing covered within it: section 3
+    else:  # docs/theory.md, section 3: the free edge is a parabola, and the cusp covers only the part outside it
         y_end = 1.1 * 1.25 * numpy.sin(numpy.pi / 3)
         y = numpy.linspace(0, y_end, n)
         x = 1.0 + (1.1 * 1.25 * numpy.cos(numpy.pi / 3) - 1.0) * (y / y_end) ** 2
@@ -56,7 +58,7 @@ def _length_inside(x, y, radius):
 
 
 class Run:
-    """One case: its numbers and its effective area, in cm2."""
+    """The results of one case, with its effective area in cm2."""
 
     def __init__(self, folder, meshes):
         self.folder, self.name = folder, folder.name
@@ -80,7 +82,7 @@ class Run:
         self.drop = RHO * pressure[-1]  # Pa, static, from the inlet to the outlet
         self.flow = INLET * numpy.pi * RADIUS[self.valve] ** 2 * 1e2  # ml/s
         out = foam.table(folder, "outlet")[-1, 1] * 1e6 * COPIES[self.valve]
-        # The circles of the mesh are polygons, so a coarse mesh has less flow. Area and flow of the polygon fit together.
+        # The mesh has polygons in place of circles, so a coarse mesh has less flow. The area uses the flow of the polygon.
         if abs(out / self.flow - 1) > 0.03:
             raise SystemExit(f"{folder}: {out} ml/s leave the tube, and {self.flow} enter it")
         self.flow = out
@@ -94,7 +96,8 @@ class Run:
 
 
 def order_of(sizes, values):
-    """Order and limit by Richardson from three grids of a constant ratio; without an order the finest value."""
+    """Returns order and limit by Richardson's extrapolation from three grids with a constant ratio of sizes. Returns None and the
+    value of the finest grid if the values have no order."""
     if len(values) < 3:
         return None, values[-1]
     (a, b, c), ratio = values[-3:], sizes[-2] / sizes[-1]
@@ -106,26 +109,26 @@ def order_of(sizes, values):
 
 
 def chosen(runs):
-    """The runs of riis with the usual resistance and two edges to eps, from large to small eps."""
+    """Returns the runs of riis with R = 1e3 and two edges in eps, from the largest eps to the smallest."""
     return sorted((run for run in runs if not run.fitted and run.resistance == 1e3 and abs(run.eps / run.size - 2) < 1e-6),
                   key=lambda run: -run.eps)
 
 
 def place(run, value):
-    """One value of a row of docs/validation.md."""
+    """Returns one entry of the field grids of a row (rows.py)."""
     name = "walls" if run.fitted else f"ε {10 * run.eps:g} mm"
     return {"n": f"{name}, h {10 * run.size:g} mm", "h": round(run.size * 1e-2, 7), "eps": round(run.eps * 1e-2, 7),
             "rim": run.rim, "value": round(float(value), 4)}
 
 
 def line(eps, area):
-    """The straight line area(eps): value at 0 and slope."""
+    """Fits a straight line to area(eps). Returns its value at 0 and its slope."""
     slope, at_zero = numpy.polyfit(eps, area, 1)
     return at_zero, slope
 
 
 def far_from(points, triangles):
-    """The largest distance of points from triangles. Points are few, so each is compared with each triangle."""
+    """Returns the largest distance of a point from the triangles. Points are few, so each is compared with each triangle."""
     a, b, c = (triangles[:, k] for k in range(3))
     largest = 0.0
     for point in points:
@@ -146,7 +149,7 @@ def far_from(points, triangles):
 
 
 def msh_leaflet(path):
-    """The triangles of the surface leaflet of a mesh of gmsh, format 2.2."""
+    """Returns the triangles of the surface "leaflet" in a mesh file of gmsh, format 2.2."""
     lines = foam.text(path).splitlines()
 
     def section(name):
@@ -160,7 +163,7 @@ def msh_leaflet(path):
 
 
 def same_leaflets(folder):
-    """Prints how far the fitted leaflets are from those of the library."""
+    """Prints the distance between the fitted leaflets and the leaflets of the library."""
     for case in sorted(folder.glob("leaflets-*")):
         points, corners, _ = foam.triangles(case / "leaflets.vtk")
         fitted = msh_leaflet(case / "fitted.msh")
@@ -170,7 +173,7 @@ def same_leaflets(folder):
 
 
 def picture(runs, path):
-    """The speed along the valve and across it, for some cases."""
+    """Draws the speed in planes along the valve and across it, for some cases."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
@@ -205,7 +208,7 @@ def commit():
 
 
 def compare(valve, opening, runs, folder):
-    """The tables of one valve at one opening, and its rows."""
+    """Prints the tables of one valve at one opening, and returns its rows."""
     mine = [run for run in runs if (run.valve, run.opening) == (valve, opening)]
     fitted = sorted((run for run in mine if run.fitted and run.far == 0.13), key=lambda run: -run.size)
     obstacles = [run for run in mine if not run.fitted]
@@ -233,7 +236,7 @@ def compare(valve, opening, runs, folder):
               f" {run.drop:>9.2f} {run.area:>10.4f} {100 * (run.area / body - 1):>+8.2f} %  {c_of(run):>5.3f}")
     rows = []
     for rim in ("round", "cut"):
-        # The largest half thickness also has other edges and resistances.
+        # Only the largest half thickness was also run with other edges and other resistances.
         first = [one for one in obstacles if one.rim == rim and one.eps == max(other.eps for other in obstacles)]
         others = ""
         for words, some in (("edges", [one for one in first if one.resistance == 1e3]),
@@ -281,7 +284,7 @@ def compare(valve, opening, runs, folder):
 
 
 def clinical(runs):
-    """Orifice areas by the clinic's formulas beside the geometric one, from the finest runs."""
+    """Prints the orifice areas by clinical formulas beside the geometric area, from the finest runs. Returns their rows."""
     print("\nOrifice areas in cm2: geometric, effective, by Gorlin's formula, by continuity (flow over the largest speed).")
     print("  valve        opening  leaflets                geometric  effective  discharge  Gorlin  continuity  total, mmHg")
     rows = []
@@ -321,7 +324,7 @@ def clinical(runs):
 
 
 def blood(folder, runs):
-    """Means in time with blood's viscosity, of runs that went on from the steady ones."""
+    """Prints means in time of the runs with blood's viscosity, which start from the steady flows. Returns their row."""
     begin = 0.04  # s
     rows = []
     for case in sorted((folder / "blood").glob("*")):

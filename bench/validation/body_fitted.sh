@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The same open leaflets as walls of no thickness in a body-fitted mesh and as obstacles of riis, in the same solver and flow:
+# Compares open leaflets that are walls of no thickness in a body-fitted mesh with the same leaflets as obstacles of riis. Both
+# use the same solver and flow:
 # bench/validation/body_fitted.sh FOLDER [--quick]
-# A piece of the valve between its planes of symmetry lies in a tube. Blood enters at 0.5 m/s in all of its section, with ten
-# times its viscosity. The effective area is Q / sqrt(2 dp / rho). Here dp is the total pressure at the inlet less the pressure
-# at the outlet, which cuts the jet.
-# FOLDER gets the table body_fitted.txt, the rows body_fitted.json, pictures, and the cases. A case that is there is not run
+# A piece of the valve between its planes of symmetry lies in a tube. Blood with ten times its viscosity enters with a uniform
+# velocity of 0.5 m/s. The effective area is Q / sqrt(2 dp / rho). Here dp is the total pressure at the inlet minus the pressure
+# at the outlet. The jet still exists at the outlet, so it has not regained pressure.
+# FOLDER gets the table body_fitted.txt, the rows body_fitted.json, pictures, and the cases. A complete case in FOLDER is not run
 # again.
 set -euo pipefail
 here=$(dirname -- "$(readlink -f -- "$0")")
@@ -18,7 +19,7 @@ out=$(readlink -f -- "$1")
 quick=${2:-}
 cd -- "$here/../.."
 
-# openfoam.sh fetches OpenFOAM's headers and builds the plug-in. It uses these.
+# openfoam.sh fetches OpenFOAM's headers and builds the plug-in. It uses these variables and functions.
 build=build n_jobs=$(nproc)
 say() { printf '==> %s\n' "$*"; }
 step() {
@@ -44,11 +45,11 @@ logged() {
   return 1
 }
 
-# OpenFOAM's own check of a function object, in the folder of the mesh. It replaces that of openfoam.sh.
+# Runs one function object in the folder of the mesh, to see whether it works. Replaces the function in openfoam.sh.
 openfoam_function_object() { "${of_with[@]}" postProcess -case "$mesh" -func writeCellCentres -time 0; }
 
-# make_mesh NAME VALVE FITTED SIZE BAND [FAR]: lengths in centimetres, as in VALVE.geo. Leaves the mesh in meshes/NAME.
-# VALVE is the name of the file, a hyphen, and the opening.
+# make_mesh NAME VALVE FITTED SIZE BAND [FAR]: makes a mesh with gmsh, in meshes/NAME. VALVE is the name of the .geo file, a
+# hyphen, and the opening. The other arguments are options of the .geo file. Lengths are in centimetres.
 make_mesh() {
   mesh=$out/meshes/$1
   [[ ! -e $mesh/complete ]] || return 0
@@ -67,13 +68,13 @@ make_mesh() {
     rm "$mesh/mesh.msh" && touch "$mesh/complete"
 }
 
-# set_valve CASE VALVE EPS RIM RESISTANCE
+# set_valve CASE VALVE EPS RIM RESISTANCE: writes the valve and its numbers into the case's fvOptions.
 set_valve() {
   sed -i "s/halfThickness .*/halfThickness $3;/; s/rim .*/rim $4;/; s/resistance .*/resistance $5;/; s/kind .*/kind ${2%%-*}; }/
     s/opening 1;/opening ${2#*-};/" "$1/system/fvOptions"
 }
 
-# run_case NAME MESH VALVE [EPS RIM RESISTANCE]: EPS in metres; a fitted mesh has none.
+# run_case NAME MESH VALVE [EPS RIM RESISTANCE]: runs simpleFoam. EPS is in metres. A fitted mesh has no EPS, RIM and RESISTANCE.
 run_case() {
   local case=$out/cases/$1
   [[ ! -e $case/complete ]] || return 0
@@ -89,7 +90,7 @@ run_case() {
     rm -rf "$case/constant/polyMesh" && say "$1"
 }
 
-# run_blood NAME: goes on from the case in time, with blood's viscosity, in blood/NAME.
+# run_blood NAME: continues from the steady flow of the case with blood's viscosity. The unsteady run is in blood/NAME.
 run_blood() {
   local case=$out/blood/$1 mesh=$1 from
   [[ ! -e $case/complete ]] || return 0
@@ -115,8 +116,8 @@ run_blood() {
     rm -rf "$case/constant/polyMesh" && say "$1, in time"
 }
 
-# same_leaflets VALVE: the leaflets of the fitted mesh, leaflets-VALVE/fitted.msh, and those of the library beside them. The half
-# thickness of 0.1 mm makes the library's triangles exact to 0.005 mm.
+# same_leaflets VALVE: writes the leaflets of the fitted mesh and the leaflets of the library into the folder leaflets-VALVE. The
+# half thickness of 0.1 mm makes the library's triangles exact to 0.005 mm.
 same_leaflets() {
   local case=$out/leaflets-$1 first
   [[ ! -e $case/complete ]] || return 0
@@ -132,7 +133,7 @@ same_leaflets() {
     rm -rf "$case"/[0-9]* "$case/constant" "$case/postProcessing" && touch "$case/complete"
 }
 
-# in_turn FUNCTION LINES: calls the function with the words of each line, as many at a time as there are processors.
+# in_turn FUNCTION LINES: calls the function with the words of each line. As many calls run at once as there are processors.
 in_turn() {
   local line words pids=() pid status=0
   while read -r line; do
@@ -149,15 +150,16 @@ in_turn() {
   return "$status"
 }
 
-# The case of a valve with walls: fitted-VALVE-SIZE. That of riis: riis-VALVE-EPS-SIZE-RIM-RESISTANCE. SIZE is the length of the
-# edges in the band. Lengths are in centimetres.
+# A case with walls has the name fitted-VALVE-SIZE. A case of riis has the name riis-VALVE-EPS-SIZE-RIM-RESISTANCE. SIZE is the
+# length of the edges in the band. Lengths are in centimetres.
 meshes='' cases='' blood=''
-# fitted VALVE SIZE [FAR]: FAR is the length of the edges elsewhere, 0.13 if it is not given.
+# fitted VALVE SIZE [FAR]: adds a case with walls and its mesh. FAR is the length of the edges elsewhere, by default 0.13.
 fitted() {
   meshes+="fitted-$1-$2${3:+-$3} $1 1 $2 0.06 ${3:-}"$'\n'
   cases+="fitted-$1-$2${3:+-$3} fitted-$1-$2${3:+-$3} $1"$'\n'
 }
-# obstacle VALVE EPS SIZE RIM [RESISTANCE]: its mesh has edges of SIZE as far as EPS and one edge more.
+# obstacle VALVE EPS SIZE RIM [RESISTANCE]: adds a case of riis and its mesh. Edges have the length SIZE up to the distance
+# EPS + SIZE from the leaflet.
 obstacle() {
   local name=free-$1-$2-$3 line
   line="$name $1 0 $3 $(awk -v a="$2" -v b="$3" 'BEGIN { print a + b }')"
@@ -185,7 +187,7 @@ else
       obstacle "$valve" 0.05 0.025 "$rim"
     done
   done
-  # A thinner leaflet, more cells across the band, and other resistances.
+  # These cases have a smaller half thickness, other numbers of edges across the band, and other resistances.
   for rim in round cut; do
     obstacle bileaflet-1 0.035 0.0175 "$rim"
     obstacle bileaflet-1 0.1 0.1 "$rim"

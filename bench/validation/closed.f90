@@ -1,10 +1,11 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> Rows of ./run validate that the solver of examples/flow_fortran computes: the drop of a plate that closes a duct, the leak of
-!! the closed aortic valve, and a plate that moves through a duct. It prints lines of words:
-!!   drop   CELLS_OF_EPS DROP_OVER_R_EPS_U     plate in a duct, mean of ten places between two faces; then the same with a
-!!   spread                                    largest less least of them
-!!   leak   CELLS LEAK_OVER_IDEAL              aortic valve, 80 mmHg, eps = 1.5 h, ideal: dp eps/R through the leaflets
-!!   moving CELLS VOLUME_OVER_AREA_STROKE      mean of both ends; then "ends", their difference over area times stroke
+!> Computes rows of ./run validate with the solver of examples/flow_fortran: the drop of a plate that closes a duct, the leak of
+!! the closed aortic valve, and the volume that a moving plate takes through a duct. It prints lines of words:
+!!   drop   CELLS_OF_EPS DROP_OVER_R_EPS_U     plate in a duct: the mean over ten places of the plate between two faces
+!!   spread CELLS_OF_EPS DIFFERENCE            the largest of these ten values minus the smallest
+!!   leak   CELLS LEAK_OVER_IDEAL              aortic valve at 80 mmHg with eps = 1.5 h; the ideal leak is dp eps/R times the area
+!!   moving CELLS VOLUME_OVER_AREA_STROKE      the mean of the volumes at inlet and outlet
+!!   ends   CELLS DIFFERENCE_OVER_AREA_STROKE  the volume at the outlet minus the volume at the inlet
 program closed
   use riis
   use flow_solver, only: dp, flow
@@ -35,7 +36,7 @@ contains
     anywhere = all(x > -huge(x))
   end function anywhere
 
-  ! Puts a plate that moves with w across the duct at height z.
+  ! Puts a plate across the duct at height z. The plate moves up with the speed w.
   subroutine put_plate(fluid, z, eps, w)
     type(flow), intent(inout) :: fluid
     real(dp), intent(in) :: z, eps, w
@@ -79,7 +80,8 @@ contains
     print '(a, f6.2, es14.5)', 'spread', cells_of_eps, maxval(ratio) - minval(ratio)
   end subroutine closed_plate
 
-  ! A duct of 8 mm by 8 mm by 32 mm, n cells across, eps 1.5 mm. The plate goes 10 mm between equal pressures.
+  ! Moves a plate by 10 mm in a duct with equal pressures at both ends. The duct is 8 mm by 8 mm by 32 mm and n cells across. The
+  ! half thickness eps is 1.5 mm.
   subroutine moving_plate(n)
     integer, intent(in) :: n
     real(dp), parameter :: dt = 1e-3_dp, w = 0.1_dp, side = 8e-3_dp

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Closed forms of ./run validate. Each is checked against its own equations by check().
+"""Closed forms of ./run validate. The function check() tests each closed form against its equations.
 
-Stokes flow with harmonic phi: u = phi e_z - z grad(phi), p = -2 mu phi_z is free of divergence and in balance (Happel, Brenner,
-Low Reynolds number hydrodynamics, 1965, have the same flows by stream functions). In oblate spheroidal coordinates
-r^2 = a^2 (1 + l^2)(1 - c^2), z = a l c, l >= 0:
+If phi is harmonic, u = phi e_z - z grad(phi) and p = -2 mu phi_z solve the Stokes equations. Happel and Brenner, Low Reynolds
+number hydrodynamics, 1965, derive the same flows from stream functions. The two flows below use oblate spheroidal coordinates
+l >= 0 and c, with r^2 = a^2 (1 + l^2)(1 - c^2) and z = a l c:
   disc  phi = (2/pi) arccot l. u = e_z on the disc, 0 at infinity. F = 16 mu a
   hole  phi = C a |c| (1 + l arctan l). u = 0 on the plate z = 0, r > a. Q = 2 pi C a^3 / 3, drop 2 pi mu C"""
 
@@ -11,7 +11,9 @@ import numpy as np
 
 
 def spheroidal(a, r, z):
-    """l >= 0 and c, with the sign of z. a^2 l^2 is a root of t^2 - s t - a^2 z^2, s = r^2 + z^2 - a^2, without cancellation."""
+    """Returns l >= 0 and c, where c has the sign of z.
+
+    a^2 l^2 is a root of t^2 - s t - a^2 z^2 with s = r^2 + z^2 - a^2. The formulas avoid cancellation."""
     s, root = r * r + z * z - a * a, np.hypot(r * r + z * z - a * a, 2 * a * z)
     t = np.where(s > 0, (s + root) / 2, 2 * (a * z) ** 2 / np.maximum(root - s, 1e-300))
     l = np.sqrt(t) / a
@@ -20,7 +22,7 @@ def spheroidal(a, r, z):
 
 
 def disc(a, r, z):
-    """u_r, u_z, p/mu of a disc that moves broadside with speed 1."""
+    """Returns u_r, u_z and p/mu of the flow around a disc that moves broadside with speed 1."""
     l, c = spheroidal(a, r, z)
     d = np.maximum(l * l + c * c, 1e-300)
     phi_r = -2 / np.pi * r * l / (a * a * d * (1 + l * l))
@@ -29,7 +31,7 @@ def disc(a, r, z):
 
 
 def hole(a, r, z):
-    """u_r, u_z, p/mu of the flow Q = 1 through a hole, towards +z. The drop over mu is 3 / a^3."""
+    """Returns u_r, u_z and p/mu of the flow Q = 1 through a hole, towards +z. The drop over mu is 3 / a^3."""
     l, c = spheroidal(a, r, z)
     d, C = np.maximum(l * l + c * c, 1e-300), 3 / (2 * np.pi * a**3)
     phi = C * a * abs(c) * (1 + l * np.arctan(l))
@@ -39,12 +41,13 @@ def hole(a, r, z):
 
 
 def contraction(m):
-    """The contraction of a plane free jet from a slit of the share m of a channel's width, m = 0: from a half space.
+    """Returns the contraction C of a plane free jet from a slit. m is the slit's width over the channel's width. m = 0 stands for
+    a jet from a half space.
 
-    Free streamlines (Helmholtz, Kirchhoff; von Mises 1917 has the table). The hodograph w = (u - i v)/U of half the jet is a
-    quarter of the unit disc, with a source at k = C m, the speed far upstream, and the sink at 1:
-    W = (Q/pi) (log(w^2 - k^2) + log(w^2 - 1/k^2) - 2 log(w^2 - 1)). Integrating dz = dW / (U w) along the free streamline from
-    the edge, w = i, to w = 1 gives 1/C = 1 + (2/pi) (1/k - k) arctan k."""
+    The formula comes from the theory of free streamlines (Helmholtz, Kirchhoff). Von Mises 1917 has a table of C. The hodograph
+    w = (u - i v)/U of half the jet is a quarter of the unit disc. It has a source at k = C m, the speed far upstream over U, and
+    a sink at 1. So W = (Q/pi) (log(w^2 - k^2) + log(w^2 - 1/k^2) - 2 log(w^2 - 1)). The integral of dz = dW / (U w) along the
+    free streamline goes from the edge, w = i, to w = 1. It gives 1/C = 1 + (2/pi) (1/k - k) arctan k."""
     if m == 0:
         return np.pi / (np.pi + 2)
     C = 0.6
@@ -55,10 +58,11 @@ def contraction(m):
 
 
 def contraction_by_streamline(m, n=200_000):
-    """The same by the integral itself: the edge's height less the jet's, over the slit's half width."""
+    """Returns the same contraction from a numerical integral along the free streamline. The integral is the height of the edge
+    minus the half width of the jet."""
     C = contraction(m)
     k = max(C * m, 1e-7)
-    # t from the sink to the edge, w = exp(i s) with s = pi/2 t^2, which takes the integrand's 1/s at the sink away
+    # t goes from the sink to the edge, and w = exp(i s) with s = pi/2 t^2. This removes the factor 1/s of the integrand.
     t = (np.arange(n) + 0.5) / n
     s = np.pi / 2 * t * t
     w = np.exp(1j * s)
@@ -90,11 +94,11 @@ def check(say=print, tolerance=1e-5):
     assert np.abs(disc(1.0, inside, zero)[0]).max() < 1e-9 and np.abs(disc(1.0, inside, zero)[1] - 1).max() < 1e-9
     outside = np.linspace(1.001, 9, 500)
     assert np.abs(hole(1.0, outside, zero)[:2]).max() < 1e-9
-    s = (np.arange(4000) + 0.5) / 4000  # r = 1 - s^2, since the flow ends like a square root
+    s = (np.arange(4000) + 0.5) / 4000  # r = 1 - s^2, because u_z is proportional to sqrt(1 - r) near the edge
     flow = np.sum(hole(1.0, 1 - s * s, zero[0] * s)[1] * 2 * np.pi * (1 - s * s) * 2 * s) / len(s)
     far = np.array([1e5])
     drop = hole(1.0, 0 * far, -far)[2] - hole(1.0, 0 * far, far)[2]
-    force = 8 * np.pi * disc(1.0, far, 0 * far)[1] * far  # of a point force's flow, F / (8 pi mu r) across its axis
+    force = 8 * np.pi * disc(1.0, far, 0 * far)[1] * far  # a point force F gives u_z = F / (8 pi mu r) at z = 0
     say(f"  hole: flow {flow:.6f}, drop/3 {drop[0] / 3:.6f}; disc: force/16 {force[0] / 16:.6f}")
     assert abs(flow - 1) < tolerance and abs(drop[0] / 3 - 1) < tolerance and abs(force[0] / 16 - 1) < tolerance
     for m in (0, 0.1, 0.3, 0.5, 0.8):

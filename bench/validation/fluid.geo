@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The end of bileaflet.geo and trileaflet.geo: the leaflet's surface in the mesh, names of surfaces, sizes of edges. In:
-// fluid(), leaf(), the lists z_range() and plane_boxes() (six numbers a box) that hold the ends and the planes of
-// symmetry, and the options.
-tolerance = 2e-3; // boxes of curved surfaces are wider than these
+// bileaflet.geo and trileaflet.geo include this file at their end. It puts the leaflet into the mesh, names the surfaces, and
+// sets the lengths of the edges. It reads fluid(), leaf(), the options, and two lists. z_range() has the heights of both ends.
+// plane_boxes() has one box of six numbers around each plane of symmetry.
+tolerance = 2e-3; // gmsh's boxes of curved surfaces are a little too wide
 leaf() = BooleanIntersection { Surface{leaf()}; Delete; }{ Volume{fluid()}; };
 If (fitted)
   parts() = BooleanFragments { Volume{fluid()}; Delete; }{ Surface{leaf()}; Delete; };

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plane jets from a slit in a plate across a channel with slip walls: contraction, drop, pressure downstream.
+"""Computes plane jets from a slit in a plate across a channel with slip walls: contraction, drop, and pressure downstream.
 
-SI units. The slit's half width is B, the flow's speed in the slit U / share of the jet. Viscosity is a model of what mixes the
-jet, so it is small by the slit (REYNOLDS) and grows downstream. The walls do not rub, so the balance of momentum holds with
-any viscosity."""
+Units are SI. The slit's half width is B, and the mean speed in it is SPEED. The viscosity is small near the slit (REYNOLDS) and
+grows downstream (MIXING), because it stands for turbulent mixing. Slip walls have no friction, so the balance of momentum holds
+with any viscosity."""
 
 import numpy as np
 
@@ -12,9 +12,9 @@ from staggered import Flow, graded
 
 B = 0.008  # m
 SPEED = 1.0  # m/s, the mean in the slit
-REYNOLDS = 1500.0  # B SPEED / nu by the slit
-MIXING = 12.0  # the same far downstream
-EDDY = (2.0, 10.0)  # slit half widths downstream between which viscosity grows
+REYNOLDS = 1500.0  # B SPEED / nu near the slit
+MIXING = 12.0  # B SPEED / nu far downstream
+EDDY = (2.0, 10.0)  # x / B at which the viscosity begins and ends to grow
 
 
 def viscosity(x, reynolds, rho):
@@ -31,7 +31,7 @@ def grid_of(eps, per_eps, share, shift):
 
 
 def jet(library, share, eps, per_eps, rim, shift=0.0, speed=SPEED, reynolds=REYNOLDS, say=None):
-    """share: of the channel's width that the slit has. Returns a dict of measures."""
+    """Computes one jet and returns a dict of measures. share is the slit's width over the channel's width."""
     x, y = grid_of(eps, per_eps, share, shift)
     flow = Flow(x, y, walls="channel")
     points = np.vstack([flow.u_points(), flow.v_points()])
@@ -44,12 +44,12 @@ def jet(library, share, eps, per_eps, rim, shift=0.0, speed=SPEED, reynolds=REYN
     u, v, p = flow.solve(marking.RHO, mu, K, q, say=say)
     rho, discharge = marking.RHO, inlet * B / share
     total = p[0, 0] + rho / 2 * inlet**2
-    # Dead water: behind the plate, half way between slit and wall
+    # This cell lies in the dead water behind the plate, half way between slit and wall.
     i = np.searchsorted(flow.xc, 2 * eps + B / 4)
     j = np.searchsorted(flow.yc, (B + B / share) / 2)
     core = u[(flow.x > 0) & (flow.x < 3 * B), 0].max()
     dead = p[i, j]
-    # The fields are for pictures.
+    # The pictures use the fields of this dict.
     return {
         "cells": flow.nx * flow.ny, "core": core, "inlet": inlet, "by_core": discharge / (B * core),
         "by_drop": discharge / (B * np.sqrt(2 * (total - dead) / rho)), "drop": p[0].mean() - p[-1].mean(),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Surfaces of triangles, and K of points by the library (marks.c)."""
+"""Makes surfaces of triangles, and computes K at points with the library, by the program of marks.c."""
 
 import subprocess
 
@@ -7,11 +7,11 @@ import numpy as np
 
 R = 1e4  # kg/(m s), the resistance of the examples
 MU, RHO = 3.5e-3, 1060.0  # Pa s, kg/m^3: blood
-N_SIDES = 1440  # of a circle: its sides are 2.4e-6 radii inside of it
+N_SIDES = 1440  # sides of the polygon for a circle; their middles lie 2.4e-6 radii inside the circle
 
 
 class Library:
-    """The program of marks.c. scale_K and scale_eps are for the test, which plants errors by them."""
+    """Calls the program of marks.c. The test plants errors by the factors scale_K and scale_eps."""
 
     def __init__(self, program, scale_K=1.0, scale_eps=1.0):
         self.program, self.scale_K, self.scale_eps = program, scale_K, scale_eps
@@ -29,7 +29,7 @@ class Library:
 
 
 def disc(a):
-    """A disc broadside to z, with a vertex at y = 0."""
+    """Returns a disc of radius a in the plane z = 0. One of its vertices lies at y = 0."""
     angle = 2 * np.pi * np.arange(N_SIDES) / N_SIDES
     circle = np.stack([a * np.cos(angle), a * np.sin(angle), 0 * angle], 1)
     i = np.arange(N_SIDES)
@@ -37,7 +37,7 @@ def disc(a):
 
 
 def plate_with_hole(a, outer):
-    """A plate across z out to a radius, with a hole."""
+    """Returns a plate in the plane z = 0 between the radii a and outer, so that it has a hole of radius a."""
     angle = 2 * np.pi * np.arange(N_SIDES) / N_SIDES
     circle = np.stack([np.cos(angle), np.sin(angle), 0 * angle], 1)
     i, j = np.arange(N_SIDES), (np.arange(N_SIDES) + 1) % N_SIDES
@@ -46,7 +46,7 @@ def plate_with_hole(a, outer):
 
 
 def plate_with_slit(b, outer):
-    """A plate across x from y = b to outer, and its mirror image. It is long in z."""
+    """Returns a plate in the plane x = 0 from y = b to y = outer, and its mirror image. Both reach from z = -outer to outer."""
     vertices, faces = [], []
     for sign in (1, -1):
         first = len(vertices)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Stokes flow through a hole, or past a disc, in space: one eighth of a box, staggered grid, velocities by sparse LU, pressure by
-conjugate gradients on its Schur complement. It shows that the numbers round the axis (stokes.py) hold in space."""
+"""Computes Stokes flow through a hole or past a disc in three dimensions, on a staggered grid in one eighth of a box.
+
+Sparse LU solves for the velocities. Conjugate gradients on the Schur complement solve for the pressure. The results show that
+the axisymmetric results of stokes.py also hold in three dimensions."""
 
 import numpy as np
 import scipy.sparse as sp
@@ -13,7 +15,7 @@ from stokes import BOX, consistent
 
 
 class _Side:
-    """One direction of the grid: cells' sizes and centres, and for faces 0 to n."""
+    """One direction of the grid: sizes and centres of its n cells, and for faces 0 to n the distance between the centres."""
 
     def __init__(self, edges):
         self.edge, self.size, self.centre = edges, np.diff(edges), (edges[1:] + edges[:-1]) / 2
@@ -21,11 +23,12 @@ class _Side:
         self.wide = np.concatenate([[self.size[0] / 2], np.diff(self.centre), [self.size[-1] / 2]])
 
     def along(self):
-        """-d2/dx2 times lengths between faces, the first and last with nothing beyond."""
+        """Returns the matrix of -d2/dx2 times length for values on faces. The first and the last face have one neighbour each."""
         return _springs(1 / self.size)
 
     def across(self, first_given):
-        """The same between centres. At the far side, and at 0 if first_given, values on the box are given."""
+        """Returns the matrix of -d2/dx2 times length for values at centres. The value on the far side of the box is prescribed.
+        If first_given is true, the value at 0 is also prescribed."""
         ends = np.zeros(self.n)
         ends[-1] = 1 / self.wide[-1]
         if first_given:
@@ -44,7 +47,8 @@ def _kron(a, b, c):
 
 
 def effective_radius(library, kind, eps, per_eps, rim, tolerance=1e-6):
-    """As stokes.effective_radius with the plate on a face, and the rim anywhere between faces. Returns a_eff and the cells."""
+    """Returns what stokes.effective_radius returns, a_eff and the number of cells. The plate lies on a face of the grid. The rim
+    may lie anywhere between faces."""
     h = eps / per_eps
     n, m = round(1.5 * per_eps + 1), round(1 + 2.5 * eps * 1.0 / h + 1 / h)
     side = [_Side(graded(h, (0, m * h), (0, BOX), 1.15))] * 2 + [_Side(graded(h, (0, n * h), (0, BOX), 1.15))]
@@ -64,8 +68,8 @@ def effective_radius(library, kind, eps, per_eps, rim, tolerance=1e-6):
         def schur(p):
             return sum(d @ lu.solve(d.T @ p) for d, lu in zip(D, A))
 
-        # div of u = started + A^-1 D^T p is what the box gives. Where viscosity leads, S is like the volumes, and like `rough`
-        # where K does.
+        # The velocity u = started + A^-1 D^T p must be free of divergence, which gives the equation S p = mass. The Schur
+        # complement S is close to the cell volumes where viscosity dominates, and close to `rough` where K dominates.
         p = _conjugate_gradients(schur, mass, lambda x: rough.solve(x) + x / size, tolerance)
         u = [x + lu.solve(d.T @ p) for x, lu, d in zip(started, A, D)]
         if kind == "disc":
@@ -85,7 +89,7 @@ def effective_radius(library, kind, eps, per_eps, rim, tolerance=1e-6):
 
 
 class _Component:
-    """The equation of one component of the velocity, of p in its divergence, and what the box gives."""
+    """The equation of one component of the velocity: its matrix A, its part D of the divergence, and its boundary values."""
 
     def __init__(self, library, surface, side, c, eps, rim):
         self.c, self.side = c, side
@@ -93,7 +97,7 @@ class _Component:
         width = [s.wide if d == c else s.size for d, s in enumerate(side)]
         mass = [sp.diags(w) for w in width]
         self.volume = np.kron(np.kron(width[0], width[1]), width[2])
-        # At z = 0 u and v are 0. At x = 0 and y = 0 the flow is its own image.
+        # At z = 0, u and v are 0. The flow is symmetric about the planes x = 0 and y = 0.
         stiff = [s.along() if d == c else s.across(d == 2) for d, s in enumerate(side)]
         self.xyz = np.stack(np.meshgrid(*place, indexing="ij"), -1)
         shape = self.xyz.shape[:3]

@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rows of ./run validate: what is computed, beside what.
+"""Makes the rows of ./run validate. A row compares a computed value with a reference.
 
-A row is one JSON object. bench/validation/all.json has such rows too, of solvers that take hours, below "rows" and beside
-"commit", "machine" and "command", and validate.py merges them into the page:
+A row is one JSON object with the fields below. bench/validation/all.json also has rows, of solvers that take hours. They stand
+under "rows", and "commit", "machine" and "command" say where they come from. validate.py merges them into the page.
   id            unique word, which the page's prose may name
   group         stokes, closed, jets, bodyfit or clinical: the page's section
   quantity      text
   reference     number, or null for a row that only shows a trend
   source        text: where the reference comes from
-  solver        text: which solver computed the row
+  solver        text: the solver that computed the row
   grids         [{"n": text of the grid, "value": number}], coarse to fine, usually three
-  order         number, or null where the values do not descend like a power
-  extrapolated  number: by that order, or the finest value without one
-  deviation     of extrapolated from the reference, relative; null without reference
-  bar           the largest deviation that passes; null for none
-  note          text, "" for none"""
+  order         number: the order of convergence, or null if the values do not converge with an order
+  extrapolated  number: the limit by this order, or the value of the finest grid if order is null
+  deviation     number: extrapolated / reference - 1, or null if reference is null
+  bar           number: the largest deviation that passes, or null if every deviation passes
+  note          text, may be empty"""
 
 import math
 import subprocess
@@ -28,13 +28,14 @@ import octant
 import stokes
 from staggered import Flow
 
-PLACES = ((0.0, 0.0), (0.5, 0.5))  # of a rim between faces, in cells
+PLACES = ((0.0, 0.0), (0.5, 0.5))  # distances of the plate and of the rim from a face, in cells
 ACROSS = (0.0, 0.25, 0.5, 0.75)
-SIGN = {"hole": 1, "disc": -1}  # of 1 - a_eff
+SIGN = {"hole": 1, "disc": -1}  # the sign of 1 - a_eff
 
 
 def extrapolate(h, values, least=0.3, most=5.0):
-    """The order p and the limit f of values f + c h^p of three grids, coarse to fine. Without such a p: None, the finest."""
+    """Fits f + c h^p to the values of three grids, coarse to fine. Returns the order p and the limit f. Returns None and the
+    value of the finest grid if no p between least and most fits."""
     a, b, c = values
     if not (a - b) * (b - c) > 0 or abs(b - c) < 1e-4 * abs(c):
         return None, c
@@ -62,7 +63,7 @@ def row(key, group, quantity, reference, source, solver, h, names, values, bar=N
 
 
 def missed(rows):
-    """The rows whose deviation is above their bar."""
+    """Returns the rows whose deviation is above their bar."""
     return [r for r in rows if r["bar"] is not None and not abs(r["deviation"]) <= r["bar"]]
 
 
@@ -70,7 +71,8 @@ def missed(rows):
 
 
 class Variant:
-    """What a run computes: eps = 1/n of the radius or of the slit's half width; cells in eps."""
+    """The sizes that a run computes. A half thickness is 1/n of the radius or of the slit's half width, for each n. The grids
+    are given by the number of cells in the half thickness."""
 
     def __init__(self, stokes_n, stokes_cells, jet_n, jet_cells, contraction_cells, shares, in_space):
         self.contraction_cells = contraction_cells
@@ -84,7 +86,7 @@ AXIAL = "staggered grid round the axis, sparse LU (bench/validation/staggered.py
 
 
 def stokes_tasks(variant):
-    """(name, function, arguments) of what stokes_rows takes."""
+    """Returns the tasks whose results stokes_rows needs, as tuples (name, function, arguments)."""
     tasks = [(("stokes", kind, rim, n, cells, place), stokes.effective_radius, (kind, 1 / n, cells, rim, place))
              for kind in SIGN for rim in ("round", "cut") for n in variant.stokes_n for cells in variant.stokes_cells
              for place in PLACES]
@@ -99,7 +101,7 @@ def stokes_tasks(variant):
     return tasks
 
 
-FACTORS = (1.0, 1e-2, 1e-4)  # of blood's R
+FACTORS = (1.0, 1e-2, 1e-4)  # R over the resistance of the examples
 
 
 def resistance_tasks(variant):
@@ -109,8 +111,8 @@ def resistance_tasks(variant):
 
 
 def resistance_rows(variant, results):
-    """What R does to a hole: the flow enters the band as far as (R/mu)^(-1/4), where K passes mu over the depth squared. With a
-    small R the plate leaks as well."""
+    """Returns the rows that show the effect of R on a hole. The flow enters the band to a depth at which K equals mu over the
+    depth squared, which is proportional to (R/mu)^(-1/4). If R is small, blood also leaks through the plate."""
     n, rows, cells = variant.stokes_n[1], [], variant.stokes_cells
     for factor in FACTORS:
         ratio = factor * marking.R / marking.MU
@@ -134,7 +136,7 @@ def stokes_rows(variant, results):
             radii = []
             for n in variant.stokes_n:
                 both = [[results["stokes", kind, rim, n, c, place][0] for place in PLACES] for c in cells]
-                # The reference is that of eps = 0, so a deviation here is the effect of the half thickness.
+                # The reference has eps = 0, so the deviation here is the effect of the half thickness.
                 made = row(f"stokes_{kind}_{rim}_{n}", "stokes", f"{what[kind]}; {rim} rim, ε = a/{n}", 1.0, source[kind], AXIAL,
                            [1 / c for c in cells], [f"ε/h {c}" for c in cells], [np.mean(b) for b in both])  # fmt: skip
                 spread = abs(both[-1][0] - both[-1][1]) * n / 2
@@ -175,7 +177,8 @@ def stokes_rows(variant, results):
 
 
 def closed_plane(library, cells, rim="round"):
-    """The drop of a plate across a plane channel over (R/eps) u, with cells in eps, at four places between two faces."""
+    """Returns the drop of a plate across a plane channel over (R/eps) u, for four places of the plate between two faces. `cells`
+    is the number of cells in eps."""
     h, u, ratios = 1e-3, 0.1, []
     eps = cells * h
     for place in (0.1, 0.35, 0.6, 0.85):
@@ -190,7 +193,8 @@ def closed_plane(library, cells, rim="round"):
 
 
 def closed_rows(library, flow_program=None, short=False):
-    """Rows of flat plates, and, with the program of closed.f90, those of the solver of examples/flow_fortran."""
+    """Returns the rows of flat plates. With flow_program, the program of closed.f90, it also returns the rows of the solver of
+    examples/flow_fortran."""
     cells = (1, 2, 3)
     law = "integral of K over the band"
     rows = [row("closed_plane", "closed", "drop of a plate across a channel over (R/ε) u", 1.0, law,
@@ -244,7 +248,8 @@ def jet_tasks(variant):
 
 
 def slope_row(rim, n, thick, thin):
-    """c of a slit: what half of eps does to the effective width, on the same cells. So their error is not in it."""
+    """Returns the row with c of a slit. c is the difference between the effective half widths of eps and eps/2, divided by eps/2.
+    Both are computed on the same cells, so the error of the grid cancels."""
     if [g["n"] for g in thick["grids"]] != [g["n"] for g in thin["grids"]]:
         raise ValueError(f"the rows {thick['id']} and {thin['id']} are not on the same grids")
     values = [(b["value"] - a["value"]) * 2 * n for a, b in zip(thick["grids"], thin["grids"])]
@@ -301,7 +306,7 @@ def jet_rows(variant, results):
 
 
 def picture(result):
-    """What the plot of a jet takes, near the slit: speeds, and the stream function over the flow."""
+    """Returns the fields near the slit that the plot of a jet shows: the speed, and the stream function over the flow."""
     x, y = result["x"], result["y"]
     near = np.abs(x - jets.B) < 3 * jets.B
     low = y < 3 * jets.B

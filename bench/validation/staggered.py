@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Steady incompressible flow with a resistance K, in the plane or round an axis, on a staggered grid, by sparse LU.
+"""Solves steady incompressible flow with a resistance K, plane or axisymmetric, on a staggered grid, by sparse LU.
 
   rho div(u u) = -grad p + div(mu grad u) - K u,  div u = 0
 
-x is along the axis or the stream, y is the radius or across the stream. u is on faces across x, v on faces across y, p in cells.
-Diffusion is central. Convection takes its value from two points upstream, on a straight line. Newton's method solves for all
-unknowns at once, with its exact Jacobian but for changes of direction. Stokes flow is one solution of linear equations."""
+x runs along the axis or the stream. y is the radius or the direction across the stream. u lies on faces normal to x, v on faces
+normal to y, and p at cell centres. Diffusion uses central differences. Convection extrapolates linearly from two points
+upstream. Newton's method solves for all unknowns at once. Its Jacobian is exact as long as no flow through a face changes its
+direction. Stokes flow takes one solution of linear equations."""
 
 import numpy as np
 import scipy.sparse as sp
@@ -20,9 +21,9 @@ class Flow:
     """A grid, its matrices and boundary values.
 
     x, y     edges of the cells, ascending
-    axial    y is a radius from 0 on, and all is multiplied by it
-    walls    "given": u and v are given on all four sides (set_boundary). "channel": u is given at the left, nothing flows through
-             the sides y, which do not rub, and at the right p is 0.
+    axial    if true, y is a radius that begins at 0, and volumes and areas contain the factor y
+    walls    "given": u and v are given on all four sides. "channel": u is given on the left side, the lower and the upper side
+             are slip walls, and p is 0 on the right side.
     """
 
     def __init__(self, x, y, axial=False, walls="given"):
@@ -46,7 +47,7 @@ class Flow:
         free_u[-1] = self.channel
         self.free = np.concatenate([free_u.ravel(), free_v.ravel()])
 
-    # Points of the unknown velocities, for the marks.
+    # u_points and v_points return the places of the unknown velocities, at which the library computes K.
     def u_points(self):
         return np.stack(np.meshgrid(self.x, self.yc, indexing="ij"), -1).reshape(-1, 2)
 
@@ -67,9 +68,10 @@ class Flow:
         self.D = sp.csr_matrix((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape)
 
     def viscous(self, mu, edge_u=None, edge_v=None):
-        """The matrix and the right-hand side of -div(mu grad u), times volumes. mu: in cells, (nx, ny), or a number.
+        """Returns the matrix and the right-hand side of -div(mu grad u), times volumes. mu is a number or has shape (nx, ny).
 
-        edge_u: u at the sides y, lower and upper, (nx + 1); None where nothing rubs. edge_v: v at the ends x, (ny + 1)."""
+        edge_u holds u on the lower and on the upper side, each of shape (nx + 1). None stands for a side without friction.
+        edge_v holds v on the left and on the right side, each of shape (ny + 1)."""
         mu = np.broadcast_to(np.asarray(mu, float), (self.nx, self.ny))
         padded = np.pad(mu, 1, mode="edge")
         corner = (padded[1:, 1:] + padded[:-1, 1:] + padded[1:, :-1] + padded[:-1, :-1]) / 4
@@ -102,8 +104,9 @@ class Flow:
         return sp.csr_matrix((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), (n, n)), rhs
 
     def _convection(self):
-        """M: mass flow through every inner face of a control volume. B: what a face takes from its volumes. The four nearest
-        values of each face, and their weights upstream from either side."""
+        """Returns four matrices for the inner faces of the control volumes. M gives the mass flow through each face. B subtracts
+        the flux of a face from one volume and adds it to the other. The last two extrapolate a value to each face, for flow in
+        the positive and in the negative direction."""
         if hasattr(self, "_faces"):
             return self._faces
         n = self.n_u + self.n_v
@@ -112,7 +115,8 @@ class Flow:
         count = 0
 
         def add(mass, stencil, where, face):
-            # mass: two (unknown, weight); stencil: unknowns LL, L, R, RR; where: their places; face: the face's place
+            # Adds faces. mass has two pairs (unknown, weight). stencil has the unknowns LL, L, R and RR, and `where` their
+            # coordinates. face has the coordinates of the faces.
             nonlocal count
             shape = stencil[1].shape
             ids = (np.arange(stencil[1].size) + count).reshape(shape)
@@ -124,7 +128,7 @@ class Flow:
             count += stencil[1].size
 
         def beyond(a, axis):
-            # a shifted by one along an axis to both sides, with its end repeated
+            # Returns `a` shifted by one along the axis, once in each direction. The value at the end is repeated.
             low = np.concatenate([a.take([0], axis), a.take(range(a.shape[axis] - 1), axis)], axis)
             high = np.concatenate([a.take(range(1, a.shape[axis]), axis), a.take([-1], axis)], axis)
             return low, high
@@ -137,7 +141,8 @@ class Flow:
         area = self.wc * self.dy / 2
         X, Y = np.meshgrid(self.x, self.yc, indexing="ij")
         add(((u[:-1], area), (u[1:], area)), stencil_of(u, 0), stencil_of(X, 0), self.xc[:, None])
-        # v at the corners, through which u's volumes exchange across y: halves of both cells beside. At the ends, half a volume.
+        # These faces lie between volumes of u that are neighbours in y. The flow through a face is half of v in the cell on the
+        # left plus half of v in the cell on the right. At both ends of the grid a face has only one of these halves.
         left, right = np.concatenate([self.dx[:1] * 0, self.dx / 2]), np.concatenate([self.dx / 2, self.dx[:1] * 0])
         to_left = np.concatenate([v[:1], v])[:, 1:-1]
         to_right = np.concatenate([v, v[-1:]])[:, 1:-1]
@@ -166,7 +171,7 @@ class Flow:
         return self._faces
 
     def _convect(self, q):
-        """The residual of rho = 1, div(u u) times volumes, and its Jacobian."""
+        """Returns div(u u) times volumes, and its Jacobian."""
         M, B, forward, backward = self._convection()
         mass = M @ q
         ahead = sp.diags((mass > 0).astype(float))
@@ -174,20 +179,20 @@ class Flow:
         value = value_of @ q
         residual = B @ (mass * value)
         jacobian = B @ (sp.diags(mass) @ value_of + sp.diags(value) @ M)
-        out = self.u_of[-1]  # the outlet's faces end half volumes: what leaves takes its own value along
+        out = self.u_of[-1]  # the half volumes at the outlet end at these faces; the outflow carries the velocity of its face
         if self.channel:
             area = self.wc * self.dy
             residual[out] += area * q[out] * q[out]
             jacobian = jacobian + sp.csr_matrix((2 * area * q[out], (out, out)), jacobian.shape)
-            # The half volumes at the inlet are not solved for.
+            # The half volumes at the inlet have no unknown, because u is given there.
         return residual, jacobian
 
     def solve_linear(self, mu, K, q, edge_u=None, edge_v=None):
-        """Stokes flow: solve with rho = 0. Later calls use the factors of the first, so mu and K are the first one's."""
+        """Solves for Stokes flow, which has rho = 0. Later calls use the factors of the first call, and so its mu and K."""
         if not hasattr(self, "_stokes"):
             A, _ = self.viscous(mu, edge_u, edge_v)
             A = A + sp.diags(K * np.concatenate([self.u_volume.ravel(), self.v_volume.ravel()]))
-            D = self.D[:, self.free][1:]  # without the first cell, whose pressure is 0 and whose balance the others imply
+            D = self.D[:, self.free][1:]  # the first cell is left out: its pressure is 0, and its balance follows from the others
             self._stokes = A, D, _factor(sp.bmat([[A[self.free][:, self.free], -D.T], [D, None]], format="csc"))
         A, D, factors = self._stokes
         _, rhs = self.viscous(mu, edge_u, edge_v)
@@ -201,8 +206,10 @@ class Flow:
         return q[: self.n_u].reshape(self.nx + 1, self.ny), q[self.n_u :].reshape(self.nx, self.ny + 1)
 
     def solve(self, rho, mu, K, q, tolerance=1e-6, most=40, say=None):
-        """Steady flow in a channel: u (nx + 1, ny), v (nx, ny + 1), p (nx, ny). q: velocities to begin with, of which the inlet's
-        stay. K: at u_points, then at v_points. mu: viscosities that descend to the last one, for convergence."""
+        """Solves for steady flow in a channel. Returns u (nx + 1, ny), v (nx, ny + 1) and p (nx, ny).
+
+        q holds the first guess of the velocities, and the given velocities at the inlet. K holds the values at u_points, then at
+        v_points. mu is a list of descending viscosities. The solution for each viscosity is the first guess for the next."""
         free = self.free
         volume = np.concatenate([self.u_volume.ravel(), self.v_volume.ravel()])
         q, p = np.array(q, float), np.zeros(self.n_p)
@@ -238,7 +245,8 @@ def _factor(matrix):
 
 
 def graded(h, fine, ends, growth=1.1, largest=None):
-    """Edges of cells from ends[0] to ends[1]: of size h from fine[0] to fine[1], growing outside by a factor each."""
+    """Returns the edges of cells from ends[0] to ends[1]. Cells from fine[0] to fine[1] have the size h. Outside this range each
+    cell is larger than its inner neighbour by the factor growth."""
     if fine[0] < ends[0] - 1e-9 * h or fine[1] > ends[1] + 1e-9 * h:
         raise ValueError(f"cells of {h} from {fine[0]} to {fine[1]} do not fit between {ends[0]} and {ends[1]}")
     n = max(1, round((fine[1] - fine[0]) / h))

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The effective radius of a hole in a plate and of a disc in Stokes flow, round an axis and in space.
+"""Computes the effective radius of a hole in a plate, and of a disc, in axisymmetric Stokes flow.
 
-Lengths are in radii a. K / mu = (R / mu) delta / eps has R / mu = 1e4 / 3.5e-3 = 2.9e6, a number: blood's at any size. The
-velocities on the box are those of the closed form of the effective radius, which is found together with the flow."""
+Lengths are in radii a. K / mu is (R / mu) delta / eps with R / mu = 1e4 / 3.5e-3 = 2.9e6. R / mu has no unit, so blood's value
+holds at any size. The boundary values come from the closed form with the effective radius. The effective radius is therefore
+found by iteration."""
 
 import numpy as np
 
@@ -14,28 +15,30 @@ BOX = 6.0  # radii, half the box's length and its radius
 
 
 def grid_of(eps, per_eps, along, across):
-    """Edges along the axis and across it. The plate is `along` cells off a face, the rim `across` cells."""
+    """Returns the edges of the cells along the axis and in the radius. The distance of the plate from a face is `along` cells.
+    The distance of the rim from a face is `across` cells."""
     h = eps / per_eps
     n, m = round(1.5 * per_eps + 1), round(2.5 * per_eps + 1)
     z = graded(h, ((-n - along) * h, (n - along) * h), (-BOX, BOX), 1.12)
-    inner = min(m, int(1 / h - across + 1e-9))  # cells of this size on the axis's side of the rim
+    inner = min(m, int(1 / h - across + 1e-9))  # number of cells of size h between the axis and the rim, at most m
     r = graded(h, (1 - (inner + across) * h, 1 + (m - across) * h), (0, BOX), 1.12)
     return z, r
 
 
 def effective_radius(library, kind, eps, per_eps, rim, place=(0.0, 0.0), solid=False, R_over_mu=marking.R / marking.MU):
-    """kind: hole or disc. place: as grid_of has it. solid: the band is impenetrable. Returns a_eff and the number of cells."""
+    """Returns a_eff and the number of cells. kind is hole or disc. place holds the arguments along and across of grid_of. If
+    solid is true, no flow enters the band."""
     z, r = grid_of(eps, per_eps, *place)
     flow = Flow(z, r, axial=True)
     surface = marking.disc(1.0) if kind == "disc" else marking.plate_with_hole(1.0, BOX + 4 * eps)
     points = np.vstack([flow.u_points(), flow.v_points()])
-    if solid:  # no flow to speak of at any viscosity
+    if solid:  # K / mu is so large that no flow enters the band
         K = np.where(_in_band(kind, eps, rim, *points.T), 1e12, 0)
     else:
         K = library.K(surface, eps, rim, np.stack([points[:, 1], 0 * points[:, 0], points[:, 0]], 1), R_over_mu)
 
     def outer(a, r, z):
-        # u_z, u_r on the box
+        # Returns u_z and u_r on the boundary of the box.
         u_r, u_z, _ = exact.disc(a, r, z) if kind == "disc" else exact.hole(a, r, z)
         return (1 - u_z, -u_r) if kind == "disc" else (u_z, u_r)
 
@@ -45,7 +48,7 @@ def effective_radius(library, kind, eps, per_eps, rim, place=(0.0, 0.0), solid=F
         for at in (0, -1):
             u[at] = outer(a, flow.yc, np.full(flow.ny, flow.x[at]))[0]
         v[:, -1] = outer(a, np.full(flow.nx, flow.y[-1]), flow.xc)[1]
-        # Corrects the outer velocities so that the net flow into the box is 0 on the grid too, up to rounding.
+        # The velocities on the outer face are corrected so that the net flow into the box is also 0 on the grid.
         area = flow.wc * flow.dy
         excess = area @ (u[-1] - u[0]) + flow.we[-1] * (flow.dx @ v[:, -1])
         v[:, -1] -= excess / (flow.we[-1] * (flow.x[-1] - flow.x[0]))
@@ -55,7 +58,7 @@ def effective_radius(library, kind, eps, per_eps, rim, place=(0.0, 0.0), solid=F
         if kind == "disc":
             force = 2 * np.pi * np.sum(K[: flow.n_u].reshape(u.shape) * u * flow.u_volume)
             return force / 16
-        # The drop between two rings, and the hole's radius for which the closed form has the same drop.
+        # The loop finds the hole's radius for which the closed form has the same drop between the two ends of ring j.
         j = flow.ny // 2
         drop = p[0, j] - p[-1, j]
         ends = np.array([flow.xc[0], flow.xc[-1]])
@@ -70,12 +73,13 @@ def effective_radius(library, kind, eps, per_eps, rim, place=(0.0, 0.0), solid=F
 
 
 def solid_radius(library, kind, eps, per_eps, rim):
-    """The same for a solid plate with the shape of the band, whose square edges lie on faces. It does without the library."""
+    """Returns what effective_radius returns, for a solid plate with the shape of the band. Plane sides of the plate lie on faces
+    of the grid. The library is not called."""
     return effective_radius(library, kind, eps, per_eps, rim, solid=True)
 
 
 def _in_band(kind, eps, rim, z, r):
-    beyond = np.maximum(1 - r if kind == "hole" else r - 1, 0)  # off the plate's edge
+    beyond = np.maximum(1 - r if kind == "hole" else r - 1, 0)  # radial distance from the plate's edge, 0 on the plate
     rounding = 1e-9 * eps
     if rim == "cut":
         return (np.abs(z) <= eps + rounding) & (beyond <= rounding)
@@ -83,7 +87,8 @@ def _in_band(kind, eps, rim, z, r):
 
 
 def consistent(computed):
-    """Returns the radius for which the box's velocities give the same radius. It is nearly linear in the box's."""
+    """Returns the radius a with computed(a) = a, where a sets the boundary values. The secant method converges quickly, because
+    computed(a) is nearly linear in a."""
     given = [1.0, computed(1.0)]
     found = [given[1], computed(given[1])]
     for _ in range(6):

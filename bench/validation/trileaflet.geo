@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sixth of the open trileaflet valve in a straight tube, in centimetres: half a cusp. The planes at 0 and 60 degrees are planes
-// of symmetry. The tube is narrower than the attachments, so the cusp's surface is cut by its wall. The options are those of
-// bileaflet.geo. Only opening 1 is made.
+// Makes a mesh of a sixth of the open trileaflet valve, half a cusp, in a straight tube. Lengths are in centimetres. The planes
+// at 0 and 60 degrees are planes of symmetry. The tube is narrower than the attachment, so its wall cuts the cusp. The options
+// are the options of bileaflet.geo, but only opening 1 is allowed.
 SetFactory("OpenCASCADE");
 DefineConstant[ fitted = 1 ];
 DefineConstant[ size = 0.05 ];
@@ -17,13 +17,13 @@ tube = 1.22; below = -2.2; above = 1.6;
 Cylinder(1) = {0, 0, below, 0, 0, above - below, tube, Pi / 3};
 fluid() = {1};
 
-// The curves of docs/theory.md, section 3, in the state of opening 1 with the default parameters.
+// docs/theory.md, section 3, defines these curves. Here they have opening 1 and the default parameters.
 R = 1.25; height = 1.2; share = 0.5; ratio = 0.8; expansion = 0.1;
 edge_in = ratio * R; edge_out = (1 + expansion) * 1.25; edge_angle = Pi / 3;
 bend_in = R + share * (edge_in - R); bend_out = (1 + share * expansion) * 1.275; bend_angle = 35 * Pi / 180;
 edge_x = edge_out * Cos(edge_angle); edge_y = edge_out * Sin(edge_angle);
 bend_x = bend_out * Cos(bend_angle); bend_y = bend_out * Sin(bend_angle); bend_z = share * height;
-// Inner control points: of the sinus curve, a quadratic, and of the symmetry curve, a cubic.
+// The inner control points of two Bezier curves follow: one of the quadratic sinus curve, two of the cubic symmetry curve.
 sinus_x = (bend_x - (1 - share)^2 * R - share^2 * edge_x) / (2 * share * (1 - share));
 sinus_y = (bend_y - share^2 * edge_y) / (2 * share * (1 - share));
 sinus_z = (bend_z - share^2 * height) / (2 * share * (1 - share));
@@ -32,14 +32,15 @@ first_z = bend_z / 2 - 0.35 * bend_z;
 second_x = (bend_in - (1 - share)^3 * R - 3 * share * (1 - share)^2 * first_x - share^3 * edge_in) / (3 * share^2 * (1 - share));
 second_z = (bend_z - 3 * share * (1 - share)^2 * first_z - share^3 * height) / (3 * share^2 * (1 - share));
 
-// Each of the two patches is the smooth surface through points of equal steps in u and v. Free edge and bending curve are
-// parabolas with equal steps of y, so a Coons patch departs from lines between sinus and symmetry curve by a bow in x only.
+// Each of the two patches is a smooth surface through points at equal steps of u and v. The free edge and the bending curve are
+// parabolas in which y is proportional to u. So a point of the Coons patch differs only in x from the point on the straight line
+// between sinus curve and symmetry curve. The variable `bow` holds this difference.
 n_u = 8; n_v = 8;
 leaf() = {};
 For upper In {0:1}
   start = newp;
   For i In {0:n_v}
-    // The lower patch begins above its corner at the root, which lies outside of the tube.
+    // The lower patch begins a little above the root, because its corner at the root lies outside the tube.
     v = upper ? i / n_v : 0.03 + 0.97 * i / n_v;
     t = share * (upper + v);
     sym_x = (1 - t)^3 * R + 3 * t * (1 - t)^2 * first_x + 3 * t^2 * (1 - t) * second_x + t^3 * edge_in;

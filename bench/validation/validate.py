@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""./run validate: computes the rows, draws, and makes docs/validation.md. rows.py says what a row is.
+"""The program of ./run validate: it computes the rows, draws the plots, and writes docs/validation.md. rows.py describes a row.
 
 validate.py --marks PROGRAM --flow PROGRAM --out FOLDER [--short] [--page FILE] [--reuse]
-The status is 1 if a row misses its bar. --reuse computes nothing and takes FOLDER/rows.json."""
+The status is 1 if a row misses its bar. With --reuse the program computes nothing and reads FOLDER/rows.json."""
 
 import argparse
 import datetime
@@ -23,7 +23,7 @@ FIELDS = ("id", "group", "quantity", "reference", "source", "solver", "grids", "
 
 
 def compute(library, variant, n_processes, say):
-    """{name: result} of all tasks. The longest come first, so that the processes end together."""
+    """Returns {name: result} for all tasks. The longest tasks start first, so that the processes end at about the same time."""
     import rows
 
     tasks = rows.jet_tasks(variant)[::-1] + rows.stokes_tasks(variant)[::-1]
@@ -43,7 +43,7 @@ def _call(job):
 
 
 def check_rows(rows, where):
-    """Refuses rows that the page cannot show; committed ones come from elsewhere."""
+    """Refuses rows that the page cannot show. The rows of all.json need this check, because another program writes them."""
     for number, row in enumerate(rows):
         for field in FIELDS:
             if field not in row:
@@ -57,7 +57,7 @@ def check_rows(rows, where):
 
 
 def read_committed(path):
-    """What ./run validate --all committed: {"commit", "machine", "command", "rows"}; None without the file."""
+    """Returns the content of all.json, {"commit", "machine", "command", "rows"}, or None if the file is missing."""
     if not os.path.exists(path):
         return None
     with open(path, encoding="utf-8") as file:
@@ -107,7 +107,7 @@ def table_of(rows):
 
 
 def page_values(rows, about, committed, plots):
-    """What the template's prose takes."""
+    """Returns the values that the prose of the template contains."""
     by_id = {row["id"]: row for row in rows}
     values = {"command": "./run validate --short" if about["short"] else "./run validate", **about, "plots": plots}
     for group in GROUPS:
@@ -142,7 +142,7 @@ def page_values(rows, about, committed, plots):
 
 
 def draw(rows, fields, folder):
-    """validation-stokes.png and validation-jets.png; returns whether there is matplotlib."""
+    """Draws validation-stokes.png and validation-jets.png. Returns False if matplotlib is missing."""
     try:
         import matplotlib
     except ImportError:

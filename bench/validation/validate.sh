@@ -1,7 +1,8 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# The steps of ./run validate, which reads this file after that of ./run flow: compile, compute, draw, write the page. They use
-# flow's folder and packages, and its install_missing, is_on_offer, python_of_packages, say and step.
+# The steps of ./run validate: compile, compute, draw, write the page. `run` sources this file after
+# examples/flow_fortran/flow.sh. The steps use the build folder of flow.sh, and the functions install_missing, is_on_offer,
+# python_of_packages, say and step of `run`.
 
 # Packages of Debian 12 or 13 that ./run validate needs, without recommends.
 validate_packages=(gcc g++ gfortran cmake make libembree-dev libtbb-dev libopenmpi-dev libhypre-dev

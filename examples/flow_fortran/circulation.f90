@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> What drives the flow: a left ventricle of time-varying elastance, filled through an ideal mitral valve from an atrium of
-!! constant pressure, and a windkessel of three elements for the arteries. The numbers are those of a healthy adult.
+!> Gives the pressures at both ends of the aortic root. The left ventricle has a time-varying elastance. An atrium of constant
+!! pressure fills it through an ideal mitral valve. The arteries are a windkessel of three elements. The numbers are typical of a
+!! healthy adult.
 module flow_circulation
   use, intrinsic :: iso_fortran_env, only: dp => real64
   implicit none
@@ -8,22 +9,22 @@ module flow_circulation
   public :: circulation, mmHg, ml
 
   real(dp), parameter :: mmHg = 133.322_dp, ml = 1e-6_dp                 ! [Pa], [m^3]
-  real(dp), parameter, public :: period = 0.8_dp                         ! [s] of the heartbeat
-  real(dp), parameter :: contraction = 0.38_dp, relaxation = 0.15_dp     ! [s] their lengths
+  real(dp), parameter, public :: period = 0.8_dp                         ! [s] duration of a heartbeat
+  real(dp), parameter :: contraction = 0.38_dp, relaxation = 0.15_dp     ! [s] durations of both phases
   real(dp), parameter :: E_min = 0.07_dp * mmHg / ml, E_max = 2.2_dp * mmHg / ml, V_0 = 10 * ml
   real(dp), parameter :: p_atrium = 9 * mmHg, R_mitral = 0.01_dp * mmHg / ml
   real(dp), parameter :: Z_aorta = 0.065_dp * mmHg / ml, R_arteries = mmHg / ml, C_arteries = 1.4_dp * ml / mmHg
 
   type :: circulation
-    real(dp) :: V = 125 * ml                      ! [m^3] of the ventricle, at the end of its filling
-    real(dp) :: p = 80 * mmHg                     ! [Pa] of the windkessel
+    real(dp) :: V = 125 * ml                      ! [m^3] volume of the ventricle; it begins full
+    real(dp) :: p = 80 * mmHg                     ! [Pa] pressure in the windkessel
   contains
     procedure :: p_ventricle, p_aorta, advance
   end type circulation
 
 contains
 
-  !> Returns the pressure of the ventricle; the beat begins with its contraction.
+  !> Returns the pressure in the ventricle. At time 0 the ventricle begins to contract.
   pure real(dp) function p_ventricle(this, time)
     class(circulation), intent(in) :: this
     real(dp), intent(in) :: time
@@ -39,7 +40,7 @@ contains
     p_ventricle = (E_min + (E_max - E_min) * active) * (this%V - V_0)
   end function p_ventricle
 
-  !> Returns the pressure at the outlet for the flow through it.
+  !> Returns the pressure at the outlet. It depends on the flow through the outlet.
   pure real(dp) function p_aorta(this, flow)
     class(circulation), intent(in) :: this
     real(dp), intent(in) :: flow

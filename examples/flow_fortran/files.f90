@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> What the solver leaves: a row for each step, slices for the movie, and a restart file.
+!> Writes the files of a run: a table with a row for each step, slices for the movie, and restart files.
 module flow_files
   use, intrinsic :: iso_fortran_env, only: int32, int64, real32
   use riis, only: riis_triangles, riis_parameter_info, riis_opening_switch_state
@@ -15,7 +15,7 @@ module flow_files
 
 contains
 
-  !> Opens the table of steps: a new one, or at its end after a restart.
+  !> Opens the table of steps. After a restart, new rows are appended to the old table.
   subroutine open_table(name, unit)
     character(len=*), intent(in) :: name
     integer, intent(out) :: unit
@@ -70,7 +70,8 @@ contains
     end do
   end subroutine write_slice
 
-  ! Gives what makes a run this run: grid, valve, its parameters and its placement, as "name value" in lines of a file.
+  ! Writes the settings of the run that a restart must not change: grid, valve, its parameters and its placement. Each line of the
+  ! result has a name and a value.
   subroutine get_identity(fluid, valve, lines)
     type(flow), intent(in) :: fluid
     type(leaflets), intent(in) :: valve
@@ -88,12 +89,12 @@ contains
       call valve%valve%parameter(i, info)
       values = info%default_values
       call valve%valve%get(info%name, values)
-      if (info%name == 'opening') values = 0      ! that is a part of the state
+      if (info%name == 'opening') values = 0      ! the opening belongs to the state, not to the settings
       write (lines(5 + i), '(a, 3es24.16)') info%name, values
     end do
   end subroutine get_identity
 
-  !> Writes all that the next step needs, in full precision.
+  !> Writes the state that the next step needs, in full precision.
   subroutine write_restart(name, fluid, valve, heart, law)
     character(len=*), intent(in) :: name
     type(flow), intent(in) :: fluid
@@ -108,7 +109,7 @@ contains
     close (unit)
   end subroutine write_restart
 
-  !> Reads it, and refuses a file of another run: it names what differs.
+  !> Reads a restart file. Refuses a file whose settings differ from this run, and names the first difference.
   subroutine read_restart(name, fluid, valve, heart, law)
     character(len=*), intent(in) :: name
     type(flow), intent(inout) :: fluid
@@ -126,7 +127,7 @@ contains
     call get_identity(fluid, valve, here)
     allocate (there(n))
     read (unit, iostat=stat) there
-    do i = 1, min(n, size(here))                  ! line 2 has the kind, on which all further lines depend
+    do i = 1, min(n, size(here))                  ! the first difference counts, because later lines depend on the kind in line 2
       if (here(i) /= there(i)) call refuse('the restart file ' // name // ' is of another run: it has "' // trim(there(i)) // &
         '", here it is "' // trim(here(i)) // '"')
     end do

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> A heartbeat of the aortic valve in its root. Options are words NAME=VALUE, which README.md lists.
+!> Computes a heartbeat of the aortic valve in its root. The options are words of the form NAME=VALUE. README.md lists them.
 program flow_through_valve
   use, intrinsic :: iso_fortran_env, only: output_unit
   use riis
@@ -11,7 +11,7 @@ program flow_through_valve
   use flow_stop, only: clocks, refuse, step_number, step_time
   implicit none
   real(dp), parameter :: width = 0.033_dp, length = 0.0396_dp, bottom = -0.018_dp ! [m] the box around the root
-  real(dp), parameter :: z_up = -0.014_dp, z_down = 0.006_dp, z_jet = 0.0015_dp   ! [m] where pressures and the jet are seen
+  real(dp), parameter :: z_up = -0.014_dp, z_down = 0.006_dp, z_jet = 0.0015_dp   ! [m] heights of the pressures and the jet
   type(flow), target :: fluid
   type(leaflets) :: valve
   type(circulation) :: heart
@@ -55,7 +55,7 @@ program flow_through_valve
     dt = fluid%time_step(longest_step)
     step_number = step_number + 1
     step_time = step_time + dt
-    ! The law takes pressures and flow of the last step. The pressure equation takes the valve where it is now.
+    ! The law of opening takes the pressures and the flow of the last step. The pressure equation takes the new position.
     call riis_opening_advance(law, state, step_time, p_up - p_down, flow_rate, status)
     call check(status)
     call valve%move(state%opening, dt, fluid)
@@ -76,7 +76,7 @@ program flow_through_valve
 
 contains
 
-  ! What the law and the reader want to know.
+  ! Computes the pressures and the flow that the law of opening and the table need.
   subroutine look()
     flow_rate = fluid%flow_through()
     p_up = fluid%mean_pressure(z_up)
@@ -105,7 +105,7 @@ contains
       call write_restart(trim(out) // '/restart_' // trim(number) // '.bin', fluid, valve, heart, state)
   end subroutine tell
 
-  ! Takes the words of the command line as a namelist, which refuses unknown names and bad values.
+  ! Reads the words of the command line as a namelist. A namelist refuses unknown names and bad values.
   subroutine read_options()
     character(len=2000) :: words
     character(len=400) :: word, message

@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# The steps of ./run flow, which reads this file: compile, check, run, draw, tell. They use its $n_jobs, $logs, install_missing,
-# is_on_offer, python_of_packages, say and step.
+# The steps of ./run flow: compile, check, run, draw, print the results. `run` sources this file. The steps use $n_jobs, $logs,
+# install_missing, is_on_offer, python_of_packages, say and step of `run`.
 
 # Packages of Debian 12 or 13 that ./run flow needs, without recommends.
 flow_packages=(gcc g++ gfortran cmake make libembree-dev libtbb-dev libopenmpi-dev libhypre-dev python3-matplotlib ffmpeg)

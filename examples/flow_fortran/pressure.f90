@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> The pressure equation on a box of cells, solved by HYPRE: conjugate gradients with the structured multigrid PFMG.
+!> Solves the pressure equation on a box of cells with HYPRE, by conjugate gradients with the structured multigrid PFMG.
 module flow_pressure
   use, intrinsic :: iso_fortran_env, only: dp => real64, int64
   use mpi, only: mpi_init, mpi_initialized, MPI_COMM_SELF
@@ -8,22 +8,22 @@ module flow_pressure
   public :: pressure_equation
 
   integer, parameter :: pfmg = 1 ! HYPRE's number for this preconditioner
-  ! The stencil of a symmetric matrix: a cell, and its neighbours at the lower ends of x, y and z.
+  ! The matrix is symmetric, so its stencil has only the cell and its lower neighbours in x, y and z.
   integer, parameter :: offset(3, 0:3) = reshape([0, 0, 0, -1, 0, 0, 0, -1, 0, 0, 0, -1], [3, 4])
 
   type :: pressure_equation
     private
     integer :: n(3) = 0                                        ! cells of the box
     integer(int64) :: grid = 0, stencil = 0, matrix = 0, right = 0, left = 0 ! HYPRE's handles
-    integer, public :: iterations = 0                          ! of the last solution
-    real(dp), public :: residual = 0                           ! of the last solution, relative to the right-hand side
+    integer, public :: iterations = 0                          ! iterations of the last solution
+    real(dp), public :: residual = 0                           ! residual of the last solution, relative to the right-hand side
   contains
     procedure :: start, solve, finish
   end type pressure_equation
 
 contains
 
-  !> Makes the matrix and both vectors. HYPRE needs MPI; this program is one rank.
+  !> Makes the matrix and both vectors. HYPRE needs MPI, and this program runs as one rank.
   subroutine start(this, n)
     class(pressure_equation), intent(inout) :: this
     integer, intent(in) :: n(3)
@@ -48,14 +48,15 @@ contains
     call HYPRE_StructVectorInitialize(this%left, ierr)
   end subroutine start
 
-  !> Solves for p, which comes in as the first guess. The preconditioner is made anew, since the matrix follows the valve.
+  !> Solves for p. The caller's p is the first guess. The preconditioner is set up in each call, because a moving valve changes
+  !! the matrix.
   subroutine solve(this, coefficient, b, p, tolerance, failed)
     class(pressure_equation), intent(inout) :: this
-    real(dp), intent(in) :: coefficient(0:, :)                 ! (0:3, n_cells): by the stencil
+    real(dp), intent(in) :: coefficient(0:, :)                 ! (0:3, n_cells): in the order of the stencil
     real(dp), intent(in) :: b(:)                               ! (n_cells)
     real(dp), intent(inout) :: p(:)                            ! (n_cells)
-    real(dp), intent(in) :: tolerance                          ! of the residual, relative to b
-    logical, intent(out) :: failed                             ! no convergence
+    real(dp), intent(in) :: tolerance                          ! largest residual, relative to b
+    logical, intent(out) :: failed                             ! true if the solver did not converge
     integer(int64) :: cg, multigrid
     integer :: ierr
     call HYPRE_StructMatrixSetBoxValues(this%matrix, [1, 1, 1], this%n, 4, [0, 1, 2, 3], coefficient, ierr)
@@ -82,7 +83,7 @@ contains
     call HYPRE_StructPCGDestroy(cg, ierr)
     call HYPRE_StructPFMGDestroy(multigrid, ierr)
     call HYPRE_StructVectorGetBoxValues(this%left, [1, 1, 1], this%n, p, ierr)
-    failed = .not. this%residual <= tolerance                  ! true for NaN as well
+    failed = .not. this%residual <= tolerance                  ! also true if the residual is NaN
   end subroutine solve
 
   subroutine finish(this)

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> The walls of an aortic root with three sinuses, in which the valve of the kind trileaflet seals: the attachment of its cusps
-!! lies on the wall. The numbers and formulas are those of examples/demo/aortic_root.geo; docs/theory.md, section 3, has the
+!> Describes the walls of an aortic root with three sinuses. The attachment of the trileaflet valve's cusps lies on the wall, so
+!! the valve seals. The numbers and formulas come from examples/demo/aortic_root.geo. docs/theory.md, section 3, describes the
 !! attachment. Lengths are in the valve's unit, centimetres.
 module flow_root
   use, intrinsic :: iso_fortran_env, only: dp => real64
@@ -9,10 +9,10 @@ module flow_root
   public :: in_root, root_radius
 
   real(dp), parameter :: radian = acos(-1._dp) / 180
-  ! The valve's parameters of these names; the free edges of the closed valve are at z = 0.
+  ! The values of the valve's parameters with these names. The free edges of the closed valve lie at z = 0.
   real(dp), parameter :: base_radius = 1.25_dp, leaflet_height = 1.2_dp, bending_height = 0.6_dp, leaflet_radius = 1.25_dp, &
     leaflet_angle = 60, bending_radius = 1.275_dp, bending_angle = 35, base_z = -1.2_dp
-  ! The sinuses reach beyond the attachment, by up to 0.5 at the middle of a cusp.
+  ! A sinus bulges outward beyond the attachment. The bulge is largest, 0.5, at the middle of a cusp.
   real(dp), parameter :: sinus_height = leaflet_height + 0.4_dp, sinus_depth = 0.5_dp
 
 contains
@@ -23,8 +23,8 @@ contains
     in_root = hypot(x(1), x(2)) * 100 < root_radius(x(3) * 100, atan2(x(2), x(1)) / radian)
   end function in_root
 
-  !> Returns the distance of the wall from the axis [cm], at a height z [cm] and an angle [degrees]. The middle of a cusp is at
-  !! 0, 120 and -120 degrees.
+  !> Returns the distance of the wall from the axis [cm], at a height z [cm] and an angle [degrees]. The middles of the cusps are
+  !! at 0, 120 and -120 degrees.
   pure real(dp) function root_radius(z, angle)
     real(dp), intent(in) :: z, angle
     real(dp) :: t, s, end_of_edge(2), end_of_bend(2), middle(2), p(2), half_angle, away, sinus
@@ -39,7 +39,7 @@ contains
     half_angle = max(atan2(p(2), p(1)) / radian, 1e-6_dp)
     sinus = sinus_depth * sin(acos(-1._dp) * min(1._dp, max(0._dp, (z - base_z) / sinus_height))**0.65_dp)
 
-    root_radius = norm2(p)                        ! the cusps are equal, so the wall is round where no sinus bulges
+    root_radius = norm2(p)                        ! the cusps are equal, so without the sinuses the wall is round
     do cusp = 0, 2
       away = abs(modulo(angle - 120 * cusp + 180, 360._dp) - 180)
       root_radius = root_radius + sinus * half_angle / 60 * (1 - min(1._dp, away / half_angle)**4)**2

@@ -1,10 +1,10 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> Incompressible flow on a staggered grid of cubic cells, by a fractional step in which the resistance K of a valve is
-!! implicit in the momentum AND in the pressure equation (README.md has the equations).
+!> Solves for incompressible flow on a staggered grid of cubic cells, by a fractional step method. The resistance K of a valve is
+!! implicit in the momentum equation AND in the pressure equation. README.md has the equations.
 !!
-!! Cells and faces have one number m; the neighbour in direction d is m + stride(d). Velocity component c of number m is at the
-!! lower face of cell m in direction c. Walls are closed faces between cells inside and outside of the lumen. The flow enters
-!! at the lower end in z and leaves at the upper end.
+!! A cell has a number m. Its neighbour in direction d has the number m + stride(d). The lower face of cell m in direction c has
+!! the index (m, c), and velocity component c lies on it. Walls are closed faces between cells inside and outside the lumen. The
+!! flow enters at the lower end in z and leaves at the upper end.
 module flow_solver
   use, intrinsic :: iso_fortran_env, only: dp => real64
   use flow_pressure, only: pressure_equation
@@ -16,24 +16,24 @@ module flow_solver
 
   type :: flow
     real(dp) :: rho = 1060, mu = 3.5e-3_dp        ! [kg/m^3], [Pa s] of blood
-    real(dp) :: tolerance = 1e-8_dp               ! of the pressure equation, relative to its right-hand side
-    logical :: imposed_inlet = .false.            ! the inlet has a given velocity; otherwise, a given pressure
-    logical :: K_in_pressure = .true.             ! .false. shows what goes wrong without (checks)
-    logical :: band_source = .true.               ! the source where the valve moves; .false. shows what goes wrong without
+    real(dp) :: tolerance = 1e-8_dp               ! largest residual of the pressure equation, relative to its right-hand side
+    logical :: imposed_inlet = .false.            ! .true.: the velocity at the inlet is given; .false.: the pressure is given
+    logical :: K_in_pressure = .true.             ! .false. leaves K out of the pressure equation, for the checks
+    logical :: band_source = .true.               ! .false. leaves the source in the band out, for the checks
     logical :: net_source = .true.                ! .false.: all sources add up to 0, as they must between closed ends
-    logical :: closed_ends = .false.              ! the vessel is a closed box: walls at both ends
-    integer :: n(3) = 0, stride(3) = 0            ! cells of the box
+    logical :: closed_ends = .false.              ! .true.: both ends are walls, so that the vessel is a closed box
+    integer :: n(3) = 0, stride(3) = 0            ! cells in each direction, and the step in m to the next cell
     real(dp) :: h = 0, corner(3) = 0              ! [m] side of a cell, lower corner of the box
     integer, allocatable :: cell(:)               ! the cells of the box, x fastest
-    integer, allocatable :: face(:, :)            ! (2, n_faces): number and direction of every face with an unknown velocity
+    integer, allocatable :: face(:, :)            ! (2, n_faces): m and c of every face with an unknown velocity
     integer, allocatable :: inlet(:), outlet(:)   ! the open faces at both ends
     logical, allocatable :: solid(:), closed(:, :) ! cells outside the lumen; faces without flow
     real(dp), allocatable :: xyz(:, :)            ! [m] (3, n_faces) the centres of these faces: the mesh that riis marks
     real(dp), allocatable :: K(:), K_u(:, :)      ! (n_faces), (3, n_faces): K and K u_surface, from riis
     real(dp), allocatable :: v(:, :), p(:)        ! [m/s] (:, 3), [Pa]
     real(dp), allocatable :: b(:)                 ! right-hand side of the pressure equation
-    real(dp), allocatable :: S(:)                 ! [1/s] the source in cells within the band of a valve that moves
-    integer, allocatable, private :: fluid_cell(:), end_cell(:) ! numbers of the cells in the lumen; those at both ends
+    real(dp), allocatable :: S(:)                 ! [1/s] the source in the band of a moving valve
+    integer, allocatable, private :: fluid_cell(:), end_cell(:) ! numbers of the cells in the lumen, and of the cells at both ends
     real(dp), allocatable, private :: A(:, :), p_before(:), coefficient(:, :), x(:), predicted(:)
     type(pressure_equation) :: equation
   contains
@@ -77,7 +77,7 @@ contains
     do q = 1, size(this%cell)
       this%solid(this%cell(q)) = .not. lumen(this%centre(this%cell(q)))
     end do
-    do k = 1, merge(0, 2, this%closed_ends)       ! beyond open ends the lumen goes on
+    do k = 1, merge(0, 2, this%closed_ends)       ! the lumen continues beyond open ends
       this%solid(this%cell(:area) - k * s(3)) = this%solid(this%cell(:area))
       this%solid(this%cell(product(n) - area + 1:) + k * s(3)) = this%solid(this%cell(product(n) - area + 1:))
     end do
@@ -120,7 +120,8 @@ contains
       (m - 1) / this%stride(3)])
   end function centre
 
-  !> Advances velocity and pressure by dt. at_inlet is the velocity or the pressure there, p_out the pressure at the outlet.
+  !> Advances velocity and pressure by dt. at_inlet is the given velocity or pressure at the inlet. p_out is the pressure at the
+  !! outlet.
   subroutine step(this, dt, at_inlet, p_out)
     class(flow), intent(inout) :: this
     real(dp), intent(in) :: dt, at_inlet, p_out
@@ -151,8 +152,8 @@ contains
         v(face(1, f), face(2, f)) = this%predicted(f)
       end do
 
-      ! The pressure equation: div(1/(rho/dt + K) grad p) = div u* - S, times -h^2. At both ends p is given half a cell away,
-      ! where what comes in comes from rest, with less than the given pressure: it brings no more energy than that.
+      ! The pressure equation: div(1/(rho/dt + K) grad p) = div u* - S, times -h^2. At both ends p is given half a cell beyond the
+      ! last cell. Inflow comes from rest, so its pressure is lower than the given pressure by rho u^2 / 2.
       p(this%inlet - s(3)) = at_inlet - rho / 2 * max(0._dp, v(this%inlet, 3))**2
       p(this%outlet) = p_out - rho / 2 * min(0._dp, v(this%outlet, 3))**2
       !$omp parallel do private(m)
@@ -192,7 +193,7 @@ contains
     end associate
   end subroutine step
 
-  ! Gives S for a step of dt. The band holds a face where K counts for more than inertia. Nothing moves without K u_surface.
+  ! Computes S for a step of dt. The band holds a face if K dt > rho. S is 0 if K u_surface is 0 everywhere.
   subroutine set_source(this, dt)
     class(flow), intent(inout) :: this
     real(dp), intent(in) :: dt
@@ -209,8 +210,8 @@ contains
       this%closed_ends .or. .not. this%net_source, this%S)
   end subroutine set_source
 
-  ! The flux of momentum c through the face between m and its next in direction d: carried by the flow, less viscous. The
-  ! carried value is second order where the velocity is smooth, and between its neighbours anywhere (van Leer's limiter).
+  ! Returns the flux of momentum c from m to m + stride(d): the convective flux minus the viscous flux. The velocity on the face
+  ! is second order where the flow is smooth. Van Leer's limiter keeps it between the values of its neighbours.
   pure real(dp) function flux(this, m, d, c)
     class(flow), intent(in) :: this
     integer, intent(in) :: m, d, c
@@ -232,14 +233,14 @@ contains
     flux = this%rho * carrier * value - this%mu * (high - low) / this%h
   end function flux
 
-  ! The harmonic mean of two slopes, 0 at an extreme.
+  ! Returns the harmonic mean of two slopes, or 0 if their signs differ.
   pure real(dp) function limited(a, b)
     real(dp), intent(in) :: a, b
     limited = 0
     if (a * b > 0) limited = 2 * a * b / (a + b)
   end function limited
 
-  ! Velocities beyond the ends are those inside, but what comes in comes straight.
+  ! Copies the velocities inside both ends to the places beyond the ends. Inflow has no component across the axis.
   subroutine fill_ends(this)
     class(flow), intent(inout) :: this
     integer :: c, f, m, s
@@ -257,7 +258,7 @@ contains
     end do
   end subroutine fill_ends
 
-  !> Returns the largest stable time step, at most `longest`: half a cell by the sum of the three speeds.
+  !> Returns the time step: half a cell over the largest sum of the three speeds, and at most `longest`.
   real(dp) function time_step(this, longest)
     class(flow), intent(in) :: this
     real(dp), intent(in) :: longest
@@ -273,7 +274,7 @@ contains
     time_step = min(longest, this%h**2 * this%rho / (8 * this%mu), 0.5_dp * this%h / max(speed, tiny(speed)))
   end function time_step
 
-  !> Returns the largest divergence of a cell [1/s], less its source.
+  !> Returns the largest value over the cells of |divergence - source| [1/s].
   real(dp) function divergence(this)
     class(flow), intent(in) :: this
     associate (m => this%cell, s => this%stride, v => this%v)
@@ -294,20 +295,20 @@ contains
     flow_out = this%h**2 * sum(this%v(this%outlet, 3))
   end function flow_out
 
-  !> Returns the flow that passes the valve [m^3/s]: the mean of both ends. Between them the band of a valve that moves takes up
-  !! or gives off the net source.
+  !> Returns the flow that passes the valve [m^3/s]: the mean of inflow and outflow. The two differ by the net source in the band
+  !! of a moving valve.
   real(dp) function flow_through(this)
     class(flow), intent(in) :: this
     flow_through = (this%flow_in() + this%flow_out()) / 2
   end function flow_through
 
-  !> Returns what all sources give [m^3/s].
+  !> Returns the sum of all sources [m^3/s].
   real(dp) function net_source_rate(this)
     class(flow), intent(in) :: this
     net_source_rate = this%h**3 * sum(this%S(this%cell))
   end function net_source_rate
 
-  !> Returns the mean pressure over the lumen at the layer of cells with height z [Pa].
+  !> Returns the mean pressure [Pa] over the layer of cells in the lumen at height z.
   real(dp) function mean_pressure(this, z)
     class(flow), intent(in) :: this
     real(dp), intent(in) :: z

@@ -1,8 +1,9 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> The source in the band of a valve that moves (README.md, "The source in the band").
+!> Computes the source in the band of a moving valve (README.md, "The source in the band").
 !!
-!! Where K is large, a face has the velocity of the leaflet, and no pressure changes it. So cells between such faces and walls
-!! have the divergence of u_surface. The source allows it; without one the pressure grows until the faces give way.
+!! A face with a large K has the velocity of the leaflet, and the pressure hardly changes it. If only such faces and walls bound a
+!! cell, the divergence in the cell is therefore the divergence of u_surface. The source allows this divergence. Without the
+!! source the pressure grows until blood flows through these faces.
 module flow_source
   use, intrinsic :: iso_fortran_env, only: dp => real64
   implicit none
@@ -11,20 +12,20 @@ module flow_source
 
 contains
 
-  !> Gives every cell its source S [1/s]. A set of cells is joined through faces that are neither held nor closed. The sets at
-  !! both ends of the vessel are outside of the band, and have none. In any other set the source is even, and it is the flow
-  !! that the held faces bring out of the set.
+  !> Computes the source S [1/s] of every cell. Faces that are neither held nor closed join cells to sets. A set with a cell at an
+  !! end of the vessel lies outside the band, and its source is 0. In every other set the source is uniform, and its integral is
+  !! the flow through the held faces out of the set.
   pure subroutine find_source(cell, ends, stride, h, closed, face, held, u, without_net, S)
     integer, intent(in) :: cell(:)                ! the numbers of all fluid cells
-    integer, intent(in) :: ends(:)                ! those at both ends
-    integer, intent(in) :: stride(3)              ! face (m, c) is between the cells m - stride(c) and m
+    integer, intent(in) :: ends(:)                ! the numbers of the cells at both ends
+    integer, intent(in) :: stride(3)              ! face (m, c) lies between the cells m - stride(c) and m
     real(dp), intent(in) :: h                     ! [m] side of a cell
     logical, intent(in) :: closed(:, :)           ! (:, 3): walls
-    integer, intent(in) :: face(:, :)             ! (2, n_faces): number m and direction c of every other face
-    logical, intent(in) :: held(:)                ! (n_faces): where K is large
-    real(dp), intent(in) :: u(:)                  ! [m/s] (n_faces): the component of u_surface, where held
-    logical, intent(in) :: without_net            ! gives the cells around the band the opposite of all sources
-    real(dp), intent(out) :: S(:)                 ! [1/s], 0 for numbers that are no cell
+    integer, intent(in) :: face(:, :)             ! (2, n_faces): m and c of every face that is not closed
+    logical, intent(in) :: held(:)                ! (n_faces): .true. if K is large at the face
+    real(dp), intent(in) :: u(:)                  ! [m/s] (n_faces): the component of u_surface at held faces
+    logical, intent(in) :: without_net            ! .true.: the cells around the band get the opposite of the net source
+    real(dp), intent(out) :: S(:)                 ! [1/s], 0 for numbers without a fluid cell
     logical, allocatable :: joins(:, :), gathered(:), touched(:)
     integer, allocatable :: members(:), around(:)
     integer :: c, f, m, n, side
@@ -32,7 +33,7 @@ contains
     S = 0
     joins = .not. closed
     touched = .false.
-    do f = 1, size(face, 2)                       ! first, what a cell's own held faces bring out of it
+    do f = 1, size(face, 2)                       ! first, S is the flow through each cell's own held faces
       if (.not. held(f)) cycle
       m = face(1, f)
       c = face(2, f)
@@ -42,7 +43,7 @@ contains
       S(m) = S(m) - u(f) / h
     end do
 
-    gathered = .true.                             ! beyond the ends there is nothing to gather
+    gathered = .true.                             ! places without a fluid cell belong to no set
     gathered(cell) = .false.
     n = size(ends)
     members(:n) = ends
@@ -59,13 +60,13 @@ contains
         members(1) = m
         gathered(m) = .true.
         call gather(joins, stride, gathered, members, n)
-        S(members(:n)) = sum(S(members(:n))) / n  ! faces within the set count for both of their sides, so not at all
+        S(members(:n)) = sum(S(members(:n))) / n  ! a held face inside the set counts twice with opposite signs, so it cancels
       end do
     end do
     if (without_net) S(around) = -sum(S(cell)) / max(1, size(around))
   end subroutine find_source
 
-  ! Adds all cells that are joined with the first n members.
+  ! Adds all cells that are joined to the first n members.
   pure subroutine gather(joins, stride, gathered, members, n)
     logical, intent(in) :: joins(:, :)
     integer, intent(in) :: stride(3)

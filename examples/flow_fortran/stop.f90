@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> The step and the time that a message names, the one way out after an error, and clocks.
+!> Ends the program after an error with a message that names the step and the time. Also reads the clocks.
 module flow_stop
   use, intrinsic :: iso_fortran_env, only: dp => real64, error_unit, int64
   implicit none
@@ -10,14 +10,14 @@ module flow_stop
 
 contains
 
-  !> Prints the text with the step, and ends the program with status 1.
+  !> Prints the message with the step and the time, and ends the program with status 1.
   subroutine refuse(text)
     character(len=*), intent(in) :: text
     write (error_unit, '(a, i0, a, f0.6, 2a)') 'flow: step ', step_number, ', ', step_time, ' s: ', text
     stop 1, quiet=.true.
   end subroutine refuse
 
-  !> Returns the seconds of the wall clock and of the processors.
+  !> Returns two times in seconds: the wall clock and the processor time.
   function clocks() result(seconds)
     real(dp) :: seconds(2)
     integer(int64) :: ticks, rate

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> The valve in the flow: all calls of riis are here. `move` is what a solver does in every time step.
+!> Connects the valve with the flow. All calls of riis are in this file. A solver calls `move` in every time step.
 module flow_valve
   use riis
   use flow_solver, only: dp, flow
@@ -12,11 +12,11 @@ module flow_valve
     character(len=32) :: kind = 'trileaflet'
     real(dp) :: R = 1e4_dp                        ! [kg/(m s)] resistance
     real(dp) :: eps = 0                           ! [m] half thickness
-    real(dp) :: place(3) = 0                      ! [m] where the valve's origin is
+    real(dp) :: place(3) = 0                      ! [m] position of the valve's origin
     real(dp) :: turn_axis(3) = [0, 0, 1], turn = 0 ! [degrees] by which the valve is turned about an axis through its origin
-    logical :: moves_flow = .true.                ! .false. leaves K u_surface out (checks)
+    logical :: moves_flow = .true.                ! .false. leaves K u_surface out, for the checks
     real(dp) :: opening = 0
-    real(dp) :: seconds(2) = 0                    ! spent in the library, by the clock and of processors
+    real(dp) :: seconds(2) = 0                    ! wall time and processor time in the library
     integer :: markings = 0
     logical, private :: at_rest = .false.
     integer, allocatable :: marked(:)
@@ -30,8 +30,8 @@ module flow_valve
 
 contains
 
-  !> Places the valve at an opening. Its tables are in centimetres, the flow is in metres. The faces of the flow are borrowed,
-  !! so that it must stay where it is.
+  !> Makes the valve's surface at an opening. The valve is in centimetres and the flow is in metres, so the surface is scaled. The
+  !! library borrows the array of the flow's faces, so the array must not move in memory.
   subroutine start(this, fluid, opening)
     class(leaflets), intent(inout) :: this
     type(flow), intent(in) :: fluid
@@ -44,7 +44,7 @@ contains
     if (status == RIIS_OK) call this%valve%copy(this%before, status)
     if (status == RIIS_OK) call this%surface%create(this%valve, half_thickness=this%eps, scale=0.01_dp, &
       rotation_axis=this%turn_axis, rotation_angle=this%turn, translation=this%place, &
-      n_threads=1, status=status)                 ! so few triangles and nodes need no more threads
+      n_threads=1, status=status)                 ! more threads gain nothing, because triangles and nodes are few
     if (status == RIIS_OK) call this%faces%create(fluid%xyz, status)
     if (status == RIIS_OK) call this%faces%prepare(n_threads=1, status=status)
     call check(status)
@@ -54,14 +54,14 @@ contains
     this%at_rest = .false.
   end subroutine start
 
-  !> Moves the valve to an opening within dt, and gives every face of the flow K and K u_surface.
+  !> Moves the valve to an opening within dt, and computes K and K u_surface on every face of the flow.
   subroutine move(this, opening, dt, fluid)
     class(leaflets), intent(inout) :: this
     real(dp), intent(in) :: opening, dt
     type(flow), intent(inout) :: fluid
     integer(riis_status) :: status
     real(dp) :: begin(2)
-    if (this%at_rest .and. .not. abs(opening - this%opening) > 0) return ! K is that of the last step
+    if (this%at_rest .and. .not. abs(opening - this%opening) > 0) return ! K does not change
     this%at_rest = .not. abs(opening - this%opening) > 0
 
     begin = clocks()
@@ -97,7 +97,7 @@ contains
     end do
   end function force
 
-  ! A valve outside of the box would let the flow pass, and the library cannot know the box.
+  ! Stops if the valve is outside the box, where it would resist no flow. The library does not know the box.
   subroutine check_inside(this, fluid)
     class(leaflets), intent(in) :: this
     type(flow), intent(in) :: fluid

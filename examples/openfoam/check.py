@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The checks and pictures of ./run openfoam. A check prints its numbers, and ends with an error if one is not as it must be."""
+"""Makes the checks and pictures of ./run openfoam. A check prints its numbers, and ends with an error if a number is wrong."""
 import pathlib
 import re
 import struct
@@ -19,7 +19,7 @@ def require(holds, text):
 
 
 def constant(case, key):
-    """A number of the valve in a case's fvOptions."""
+    """Reads a number of the valve from a case's fvOptions."""
     path = pathlib.Path(case) / "system/fvOptions"
     found = re.search(rf"{key}\s+(\S+?);", foam.text(path))
     if not found:
@@ -28,7 +28,7 @@ def constant(case, key):
 
 
 def flat_drop(case, flow):
-    """(R / eps) u in Pa, and the area of the leaflets."""
+    """Returns (R / eps) u in Pa, and the area of the leaflets."""
     leaflets = sorted(pathlib.Path(case).glob("postProcessing/aorticValve/*/leaflets.vtk"))
     if not leaflets:
         raise SystemExit(f"{case} has no file postProcessing/aorticValve/*/leaflets.vtk")
@@ -37,7 +37,7 @@ def flat_drop(case, flow):
 
 
 def marks(serial, *others):
-    """The cells and K of runs on several ranks, by the global ids of the cells."""
+    """Compares the marked cells and K of runs on several ranks, by the global ids of the cells."""
     centres = foam.global_field(serial, "0", "C")
     times = foam.times(serial)
     require(len(times) > 3, f"{serial} has written more than three steps, not {times}")
@@ -76,7 +76,7 @@ def marks(serial, *others):
 
 
 def zones(closed, case, model):
-    """Writes zones of cells with nearly equal K, and OpenFOAM's own porosity for them into case."""
+    """Divides the cells into zones of nearly equal K, and writes OpenFOAM's own porosity for these zones into case."""
     levels = 200
     k = foam.global_field(closed, foam.times(closed)[-1], K_NAME)
     n = len(k)
@@ -106,7 +106,7 @@ def zones(closed, case, model):
 
 
 def drop(case):
-    """Pressure upstream less that downstream, in Pa, of each step, and the flow of the last step."""
+    """Returns the pressure drop over the valve in each step, in Pa, and the flow of the last step."""
     upstream, downstream = foam.table(case, "upstream"), foam.table(case, "downstream")
     require(upstream[:, 0].tolist() == downstream[:, 0].tolist(),
             f"the tables upstream and downstream of {case} have the same times")
@@ -114,7 +114,7 @@ def drop(case):
 
 
 def drops(cases):
-    """The drop across the closed valve, against OpenFOAM's porosity and against (R / eps) u."""
+    """Compares the drop across the closed valve with OpenFOAM's porosity and with (R / eps) u."""
     cases = pathlib.Path(cases)
     closed, flow = drop(cases / "closed")
     flat, size = flat_drop(cases / "closed", flow)
@@ -140,7 +140,7 @@ def drops(cases):
 
 
 def sizes(*cases):
-    """The drop of the closed valve in meshes of several sizes, against (R / eps) u."""
+    """Compares the drop of the closed valve with (R / eps) u, in meshes of several sizes."""
     print("The closed valve in finer meshes. h is the cube root of the mean volume of a cell.")
     print(f"  {'edges, cm':>9} {'cells':>9} {'marked':>8} {'eps / h':>8} {'drop / ((R / eps) u)':>20}")
     shares = []
@@ -159,8 +159,8 @@ def sizes(*cases):
 
 
 def hexahedra(*ratios):
-    """The drop across a flat closed leaflet along the faces of hexahedra, over (R / eps) u, for each eps / h. Between two cells
-    1/K is their mean. The leaflet lies anywhere between two faces."""
+    """Prints the drop across a flat closed leaflet over (R / eps) u, for each eps / h. The leaflet is parallel to faces of
+    hexahedra, and lies at many places between two faces. On a face, 1/K is the mean of 1/K in the two cells."""
     places = numpy.linspace(0, 1, 201)
     for ratio in map(float, ratios):
         cells = numpy.arange(-int(ratio) - 2, int(ratio) + 3)[:, None] + places
@@ -171,7 +171,7 @@ def hexahedra(*ratios):
 
 
 def beat(*cases):
-    """The heartbeat with and without the leaflets' velocity."""
+    """Checks the heartbeat with and without the leaflets' velocity."""
     print("A heartbeat by pressure: the valve opens when the pressure difference exceeds 0, and closes when the flow reverses.")
     print(f"  {'':<22} {'opens at':>9} {'closes at':>9} {'least K cells':>13} {'largest flow':>13} {'least flow':>11} {'out':>8}"
           f" {'back':>8} {'library':>9} {'step':>7} {'share':>6}")
@@ -198,7 +198,7 @@ def beat(*cases):
 
 
 def restart(whole, again, none, none_again):
-    """A restart of the heartbeat, beside the same restart without a valve."""
+    """Compares a restart of the heartbeat with the run that was not stopped. The same is done without a valve."""
     print("A restart on 2 ranks while the valve closes, against the run that went on:")
     for name, first, second, fields in (("with the valve", whole, again, (K_NAME, KU_NAME, "p", "U")),
                                         ("without a valve", none, none_again, ("p", "U"))):
@@ -232,7 +232,8 @@ def nan(pressure, owner):
 
 
 def forces(case):
-    """Time and force of the flow on the valve in each step, by the last pressure corrector: (n, 4). Valves add up."""
+    """Returns the time and the force of the flow on the valves in each step, (n, 4). The force is that of the last pressure
+    corrector. The forces of several valves are added."""
     logs = sorted(pathlib.Path(case).glob("log.p*Foam"))
     if not logs:
         raise SystemExit(f"{case} has no log.p*Foam")
@@ -248,7 +249,7 @@ def forces(case):
 
 
 def moving(cases):
-    """Forces, volumes and jets of moving valves, with riisSource and without it."""
+    """Checks forces, volumes and jets of moving valves, with riisSource and without it."""
     cases = pathlib.Path(cases)
     opens = [f"{mesh}-{solver}" for mesh in ("hexahedra-24", "hexahedra-32", "tetrahedra", "box-24", "box-32")
              for solver in ("PCG", "riisSource")]
@@ -309,7 +310,7 @@ def moving(cases):
 
 
 def up(case, function):
-    """The upward part of a velocity that a function object has written, in each step."""
+    """Returns the upward component of the velocity that a function object has written, in each step."""
     paths = sorted(pathlib.Path(case).glob(f"postProcessing/{function}/*/*FieldValue.dat"))
     found = re.findall(r"^[0-9.e-]+\s+\(\S+ \S+ (\S+)\)", foam.text(paths[0]) if paths else "", re.MULTILINE)
     require(found, f"{case} has velocities in a file postProcessing/{function}/*/*FieldValue.dat")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The plots of ./run openfoam: the heartbeat in time, and the velocity with the leaflets."""
+"""Draws the plots of ./run openfoam: the heartbeat in time, and the velocity with the leaflets."""
 import pathlib
 
 import matplotlib
@@ -20,7 +20,7 @@ def _drop(case):
 
 
 def beat(case, still, path):
-    """Opening, pressure difference and flow over the heartbeat."""
+    """Draws opening, pressure difference and flow over the heartbeat."""
     figure, axes = plt.subplots(3, 1, figsize=(8, 8), sharex=True)
     for folder, name, style in ((case, "K (u - velocity of the leaflets)", "C0-"), (still, "K u", "C1--")):
         rows, flow = foam.steps(folder), foam.table(folder, "flow")
@@ -43,7 +43,7 @@ def beat(case, still, path):
 
 
 def _cut(points, corners):
-    """The segments in which triangles cut the plane x = 0, as pairs of y and z."""
+    """Returns the segments in which triangles cut the plane x = 0. Each segment has y and z of both ends."""
     segments = []
     for triangle in points[corners]:
         ends = []
@@ -58,19 +58,19 @@ def _cut(points, corners):
 
 
 def velocity(case, path):
-    """The speed in the plane x = 0, and the leaflets there, at six of the written times."""
+    """Draws the speed and the leaflets in the plane x = 0, at six of the written times."""
     case = pathlib.Path(case)
     rows = foam.steps(case)
     time, opening = rows[:, 0], rows[:, 1]
     half = time[opening > 0.5]
     moving = time[opening > 0]
     full = time[opening > 0.999]
-    # Closed, half open, open, shortly before closing, half closed, closed again.
+    # At these times the valve is closed, half open, open, about to close, half closed, and closed again.
     wanted = [moving[0] - 0.01, half[0], full.mean(), full[-1] - 0.01, half[-1], moving[-1] + 0.01]
     written = {float(folder.name): folder for folder in (case / "postProcessing/slice").iterdir()}
     chosen = [written[min(written, key=lambda t: abs(t - want))] for want in wanted]
     slices = [foam.triangles(folder / "middle.vtk") for folder in chosen]
-    # A few cells beside the moving band may be far faster than all others: they do not set the scale.
+    # A few cells beside the moving band may be far faster than all other cells. The colour scale leaves them out.
     largest = max(numpy.percentile(numpy.linalg.norm(vectors, axis=1), 99.5) for _, _, vectors in slices)
     figure, axes = plt.subplots(1, 6, figsize=(14, 4.4), sharey=True, layout="constrained")
     for one, folder, (points, corners, vectors) in zip(axes, chosen, slices):

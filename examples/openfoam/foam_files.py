@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads OpenFOAM's fields, lists and tables, as text or binary. Ends with the file's name and a reason if one is not readable."""
+"""Reads OpenFOAM's fields, lists and tables, as text or binary. If a file is not readable, the program ends with its name and the
+reason."""
 import pathlib
 import re
 
@@ -34,7 +35,7 @@ def _is_binary(data):
 
 
 def _values(path, data, start, kind, count, binary):
-    """The list of values whose bracket opens behind start."""
+    """Returns the list of values whose opening bracket is the first one after start."""
     dtype, width = TYPES[kind]
     begin = data.find(b"(", start) + 1
     if binary:
@@ -53,7 +54,7 @@ def _values(path, data, start, kind, count, binary):
 
 
 def field(path, n_cells):
-    """The values in the cells: (n_cells) or (n_cells, 3)."""
+    """Returns the values in the cells, (n_cells) or (n_cells, 3)."""
     data = _bytes(path)
     found = re.search(rb"internalField\s+nonuniform\s+List<(\w+)>\s*(\d+)", data)
     if found:
@@ -69,7 +70,7 @@ def field(path, n_cells):
 
 
 def labels(path):
-    """A list of labels, such as constant/polyMesh/owner."""
+    """Reads a list of labels, such as constant/polyMesh/owner."""
     data = _bytes(path)
     found = re.search(rb"\}.*?\n(\d+)\s*(?=\()", data, re.DOTALL)
     if not found:
@@ -78,7 +79,7 @@ def labels(path):
 
 
 def n_cells(mesh):
-    """The number of cells, from the note in constant/polyMesh/owner."""
+    """Returns the number of cells, from the note in constant/polyMesh/owner."""
     path = pathlib.Path(mesh) / "owner"
     note = re.search(rb"nCells:\s*(\d+)", _bytes(path))
     if not note:
@@ -87,7 +88,7 @@ def n_cells(mesh):
 
 
 def parts(case):
-    """The folders with the time folders of a case, and the global ids of their cells."""
+    """Returns the folders that contain the time folders of a case, each with the global ids of its cells."""
     case = pathlib.Path(case)
     folders = sorted(case.glob("processor[0-9]*"))
     if not folders:
@@ -96,7 +97,7 @@ def parts(case):
 
 
 def global_field(case, time, name):
-    """A field of a serial or a decomposed case, by the global ids of the cells."""
+    """Returns a field of a serial or a decomposed case, in the order of the global ids of the cells."""
     pieces = []
     for folder, ids in parts(case):
         path = folder / time / name
@@ -115,7 +116,7 @@ def global_field(case, time, name):
 
 
 def times(case):
-    """The names of the written times, ascending, without that of the start."""
+    """Returns the names of the written times, ascending, without the start time."""
     folder = parts(case)[0][0]
     names = [path.name for path in folder.iterdir() if re.fullmatch(r"[0-9.e-]+", path.name) and float(path.name) > 0]
     if not names:
@@ -124,7 +125,7 @@ def times(case):
 
 
 def table(case, name):
-    """A table of a function object: times and values."""
+    """Returns the table of a function object: times and values."""
     paths = sorted(pathlib.Path(case).glob(f"postProcessing/{name}/*/surfaceFieldValue.dat"))
     rows = []
     for path in paths:
@@ -141,7 +142,7 @@ def table(case, name):
 
 
 def steps(case):
-    """What the solver's log says of each step: time, opening, cells, seconds of the library and of the whole step.
+    """Reads the solver's log. Returns for each step: time, opening, cells, seconds of the library and of the whole step.
 
     The integral of K stands between cells and seconds. The first step has NaN in the place of the last.
     """
@@ -163,7 +164,8 @@ def steps(case):
 
 
 def triangles(path):
-    """The points (n, 3), triangles (m, 3) and vectors at the points (n, 3) of a .vtk of triangles; no vectors are None."""
+    """Reads a .vtk file of triangles. Returns points (n, 3), triangles (m, 3) and vectors at the points (n, 3). The vectors are
+    None if the file has none."""
     words = text(path).split()
     for word in ("POINTS", "POLYGONS"):
         if word not in words:

@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# The steps of ./run openfoam, which reads this file: fetch OpenFOAM's headers, compile the plug-in, mesh, run, check, draw. They
-# use its $build, $n_jobs, $packages, install_missing, is_on_offer, python_of_packages, say and step.
+# The steps of ./run openfoam: fetch OpenFOAM's headers, compile the plug-in, mesh, run, check, draw. `run` sources this file. The
+# steps use $build, $n_jobs, $packages, install_missing, is_on_offer, python_of_packages, say and step of `run`.
 
 openfoam_packages=(openfoam mpi-default-bin openmpi-bin gcc g++ cmake make ninja-build libembree-dev libtbb-dev gmsh
   bzip2 xz-utils python3-numpy python3-matplotlib)
@@ -62,7 +62,7 @@ openfoam() {
   say "wrote out/openfoam/beat.png, out/openfoam/velocity.png, and the heartbeat in $of_cases/beat"
 }
 
-# Says why nothing runs if the distribution lacks the package.
+# Tells whether the distribution has the package openfoam. Prints the reason if it has not.
 openfoam_has_package() {
   if ! command -v dpkg-query >/dev/null; then
     say "OpenFOAM is left out: this is no Debian system, and the plug-in is built for Debian's package openfoam"
@@ -74,7 +74,8 @@ openfoam_has_package() {
   }
 }
 
-# Debian's packages have no headers, so its source package gives them: OPENFOAM_SOURCE. Says why nothing runs if it cannot be had.
+# Gets OpenFOAM's headers from Debian's source package, because the binary packages have none. Prints the reason if the source
+# package is not available.
 openfoam_has_source() {
   local version folder=$of_work/source
   # shellcheck disable=SC2016 # dpkg-query's own variable
@@ -89,8 +90,8 @@ openfoam_has_source() {
   fi
 }
 
-# openfoam_source VERSION FOLDER: the system's own apt entries, as entries for sources in a private folder. The system's lists
-# stay. --tar-only: the headers are all in the original archive, so Debian's own files are not needed.
+# openfoam_source VERSION FOLDER: downloads the source package. A private folder of apt gets the system's own entries, changed to
+# entries for sources. The system's lists do not change. The option --tar-only is enough, as the original archive has all headers.
 openfoam_source() {
   local folder=$2 file apt_options part
   mkdir -p "$folder/apt/parts" "$folder/apt/lists/partial" "$folder/apt/cache/archives/partial"
@@ -125,13 +126,14 @@ openfoam_build() {
 openfoam_environment() {
   export WM_PROJECT_DIR=/usr/share/openfoam
   export LD_LIBRARY_PATH=$of_work/plugin${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
-  # Ranks may be more than processors, and may belong to root. The second line is for Open MPI 4, the third for 5.
+  # There may be more ranks than processors, and the user may be root. The second line is for Open MPI 4, the third for 5.
   export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
   export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1
   export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none
 }
 
-# Debian 13's OpenFOAM ends at the first function object (plugin/dictionaryDigest.C). Leaves what its programs need in $of_with.
+# Checks whether function objects work, because Debian 13's OpenFOAM stops at the first one (plugin/dictionaryDigest.C). Sets
+# $of_with to the words that must stand before OpenFOAM's programs.
 openfoam_digests() {
   local digest=$of_work/plugin/libfoamDigest.so log=$of_work/function_object.log
   of_with=()
@@ -148,7 +150,7 @@ openfoam_digests() {
 
 openfoam_function_object() { "${of_with[@]}" postProcess -case "$of_work/mesh-$of_size" -func writeCellCentres -time 0; }
 
-# openfoam_mesh SIZE: OpenFOAM's mesh with edges of SIZE centimetres, in mesh-SIZE.
+# openfoam_mesh SIZE: makes a mesh with edges of SIZE centimetres, in mesh-SIZE.
 openfoam_mesh() {
   local folder=$of_work/mesh-$1
   [[ ! -e $folder/complete || $openfoam_here/root.geo -nt $folder/complete ||
@@ -164,7 +166,7 @@ openfoam_mesh() {
     touch "$folder/complete"
 }
 
-# of_case NAME [SIZE]: a copy of the case with a mesh, in $of_cases/NAME.
+# of_case NAME [SIZE]: copies the case and a mesh to $of_cases/NAME.
 of_case() {
   local folder=$of_cases/$1
   rm -rf "$folder"
@@ -173,7 +175,7 @@ of_case() {
     of_set "$1" system/fvOptions aorticValve/halfThickness "$of_half_thickness"
 }
 
-# of_set NAME FILE KEY VALUE [KEY VALUE...]: changes entries of a file of a case.
+# of_set NAME FILE KEY VALUE [KEY VALUE...]: changes entries in a file of the case.
 of_set() {
   local file=$of_cases/$1/$2
   shift 2
@@ -183,7 +185,7 @@ of_set() {
   done
 }
 
-# of_run NAME RANKS: runs the case; log.pimpleFoam has what it printed.
+# of_run NAME RANKS: runs the case, with its output in log.pimpleFoam.
 of_run() {
   local parts=([1]='1 1 1' [2]='2 1 1' [4]='2 2 1')
   if (($2 == 1)); then
@@ -205,7 +207,7 @@ of_logged() {
   return 1
 }
 
-# An opening valve, with every step written. The cell centres are OpenFOAM's own.
+# Runs an opening valve, and writes every step. OpenFOAM also writes the cell centres.
 openfoam_marks() {
   local ranks name
   for ranks in 1 2 4; do
@@ -223,7 +225,7 @@ openfoam_marks() {
   done
 }
 
-# of_constant_flow NAME OPENING [SIZE]: a given velocity at the inlet, and a valve that does not move.
+# of_constant_flow NAME OPENING [SIZE]: makes a case with a given velocity at the inlet, and a valve that does not move.
 of_constant_flow() {
   local free_outlet='outlet { type zeroGradient; }' fixed_outlet='outlet { type fixedValue; value uniform 0; }'
   of_case "$1" "${3:-}" &&
@@ -238,13 +240,14 @@ openfoam_drops() {
   of_constant_flow closed 0 && of_run closed 1 &&
     of_constant_flow open 1 && of_run open 1 &&
     of_constant_flow none 1 && rm "$of_cases/none/system/fvOptions" && of_run none 1 || return
-  # OpenFOAM's own porosity in the same cells, with the same coefficients to a part in 400 of the largest.
+  # OpenFOAM's own porosity acts in the same cells. Its coefficients differ by at most 1/400 of the largest one.
   for model in powerLaw DarcyForchheimer; do
     of_constant_flow "$model" 0 && of_check zones "$of_cases/closed" "$of_cases/$model" "$model" && of_run "$model" 1 || return
   done
 }
 
-# openfoam_hexahedra N: the root of cubes, N to 36 mm, in hexahedra-N. A box of cubes loses those outside of the root's surface.
+# openfoam_hexahedra N: makes a mesh of the root from cubes, N to 36 mm, in hexahedra-N. The cubes of a box that lie outside the
+# root's surface are removed.
 openfoam_hexahedra() {
   local folder=$of_work/hexahedra-$1 layers=$(((13 * $1 + 6) / 12)) top
   [[ ! -e $folder/complete || $openfoam_here/root.geo -nt $folder/complete ]] || return 0
@@ -269,7 +272,7 @@ END
     grep -q '^Mesh OK' "$folder/checkMesh.log" && touch "$folder/complete"
 }
 
-# of_block FOLDER LOWER UPPER CELLS: blockMesh's dictionary of a box, with an inlet, an outlet and walls.
+# of_block FOLDER LOWER UPPER CELLS: writes blockMesh's dictionary of a box with an inlet, an outlet and walls.
 of_block() {
   local a b
   read -r -a a <<<"$2"
@@ -291,7 +294,8 @@ boundary
 END
 }
 
-# of_moving NAME MESH HALF_THICKNESS SOLVER OPENING: the valve opens from OPENING within 40 ms, between equal pressures.
+# of_moving NAME MESH HALF_THICKNESS SOLVER OPENING: makes a case in which the valve opens from OPENING within 40 ms, between
+# equal pressures.
 of_moving() {
   local name=$1
   rm -rf "${of_cases:?}/$name"
@@ -305,19 +309,19 @@ of_moving() {
     of_solver "$name" "$4"
 }
 
-# of_solver NAME SOLVER: PCG solves for the pressure, by itself or called by riisSource.
+# of_solver NAME SOLVER: sets the solver for the pressure: PCG, or riisSource, which calls PCG.
 of_solver() {
   [[ $2 == PCG ]] || of_set "$1" system/fvSolution solvers/p/solver riisSource solvers/p/linearSolver PCG
 }
 
-# of_closed NAME: a closed box, whose ends are walls.
+# of_closed NAME: turns both ends of the box into walls.
 of_closed() {
   of_set "$1" 0/p boundaryField '{ ".*" { type zeroGradient; } }' && of_set "$1" 0/U boundaryField '{ ".*" { type noSlip; } }' &&
     of_set "$1" system/fvSolution PIMPLE/pRefCell 0 PIMPLE/pRefValue 0 &&
     sed -i 's/type  *patch;/type wall;/' "$of_cases/$1/constant/polyMesh/boundary"
 }
 
-# of_twice NAME: two valves at the same place, each with half the resistance.
+# of_twice NAME: replaces the valve by two valves at the same place, each with half the resistance.
 of_twice() {
   local options=$of_cases/$1/system/fvOptions
   of_set "$1" system/fvOptions aorticValve/resistance 5e3 &&
@@ -325,8 +329,8 @@ of_twice() {
     cat "$options.second" >>"$options"
 }
 
-# of_plate NAME CELLS SOLVER: a plate across a duct of 10 mm. It is a small part of a leaflet of 1.1 m, which turns by a degree
-# about a hinge in a distance of 48 cm.
+# of_plate NAME CELLS SOLVER: runs a plate that moves in a duct of 10 mm. The plate is a small part of a leaflet of 1.1 m. The
+# leaflet turns by one degree about a hinge that is 48 cm away.
 of_plate() {
   of_moving "$1" "hexahedra-24" "$(awk -v n="$2" 'BEGIN { print 0.015 / n }')" "$3" 0 &&
     of_set "$1" system/fvOptions aorticValve/valve '{ kind bileaflet; closed_angle 0; open_angle 1; }' \
@@ -336,13 +340,13 @@ of_plate() {
     of_sum "$1" inflow inlet && of_sum "$1" outflow outlet && of_run "$1" 1
 }
 
-# of_sum NAME FUNCTION PATCH: a table of the flow through a patch.
+# of_sum NAME FUNCTION PATCH: adds a function object that writes a table of the flow through a patch.
 of_sum() {
   printf '%s { type surfaceFieldValue; libs (fieldFunctionObjects); regionType patch; name %s; operation sum; fields (phi);
     writeFields no; log no; }\n' "$2" "$3" >>"$of_cases/$1/system/functions"
 }
 
-# of_jet NAME N SOLVER: a heartbeat until the valve is open, in cubes.
+# of_jet NAME N SOLVER: runs a heartbeat until the valve is open, in a mesh of cubes.
 of_jet() {
   of_moving "$1" "hexahedra-$2" "$(of_band "$2")" "$3" 0 &&
     cp "$openfoam_here"/case/system/{fvOptions,functions} "$of_cases/$1/system" &&
@@ -358,7 +362,7 @@ END
   of_run "$1" 1
 }
 
-# of_band N: 1.5 edges of a cube.
+# of_band N: prints the half thickness, 1.5 edges of a cube.
 of_band() { awk -v n="$1" 'BEGIN { printf "%.17g", 1.5 * 0.036 / n }'; }
 
 openfoam_moving() {
@@ -402,15 +406,15 @@ openfoam_sizes() {
   done
 }
 
-# openfoam_beat NAME VELOCITY
+# openfoam_beat NAME VELOCITY: runs a heartbeat. VELOCITY is the value of the key velocity.
 openfoam_beat() {
   of_case "$1" &&
     of_set "$1" system/controlDict deltaT "$of_time_step" writeControl runTime writeInterval 0.02 &&
     of_set "$1" system/fvOptions aorticValve/velocity "$2" && of_run "$1" 2
 }
 
-# Two written times after a restart while the valve closes. For comparison the flow goes on from the same heartbeat without a
-# valve, and is restarted at the same time.
+# Restarts the heartbeat while the valve closes, and writes two later times. For comparison, a flow without a valve continues from
+# the same heartbeat, and is also restarted.
 openfoam_restart() {
   local before=0.16 time=0.2 end=0.24
   of_copy beat beat-restart && of_go_on beat-restart "$time" "$end" &&
@@ -418,20 +422,20 @@ openfoam_restart() {
     of_copy flow flow-restart && of_go_on flow-restart "$time" "$end"
 }
 
-# of_copy NAME COPY: cp would put the case into a copy that is there already.
+# of_copy NAME COPY: copies a case. An existing copy is refused, because cp would put the case inside it.
 of_copy() {
   [[ ! -e $of_cases/$2 ]] || { echo "the case $of_cases/$2 is there already" >&2 && return 1; }
   cp -r "$of_cases/$1" "$of_cases/$2"
 }
 
-# of_go_on NAME TIME END: runs a case on 2 ranks from a time that it has written.
+# of_go_on NAME TIME END: continues a case on 2 ranks from a written time.
 of_go_on() {
   of_forget_after "$1" "$2" &&
     of_set "$1" system/controlDict startTime "$2" endTime "$3" &&
     of_logged "$1" pimpleFoam timeout 3600 mpirun -n 2 "${of_with[@]}" pimpleFoam -case "$of_cases/$1" -parallel
 }
 
-# of_forget_after NAME TIME: removes what a case has of later times.
+# of_forget_after NAME TIME: removes the files of later times from a case.
 of_forget_after() {
   local folder
   for folder in "$of_cases/$1"/processor*/[0-9]*; do
@@ -440,7 +444,7 @@ of_forget_after() {
   rm -rf "${of_cases:?}/$1/postProcessing"
 }
 
-# of_refused TEXT NAME WORDS: the case must stop with the words, and leave no time folder.
+# of_refused TEXT NAME WORDS: checks that the case stops with the words, and leaves no time folder.
 of_refused() {
   local name=$2 log=$of_cases/$2/log.pimpleFoam left
   if of_run "$name" 1 2>/dev/null; then
@@ -459,12 +463,12 @@ of_refused() {
   printf '  %-34s refused: %s\n' "$1" "$3" >>"$of_out/refusals.txt"
 }
 
-# of_bad NAME: a case that does two steps.
+# of_bad NAME: makes a case of two steps.
 of_bad() {
   of_case "$1" && of_set "$1" system/controlDict endTime 2e-3 deltaT 1e-3 writeInterval 2
 }
 
-# of_height NAME CENTIMETRES: gives the valve a leaflet height. foamDictionary would leave six digits of it.
+# of_height NAME CENTIMETRES: gives the valve a leaflet height. foamDictionary would keep only six digits of the number.
 of_height() {
   sed -i -E "s/kind +trileaflet;.*/kind trileaflet; leaflet_height $2;/" "$of_cases/$1/system/fvOptions" &&
     grep -q "leaflet_height $2;" "$of_cases/$1/system/fvOptions"

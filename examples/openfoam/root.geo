@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The aortic root of ./run demo for a flow solver: with a tube at the outlet, and with names for the inlet, the outlet and the
-// wall. In metres, with edges of 1.6 mm:
+// Makes a mesh of the aortic root of ./run demo for a flow solver. It has a tube at the outlet, and names for the inlet, the
+// outlet and the wall. This command makes a mesh in metres with edges of 1.6 mm:
 // gmsh -3 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -setnumber size 0.16 -format msh22 -o root.msh root.geo
-DefineConstant[ size = 0.16 ]; // of the edges, in centimetres
+DefineConstant[ size = 0.16 ]; // length of the edges in centimetres
 tube_length = 1;
 Include "../demo/aortic_root.geo";
 

@@ -500,31 +500,31 @@ module riis_c
 
   !> A leaflet of a surface. Lengths are in mesh units.
   type, bind(c) :: riis_leaflet
-    integer(c_int64_t) :: n_triangles !< that answer queries
-    real(c_double) :: area            !< of its triangles
-    real(c_double) :: free_edge       !< length of its free edge: the sides v = 1 of its patches that no other of its
-                                      !! patches has. 0 from arrays
+    integer(c_int64_t) :: n_triangles !< the number of its triangles that answer queries
+    real(c_double) :: area            !< the area of its triangles
+    real(c_double) :: free_edge       !< the length of its free edge: the sides v = 1 that only one of its patches has.
+                                      !! 0 for a surface from arrays
     integer(c_int32_t) :: leaflet_id  !< as in riis_triangles
     integer(c_int32_t) :: reserved    !< 0
   end type riis_leaflet
 
-  !> The orifice of a valve: what its triangles leave uncovered of an outline, seen along the valve's axis. The axis is
-  !! the z axis of the valve, placed as the valve is. Lengths are in mesh units (docs/theory.md, section 15).
+  !> The orifice of a valve: the part of an outline that the triangles do not cover, seen along the valve's axis. The
+  !! axis is the z axis of the placed valve. Lengths are in mesh units (docs/theory.md, section 15).
   type, bind(c) :: riis_orifice
-    real(c_double) :: area           !< of the orifice; 0 without an outline, like all other numbers but axis and
-                                     !! rim_reach
-    real(c_double) :: outline_area   !< inside of the outline
-    real(c_double) :: perimeter      !< length of the orifice's edge along the triangles, moved inwards by a tenth of
-                                     !! the half thickness, so that narrower slits do not count. An edge on the outline
-                                     !! is a wall and does not count
-    real(c_double) :: effective_area !< that the band around the valve leaves to the flow: of the orifice whose edge
-                                     !! along the triangles is moved inwards by rim_reach * half_thickness. It is area -
-                                     !! rim_reach * half_thickness * perimeter to first order, and never below 0
-    real(c_double) :: rim_reach      !< c: 0.84 for a round rim, 0.70 for a cut one. Flows through open valves gave 0.70
+    real(c_double) :: area           !< the area of the orifice. Without an outline only axis and rim_reach differ from
+                                     !! 0
+    real(c_double) :: outline_area   !< the area inside the outline
+    real(c_double) :: perimeter      !< the length of the orifice's edge along the triangles. The edge is first moved
+                                     !! inwards by a tenth of the half thickness, so that narrower slits do not count.
+                                     !! Parts of the edge on the outline are walls and do not count
+    real(c_double) :: effective_area !< the area that the band around the valve leaves to the flow. The edge along the
+                                     !! triangles is moved inwards by rim_reach * half_thickness. To first order the
+                                     !! result is area - rim_reach * half_thickness * perimeter. It is never below 0
+    real(c_double) :: rim_reach      !< c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open valves gave 0.70
                                      !! to 0.98 and 0.46 to 0.95 (docs/validation.md)
-    real(c_double) :: half_thickness !< eps, the resistance's
-    real(c_double) :: radius         !< of the disc; 0 for others
-    real(c_double) :: axis(3)        !< unit vector along the valve's z axis
+    real(c_double) :: half_thickness !< eps of the resistance
+    real(c_double) :: radius         !< the radius of the disc; 0 for other outlines
+    real(c_double) :: axis(3)        !< unit vector along the placed valve's z axis
     integer(c_int32_t) :: outline    !< RIIS_OUTLINE_*
     integer(c_int32_t) :: reserved   !< 0
   end type riis_orifice
@@ -538,24 +538,24 @@ module riis_c
 
   !> The opening at which a valve first lets the mesh pass.
   type, bind(c) :: riis_first_passage
-    real(c_double) :: opening        !< that was tried and has a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE
-    real(c_double) :: closed_opening !< the largest below it that was tried, which has none. Like opening unless FOUND
+    real(c_double) :: opening        !< the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE
+    real(c_double) :: closed_opening !< the largest tried opening below it, which has no passage. Equals opening unless
+                                     !! FOUND
     integer(c_int64_t) :: node_id    !< the passage at `opening`, as in riis_passage
     real(c_double) :: distance       !< as in riis_passage
     real(c_double) :: point(3)       !< as in riis_passage
     real(c_double) :: seconds        !< wall time of riis_find_first_passage
-    integer(c_int32_t) :: n_openings !< how many were tried
+    integer(c_int32_t) :: n_openings !< the number of openings tried
     integer(c_int32_t) :: state      !< RIIS_FIRST_PASSAGE_*
   end type riis_first_passage
 
-  !> How many mesh edges lie across the band, by the edges of the mesh's adjacency with a marked node.
+  !> The number of mesh edges across the band, from the lengths of the mesh edges with a marked node.
   type, bind(c) :: riis_cells_across
-    real(c_double) :: least, mean, most       !< 2 * half_thickness over the longest, the mean and the shortest of these
-                                              !! edges
-    real(c_double) :: shortest_edge, mean_edge, longest_edge !< their lengths
-    real(c_double) :: half_thickness          !< of the marking
-    integer(c_int64_t) :: n_edges             !< with at least one marked node. Without one, all but half_thickness are
-                                              !! 0
+    real(c_double) :: least, mean, most       !< 2 * half_thickness over the longest, the mean and the shortest length
+    real(c_double) :: shortest_edge, mean_edge, longest_edge !< the lengths of these edges
+    real(c_double) :: half_thickness          !< the half thickness of the marking
+    integer(c_int64_t) :: n_edges             !< edges with at least one marked node. If it is 0, only half_thickness
+                                              !! differs from 0
   end type riis_cells_across
 
   type, bind(c) :: riis_opening_table

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! Generated from fortran/templates/riis_f77_measures.fypp by fortran/expand_templates.sh: edit that template, not this file.
-!> The external subroutines for what a valve means for the flow: leaflets, orifice, leak, first passage, cells across the band
+!> The external subroutines for the measures of a valve for a flow: leaflets, orifice, leak, first passage, cells across the band
 !! and swept volume. The conventions are those of riis_f77.f90.
 
 !> Gives the number of the surface's leaflets.

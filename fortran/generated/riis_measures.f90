@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! Generated from fortran/templates/riis_measures.fypp by fortran/expand_templates.sh: edit that template, not this file.
-!> What a valve means for the flow: leaflets, orifice, leak, first passage, cells across the band and swept volume of riis.h, as
-!! a part of module riis.
+!> The measures of a valve for a flow: leaflets, orifice, leak, first passage, cells across the band and swept volume of riis.h,
+!! as a part of module riis.
 module riis_measures
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
@@ -67,7 +67,7 @@ contains
     call get_integer(rim, 'rim', made%rim, code)
   end subroutine get_resistance
 
-  !> Measures the orifice of a valve's surface: the area that its triangles leave uncovered along the valve's axis, and the
+  !> Measures the orifice of a valve's surface: the area that its triangles do not cover, seen along the valve's axis, and the
   !! effective area that the band leaves to the flow. Errors: RIIS_INVALID_ARGUMENT for an argument out of range, and for a
   !! surface from arrays or keyframes.
   subroutine riis_get_orifice(surface, orifice, half_thickness, rim, status)

@@ -444,20 +444,20 @@ typedef struct riis_triangles {
 RIIS_API riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangles *triangles,
                                                 int64_t struct_size);
 
-/* The attachment of a valve: edges along the sides at which tissue or a stent holds its leaflets, after placement.
- * They ascend by patch, and along a side by its u or v. */
+/* The attachment of a valve: the edges along the sides at which tissue or a stent holds its leaflets, after
+ * placement. The edges are in the order of the patches, and within a side in the order of u or v. */
 typedef struct riis_attachment {
-  int64_t n_edges;           /* edges with a length */
-  const double *edges;       /* (3, 2, n_edges): both ends of each, as riis_reaction takes them */
+  int64_t n_edges;           /* the number of edges; edges of length 0 are left out */
+  const double *edges;       /* (3, 2, n_edges): both ends of each edge, in the layout of riis_reaction.edges */
   const int64_t *vertex_id;  /* (2, n_edges): the vertices at the ends, in riis_triangles.xyz */
   const int32_t *leaflet_id; /* (n_edges): the leaflet that is attached there */
   const int32_t *patch_id;   /* (n_edges): its patch, as in riis_triangles */
 } riis_attachment;
-/* Gives the attachment of a valve's surface, until the surface's next update or its destruction. Cusps are held
- * where they meet the sinus, u = 1, from the root to the commissures; mitral leaflets at the annulus, v = 0. Patches
- * are held at the sides v = 0 that no other patch has. A bileaflet valve has no attachment, as pivots hold its
- * leaflets.
- * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, whose attached and free edges look alike. */
+/* Gives the attachment of a valve's surface, until the surface's next update or its destruction. A cusp is attached
+ * at the sinus, u = 1, from the root to the commissures. A mitral leaflet is attached at the annulus, v = 0. Patches
+ * are attached at the sides v = 0 that only one patch has. A bileaflet valve has no attachment, because pivots hold
+ * its leaflets.
+ * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, because nothing tells which of its edges are attached. */
 RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, riis_attachment *attachment,
                                                  int64_t struct_size);
 
@@ -862,40 +862,39 @@ typedef struct riis_flow_arrays {
   const double *weight;      /* (n_nodes), volume around a node, 0 for nodes of other ranks; NULL only for 0 nodes */
 } riis_flow_arrays;
 RIIS_API riis_status riis_flow_arrays_init(riis_flow_arrays *flow, int64_t struct_size); /* the defaults */
-/* The caller's sums, to which those of the flow on the surface are added; NULL for sums that are not wanted. No
- * array may overlap another. A node's force is weight K (velocity - u_surface); it acts at the closest point of the
- * surface, so that the power of a rigid surface is force times velocity plus moment times angular velocity. */
+/* The caller's arrays for the forces and moments of the flow, which are added to them. NULL leaves a sum out. The
+ * arrays must not overlap. A node's force is weight K (velocity - u_surface), and acts at the node's closest point. So
+ * the power of a rigid surface is force times velocity plus moment times angular velocity. */
 typedef struct riis_reaction {
   int64_t struct_size;      /* set by the init function */
-  double about[3];          /* the point that moment and leaflet_moment are about; magnitude at most 1e60.
+  double about[3];          /* the reference point of moment and leaflet_moment; magnitude at most 1e60.
                                Default 0 */
-  double *force;            /* (3): of the whole surface. Its unit is that of weight K velocity, N in SI units */
-  double *moment;           /* (3): of the whole surface */
-  int64_t n_leaflets;       /* more than riis_surface_info.largest_leaflet_id. Not used without sums of leaflets.
-                               Default 0 */
-  double *leaflet_force;    /* (3, n_leaflets): of each leaflet. A node belongs to the leaflet of its triangle
-                               (riis_mark_list.leaflet_id), also where two are equally near */
-  double *leaflet_moment;   /* (3, n_leaflets) */
-  int64_t n_edges;          /* at least 1 with sums of edges, which alone use it. Default 0 */
-  const double *edges;      /* (3, 2, n_edges): both ends of each, such as riis_attachment.edges; magnitude at
-                               most 1e60. Both ends may be one point */
-  const int32_t *edge_leaflet_id; /* (n_edges), >= 0: a node's share goes to the nearest edge of its leaflet, and
-                               each leaflet of the surface needs an edge. NULL, the default: to the nearest of all */
-  double *edge_force;       /* (3, n_edges): of the nodes whose closest points are nearest to the edge; of
-                               equally near edges the first gets the share */
-  double *edge_moment;      /* (3, n_edges): of the same nodes, about the middle of the edge */
+  double *force;            /* (3): force on the whole surface, in the unit of weight K velocity, N in SI units */
+  double *moment;           /* (3): moment on the whole surface */
+  int64_t n_leaflets;       /* more than riis_surface_info.largest_leaflet_id. Only the two sums of leaflets use
+                               it. Default 0 */
+  double *leaflet_force;    /* (3, n_leaflets): force on each leaflet. A node belongs to the leaflet in
+                               riis_mark_list.leaflet_id, also if two leaflets are equally near */
+  double *leaflet_moment;   /* (3, n_leaflets): moment on each leaflet */
+  int64_t n_edges;          /* at least 1 if edge_force or edge_moment is given; otherwise not used. Default 0 */
+  const double *edges;      /* (3, 2, n_edges): both ends of each edge, for example riis_attachment.edges;
+                               magnitude at most 1e60. An edge may have length 0 */
+  const int32_t *edge_leaflet_id; /* (n_edges), >= 0: a node counts for the nearest edge of its leaflet, and each
+                               leaflet needs an edge. NULL, the default: it counts for the nearest of all edges */
+  double *edge_force;       /* (3, n_edges): force of the nodes that count for the edge. The distance is that of a
+                               node's closest point. If edges are equally near, the first one counts */
+  double *edge_moment;      /* (3, n_edges): moment of the same nodes about the middle of the edge */
 } riis_reaction;
 /* Fills *reaction with the defaults. */
 RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_size);
 /* Adds the force of the flow on the surface, and its moment, for the whole surface, each leaflet and each edge.
- * All are plain sums over nodes: ranks give the same points and edges, and add their sums by a reduction. The
- * leaflets' sums add up to those of the whole, to the last digits. u_surface is 0 if the marking lacked
+ * Each result is a plain sum over nodes. With MPI all ranks pass the same points and edges, and add up their sums.
+ * The sums of leaflets add up to the sum of the whole, up to rounding. u_surface is 0 if the marking lacked
  * RIIS_FIELD_VELOCITY. A valve that moves needs a source in the pressure equation (docs/solvers.md, "The source in
  * the band").
  *   reaction  moments and sums of edges need RIIS_FIELD_POINT
- * Edges get shares for tissue codes that know a load by edge. The shares are no mechanics of a membrane: the
- * tissue carries loads to other places. Their search takes log n_edges for a node where the edges lie apart, and
- * n_edges where all are equally near.
+ * The sums of edges are loads for tissue codes. They do not model how a membrane carries loads to its edges. A node
+ * takes a time of order log n_edges, or of order n_edges if all edges are equally near.
  * Errors: as riis_marks_add_resistance; RIIS_INVALID_ARGUMENT also for an n_leaflets that is too small, naming the
  * leaflet id, for a leaflet without edge, for a bad edge, and for a reaction without any sum. */
 RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,
@@ -1020,10 +1019,10 @@ RIIS_API riis_status riis_find_passage(const riis_surface *surface, const riis_m
 
 /* A leaflet of a surface. Lengths are in mesh units. */
 typedef struct riis_leaflet {
-  int64_t n_triangles; /* that answer queries */
-  double area;         /* of its triangles */
-  double free_edge;    /* length of its free edge: the sides v = 1 of its patches that no other of its patches has.
-                          0 from arrays */
+  int64_t n_triangles; /* the number of its triangles that answer queries */
+  double area;         /* the area of its triangles */
+  double free_edge;    /* the length of its free edge: the sides v = 1 that only one of its patches has. 0 for a
+                          surface from arrays */
   int32_t leaflet_id;  /* as in riis_triangles */
   int32_t reserved;    /* 0 */
 } riis_leaflet;
@@ -1034,43 +1033,43 @@ RIIS_API riis_status riis_surface_get_n_leaflets(const riis_surface *surface, in
 RIIS_API riis_status riis_surface_get_leaflet(const riis_surface *surface, int64_t leaflet, riis_leaflet *sizes,
                                               int64_t struct_size);
 
-/* What an orifice lies in. */
+/* The outline of an orifice. */
 enum {
-  RIIS_OUTLINE_NONE = 0,      /* nothing: the free sides v = 0 of a valve from patches enclose no area */
+  RIIS_OUTLINE_NONE = 0,      /* none: the free sides v = 0 of a valve from patches enclose no area */
   RIIS_OUTLINE_DISC = 1,      /* the disc of root_radius (aortic, trileaflet) or radius (bileaflet) about the axis */
   RIIS_OUTLINE_ATTACHMENT = 2 /* the sides v = 0 that only one patch has: the annulus of the mitral valve */
 };
-/* The orifice of a valve: what its triangles leave uncovered of an outline, seen along the valve's axis. The axis is
- * the z axis of the valve, placed as the valve is. Lengths are in mesh units (docs/theory.md, section 15). */
+/* The orifice of a valve: the part of an outline that the triangles do not cover, seen along the valve's axis. The
+ * axis is the z axis of the placed valve. Lengths are in mesh units (docs/theory.md, section 15). */
 typedef struct riis_orifice {
-  double area;           /* of the orifice; 0 without an outline, like all other numbers but axis and rim_reach */
-  double outline_area;   /* inside of the outline */
-  double perimeter;      /* length of the orifice's edge along the triangles, moved inwards by a tenth of the half
-                            thickness, so that narrower slits do not count. An edge on the outline is a wall and
-                            does not count */
-  double effective_area; /* that the band around the valve leaves to the flow: of the orifice whose edge along the
-                            triangles is moved inwards by rim_reach * half_thickness. It is area - rim_reach *
-                            half_thickness * perimeter to first order, and never below 0 */
-  double rim_reach;      /* c: 0.84 for a round rim, 0.70 for a cut one. Flows through open valves gave 0.70 to
+  double area;           /* the area of the orifice. Without an outline only axis and rim_reach differ from 0 */
+  double outline_area;   /* the area inside the outline */
+  double perimeter;      /* the length of the orifice's edge along the triangles. The edge is first moved inwards by
+                            a tenth of the half thickness, so that narrower slits do not count. Parts of the edge
+                            on the outline are walls and do not count */
+  double effective_area; /* the area that the band around the valve leaves to the flow. The edge along the triangles
+                            is moved inwards by rim_reach * half_thickness. To first order the result is area -
+                            rim_reach * half_thickness * perimeter. It is never below 0 */
+  double rim_reach;      /* c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open valves gave 0.70 to
                             0.98 and 0.46 to 0.95 (docs/validation.md) */
-  double half_thickness; /* eps, the resistance's */
-  double radius;         /* of the disc; 0 for others */
-  double axis[3];        /* unit vector along the valve's z axis */
+  double half_thickness; /* eps of the resistance */
+  double radius;         /* the radius of the disc; 0 for other outlines */
+  double axis[3];        /* unit vector along the placed valve's z axis */
   int32_t outline;       /* RIIS_OUTLINE_* */
   int32_t reserved;      /* 0 */
 } riis_orifice;
 /* Measures the orifice of a valve's surface.
- *   resistance  its half_thickness and rim count. RIIS_AUTO stands for the surface's half thickness. NULL: the
- *               defaults
+ *   resistance  only half_thickness and rim are used. RIIS_AUTO stands for the surface's half thickness. NULL
+ *               stands for the defaults
  * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays or keyframes, which have no axis and no outline. */
 RIIS_API riis_status riis_surface_get_orifice(const riis_surface *surface, const riis_resistance *resistance,
                                               riis_orifice *orifice, int64_t struct_size);
 
-/* Tells the ideal leak of a closed surface: the volume flow through it at a pressure drop, drop * (eps / R) * area.
- * The area is that of all triangles without the bileaflet housing. A solver leaks by its own drop (docs/solvers.md).
- *   resistance  R, 1e-60 to 1e60, and half_thickness count. RIIS_AUTO stands for the surface's half thickness
- *   drop        pressure upstream less that downstream, magnitude at most 1e30
- *   flow        its unit is that of drop * area * eps / R: m^3/s in SI units
+/* Gives the ideal leak of a closed surface: the volume flow drop * (eps / R) * area that a pressure drop causes.
+ * The bileaflet housing does not count in the area. The leak in a solver differs from the ideal (docs/solvers.md).
+ *   resistance  only R, 1e-60 to 1e60, and half_thickness are used. RIIS_AUTO stands for the surface's half thickness
+ *   drop        upstream pressure minus downstream pressure, magnitude at most 1e30
+ *   flow        in the unit of drop * area * eps / R, which is m^3/s in SI units
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value. */
 RIIS_API riis_status riis_surface_get_leak(const riis_surface *surface, const riis_resistance *resistance,
                                            double drop, double *flow);
@@ -1078,13 +1077,13 @@ RIIS_API riis_status riis_surface_get_leak(const riis_surface *surface, const ri
 /* Options of riis_find_first_passage. */
 typedef struct riis_first_passage_options {
   int64_t struct_size;                 /* set by the init function */
-  const riis_surface_options *surface; /* of the valve's surface. NULL, the default: its defaults */
-  const riis_mark_options *marking;    /* as options of riis_find_passage. NULL, the default: the defaults */
-  double tolerance;                    /* of the opening, 1e-6 to 1. Default 1e-3 */
+  const riis_surface_options *surface; /* options of the valve's surface. NULL, the default, stands for defaults */
+  const riis_mark_options *marking;    /* options of riis_find_passage. NULL, the default, stands for defaults */
+  double tolerance;                    /* tolerance of the opening, 1e-6 to 1. Default 1e-3 */
 } riis_first_passage_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_first_passage_options_init(riis_first_passage_options *options, int64_t struct_size);
-/* What riis_find_first_passage found. */
+/* The result of riis_find_first_passage. */
 enum {
   RIIS_FIRST_PASSAGE_FOUND = 0,  /* the valve closes the mesh at opening 0, and opens it later */
   RIIS_FIRST_PASSAGE_ALWAYS = 1, /* there is a passage at opening 0 */
@@ -1093,62 +1092,61 @@ enum {
 };
 /* The opening at which a valve first lets the mesh pass. */
 typedef struct riis_first_passage {
-  double opening;        /* that was tried and has a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE */
-  double closed_opening; /* the largest below it that was tried, which has none. Like opening unless FOUND */
+  double opening;        /* the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE */
+  double closed_opening; /* the largest tried opening below it, which has no passage. Equals opening unless FOUND */
   int64_t node_id;       /* the passage at `opening`, as in riis_passage */
   double distance;       /* as in riis_passage */
   double point[3];       /* as in riis_passage */
   double seconds;        /* wall time of riis_find_first_passage */
-  int32_t n_openings;    /* how many were tried */
+  int32_t n_openings;    /* the number of openings tried */
   int32_t state;         /* RIIS_FIRST_PASSAGE_* */
 } riis_first_passage;
-/* Finds the opening at which riis_find_passage first finds a passage. It tries 0, 1/8, 2/8, ... until one is open. It
- * then halves the last step until opening and closed_opening differ by at most the tolerance. A passage need not
- * stay open as the valve opens. So the call finds an opening at which one begins, and may miss an earlier one that
- * ends before the next multiple of 1/8.
- *   valve  its own opening does not count
- *   mesh   with an adjacency; it need not have been marked
- *   ends   as for riis_find_passage, outside the band at each opening that is tried
- * Errors: those of riis_surface_create and riis_find_passage, with the opening. RIIS_INVALID_PARAMETER for a valve
- * with only one state. */
+/* Finds the opening at which riis_find_passage first finds a passage. It tries 0, 1/8, 2/8, ... until a passage is
+ * open. It then halves the last step until opening and closed_opening differ by at most the tolerance. A passage may
+ * close again as the valve opens further. So the call may miss a passage that ends before the next multiple of 1/8.
+ *   valve  its own opening is ignored
+ *   mesh   must have an adjacency, and need not have been marked
+ *   ends   as for riis_find_passage; each end must be outside the band at each tried opening
+ * Errors: the errors of riis_surface_create and riis_find_passage, with the opening. RIIS_INVALID_PARAMETER for a
+ * valve with only one state. */
 RIIS_API riis_status riis_find_first_passage(const riis_valve *valve, const riis_mesh *mesh,
                                              const riis_passage_ends *ends,
                                              const riis_first_passage_options *options,
                                              riis_first_passage *first, int64_t struct_size);
 
-/* How many mesh edges lie across the band, by the edges of the mesh's adjacency with a marked node. */
+/* The number of mesh edges across the band, from the lengths of the mesh edges with a marked node. */
 typedef struct riis_cells_across {
-  double least, mean, most; /* 2 * half_thickness over the longest, the mean and the shortest of these edges */
-  double shortest_edge, mean_edge, longest_edge; /* their lengths */
-  double half_thickness; /* of the marking */
-  int64_t n_edges;       /* with at least one marked node. Without one, all but half_thickness are 0 */
+  double least, mean, most; /* 2 * half_thickness over the longest, the mean and the shortest length */
+  double shortest_edge, mean_edge, longest_edge; /* the lengths of these edges */
+  double half_thickness; /* the half thickness of the marking */
+  int64_t n_edges;       /* edges with at least one marked node. If it is 0, only half_thickness differs from 0 */
 } riis_cells_across;
-/* Tells how many mesh edges lie across the band around the surface. An edge may stand in one row or in both, and
- * counts once. Edges to ghosts and of length 0 do not count.
- *   marks  of riis_mark_nodes
- *   mesh   that of the marking, with an adjacency
- * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks never marked with, or with another
- * number of nodes; RIIS_INVALID_MESH as riis_mark_nodes. */
+/* Computes the number of mesh edges across the band. An edge counts once, whether one or both of its nodes list it.
+ * Edges to ghosts and edges of length 0 do not count.
+ *   marks  marks from riis_mark_nodes
+ *   mesh   the mesh of the marking, with an adjacency
+ * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for empty marks, and for marks with another number of
+ * nodes; RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_marks_get_cells_across(const riis_marks *marks, const riis_mesh *mesh,
                                                  riis_cells_across *cells, int64_t struct_size);
 
-/* In the place of a leaflet_id. */
+/* A value for an argument leaflet_id. */
 enum {
   RIIS_ALL_LEAFLETS = -1 /* the sum over all leaflets */
 };
 /* Gives the volume that the valve sweeps between two openings, in mesh units cubed: the integral of u_surface . n over
- * surface and time, positive along the normals. What a flow displaces is less, because blood slips past the leaflets.
- *   opening_from, opening_to  0 to 1. The valve's own opening does not count
- *   options     scale, flip_normals and n_threads count. NULL: the defaults
- *   leaflet_id  RIIS_LEAFLET_*, or that of a patch, or RIIS_ALL_LEAFLETS
+ * surface and time, positive along the normals. A flow displaces less, because blood slips past the leaflets.
+ *   opening_from, opening_to  0 to 1. The valve's own opening is ignored
+ *   options     only scale, flip_normals and n_threads are used. NULL stands for the defaults
+ *   leaflet_id  RIIS_LEAFLET_*, or the id of a patch's leaflet, or RIIS_ALL_LEAFLETS
  * The result is within 1e-3 of the largest volume that a leaflet sweeps from 0 to 1 (docs/theory.md, section 15).
  * Errors: RIIS_INVALID_ARGUMENT for an opening out of range and for a leaflet that the valve lacks;
- * RIIS_INVALID_PARAMETER for parameters that do not go together, and for a valve with one state unless both are 0. */
+ * RIIS_INVALID_PARAMETER for inconsistent parameters, and for a valve with one state unless both are 0. */
 RIIS_API riis_status riis_valve_get_swept_volume(const riis_valve *valve, double opening_from, double opening_to,
                                                  const riis_surface_options *options, int32_t leaflet_id,
                                                  double *volume);
-/* Gives the volume that keyframes sweep between two times. Arguments as riis_valve_get_swept_volume. With linear
- * interpolation it is exact up to rounding.
+/* Gives the volume that keyframes sweep between two times. The other arguments are those of
+ * riis_valve_get_swept_volume. With linear interpolation the volume is exact up to rounding.
  *   time_from, time_to  finite, magnitude at most 1e30
  * Errors: RIIS_INVALID_ARGUMENT for a leaflet that no face has; RIIS_LIMIT_EXCEEDED for more than 1,000,000 keys
  * between the times. */

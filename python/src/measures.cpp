@@ -121,7 +121,7 @@ nb::object find_first_passage(nb::handle valve_, nb::handle mesh_, nb::handle fr
 #define RIIS_RIM_MODEL "half_thickness: float | None = None, rim: typing.Literal['round', 'cut'] = 'round'"
 #define RIIS_SWEEP "leaflet_id: int | None = None, scale: float = 1.0"
 
-// Adds a method to a class that another part made.
+// Adds a method to a class that another source file defined.
 template <class Function, class... Extra>
 void add_method(nb::module_ &module, const char *type, const char *name, Function function, const Extra &...extra) {
   nb::cpp_function_def(function, nb::scope(module.attr(type)), nb::name(name), nb::is_method(), extra...);
@@ -164,7 +164,7 @@ scale       converts lengths to the mesh's unit)");
              "Returns the volume that the frames sweep between two times, positive along the normals.");
   add_method(module, "Marks", "cells_across", &cells_across, nb::arg("mesh").none(),
              nb::sig("def cells_across(self, mesh: Mesh) -> riis._records.CellsAcross"),
-             R"(Tells how many mesh edges lie across the band, by the edges of the adjacency with a marked node.
+             R"(Computes the number of mesh edges across the band, from the lengths of the edges with a marked node.
 
 mesh  the mesh of the marking)");
   module.def("find_first_passage", &find_first_passage, nb::arg("valve").none(), nb::arg("mesh").none(),

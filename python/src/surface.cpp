@@ -320,7 +320,7 @@ The velocity is the mean over the step, in mesh units divided by the unit of dt.
           nb::sig("def velocities(self) -> numpy.typing.NDArray[numpy.float64] | None"),
           "(n_vertices, 3): each vertex's velocity. None if the last update gave no velocities.")
       .def_prop_ro("attachment", &attachment, nb::sig("def attachment(self) -> riis._records.Attachment"),
-                   "The edges at which tissue or a stent holds the leaflets of a valve; a copy. Refused for arrays.")
+                   "A copy of the edges at which tissue or a stent holds a valve's leaflets. Refused for arrays.")
       .def_prop_ro("triangles", &triangles, nb::sig("def triangles(self) -> riis._records.Triangles"),
                    "The triangles: vertex_id (n, 3), triangle_id, leaflet_id and patch_id (n,).")
       .def(

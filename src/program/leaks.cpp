@@ -37,7 +37,7 @@ Leaks leaks_of(const MarkedMesh &marked, const riis_mark_options &options, doubl
   return leaks;
 }
 
-// Marks again with another half thickness, and returns the leaks of that marking.
+// Marks the nodes again with another half thickness, and returns the leaks of the new marking.
 Leaks leaks_with(const MarkOptions &options, const MarkedMesh &marked, double half_thickness) {
   riis_surface_options surface_options = options.surface_options;
   surface_options.half_thickness = half_thickness;

@@ -32,7 +32,7 @@ double rounded_up(double x);
 // checked, check_passage warns instead.
 void look_for_leaks(const MarkOptions &options, const MarkedMesh &marked, Report &report);
 
-// Writes report.flow but for the first passage, if the options request measures or stats. It removes the mesh's adjacency.
+// Writes report.flow, except for the first passage, if the options request measures or stats. Removes the mesh's adjacency.
 void measure_flow(const MarkOptions &options, const MarkedMesh &marked, Report &report);
 
 // In: a marked mesh and two points. Out: whether unmarked nodes join the points, the position of the passage, and a half

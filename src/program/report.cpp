@@ -100,7 +100,7 @@ nlohmann::ordered_json json_of_passage(const PassageReport &passage) {
                                          : nlohmann::ordered_json()}};
 }
 
-// The numbers of check leaks. Without a request there are none to print.
+// Adds the lines about the flow to the table. A measure that is not set has no line.
 void add_flow(const FlowReport &flow, std::ostringstream &out) {
   if (flow.cells && flow.cells->n_edges > 0)
     out << "across    " << flow.cells->mean << " mesh edges of mean length in the band, " << flow.cells->least << " to "
@@ -247,7 +247,7 @@ std::string json_of(const Report &report) {
                  {"leaks", seconds.leaks},
                  {"write", seconds.write},
                  {"picture", seconds.picture}}}});
-  // Values that exist only with a mesh. Without one they are removed.
+  // These values exist only with a mesh. They are removed if no mesh was marked.
   static const char *const of_marks[] = {"n_nodes",
                                          "n_cells",
                                          "n_marked",

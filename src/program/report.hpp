@@ -41,34 +41,34 @@ struct PassageReport {
 };
 
 struct LeakReport {
-  riis_leak_list found{};             // its arrays are gone
+  riis_leak_list found{};             // its numbers only; its pointers are no longer valid
   std::vector<int64_t> edges;         // (2, found.n_edges)
   double closing_half_thickness = 0;  // for the user to type; 0 if none was found
   int64_t n_volume_cells = 0;
   int64_t n_cells_left_out = 0;          // volume cells whose edges are not known
-  std::optional<PassageReport> passage;  // if two points are checked
+  std::optional<PassageReport> passage;  // set if two points are checked
 
   bool has_all_edges() const { return n_volume_cells > 0 && n_cells_left_out == 0; }
 };
 
-// What the valve and the mesh mean for the flow.
+// Measures of the valve and the mesh that matter for a flow.
 struct FlowReport {
-  std::optional<riis_orifice> orifice;        // of a valve
-  std::optional<riis_cells_across> cells;     // if the mesh's edges are known
-  std::optional<riis_first_passage> first;    // if it was looked for
-  std::optional<double> leak_per_drop, drop;  // with a resistance
+  std::optional<riis_orifice> orifice;        // set for a valve
+  std::optional<riis_cells_across> cells;     // set if the mesh's edges are known
+  std::optional<riis_first_passage> first;    // set if the first passage was looked for
+  std::optional<double> leak_per_drop, drop;  // set if the user gave a resistance
 };
 
 struct CrossingReport {
   int n_openings = 0;             // number of openings checked, or 0 if only the given surface was checked
   std::optional<double> opening;  // the opening at which a crossing was found
-  riis_crossing_list found{};     // its arrays are gone
+  riis_crossing_list found{};     // its numbers only; its pointers are no longer valid
 };
 
 struct Report {
   std::string surface_name;       // the valve's kind, or a file
   std::optional<double> opening;  // not set for a surface from a file
-  std::optional<double> time;     // of a surface that moves
+  std::optional<double> time;     // set for a surface that moves
   std::string mesh_name;          // "" if no mesh was marked
   int64_t n_cells = 0;
   double distance_limit = 0;
@@ -78,7 +78,7 @@ struct Report {
   riis_mark_stats marks{};
   LeakReport leaks;
   FlowReport flow;
-  bool prints_flow = false;                 // in the table
+  bool prints_flow = false;                 // true if the table for people has the measures of the flow
   std::optional<CrossingReport> crossings;  // set if crossings were looked for
   Seconds seconds;
   std::vector<std::string> written;  // paths of files

@@ -24,8 +24,8 @@ namespace riis::program {
 
 namespace {
 
-// At the program's usual tolerance the triangles change the prosthesis' orifice by up to 0.3 %. At this tolerance the change is
-// below 0.1 %, and 0.1 % for the aortic valve.
+// The triangles approximate the surface, and this changes the orifice. At the program's usual tolerance the change is up to 0.3 %
+// for the prosthesis. At this tolerance it is below 0.1 % for the prosthesis and 0.1 % for the aortic valve.
 constexpr double fine_tolerance = 0.01;
 
 riis_surface_options own_frame(const StatesOptions &options) {
@@ -98,7 +98,7 @@ std::vector<std::string> names_of_leaflets(const StatesOptions &options, const s
   return names;
 }
 
-// Rigid leaflets that turn keep all lengths.
+// Tells whether the leaflets are rigid. A rigid leaflet only turns, so its lengths do not change.
 bool is_rigid(const std::string &valve) { return valve == "bileaflet"; }
 
 State state_at(OpeningValve &valve, double opening) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis states: free edges, leaflet areas and the orifice of a valve at openings from 0 to 1, in its own frame.
+// Implements `riis states`: free edges, leaflet areas and the orifice of a valve at openings from 0 to 1, in the valve's frame.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +31,8 @@ struct States {
   std::vector<std::string> names;
   std::string why_no_edges;   // "": the leaflets have free edges
   std::string disc;           // such as "the disc of root_radius 1.29"; "": the valve has no orifice
-  double disc_area;           // when closed
-  std::string reach;          // how far the band's rim reaches into the orifice, in text
+  double disc_area;           // outline_area of the closed state
+  std::string reach;          // the distance that the band's rim reaches into the orifice, as text
   std::vector<State> states;  // ascending by opening; the first is closed
   std::string why_closed;     // the library's refusal of other openings; "" if the valve opens
 
@@ -42,7 +42,7 @@ struct States {
 // Measures the valve of the options at n_states openings, or only at 0 if the valve does not open.
 States measure_states(const StatesOptions &options);
 
-// Measures, writes the table, and prints the summary.
+// Measures the states, writes the table, and prints the summary.
 void run_states(const StatesOptions &options);
 
 // In: the states of a valve. Out: the table as CSV, and a summary for people.

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The part of an outline that triangles leave uncovered, compared with closed forms and with counts of points. */
+ * Tests the area and the edge of the uncovered part of an outline, against closed forms and against counts of points. */
 #include "plane_cover_shim.h"
 #include "test_support.h"
 
 static const double pi = 3.14159265358979323846;
-enum { n_lines = 2048, n_edge_lines = 512 }; /* the library's */
+enum { n_lines = 2048, n_edge_lines = 512 }; /* the values of the library */
 
 static void rotated(double x, double y, double angle, const double *centre, double *to) {
   to[0] = centre[0] + cos(angle) * x - sin(angle) * y;
@@ -26,7 +26,7 @@ static void test_circle(void **state) {
   CHECK_AT_MOST(last, 1e-5);
 }
 
-/* A flat ring around the circle, with a hole of m corners, leaves only the hole open. */
+/* A flat ring covers the circle, except for a hole with m corners. */
 static void test_ring(void **state) {
   (void)state;
   enum { m = 90 };
@@ -46,8 +46,8 @@ static void test_ring(void **state) {
       rotated(hole, 0, b, centre, corners[2 * i + 1] + 4);
     }
     const double area = 0.5 * m * hole * hole * sin(step), spacing = 2 * radius / n_lines;
-    /* The first tolerance is for a circle, where all lines cross the edge. Each of the two edges along the lines may be off by
-     * half a spacing. */
+    /* The first tolerance is for a round hole, whose edge crosses all lines. Two edges of the hole may be parallel to the lines.
+     * The place of each then has an error of half a spacing. */
     const double bound = area * pow(2 * hole / spacing, -1.5) + spacing * hole * step;
     CHECK_NEAR(shim_uncovered_circle(radius, centre, 2 * m, corners[0], n_lines), area, bound);
   }
@@ -67,7 +67,7 @@ static void test_half(void **state) {
     rotated(20, up, angle, centre, corners + 2);
     rotated(0, 40, angle, centre, corners + 4);
     const double part = radius * radius * acos(-up / radius) + up * sqrt(radius * radius - up * up);
-    const double strip = 2 * radius * radius / n_lines; /* half a spacing wide, twice the radius long */
+    const double strip = 2 * radius * radius / n_lines; /* area of a strip of half a spacing by twice the radius */
     CHECK_NEAR(shim_uncovered_circle(radius, centre, 1, corners, n_lines), part, strip + 1e-5);
   }
 }
@@ -111,7 +111,7 @@ static void test_open_lines(void **state) {
   CHECK_NEAR(shim_uncovered_inside(3, lines[0], 0, NULL, n_lines), 0.5, 1e-12);
   assert_true(shim_uncovered_inside(2, lines[0], 0, NULL, n_lines) == -1);
   assert_true(shim_uncovered_inside(0, NULL, 0, NULL, n_lines) == -1);
-  /* Triangles that are seen edge on, along x, along y and slanted, cover nothing. */
+  /* Triangles that are seen edge on cover nothing. Three directions are tried: along x, along y and slanted. */
   for (int i = 0; i < 4; ++i) {
     const double x = i % 2 ? 0.3 : 0, y = i / 2 ? 0.7 : 0;
     const double flat[3][6] = {{0, 0, 0, x, y, 0}, {x, y, 0, 2 * x, 2 * y, 1}, {2 * x, 2 * y, 1, 0, 0, 0}};
@@ -124,7 +124,8 @@ static void test_open_lines(void **state) {
   assert_true(shim_uncovered_inside(3, near_y[0], 0, NULL, n_lines) == -1);
 }
 
-/* A round plate in the circle grows: a ring remains, or a hole in a plate closes. */
+/* A round plate in the circle grows, so that the ring around it shrinks. Or a plate with a round hole grows, so that the hole
+ * shrinks. */
 static void test_growing(void **state) {
   (void)state;
   enum { m = 720 };
@@ -145,7 +146,7 @@ static void test_growing(void **state) {
       memcpy(ids + 6 * i, a, sizeof a);
       memcpy(ids + 6 * i + 3, b, sizeof b);
     }
-    const double edge = is_plate ? size + reach : size - reach; /* its radius */
+    const double edge = is_plate ? size + reach : size - reach; /* the radius of the edge after the growth */
     const double area = is_plate ? pi * (radius * radius - edge * edge) : pi * edge * edge;
     CHECK_NEAR(shim_area_beyond(radius, centre, 2 * m, xy, 2 * m, ids, reach), area, 2e-4 * pi * radius * radius);
     CHECK_NEAR(shim_edge_beyond(radius, centre, 2 * m, xy, 2 * m, ids, reach), 2 * pi * edge,
@@ -155,7 +156,7 @@ static void test_growing(void **state) {
   }
 }
 
-/* A square plate, turned: its edge grows by arcs at the corners. */
+/* A turned square plate grows. Arcs round its corners then belong to its edge. */
 static void test_growing_square(void **state) {
   (void)state;
   random_source random = random_start("test_plane_cover");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The edges near a surface against a serial search, in random graphs, and in a lattice of known spacing. */
+ * Tests riis_marks_get_cells_across. Random graphs are compared with a serial search, and a lattice with its known spacing. */
 #include <riis/riis.h>
 
 #include "test_support.h"

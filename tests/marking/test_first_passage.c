@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The opening at which a valve first lets a mesh pass, against riis_find_passage at a ladder of openings, and a slit of known
- * width. */
+ * Tests riis_find_first_passage. The opening that it finds is compared with riis_find_passage at many openings, and with a slit
+ * of known width. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -63,7 +63,7 @@ static int64_t node_at(const test_mesh *mesh, double x, double y, double z) {
   return nearest;
 }
 
-/* In a tube that the valve fills. */
+/* The valve fills a tube, so that a path can only lead through the valve. */
 static void valves_first_open_where_a_ladder_says(void **state) {
   (void)state;
   static const char *const kinds[3] = {"trileaflet", "bileaflet", "mitral"};
@@ -116,8 +116,8 @@ static void valves_first_open_where_a_ladder_says(void **state) {
   }
 }
 
-/* Two plates slide apart along x, so that the slit is twice the opening wide. It opens when nodes in its middle are farther from
- * both than the half thickness. */
+/* Two plates slide apart along x. The slit between them is 2 * opening wide. A path through the slit exists if the nodes in its
+ * middle are farther from both plates than the half thickness. */
 static void slits_open_at_their_width(void **state) {
   (void)state;
   const double wide = 3;
@@ -146,7 +146,7 @@ static void slits_open_at_their_width(void **state) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "valve has only one state",
                 riis_find_first_passage(opened, mesh, &ends, NULL, &first, sizeof first));
   CHECK_OK(riis_valve_set_open_state(valve, opened));
-  CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5)); /* does not count */
+  CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5)); /* the call must ignore the valve's own opening */
   for (int trial = 0; trial < 8; ++trial) {
     riis_surface_options surface = surface_options();
     surface.half_thickness = random_between(&rng, 0.1, 0.45);
@@ -162,7 +162,7 @@ static void slits_open_at_their_width(void **state) {
     CHECK_NEAR(found.point[0], 0, 1e-12);
     CHECK_NEAR(found.point[2], 0, 1e-12);
   }
-  /* With a half thickness of more than 1 the slit never opens; with a node out of the way there is no path. */
+  /* With a half thickness above 1 the slit never opens. If one node is masked, the mesh has no path at all. */
   riis_surface_options surface = surface_options();
   surface.half_thickness = 0.9;
   riis_first_passage_options options = first_options();

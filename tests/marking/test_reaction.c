@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Forces and moments of the flow: of plates against their closed forms, of any surface against plain loops with a search of all
- * edges, of symmetric valves against turned leaflets. Sums of leaflets, edges and ranks add up to those of the whole. */
+ * Tests the forces and moments of the flow. Plates are compared with closed forms. Surfaces of all kinds are compared with plain
+ * loops that search all edges. Leaflets of a symmetric valve are compared with each other after a turn. The sums over leaflets,
+ * edges and ranks must add up to the sums over the whole surface. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -28,7 +29,7 @@ static void cross(const double *a, const double *b, double *c) {
 }
 static double length_of(const double *a) { return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
 
-/* A right-handed frame of three unit vectors in any direction, and a place. */
+/* A right-handed frame of three unit vectors, and the place of its origin. */
 typedef struct {
   double axis[3][3], origin[3];
 } frame;
@@ -91,9 +92,9 @@ static riis_reaction reaction_to(sums *to, const double *about, int64_t n_leafle
 
 /* --- Plates ---------------------------------------------------------------------------------------------------------- */
 
-/* A plate 0 <= a <= 2, 0 <= b <= 1 in a frame, of two leaflets, 0 for a < 1 and 3 for a > 1. Nodes are the centres of cells with
- * sides h; n_layers of them lie on either side of the plate. So the layers sum K to R / eps exactly, and the cells
- * integrate every linear function over the plate. */
+/* A plate 0 <= a <= 2, 0 <= b <= 1 in a frame. It has the leaflet 0 for a < 1 and the leaflet 3 for a > 1. Nodes are the centres
+ * of cells with the side h. On each side of the plate lie n_layers layers of nodes. The sum of h K over the layers is therefore
+ * exactly R / eps, and the sum over the cells of a layer integrates a linear function exactly. */
 enum { n_layers = 5, n_long = 32, n_wide = 16 };
 static const double plate_length = 2, plate_width = 1, plate_h = 1.0 / 16, plate_eps = 5.0 / 16;
 
@@ -105,7 +106,8 @@ typedef struct {
   riis_marks *marks;
 } plate;
 
-/* Its velocity is spin times the frame's second axis, about the hinge a = 0. The flow has the velocity `along` in the frame. */
+/* Makes a plate that turns about the hinge a = 0. Its angular velocity is spin times the frame's second axis. The flow has the
+ * velocity `along` in the frame. */
 static plate new_plate(double spin, const double *along) {
   plate made = {.frame = random_frame(), .n = 2 * n_layers * n_long * n_wide};
   double vertices[6][3], velocities[6][3];
@@ -139,7 +141,8 @@ static plate new_plate(double spin, const double *along) {
   return made;
 }
 
-/* In a flow u the plate takes the force (R / eps) u A = drop A at its centre. So do its leaflets, and strips along edges. */
+/* In a flow u the force on the plate is (R / eps) u A, and it acts at the plate's centre. The same formula with the area of a
+ * leaflet or of a strip along an edge gives the force on this part. */
 static void a_closed_plate_takes_the_drop(void **state) {
   (void)state;
   for (int trial = 0; trial < 6; ++trial) {
@@ -160,7 +163,7 @@ static void a_closed_plate_takes_the_drop(void **state) {
     turn(&p.frame, u[0] / speed, u[1] / speed, u[2] / speed, direction);
     const struct {
       const double *force, *moment;
-      double area, a; /* the middle's a */
+      double area, a; /* the area of the strip, and the coordinate a of its middle */
     } parts[3] = {{got.force, got.moment, area, 1},
                   {got.leaflet_force, got.leaflet_moment, area / 2, 0.5},
                   {got.leaflet_force + 9, got.leaflet_moment + 9, area / 2, 1.5}};
@@ -184,10 +187,9 @@ static void a_closed_plate_takes_the_drop(void **state) {
   }
 }
 
-/* A plate that turns about its hinge in a fluid at rest: each part moves at spin a. So the force is (R / eps) spin w a^2 / 2, and
- * the moment about the hinge is (R / eps) spin w a^3 / 3, against the spin. Cells integrate a^2 to a factor 1 - (h / 2a)^2. The
- * power
- * of the force on the moving nodes is the moment times the spin. */
+/* A plate of width w and length a turns about its hinge in a fluid at rest. The force is (R / eps) spin w a^2 / 2. The moment
+ * about the hinge is (R / eps) spin w a^3 / 3, against the spin. The sum over cells gives the integral of a^2 times the factor
+ * 1 - (h / 2a)^2. The power of the forces at the nodes must be the moment times the spin. */
 static void a_hinged_plate_has_its_moment(void **state) {
   (void)state;
   for (int trial = 0; trial < 6; ++trial) {
@@ -197,7 +199,8 @@ static void a_hinged_plate_has_its_moment(void **state) {
     const riis_resistance resistance = resistance_of(r);
     const riis_flow_arrays flow = flow_of(p.n, p.velocity, p.weight);
     sums got = {.all = {0}};
-    /* The hinge's quarters get strips along a: their moments about their own middles turn about the hinge only. */
+    /* The edges are quarters of the hinge, and each gets a strip along a. The moment of a strip about the middle of its edge is
+     * parallel to the hinge. */
     double hinge[4][2][3];
     for (int k = 0; k < 4; ++k)
       for (int end = 0; end < 2; ++end) place(&p.frame, 0, 0.25 * (k + end), 0, hinge[k][end]);
@@ -231,7 +234,7 @@ static void a_hinged_plate_has_its_moment(void **state) {
   }
 }
 
-/* Two edges at the same distance of every node: the first gets all. */
+/* If two edges have the same distance from a node, the first edge gets the whole force of the node. */
 static void the_first_of_equally_near_edges_gets_the_share(void **state) {
   (void)state;
   static const double u[3] = {0, 0, 1}, about[3] = {0, 0, 0};
@@ -279,7 +282,7 @@ static riis_valve *valve_of(int kind, double opening) {
   return valve;
 }
 
-/* A surface of any kind that moves, with any placement, by either triangulation. */
+/* Makes a moving surface of the given kind and triangulation, with a random placement, and marks nodes around it. */
 static riis_surface *moving_surface(int kind, int32_t triangulation) {
   riis_surface_options options = surface_options();
   options.triangulation = triangulation;
@@ -336,7 +339,7 @@ static case_of_flow random_case(int kind, int32_t triangulation, double spacing)
   return made;
 }
 
-/* Edges in any order: near the surface, some without length, some of them twice, chains with common ends. */
+/* Makes random edges near the surface. Some have no length, some occur twice, and some form chains with common ends. */
 static int64_t random_edges(const riis_surface *surface, double (*edges)[2][3]) {
   const riis_triangles triangles = triangles_of(surface);
   const int64_t n = 1 + any_of(random_bits(&rng) % 2 ? 20 : max_edges);
@@ -368,7 +371,7 @@ static long double edge_distance_sq(const double (*edge)[3], const double *p) {
   return sum;
 }
 
-/* Looks at all edges. Returns -1 where double precision cannot tell which edge is nearer. */
+/* Finds the nearest edge by a loop over all edges. Returns -1 if double precision cannot tell which edge is nearer. */
 static int64_t nearest_edge(int64_t n, const double (*edges)[2][3], const int32_t *leaflet_of, int32_t leaflet,
                             const double *p) {
   int64_t nearest = -1;
@@ -376,7 +379,7 @@ static int64_t nearest_edge(int64_t n, const double (*edges)[2][3], const int32_
   for (int64_t k = 0; k < n; ++k) {
     if (leaflet_of && leaflet_of[k] != leaflet) continue;
     const long double here = edge_distance_sq(edges[k], p);
-    if (here == least) continue; /* the same place: the first counts */
+    if (here == least) continue; /* of two equally near edges the first is the result */
     if (here < least)
       next = least, least = here, nearest = k;
     else if (here < next)
@@ -404,7 +407,7 @@ static void check_exact(const exact *expected, const double *force, const double
   }
 }
 
-/* The middle of an edge, as close as double precision has it. */
+/* Computes the middle of an edge. */
 static void middle_of(const double (*edge)[3], double *middle) {
   for (int c = 0; c < 3; ++c) middle[c] = 0.5 * (edge[0][c] + edge[1][c]);
 }
@@ -454,7 +457,7 @@ static void check_case(int kind, int32_t triangulation, int trial) {
   assert_true(n_resisting > 200 && n_unclear * 20 < n_resisting);
   const riis_flow_arrays flow = flow_of(f.nodes.n, f.velocity, f.weight);
   sums *before = own(malloc(3 * sizeof *before)), *got = before + 1, *other = before + 2;
-  for (int i = 0; i < n_sums; ++i) before->all[i] = between(-1, 1); /* to be added to */
+  for (int i = 0; i < n_sums; ++i) before->all[i] = between(-1, 1); /* the call must add its sums to these values */
   *got = *before;
   riis_reaction reaction = reaction_to(got, about, f.n_leaflets, n_edges, edges[0][0]);
   if (by_leaflet) reaction.edge_leaflet_id = edge_leaflet;
@@ -467,7 +470,7 @@ static void check_case(int kind, int32_t triangulation, int trial) {
     check_exact(of_edge + i, got->edge_force + 3 * i, got->edge_moment + 3 * i, before->edge_force + 3 * i,
                 before->edge_moment + 3 * i);
 
-  /* Sums into arrays of zeros have the bits of any number of threads, and each sum those of a call for it alone. */
+  /* The bits of the sums must not depend on the number of threads, and not on the other sums that the call adds. */
   memset(got, 0, sizeof *got);
   CHECK_OK(riis_marks_add_reaction(f.marks, &resistance, &flow, &reaction));
   static const int32_t threads[3] = {2, 3, 8};
@@ -494,7 +497,8 @@ static void check_case(int kind, int32_t triangulation, int trial) {
     assert_memory_equal(got, other, sizeof *got);
   }
 
-  /* Leaflets and edges add up to the whole, to 1e-12 of the sizes; edges of a leaflet to the leaflet. */
+  /* The sums of leaflets, and the sums of edges, must add up to the sum of the whole. The sums of a leaflet's edges must add up
+   * to the sum of the leaflet. The error is at most 1e-12 of the sum of magnitudes. */
   const double tolerance = 1e-12 * (double)expected->size, of_moments = 1e-12 * (double)expected->arm;
   for (int c = 0; c < 3; ++c) {
     double force = 0, moment = 0, edge_force = 0, edge_moment = 0, of_first = 0;
@@ -545,10 +549,9 @@ static void sums_are_those_of_plain_loops(void **state) {
 
 /* --- Symmetric valves ------------------------------------------------------------------------------------------------ */
 
-/* A valve in a flow along its axis, oblique to the nodes: the forces and moments of its leaflets are turned copies. Nodes that
- * are nearest to the line where closed leaflets touch all belong to the lower leaflet, which makes a difference of up to 2.5
- * percent
- * here. */
+/* In a flow along the axis of a symmetric valve, a turn about the axis takes the force on one leaflet to the force on the next.
+ * The same holds for moments. The axis is oblique to the rows of nodes. If a node is nearest to the line where two closed
+ * leaflets touch, it belongs to the leaflet with the lower id. This makes a difference of up to 2.5 percent here. */
 static void leaflets_of_symmetric_valves_share_alike(void **state) {
   (void)state;
   const struct {
@@ -583,7 +586,7 @@ static void leaflets_of_symmetric_valves_share_alike(void **state) {
       riis_marks *marks = new_result();
       CHECK_OK(riis_mark_nodes(surface, mesh_from(&nodes), &how_marked, marks));
       double *velocity = own(malloc((size_t)nodes.n * 4 * sizeof *velocity)), *weight = velocity + 3 * nodes.n;
-      /* A swirl beside the axial flow, so that forces have all components. */
+      /* The flow also has a swirl, so that all components of the forces differ from 0. */
       for (int64_t k = 0; k < nodes.n; ++k) {
         double arm[3], swirl[3];
         for (int c = 0; c < 3; ++c) arm[c] = nodes.xyz[3 * k + c] - options.translation[c];
@@ -672,7 +675,7 @@ static void refusals_leave_the_sums(void **state) {
   CHECK_OK(riis_reaction_init(&bad, sizeof bad));
   REFUSED_BY(f.marks, RIIS_INVALID_ARGUMENT, "reaction has no sum to add to");
 
-  /* Forces of the whole and of leaflets do without points. */
+  /* The forces of the whole surface and of leaflets do not need RIIS_FIELD_POINT. */
   riis_marks *bare = new_result();
   CHECK_OK(riis_mark_nodes(f.surface, mesh_from(&f.nodes), NULL, bare));
   bad = good;
@@ -684,7 +687,7 @@ static void refusals_leave_the_sums(void **state) {
   bad.moment = NULL, bad.n_edges = 0, bad.edges = NULL;
   CHECK_OK(riis_marks_add_reaction(bare, &resistance, &flow, &bad));
 
-  /* A rank far from the surface refuses as the others do. */
+  /* A rank whose nodes are all far from the surface must refuse the same input as the other ranks. */
   const double far_away[3] = {1e3, 1e3, 1e3};
   riis_marks *empty_handed = marks_of(f.surface, 1, far_away, 1);
   const riis_flow_arrays of_one = flow_of(1, f.velocity, f.weight);

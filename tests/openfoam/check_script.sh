@@ -1,8 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_script.sh SOURCE WORK
-# The checks of examples/openfoam/openfoam.sh must refuse faults with the right messages. Functions here replace OpenFOAM's
-# programs.
+# Checks that examples/openfoam/openfoam.sh refuses faults with the right messages. Functions here replace OpenFOAM's programs.
 # shellcheck disable=SC2317 # openfoam.sh calls the functions
 set -euo pipefail
 source=$1 work=$2
@@ -22,7 +21,7 @@ problem() {
   failed=1
 }
 
-# ends STATUS TEXT COMMAND...: the command must end with STATUS, and its output must contain TEXT.
+# ends STATUS TEXT COMMAND...: checks that the command ends with STATUS, and that its output contains TEXT.
 ends() {
   local status=0 wanted=$1 text=$2 output
   shift 2
@@ -84,7 +83,7 @@ ends 0 "Mesh OK." openfoam_mesh 0.25
 [[ -e $of_work/mesh-0.25/complete ]] || problem "a good mesh is not kept"
 grep -q 'type wall;' "$of_work/mesh-0.25/constant/polyMesh/boundary" || problem "the wall is no wall"
 
-# The check of function objects: once they succeed, with the digest of the plug-in's folder; then they fail in another way.
+# Tests the check of function objects. First they work with the digest of the plug-in's folder. Then they fail for another reason.
 function_objects=good
 openfoam_function_object() {
   case $function_objects in

@@ -97,7 +97,7 @@ class Marks(Files):
     def setUp(self):
         super().setUp()
         self.centres = self.random.random((N, 3))
-        # Each step has more cells with K, as of an opening valve.
+        # In each step more cells have K, as for a valve that opens.
         self.k = [numpy.where(numpy.arange(N) < 150 + 10 * i, self.random.random(N) + 1, 0) for i in range(len(self.TIMES))]
 
     def case(self, name, parts, binary, change=lambda part_ids, k, centres, i: None):
@@ -412,7 +412,7 @@ class Moving(Files):
             self.forces(f"{mesh}-riisSource", [0.03, 0.04, 0.1])
         for name in self.SAME:
             self.forces(name, [0.03, 0.04, 0.1])
-        # Two valves share the force. The second line of a valve is that of its last corrector.
+        # Two valves share the force. The second line of a valve comes from the last corrector.
         self.forces("two-valves", [0.015, 0.02, 0.05], ("first", "second"))
         (self.folder / "pisoFoam/log.pimpleFoam").rename(self.folder / "pisoFoam/log.pisoFoam")
         for solver in ("PCG", "riisSource"):
@@ -433,7 +433,7 @@ class Moving(Files):
         self.table(self.folder / name, "outflow", self.times, [flow * share_out] * 40)
 
     def jet(self, name, jet, fastest):
-        """Speeds over sqrt(2 dp / rho), which is 1 m/s."""
+        """Writes speeds, in units of sqrt(2 dp / rho), which is 1 m/s here."""
         case = self.folder / name
         self.log(case, self.times, self.opening, [100] * 40)
         self.table(case, "below", self.times, [1.5] * 40)

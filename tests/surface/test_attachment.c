@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The attachment of valves: its edges are those edges of triangles along held sides, each in one triangle. They form
- * lines from root to commissure and round the annulus, with the lengths of mirrored halves and of a parabola. */
+ * Tests the attachment of valves. Its edges must be the edges of triangles along held sides, and each lies in only one triangle.
+ * They must form lines from root to commissure, or round the annulus. Mirrored halves must be equally long, and a parabola must
+ * have its known length. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -40,7 +41,7 @@ static double edge_length(const double *edge) {
 
 /* --- Against a count of edges ---------------------------------------------------------------------------------------- */
 
-/* An edge as its two places in order, and its leaflet and patch. */
+/* An edge: its two end points in a fixed order, its leaflet and its patch. */
 typedef struct {
   double ends[2][3];
   int32_t leaflet_id, patch_id;
@@ -59,8 +60,8 @@ static int by_place(const void *a, const void *b) {
   return memcmp(((const placed_edge *)a)->ends, ((const placed_edge *)b)->ends, sizeof((const placed_edge *)a)->ends);
 }
 
-/* Tells whether a vertex lies on the side at which the kind is held. The root of a cusp is the whole side v = 0 of its lower
- * patches. */
+/* Tells whether a vertex lies on the attached side of its patch. The root of a cusp is a special case, because the whole side
+ * v = 0 of a lower patch lies at this point. */
 static int is_held(const char *kind, int32_t patch_id, const double *uv) {
   return strcmp(kind, "mitral") == 0 ? uv[1] == 0 : uv[0] == 1 || (patch_id % 2 == 0 && uv[1] == 0);
 }
@@ -83,7 +84,7 @@ static void edges_are_those_of_one_triangle_on_the_side(void **state) {
           edges[n++] = edge_between(all.xyz + 3 * a, all.xyz + 3 * b, all.leaflet_id[i], all.patch_id[i]);
       }
     qsort(edges, (size_t)n, sizeof *edges, by_place);
-    for (int64_t i = 0; i < n; ++i) { /* those that are once go to the front */
+    for (int64_t i = 0; i < n; ++i) { /* edges that occur only once move to the front */
       if (i > 0 && by_place(edges + i - 1, edges + i) == 0)
         fail_msg("two triangles have an edge on a side that is held");
       edges[n_expected++] = edges[i];
@@ -99,7 +100,7 @@ static void edges_are_those_of_one_triangle_on_the_side(void **state) {
       assert_true(same->leaflet_id == here.leaflet_id && same->patch_id == here.patch_id);
       for (int end = 0; end < 2; ++end)
         assert_memory_equal(ends + 3 * end, all.xyz + 3 * got.vertex_id[2 * i + end], 3 * sizeof *ends);
-      /* Edges of a patch follow each other. */
+      /* Each edge of a patch begins where the edge before it ends. */
       if (i == 0) continue;
       assert_true(got.patch_id[i] >= got.patch_id[i - 1]);
       if (got.patch_id[i] == got.patch_id[i - 1]) assert_memory_equal(ends, ends - 3, 3 * sizeof *ends);
@@ -110,8 +111,8 @@ static void edges_are_those_of_one_triangle_on_the_side(void **state) {
 
 /* --- Against the tables ---------------------------------------------------------------------------------------------- */
 
-/* Three equal cusps, each of two mirrored halves, from roots to commissures that neighbours share; the mitral annulus is one
- * loop of both leaflets. So each end of an edge is an end of another. */
+/* Each of three equal cusps has two mirrored halves. Their lines go from a root to a commissure, where the next cusp begins. The
+ * mitral annulus is one loop of both leaflets. In each case every end of an edge is also an end of another edge. */
 static void attachments_are_closed_lines(void **state) {
   (void)state;
   for (int trial = 0; trial < 12; ++trial) {
@@ -143,14 +144,15 @@ static void attachments_are_closed_lines(void **state) {
   }
 }
 
-/* The side v = 0 of a square, in pieces if it bends; a side that two patches share is none. No bileaflet valve has any. */
+/* The attachment of a square patch is its side v = 0. A bent side has several edges. A side that two patches share does not
+ * belong to the attachment. A bileaflet valve has no attachment. */
 static void patches_are_held_at_v_0(void **state) {
   (void)state;
   for (int trial = 0; trial < 8; ++trial) {
     const riis_surface_options options = placed(trial % 2, 2);
     shape squares = unit_square();
     squares.leaflet_id[0] = 3;
-    /* The second square stands on the first one's side v = 1. */
+    /* The side v = 0 of the second square is the side v = 1 of the first square. */
     add_line(&squares, 0, 2, 0, 1, 2, 0), add_line(&squares, 0, 1, 0, 0, 2, 0), add_line(&squares, 1, 1, 0, 1, 2, 0);
     add_patch(&squares, 1, 4, 5, 6);
     if (trial >= 4) { /* v = 0 is an arch */
@@ -165,14 +167,14 @@ static void patches_are_held_at_v_0(void **state) {
       assert_true(got.leaflet_id[i] == 3 && got.patch_id[i] == 0);
       length += edge_length(got.edges + 6 * i);
     }
-    /* A parabola over the width 1 with the height 1/4 and y' = 1 at its end: (sqrt(2) + asinh(1)) / 2 long. */
+    /* The parabola has the width 1, the height 1/4 and the slope 1 at its end. Its length is (sqrt(2) + asinh(1)) / 2. */
     if (trial < 4)
       CHECK_NEAR(length, 2, 1e-12);
     else
       CHECK_NEAR(length, sqrt(2) + asinh(1), 0.01);
     assert_true(got.n_edges == 1 || trial >= 4);
 
-    /* An update moves the edges. The bileaflet valve has none. */
+    /* An update moves the edges. A bileaflet valve has no attached edges. */
     const riis_surface_options adapted = placed(RIIS_TRIANGULATION_ADAPTED, 2);
     CHECK_OK(riis_surface_update(surface, valve_of("bileaflet", 0.3), &adapted));
     const riis_attachment none = attachment_of(surface);
@@ -199,7 +201,7 @@ static void refusals_name_the_argument(void **state) {
                   riis_surface_get_attachment(surface, &got, sizes[i]));
   assert_memory_equal(&got, &before, sizeof got);
 
-  /* The surface tells its largest leaflet id. */
+  /* riis_surface_info.largest_leaflet_id must be the largest leaflet id. */
   static const struct {
     const char *kind;
     int largest_id;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Leaflets, orifices and ideal leaks of surfaces. Areas are compared with counts of points seen along the axis, perimeters with
- * differences of areas, and placed valves with the same valves where they are made. */
+ * Tests the sizes of leaflets, orifices and ideal leaks. Areas are compared with counts of random points seen along the axis.
+ * Perimeters are compared with differences of areas. Placed valves are compared with the same valves without placement. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -49,7 +49,7 @@ static double distance_to_segment(const double *p, const double *a, const double
   return hypot(p[0] - a[0] - t * x, p[1] - a[1] - t * y);
 }
 
-/* The distance of a point of the plane from a triangle that is seen along z. */
+/* Returns the distance in the plane between a point and a triangle that is projected along z. */
 static double distance_to(const double *p, const double corner[3][2]) {
   int n_left = 0, n_right = 0;
   double nearest = INFINITY;
@@ -62,7 +62,8 @@ static double distance_to(const double *p, const double corner[3][2]) {
   return n_left == 3 || n_right == 3 ? 0 : nearest;
 }
 
-/* The orifice of a disc about the z axis is the share of its points that no triangle covers, or is near to. */
+/* The area of the orifice in a disc is compared with the share of points that no triangle covers. The effective area is compared
+ * with the share of points that are also not near a triangle. */
 static void areas_are_counts_of_points(void **state) {
   (void)state;
   enum { n_side = 121 };
@@ -80,7 +81,7 @@ static void areas_are_counts_of_points(void **state) {
     int n_uncovered = 0, n_far = 0;
     for (int i = 0; i < n_side * n_side; ++i) {
       const double x = (2 * (i % n_side) + 1.0) / n_side - 1, y = (2 * (i / n_side) + 1.0) / n_side - 1;
-      /* Turned, so that straight edges do not run along rows of points. */
+      /* The points are turned, so that no straight edge is parallel to their rows. */
       const double p[2] = {found.radius * (0.8 * x - 0.6 * y), found.radius * (0.6 * x + 0.8 * y)};
       if (hypot(x, y) > 1) continue;
       double nearest = INFINITY;
@@ -99,7 +100,7 @@ static void areas_are_counts_of_points(void **state) {
   }
 }
 
-/* A longer edge loses more area when it moves inwards. */
+/* If the edge moves inwards, the area shrinks by the distance times the perimeter. */
 static void perimeters_are_derivatives_of_areas(void **state) {
   (void)state;
   for (int trial = 0; trial < 2 * n_kinds; ++trial) {
@@ -125,7 +126,7 @@ static void perimeters_are_derivatives_of_areas(void **state) {
   }
 }
 
-/* Placed anywhere, the valve has its orifice times scale squared. */
+/* A placement multiplies the areas of the orifice by the square of the scale. */
 static void placements_keep_orifices(void **state) {
   (void)state;
   for (int trial = 0; trial < 3 * n_kinds; ++trial) {
@@ -187,7 +188,7 @@ static void leaflets_share_the_surface(void **state) {
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, n == 2 ? "leaflet is 2|has 2" : "leaflet is 3|has 3",
                   riis_surface_get_leaflet(surface, n, &none, sizeof none));
   }
-  /* Closed cusps of the trileaflet valve have straight edges from the wall to the axis and back. */
+  /* The free edge of a closed cusp of the trileaflet valve goes straight from the wall to the axis, and straight back. */
   const riis_surface *closed = surface_of_kind("trileaflet", NULL);
   for (int i = 0; i < 3; ++i) CHECK_NEAR(leaflet_of(closed, i).free_edge, 2.5, 1e-12);
   const shape square = unit_square();

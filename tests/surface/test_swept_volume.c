@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Swept volumes against sums over moving updates, closed forms of leaflets that turn and of patches that translate, the volume of
- * closed frames, and conservation. */
+ * Tests swept volumes. They are compared with sums over moving updates, with closed forms for leaflets that turn and patches that
+ * translate, and with the volume inside closed frames. Volumes of parts must add up. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -48,7 +48,7 @@ static void random_placement(riis_surface_options *options) {
   options->rotation_angle = between(-180, 180);
 }
 
-/* The mean of u . n over a step, times its time, on the triangles in its middle. */
+/* Returns the volume of one step: the integral of u . n over the triangles in the middle of the step, times the step's time. */
 static double rate_on(const riis_surface *surface, int32_t leaflet_id) {
   const riis_triangles all = triangles_of(surface);
   double sum = 0;
@@ -66,7 +66,7 @@ static double rate_on(const riis_surface *surface, int32_t leaflet_id) {
   return sum;
 }
 
-/* Fine steps in time, summed by brute force over triangles of moving updates. */
+/* The volume is compared with a sum over many small steps in time, each by the triangles of a moving update. */
 static double by_steps(riis_valve *valve, double from, double to, const riis_surface_options *options,
                        int32_t leaflet_id) {
   enum { n_steps = 12 };
@@ -232,7 +232,7 @@ static double swept_by(const riis_keyframes *keyframes, double from, double to, 
   return volume;
 }
 
-/* The volume of the tetrahedron at a time. */
+/* Returns the volume of the tetrahedron at a time. */
 static double volume_at(const riis_keyframes *keyframes, double time) {
   riis_surface *surface = NULL;
   CHECK_OK(riis_surface_create_from_keyframes(keyframes, time, 0, NULL, &surface));
@@ -241,7 +241,7 @@ static double volume_at(const riis_keyframes *keyframes, double time) {
   return volume;
 }
 
-/* What a closed surface sweeps is the change of the volume inside. */
+/* The volume that a closed surface sweeps is the change of the volume inside it. */
 static void closed_frames_sweep_what_they_gain(void **state) {
   (void)state;
   for (int trial = 0; trial < 40; ++trial) {

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A tiny ./run validate: its rows keep their bars, and planted errors make them miss. argv[1]: the program of marks.c.
+"""Runs a tiny ./run validate. Its rows must meet their bars, and planted errors must make rows miss them. argv[1] is the program
+of marks.c.
 
 The order of a series, the reading of committed rows and the page are tried on made-up rows."""
 
@@ -34,7 +35,7 @@ def results_of(tasks, library):
 
 
 def stokes_row(scale_eps=1.0, scale_K=1.0):
-    """c of a hole with a round rim, against a solid plate."""
+    """Compares c of a hole with a round rim with c of a solid plate."""
     library, n, cells = marking.Library(PROGRAM, scale_K, scale_eps), 4, (1.5, 2, 3)
     values = [(1 - stokes.effective_radius(library, "hole", 1 / n, c, "round")[0]) * n for c in cells]
     solid = [(1 - stokes.solid_radius(library, "hole", 1 / n, c, "round")[0]) * n for c in cells]
@@ -130,7 +131,7 @@ class Judged(unittest.TestCase):
         self.assertIn("**missed**", validate.table_of([{**made, "bar": 0.01}]))
 
     def test_status(self):
-        # The page of made-up rows, of which one misses its bar or none does.
+        # Makes the page of invented rows. Either one row misses its bar, or none does.
         def made(key, group, bar=None):
             grids = [f"b/h {n}" for n in (2, 4, 8)]
             return {**rows.row(key, group, "", 1.0, "", "", (4, 2, 1), grids, [1.2, 1.2, 1.2], bar), "c": 1.0}

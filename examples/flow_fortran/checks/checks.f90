@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> Checks of the flow solver against what is known: checks NAME, or all of them without a name, or all on
-!! coarse grids with the name short. The status is 1 if one fails.
+!> Checks the flow solver against known results. `checks NAME` runs one check, `checks` runs all of them, and `checks short` runs
+!! all of them on coarse grids. The status is 1 if a check fails.
 program checks
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use riis
@@ -66,16 +66,16 @@ program checks
 
 contains
 
-  ! The pressure drop over the middle of a duct.
+  ! Returns the pressure drop over the middle of a duct.
   real(dp) function drop_of(fluid)
     type(flow), intent(in) :: fluid
     drop_of = fluid%mean_pressure(fluid%h * 1.5_dp) - fluid%mean_pressure(fluid%h * (fluid%n(3) - 1.5_dp))
   end function drop_of
 
-  ! (a) Steady flow through a square duct that a pressure difference drives; the closed form is a series of cosines.
+  ! (a) A pressure difference drives a steady flow through a square duct. The closed form is a series of cosines.
   subroutine check_duct()
     integer, parameter :: sizes(3) = [6, 12, 24]
-    real(dp), parameter :: side = 0.01_dp, gradient = 0.01_dp ! slow: inertia does not count
+    real(dp), parameter :: side = 0.01_dp, gradient = 0.01_dp ! the flow is so slow that inertia is negligible
     type(flow) :: fluid
     real(dp) :: error(0:3), flow_error(0:3), order(2), exact, flow_exact, x(3), length, largest
     integer :: i, n, q, term
@@ -89,7 +89,7 @@ contains
       fluid%mu = 0.05_dp
       call make_duct(fluid, [n, n, 4], side / n, .false.)
       length = 4 * fluid%h
-      do q = 1, 8 * n**2                          ! until side^2 rho/mu: what is left is below 1e-8
+      do q = 1, 8 * n**2                          ! until the time side^2 rho/mu; the rest of the transient is then below 1e-8
         call fluid%step(fluid%time_step(1._dp), gradient * length, 0._dp)
       end do
       error(i) = 0
@@ -119,7 +119,7 @@ contains
     call demand(all(abs(order - 2) < 0.2_dp), 'both are of second order')
   end subroutine check_duct
 
-  ! (b) A plate closes a duct whose flow is given. In the very next step it has its drop, whatever the step.
+  ! (b) A plate closes a duct with a given flow. The whole drop must be there in the next step, for every time step.
   subroutine check_drop()
     real(dp), parameter :: h = 1e-3_dp, R = 1e4_dp, eps = 1.5_dp * h, u = 0.1_dp
     type(flow) :: fluid
@@ -146,7 +146,8 @@ contains
     call demand(worst < 0.05_dp, 'each is within 5 % of (R/eps) u')
   end subroutine check_drop
 
-  ! (b) The same without K in the pressure equation: each face lacks the share (1 + rho/(K dt))^-steps of its drop.
+  ! (b) A plate closes the same duct, but K is missing in the pressure equation. The drop of each face then lacks the share
+  ! (1 + rho/(K dt))^-steps.
   subroutine check_slow_drop()
     real(dp), parameter :: h = 1e-3_dp, R = 1e4_dp, eps = 1.5_dp * h, u = 0.1_dp, dt = 1e-3_dp
     integer, parameter :: seen(5) = [1, 10, 100, 1000, 10000]
@@ -157,7 +158,7 @@ contains
     print '(a)', '   steps     time, s  measured  expected'
     fluid = flow()
     fluid%K_in_pressure = .false.
-    fluid%mu = 1e-9_dp                            ! so that the flow stays even, as the formula has it
+    fluid%mu = 1e-9_dp                            ! the formula holds for a uniform flow, so friction at the walls must be small
     call make_duct(fluid, [4, 4, 16], h, .true.)
     fluid%v(fluid%face(1, :), 3) = merge(u, 0._dp, fluid%face(2, :) == 3)
     call put_plate(fluid, 8.3_dp * h, R, eps, 0._dp)
@@ -175,7 +176,7 @@ contains
     call demand(worst < 0.05_dp, 'the drop builds up as expected, within 5 %')
   end subroutine check_slow_drop
 
-  ! (c) What flows in and does not flow out is bounded by the residual that HYPRE leaves.
+  ! (c) The difference between inflow and outflow is bounded by the residual that HYPRE leaves.
   subroutine check_balance()
     type(flow), target :: fluid
     type(leaflets) :: valve
@@ -205,7 +206,7 @@ contains
     call demand(fits, 'both are within their bounds')
   end subroutine check_balance
 
-  ! (d) With and without u_surface: a plate that moves through a duct takes the fluid along, as a piston does.
+  ! (d) A plate that moves through a duct must take the fluid along like a piston. Without u_surface it does not.
   subroutine check_u_surface()
     real(dp), parameter :: h = 1e-3_dp, R = 1e4_dp, eps = 1.5_dp * h, w = 0.1_dp, dt = 1e-3_dp
     type(flow), target :: fluid
@@ -247,7 +248,7 @@ contains
       'with it the fluid moves with the plate, without it the fluid rests; leaflets push the fluid only with it')
   end subroutine check_u_surface
 
-  ! (f) What R and eps do: the drop of a plate anywhere between faces, and the leak of the closed aortic valve.
+  ! (f) Prints the effect of R and eps on the drop of a plate at ten places between faces, and on the leak of the closed valve.
   subroutine study()
     real(dp), parameter :: h = 1e-3_dp, u = 0.1_dp, &
       cells_of_eps(8) = [0.35_dp, 0.5_dp, 0.75_dp, 1._dp, 1.25_dp, 1.5_dp, 2._dp, 3._dp]
@@ -299,7 +300,7 @@ contains
     end do
   end subroutine study
 
-  ! A pressure that is not a number reaches the law of opening in step 3: the library refuses it.
+  ! In step 3 the law of opening gets a pressure that is not a number. The library must refuse it.
   subroutine feed_nan()
     type(riis_opening_switch) :: law = riis_opening_switch(opening_duration=0.04d0, closing_duration=0.04d0)
     type(riis_opening_switch_state) :: state

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> Checks of a valve that moves: its force, what it displaces, and its jet. Each runs with the source in the band and without, and
-!! shows what fails without.
+!> Checks moving valves: the force, the displaced volume, and the jet. Each check runs with and without the source in the band,
+!! and shows which conditions fail without the source.
 module check_moving
   use riis
   use flow_solver, only: dp, flow
@@ -16,7 +16,8 @@ module check_moving
 
 contains
 
-  !> (g) The trileaflet valve opens in its root within 40 ms between equal pressures. The flow along x and y cancels by symmetry.
+  !> (g) The trileaflet valve opens in its root within 40 ms between equal pressures. The forces along x and y must vanish,
+  !! because the root is symmetric.
   subroutine check_equal_pressures(cells)
     integer, intent(in) :: cells(:)
     type(flow), target :: fluid
@@ -58,9 +59,10 @@ contains
       'without the source it does not, with 24 cells')
   end subroutine check_equal_pressures
 
-  !> (g) The same beside the default. Each row names what differs from 24 cells and the trileaflet valve that opens within 40 ms.
+  !> (g) Repeats the check with other settings. The name of a row tells the difference from the default, the trileaflet valve that
+  !! opens within 40 ms in 24 cells.
   subroutine check_beside(rows)
-    integer, intent(in) :: rows(:)                ! numbers of names
+    integer, intent(in) :: rows(:)                ! indices of the rows to run, in the list of names
     character(len=36), parameter :: names(9) = [character(len=36) :: 'it closes', 'steps of 0.25 ms', 'steps of 0.1 ms', &
       'within 20 ms', 'turned by 17 degrees about its axis', 'shifted by 0.4, 0.3 and 0.2 cells', &
       'tilted by 20 degrees, with its root', 'bileaflet, turned, shifted', 'mitral, in an oval tube']
@@ -133,8 +135,8 @@ contains
       'the mitral valve, which is not symmetric, has less than 0.5 N across with the source, more than 5 N without')
   end subroutine check_beside
 
-  !> (h) A plate closes a duct and moves: the mean of both ends is area times stroke. It moves straight, it slides along x as
-  !! well, or it is tilted; in the last two its velocity points through the walls.
+  !> (h) A plate closes a duct and moves. The mean volume of both ends must be area times stroke. The plate moves straight, or it
+  !! also slides along x, or it is tilted. In the last two cases its velocity points through the walls.
   subroutine check_plates()
     integer, parameter :: n = 12
     real(dp), parameter :: h = 1e-3_dp, R = 1e4_dp, eps = 1.5_dp * h, w = 0.1_dp, dt = 1e-3_dp
@@ -170,7 +172,7 @@ contains
       'without it the tilted plate misses the volume, and pressures are above 10 kPa where walls are in the way')
   end subroutine check_plates
 
-  !> (i) In a heartbeat, while the valve opens, the jet is at most what the largest pressure difference so far can drive.
+  !> (i) While the valve opens in a heartbeat, the largest pressure difference so far bounds the speed of the jet.
   subroutine check_jet(cells)
     integer, intent(in) :: cells(:)
     type(flow), target :: fluid
@@ -227,10 +229,10 @@ contains
     call demand(all(ratio(0, :) > 1.05_dp), 'without it is more')
   end subroutine check_jet
 
-  !> (j) Between closed ends all sources add up to 0. The trileaflet valve opens in the middle of a wide box, where walls at the
-  !! ends hardly count, and in its closed root from an opening of 0.5.
+  !> (j) Between closed ends the sum of all sources must be 0. The trileaflet valve opens in the middle of a wide box, where the
+  !! walls at the ends have little effect. It also opens in its closed root, from an opening of 0.5.
   subroutine check_box(first)
-    integer, intent(in) :: first                  ! the row to begin with: 5 is the root alone
+    integer, intent(in) :: first                  ! the first row to run; rows 5 and 6 are the root
     character(len=17), parameter :: names(6) = [character(len=17) :: 'box, open, net', 'box, open', 'box, closed', &
       'box, closed', 'root, closed', 'root, closed']
     integer, parameter :: with(6) = [1, 1, 1, 0, 1, 0]

@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> What several checks of the flow solver need: verdicts, ducts with a plate, the aortic valve in its root, a valve that moves.
+!> Provides procedures for several checks of the flow solver: verdicts, ducts with a plate, the aortic valve in its root, and
+!! moving valves.
 module check_tools
   use riis
   use flow_solver, only: dp, flow
@@ -9,29 +10,29 @@ module check_tools
   private
   public :: demand, make_duct, put_plate, start_root, finish_root, ramp, anywhere, motion, move_valve, place_vessel, in_vessel
   logical, public :: all_right = .true.
-  ! Where the vessel of place_vessel is.
+  ! The kind and the placement of the vessel, set by place_vessel.
   character(len=32) :: vessel = 'trileaflet'
   real(dp) :: vessel_place(3) = 0, to_valve(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
 
-  !> What was seen while a valve moved. Forces are along the valve's axis, and the rest of them across it.
+  !> The results of a moving valve. A force has a part along the valve's axis and a part across it.
   type :: motion
-    real(dp) :: across = 0, along = 0             ! [N] the largest
-    real(dp) :: along_late = 0                    ! [N] in the second half of the time
-    real(dp) :: across_mean = 0, along_mean = 0   ! [N] the largest mean over a millisecond
-    real(dp) :: side(3) = 0                       ! [N] the largest of each component
-    real(dp) :: into = 0, out = 0, source = 0     ! [m^3] through the ends; of the net source
-    real(dp) :: swept = 0                         ! [m^3] by the leaflets
-    real(dp) :: displaced(2) = 0                  ! [m^3] mean of both ends, and swept, while the opening is at most 0.25
-    real(dp) :: divergence = 0                    ! [1/s] the largest, less the source
-    real(dp) :: net = 0, gross = 0                ! [m^3/s] the largest sum of the sources, and of their sizes
-    real(dp) :: p_least = 0, p_most = 0           ! [Pa] anywhere
-    real(dp), allocatable :: force(:, :)          ! [N] (3, steps)
+    real(dp) :: across = 0, along = 0             ! [N] largest parts of the force
+    real(dp) :: along_late = 0                    ! [N] largest force along the axis in the second half of the time
+    real(dp) :: across_mean = 0, along_mean = 0   ! [N] largest means of these parts over a millisecond
+    real(dp) :: side(3) = 0                       ! [N] largest magnitude of each component of the force
+    real(dp) :: into = 0, out = 0, source = 0     ! [m^3] volumes: inflow, outflow, and net source
+    real(dp) :: swept = 0                         ! [m^3] volume that the leaflets sweep
+    real(dp) :: displaced(2) = 0                  ! [m^3] mean of inflow and outflow, and swept volume, up to the opening 0.25
+    real(dp) :: divergence = 0                    ! [1/s] largest |divergence - source|
+    real(dp) :: net = 0, gross = 0                ! [m^3/s] largest sum of the sources, and of their magnitudes
+    real(dp) :: p_least = 0, p_most = 0           ! [Pa] smallest and largest pressure
+    real(dp), allocatable :: force(:, :)          ! [N] (3, steps), the force in each step
     integer :: steps = 0
   end type motion
 
 contains
 
-  !> Prints whether a condition holds, and remembers it.
+  !> Prints whether a condition holds. If it does not, the program later ends with status 1.
   subroutine demand(condition, text)
     logical, intent(in) :: condition
     character(len=*), intent(in) :: text
@@ -40,7 +41,7 @@ contains
     print '(a)', ''
   end subroutine demand
 
-  !> Says where in_vessel has its vessel: that of a kind of valve, with the valve's own placement.
+  !> Sets the vessel of in_vessel: its kind, which is a kind of valve, and its placement, which is the valve's placement.
   subroutine place_vessel(kind, place, axis, angle)
     character(len=*), intent(in) :: kind
     real(dp), intent(in) :: place(3), axis(3), angle
@@ -55,7 +56,8 @@ contains
     end do
   end subroutine place_vessel
 
-  !> Tells whether a point is inside a vessel where a valve seals, or nearly: the aortic root, or a round or an oval tube.
+  !> Tells whether a point is inside the vessel: the aortic root, a round tube, or an oval tube. The valve seals the vessel, or
+  !! nearly does.
   pure logical function in_vessel(x)
     real(dp), intent(in) :: x(3)
     real(dp) :: y(3)
@@ -85,7 +87,7 @@ contains
     anywhere = all(x > -huge(x))
   end function anywhere
 
-  !> Begins with a duct of n cells of side h, its lower corner at 0.
+  !> Makes a duct of n cells of side h. Its lower corner is at 0.
   subroutine make_duct(fluid, n, h, imposed)
     type(flow), intent(inout) :: fluid
     integer, intent(in) :: n(3)
@@ -95,8 +97,8 @@ contains
     call fluid%start(n, h, [0._dp, 0._dp, 0._dp], anywhere)
   end subroutine make_duct
 
-  !> Puts a flat plate across a duct: riis gives K and K w. It goes through height z on the duct's axis, where it
-  !! moves up with w. It may have a slope along x; then it moves along its normal. Or it slides along x as well.
+  !> Puts a flat plate across a duct, and computes K and K u_surface with riis. The plate crosses the duct's axis at height z,
+  !! and moves up with w. With a slope along x it moves along its normal. The plate may also slide along x.
   subroutine put_plate(fluid, z, R, eps, w, slope, slide)
     type(flow), intent(inout) :: fluid
     real(dp), intent(in) :: z, R, eps, w
@@ -127,13 +129,13 @@ contains
     call surface%destroy()
   end subroutine put_plate
 
-  !> Goes smoothly from 0 at x = 0 to 1 at x = 1.
+  !> Rises smoothly from 0 at x = 0 to 1 at x = 1.
   pure real(dp) function ramp(x)
     real(dp), intent(in) :: x
     ramp = max(0._dp, x)**3 * (10 + x * (6 * x - 15))
   end function ramp
 
-  !> Begins with the aortic valve in its root, `cells` across, with a half thickness of `cells_of_eps` cells.
+  !> Makes the aortic valve in its root. The box is `cells` cells wide, and the half thickness is `cells_of_eps` cells.
   subroutine start_root(fluid, valve, cells, cells_of_eps, R, opening)
     type(flow), intent(inout), target :: fluid
     type(leaflets), intent(inout) :: valve
@@ -156,7 +158,8 @@ contains
     deallocate (valve%marked)
   end subroutine finish_root
 
-  !> Moves a valve from its opening to another within a time, between equal pressures, in steps of at most longest.
+  !> Moves a valve from its opening to another opening within a given time. The pressures at both ends are equal. A time step is
+  !! at most `longest`.
   subroutine move_valve(fluid, valve, to, duration, longest, seen)
     type(flow), intent(inout) :: fluid
     type(leaflets), intent(inout) :: valve
@@ -219,7 +222,7 @@ contains
     call shape_valve%destroy()
   end subroutine move_valve
 
-  ! Copies the vertices of a surface, and the numbers of the corners of its triangles, from 1.
+  ! Copies the vertices of a surface, and the vertex numbers of its triangles, which count from 1.
   subroutine get_triangles(surface, vertices, corners)
     type(riis_surface), intent(in) :: surface
     real(dp), allocatable, intent(out) :: vertices(:, :)
@@ -231,7 +234,7 @@ contains
     corners = int(triangles%vertex_id) + 1
   end subroutine get_triangles
 
-  ! Returns the volume that triangles sweep as their vertices go straight from one place to another: Simpson's rule is exact.
+  ! Returns the volume that triangles sweep while their vertices move along straight lines. Simpson's rule is exact here.
   pure real(dp) function swept_between(first, last, corners)
     real(dp), intent(in) :: first(:, :), last(:, :)
     integer, intent(in) :: corners(:, :)

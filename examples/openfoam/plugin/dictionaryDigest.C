@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The digest of a dictionary, for LD_PRELOAD. OpenFOAM asks for it before the first step of every function object. The 1912 of
-// Debian 13 ends there with 'error in IOstream "sha1"', a known fault of builds by gcc 12 and later. This digest goes through a
-// string and not through OpenFOAM's stream of digests. OpenFOAM compares digests only with others of the same run.
+// Replaces OpenFOAM's digest of a dictionary, if LD_PRELOAD loads this library. OpenFOAM computes the digest before the first
+// step of every function object. OpenFOAM 1912 of Debian 13 stops there with 'error in IOstream "sha1"', a known fault of builds
+// by gcc 12 and later. The function here computes the digest of a string, and avoids OpenFOAM's stream of digests. It need not
+// give the same digests as OpenFOAM, because OpenFOAM compares only digests of the same run.
 #include "OStringStream.H"
 #include "SHA1.H"
 #include "SHA1Digest.H"

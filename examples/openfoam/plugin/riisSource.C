@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A linear solver for the pressure that lets a moving valve change the volume of cells which its band seals off.
+// Defines a linear solver for the pressure. It gives a volume source to cells that the band of a moving valve seals off.
 //
-// The band imposes the velocity of the leaflets, and that is not free of divergence on the mesh: it points through walls,
-// leaflets stretch, it jumps from one leaflet to the next. Where every face of a cell is resisted, nothing can flow to make up
-// for it, and the pressure becomes what a force of K needs. This solver adds a source to the right-hand side of the equation of
-// p, and then calls the solver that its dictionary names as linearSolver. README.md says how to switch it on.
+// The band imposes the velocity of the leaflets. On the mesh this velocity is not free of divergence, because it points through
+// walls, leaflets stretch, and it jumps from one leaflet to the next. If all faces of a cell are resisted, blood can pass them
+// only under a very large pressure. This solver adds a source to the right-hand side of the pressure equation, and then calls
+// the solver that its dictionary names as linearSolver. README.md says how to switch it on.
 //
-// A face is resisted if K dt > rho in both of its cells. A sealed set consists of cells that are joined through other faces, and
-// is bounded only by resisted faces and walls. With A outward, u_f as the equation has it, and |set| its volume:
-//   S = 1/|set| * sum over the resisted faces of the set of u_f . A in sealed sets, and 0 elsewhere.
+// A face is resisted if K dt > rho in both of its cells. Faces that are not resisted join cells to sets. A set is sealed if only
+// resisted faces and walls bound it. In a sealed set of the volume |set|, the source is
+//   S = 1/|set| * sum of u_f . A over the resisted faces of the set.
+// A points outward, and u_f is the velocity of the leaflets on the face. In all other cells S is 0.
 #include "addToRunTimeSelectionTable.H"
 #include "cyclicPolyPatch.H"
 #include "emptyPolyPatch.H"
@@ -33,7 +34,7 @@ namespace {
 
 using Valves = std::vector<const fv::riisValve *>;
 
-// The valves whose pressure is called so.
+// Returns the valves whose dictionary has this name of the pressure.
 Valves valvesOf(const fvMesh &mesh, const word &pressure) {
   Valves valves;
   if (!mesh.foundObject<fv::options>(fv::options::typeName)) return valves;
@@ -45,13 +46,13 @@ Valves valvesOf(const fvMesh &mesh, const word &pressure) {
   return valves;
 }
 
-// No blood passes through the faces of such a patch.
+// Tells whether no blood passes through the faces of a patch.
 bool isClosed(const polyPatch &patch) {
   return isA<wallPolyPatch>(patch) || isA<symmetryPolyPatch>(patch) || isA<symmetryPlanePolyPatch>(patch) ||
          isA<emptyPolyPatch>(patch) || isA<wedgePolyPatch>(patch);
 }
 
-// Cells at both sides of such a patch are joined.
+// Tells whether a patch joins the cells on its two sides.
 bool isJoined(const polyPatch &patch) { return isA<processorPolyPatch>(patch) || isA<cyclicPolyPatch>(patch); }
 
 void addOverRanks(scalarField &values) {
@@ -61,7 +62,7 @@ void addOverRanks(scalarField &values) {
 
 }  // namespace
 
-// The source of a time step. Pressure correctors of the same step find it in the mesh's registry.
+// The source of a time step. The mesh's registry holds it, so that all pressure correctors of the step use the same source.
 class riisNetSource : public regIOobject {
   label timeIndex_;
   scalarField volumes_;  // S times the cell's volume, m3/s
@@ -72,7 +73,7 @@ class riisNetSource : public regIOobject {
   explicit riisNetSource(const fvMesh &mesh, const word &name)
       : regIOobject(IOobject(name, mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE)),
         timeIndex_(-1) {}
-  bool writeData(Ostream &os) const override { return os.good(); }  // nothing needs it later
+  bool writeData(Ostream &os) const override { return os.good(); }  // a restart needs no file
 
   const scalarField &ofThisStep(const fvMesh &mesh, const Valves &valves, bool hasReference) {
     if (timeIndex_ != mesh.time().timeIndex() || volumes_.size() != mesh.nCells()) compute(mesh, valves, hasReference);
@@ -84,8 +85,8 @@ class riisNetSource : public regIOobject {
 void riisNetSource::compute(const fvMesh &mesh, const Valves &valves, bool hasReference) {
   const scalar dt = mesh.time().deltaTValue();
   const scalarField &volume = mesh.V();
-  // K dt / rho, its share of A in the momentum equation, and the velocity of the leaflets times this share, as H/A has it. That
-  // one bears the name of H/A, so that the solver's own scheme interpolates it to the faces.
+  // strength is K dt / rho. share is the part of K in the diagonal A of the momentum equation. imposed is the velocity of the
+  // leaflets times share, which is its part of H/A. It has the name HbyA, so that the scheme for HbyA interpolates it to faces.
   volScalarField strength(IOobject("riisStrength", mesh.time().timeName(), mesh), mesh,
                           dimensionedScalar(dimless, Zero));
   volScalarField share(IOobject("riisShare", mesh.time().timeName(), mesh), mesh, dimensionedScalar(dimless, Zero));
@@ -104,7 +105,7 @@ void riisNetSource::compute(const fvMesh &mesh, const Valves &valves, bool hasRe
   strength.correctBoundaryConditions();
   share.correctBoundaryConditions();
   imposed.correctBoundaryConditions();
-  // Divided by the share on the face, so that leaflets of one velocity give no source where K varies.
+  // The division by share on the face removes the effect of a varying K. A uniform velocity of the leaflets then gives no source.
   const surfaceScalarField flux(fvc::flux(imposed) /
                                 (fvc::interpolate(share, "flux(HbyA)") + dimensionedScalar("least", dimless, VSMALL)));
 
@@ -117,7 +118,7 @@ void riisNetSource::compute(const fvMesh &mesh, const Valves &valves, bool hasRe
     forAll(patch, i) resisted[patch.start() + i] = strength[patch.faceCells()[i]] > 1 && there[i] > 1;
   }
 
-  // Sums over all ranks, by the number of a set.
+  // Each array has one entry for each set of cells, and is later summed over all ranks.
   const regionSplit set(mesh, resisted, true);
   scalarField ends(set.nRegions(), 0), out(set.nRegions(), 0), size(set.nRegions(), 0);
   forAll(neighbour, face) {
@@ -140,12 +141,12 @@ void riisNetSource::compute(const fvMesh &mesh, const Valves &valves, bool hasRe
   addOverRanks(ends);
   addOverRanks(out);
   addOverRanks(size);
-  // A box without ends: its largest set is where the blood is, and no pocket.
+  // A closed box has no set with an open end. Its largest set holds most of the blood, so it does not count as sealed.
   if (!hasReference && max(ends) == 0) ends[findMax(size)] = 1;
 
   label sets = 0, cells = 0;
   forAll(ends, i) sets += ends[i] == 0 && out[i] != 0;
-  scalar band = 0;  // the volume of resisted cells that are not sealed: the outermost of the band
+  scalar band = 0;  // volume of the outermost cells of the band, which are resisted but in no sealed set
   forAll(volume, cell) {
     const label here = set[cell];
     if (ends[here] == 0) {
@@ -158,7 +159,8 @@ void riisNetSource::compute(const fvMesh &mesh, const Valves &valves, bool hasRe
   const scalar net = gSum(volumes_);
   reduce(band, sumOp<scalar>());
   reduce(cells, sumOp<label>());
-  // Without a fixed pressure inflow equals outflow. If no such cell is there, all sets are sealed, and their sums cancel.
+  // Without a fixed pressure, inflow equals outflow, so the net source must be 0. The outermost cells of the band take it back.
+  // If the band has no such cells, all sets are sealed, and their sources cancel.
   if (!hasReference && band > 0) {
     forAll(volume, cell) {
       if (ends[set[cell]] != 0 && strength[cell] > 1) volumes_[cell] -= net / band * volume[cell];
@@ -196,8 +198,8 @@ class riisSource : public lduMatrix::solver {
     const bool hasReference = !mesh->lookupObject<volScalarField>(fieldName_).needReference();
     const scalarField &volumes = mesh->lookupObjectRef<riisNetSource>(key).ofThisStep(*mesh, valves, hasReference);
 
-    // OpenFOAM's laplacian of p is negative on the diagonal, and the equation laplacian(rAU, p) = div(HbyA) - S has -S V on the
-    // right. An equation that is written with the other sign has +S V.
+    // The equation laplacian(rAU, p) = div(HbyA) - S has a negative diagonal in OpenFOAM, and -S V on the right-hand side. If a
+    // solver uses the other sign of the equation, the diagonal is positive, and the right-hand side has +S V.
     const scalar sign = gSum(matrix_.diag()) < 0 ? -1 : 1;
     dictionary controls(controlDict_);
     controls.set("solver", name);

@@ -20,12 +20,12 @@ addToRunTimeSelectionTable(option, riisValve, dictionary);
 
 namespace {
 
-// The library's warnings, such as that of a mesh and a valve in different units.
+// Prints the library's warnings. One warns of a mesh and a valve in different units, for example.
 void warn(void *, int32_t level, const char *message) {
   if (level == RIIS_LOG_WARNING) Warning << "riis: " << message << endl;
 }
 
-// A key that nothing reads is a mistake in writing: its default would count in silence.
+// Refuses unknown keys. A misspelt key would otherwise leave its default in place without a message.
 void refuseOthers(const dictionary &dict, std::initializer_list<const char *> keys) {
   for (const entry &e : dict) {
     bool known = false;
@@ -62,7 +62,7 @@ bool riisState::writeData(Ostream &os) const {
   return good;
 }
 
-// OpenFOAM does not read back the lists of a dictionary that says it is binary.
+// Writes text, because OpenFOAM cannot read the lists of a binary dictionary.
 bool riisState::writeObject(IOstream::streamFormat, IOstream::versionNumber version,
                             IOstream::compressionType compression, const bool valid) const {
   return IOdictionary::writeObject(IOstream::ASCII, version, compression, valid);
@@ -146,7 +146,7 @@ void riisValve::readAll() {
   check(riis_surface_options_init(&options, sizeof options));
   readPlacement(coeffs_.subDict("placement"), options);
   options.half_thickness = dimensionedScalar("halfThickness", dimLength, coeffs_).value();
-  // One rank is one thread by default, as for the rest of the solver.
+  // By default the library uses one thread in each rank, as the solver does.
   options.n_threads = coeffs_.getOrDefault<label>("nThreads", 1);
   riis_surface *surface = nullptr;
   check(riis_surface_create(valve_.get(), &options, &surface), coeffs_);
@@ -282,7 +282,7 @@ riisValve::Sensor riisValve::sensor(const dictionary &dict) const {
   return found;
 }
 
-// Continues from the state in the folder of the start time. A first start has none.
+// Continues from the state in the folder of the start time. A run that starts for the first time has no such state.
 void riisValve::restart() {
   const scalar start = mesh_.time().value();
   const bool found = state_.found("kind");
@@ -330,7 +330,7 @@ void riisValve::restart() {
         switchState_.rate = state_.get<scalar>("rate");
         switchState_.progress = state_.get<scalar>("progress");
         switchState_.phase = state_.get<label>("phase");
-        // Without these keys there was none yet.
+        // These keys are missing if the switch had no state yet.
         state_.readIfPresent("pressureDifference", switchState_.pressure_difference);
         state_.readIfPresent("flow", switchState_.flow);
         state_.readIfPresent("turnTime", switchState_.turn_time);
@@ -352,7 +352,7 @@ dictionary riisValve::parameters() const {
     if (!strcmp(parameter.name, "opening")) continue;
     scalarList values(label(parameter.n_values));
     check(riis_valve_get(valve_.get(), parameter.name, values.size(), values.data()));
-    // A list itself would be added as text of six digits.
+    // OpenFOAM would write a list with six digits only.
     tokenList tokens(values.size() + 2);
     tokens.first() = token(token::BEGIN_LIST);
     forAll(values, c) tokens[c + 1] = token(values[c]);
@@ -380,7 +380,7 @@ void riisValve::keepState() {
   state_.add("parameters", parameters());
 }
 
-// The mean pressure over the sensor's cells on all ranks.
+// Returns the mean pressure over the sensor's cells on all ranks.
 scalar riisValve::meanPressure(const Sensor &sensor) const {
   const volScalarField &p = mesh_.lookupObject<volScalarField>(pName_);
   scalar sum = 0;
@@ -389,7 +389,7 @@ scalar riisValve::meanPressure(const Sensor &sensor) const {
   return (p.dimensions() == dimPressure ? 1 : rho_.value()) * sum / sensor.volume;
 }
 
-// The volume that leaves through the patch in a second.
+// Returns the flow out of the domain through flowPatch, m3/s.
 scalar riisValve::flow() const {
   const surfaceScalarField &phi = mesh_.lookupObject<surfaceScalarField>(phiName_);
   scalar sum = 0;
@@ -397,7 +397,7 @@ scalar riisValve::flow() const {
   return returnReduce(sum, sumOp<scalar>());
 }
 
-// Advances the law to the end of the step. Pressures and flow are those of its beginning, the last that the solver has.
+// Advances the law to the end of the step. The law uses the pressures and the flow at the beginning of the step.
 scalar riisValve::openingAt(scalar time, Ostream &report) {
   scalar opening = constant_;
   if (law_ == Law::times) check(riis_opening_from_times(&times_, time, &opening, nullptr));
@@ -411,7 +411,8 @@ scalar riisValve::openingAt(scalar time, Ostream &report) {
   return opening;
 }
 
-// Moves the valve to the end of the step, marks the cells and computes K, once in a step. Outer correctors find K as it is.
+// Moves the valve to its position at the end of the step, marks the cells, and computes K. This happens once in a step, so all
+// outer correctors of the step use the same K.
 void riisValve::mark() {
   const Time &time = mesh_.time();
   if (mesh_.changing()) {

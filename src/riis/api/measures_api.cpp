@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Leaflets, orifice, leak, first passage, cells across and swept volume: argument checks around these measures.
+// Defines the public functions for leaflets, orifice, leak, first passage, cells across and swept volume. They check arguments.
 #include <chrono>
 #include <cstdint>
 #include <vector>
@@ -23,7 +23,8 @@ namespace {
 
 const riis_first_passage_options default_first_passage{sizeof(riis_first_passage_options), nullptr, nullptr, 1e-3};
 
-// NULL stands for the defaults. R is not checked.
+// Returns the caller's resistance with the surface's half thickness in place of RIIS_AUTO. NULL stands for the defaults. R is not
+// checked.
 riis_resistance resistance_for(const riis_resistance *resistance, const riis::Surface &surface) {
   riis_resistance defaults;
   riis_resistance_init(&defaults, sizeof defaults);
@@ -55,7 +56,7 @@ riis_orifice orifice_of(const riis::Surface &surface, const riis::ValveFrame &fr
           0};
 }
 
-// Tries openings of a valve in a mesh. The calls within are those of a caller, so their refusals are the same.
+// Tries openings of a valve in a mesh. It calls the public functions, so it refuses bad input with the same messages as they do.
 class PassageTrials {
  public:
   PassageTrials(const riis_valve *valve, const riis_mesh *mesh, const riis_passage_ends *ends,
@@ -125,7 +126,8 @@ riis_first_passage first_passage(PassageTrials &trials, double tolerance) {
   return found_at(open, closed, passage, RIIS_FIRST_PASSAGE_FOUND);
 }
 
-// Adds the volumes of the leaflet, or of all, and places the sum. `owner` has the leaflets.
+// Returns the volume of one leaflet, or the sum of all leaflets, after the placement. A message about a missing leaflet names
+// `owner`.
 double placed_volume(const riis::SweptVolumes &volumes, std::int32_t leaflet_id, const char *owner,
                      const riis_surface_options &options) {
   double sum = 0;

@@ -13,8 +13,8 @@
 namespace riis {
 namespace {
 
-// The end of a span on a line. `along` is the length of the edge there between lines that are 1 apart. It is 0 for edges that
-// are left to lines in the other direction.
+// One end of a span on a line. `along` is the length of the edge at this end between two lines with spacing 1. It is 0 if lines
+// in the other direction measure the edge.
 struct End {
   double x, along;
 };
@@ -23,7 +23,7 @@ struct Span {
   End begin, end;
 };
 
-// The lines along x in the middle of equal strips of the outline.
+// The outline is cut into n strips of equal height. One line along x lies in the middle of each strip.
 class ScanLines {
  public:
   ScanLines(const Outline &outline, std::int64_t n) : n_(n) {
@@ -52,15 +52,16 @@ double x_at(const PlanePoint &a, const PlanePoint &b, double y) {
   return a[0] + (b[0] - a[0]) * ((y - a[1]) / (b[1] - a[1]));
 }
 
-// Lines along y count the flat edges. An edge at 45 degrees belongs to the lines along x.
+// Returns the length of an edge between two lines with spacing 1. Returns 0 for a flat edge, because lines in the other direction
+// measure it. An edge at 45 degrees counts only if counts_equal is true, which holds for the lines along x.
 double length_along(double dx, double dy, bool counts_equal) {
   const double across = std::abs(dy), beside = std::abs(dx);
   if (across < beside || (across == beside && !counts_equal)) return 0;
   return std::hypot(dx, dy) / across;
 }
 
-// Calls visit(i, x) for each line that the edge meets. The edge's upper end does not count. Both directions give the same x, so
-// that neighbours leave no gap.
+// Calls visit(i, x) for each line that the edge meets. A line through the upper end does not count. The x does not depend on the
+// order of a and b, so two triangles with a common edge leave no gap.
 template <class Visit>
 void for_each_crossing(const ScanLines &lines, PlanePoint a, PlanePoint b, const Visit &visit) {
   if (b[1] < a[1]) std::swap(a, b);
@@ -94,7 +95,7 @@ SpansOfLines inside(const Outline &outline, const ScanLines &lines) {
   return spans;
 }
 
-// Collects the spans of convex shapes, which meet a line in at most one span each.
+// Collects the spans of convex shapes on the lines. A convex shape meets a line in at most one span.
 class Covered {
  public:
   Covered(const ScanLines &lines, bool counts_equal)
@@ -141,7 +142,7 @@ class Covered {
   std::int64_t shape_ = -1;
 };
 
-// A point is within `reach` of the triangles if it is in one of them, or within reach of the rim.
+// Returns the spans within `reach` of the triangles. A point is there if it lies in a triangle or within `reach` of the rim.
 SpansOfLines covered(const Cover &cover, double reach, const ScanLines &lines, bool counts_equal) {
   Covered made(lines, counts_equal);
   for (const PlaneTriangle &corner : cover.triangles) {
@@ -173,7 +174,7 @@ struct Uncovered {
   double length = 0, edge = 0;
 };
 
-// Measures what the covers leave uncovered of disjoint spans, and the edges of the covers that bound it.
+// Measures the part of disjoint spans that lies in no cover, and the edges of the covers at the ends of this part.
 Uncovered without(const std::vector<Span> &spans, std::vector<Span> covers) {
   std::sort(covers.begin(), covers.end(), [](const Span &a, const Span &b) { return a.begin.x < b.begin.x; });
   Uncovered made;
@@ -230,7 +231,7 @@ bool has_area(const Outline &outline, double rounding) {
   return height > 0 && area_of(outline) > std::max(1e-9 * size, rounding) * size;
 }
 
-// Returns 1 or -1 for the side that the triangle is seen from, and 0 if it is seen edge on.
+// Returns 1 or -1 for the side of the triangle that faces the viewer, and 0 if the viewer sees only its edge.
 int side_of(const PlaneTriangle &corner) {
   const auto &[a, b, c] = corner;
   const double first = (b[0] - a[0]) * (c[1] - a[1]), second = (b[1] - a[1]) * (c[0] - a[0]);
@@ -256,7 +257,7 @@ std::optional<Outline> closed_outline(const std::vector<std::vector<PlanePoint>>
 }
 
 Cover cover_of(const std::vector<PlanePoint> &vertices, const std::vector<std::int64_t> &vertex_id) {
-  // An edge in one triangle has one triangle's side in its sum, an edge between two that are seen from the same side has both.
+  // `sides` is the sum of side_of over the edge's triangles. It is 2 or -2 if two triangles lie on opposite sides of the edge.
   struct Use {
     int n = 0, sides = 0;
   };
@@ -282,7 +283,7 @@ Cover cover_of(const std::vector<PlanePoint> &vertices, const std::vector<std::i
     for (int k = 0; k < 3; ++k) {
       Use &use = uses[key(id(i, k), id(i, k + 1))];
       if (use.n < 1 || (use.n == 2 && std::abs(use.sides) == 2)) continue;
-      use.n = -1;  // once only
+      use.n = -1;  // the second triangle of this edge does not add it again
       cover.rim.push_back({view(vertices)[id(i, k)], view(vertices)[id(i, k + 1)]});
     }
   return cover;

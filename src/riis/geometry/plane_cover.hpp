@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of an outline in the plane that triangles leave uncovered: its area, and the length of its edge.
-// In: an outline, triangles in the plane. Out: areas and lengths, also of the part that is left if the triangles grow.
+// Measures the part of an outline in the plane that triangles leave uncovered: its area, and the length of its edge.
+// In: an outline, triangles in the plane, and a distance by which the triangles grow. Out: areas and lengths.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@ using PlanePoint = std::array<double, 2>;
 using PlaneTriangle = std::array<PlanePoint, 3>;
 using PlaneSegment = std::array<PlanePoint, 2>;
 
-// A circle, or closed lines.
+// An outline is a circle or a set of closed lines.
 struct Outline {
   double radius = 0;  // > 0: the outline is this circle
   PlanePoint centre{};
-  // If there is no circle: a point is inside if the number of edges to its left is odd.
+  // Used if radius is 0. A point is inside if the number of edges to its left is odd.
   std::vector<PlaneSegment> edges{};
 };
 
@@ -27,20 +27,21 @@ Outline circle(double radius, const PlanePoint &centre);
 // ends at each place. Coordinates may be off by `rounding`, which encloses an area, too.
 std::optional<Outline> closed_outline(const std::vector<std::vector<PlanePoint>> &lines, double rounding = 0);
 
-// Triangles, and the edges that may bound what they cover: all but edges between two triangles on opposite sides.
+// The triangles, and the rim: the edges that may bound the covered part. An edge is not in the rim if its two triangles lie on
+// opposite sides of it.
 struct Cover {
   std::vector<PlaneTriangle> triangles;
   std::vector<PlaneSegment> rim;
 };
 
-// Makes the cover of triangles that are given by their vertices.
+// Makes the cover from the vertices of the triangles and from the three vertices of each triangle.
 Cover cover_of(const std::vector<PlanePoint> &vertices, const std::vector<std::int64_t> &vertex_id);
 
-// The number of lines along x that measure areas. They are evenly spaced over the outline. On each line the uncovered parts
-// have their exact length. An edge along x is off by at most half a spacing, 1/4096 of the outline's height.
+// The number of lines along x that measure areas. The lines are evenly spaced over the outline. The uncovered length of each line
+// is exact. The place of an edge along x has an error of at most half a spacing, 1/4096 of the outline's height.
 inline constexpr std::int64_t n_scan_lines = 2048;
 
-// The lines that measure lengths of edges, in either direction.
+// The number of lines along x, and also of lines along y, that measure lengths of edges.
 inline constexpr std::int64_t n_edge_lines = 512;
 
 double area_of(const Outline &outline, std::int64_t n_lines = n_scan_lines);
@@ -48,8 +49,8 @@ double area_of(const Outline &outline, std::int64_t n_lines = n_scan_lines);
 // Returns the area of the points inside the outline that are farther than `reach` from all triangles.
 double uncovered_area(const Outline &outline, const Cover &cover, double reach, std::int64_t n_lines = n_scan_lines);
 
-// Returns the length of that part's edge, without the outline. Lines along x count the edges that are steep to them, lines along
-// y the others. An edge ends up to a spacing early or late.
+// Returns the length of the edge of the part that uncovered_area measures. The outline itself does not count. Lines along x
+// measure the steep edges, and lines along y measure the flat edges. Each end of an edge has an error of at most one spacing.
 double uncovered_edge(const Outline &outline, const Cover &cover, double reach, std::int64_t n_lines = n_edge_lines);
 
 }  // namespace riis

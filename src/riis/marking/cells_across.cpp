@@ -36,7 +36,7 @@ riis_cells_across cells_across(const Marks &marks, const Mesh &mesh, const Adjac
   const StridedPoints &nodes = mesh.nodes();
   std::vector<std::uint8_t> is_marked(static_cast<std::size_t>(nodes.n), 0);
   for (const std::int64_t id : marks.marked_nodes().node_id) view(is_marked)[id] = 1;
-  // The sums of blocks are added in their order, so that the result does not depend on the threads.
+  // Each block of rows has its own sum. The sums are added in the order of the blocks, so the result does not depend on threads.
   constexpr std::int64_t rows_per_block = 4096;
   std::vector<Lengths> by_block(static_cast<std::size_t>((nodes.n + rows_per_block - 1) / rows_per_block));
   parallel_for_ranges(nodes.n, rows_per_block, n_threads, [&](const Range &rows, int) {
@@ -46,11 +46,11 @@ riis_cells_across cells_across(const Marks &marks, const Mesh &mesh, const Adjac
       others.clear();
       adjacency.for_each_neighbor(i, [&](std::int64_t j) {
         if (!view(is_marked)[i] && !view(is_marked)[j]) return;
-        if (j < i && adjacency.has_neighbor(j, i)) return;  // found in that row
+        if (j < i && adjacency.has_neighbor(j, i)) return;  // row j counts this edge
         others.push_back(j);
       });
       std::sort(others.begin(), others.end());
-      others.erase(std::unique(others.begin(), others.end()), others.end());  // columns may be repeated
+      others.erase(std::unique(others.begin(), others.end()), others.end());  // a row may list a neighbour twice
       for (const std::int64_t j : others) {
         const double length = distance(checked_point(nodes, i, "node", RIIS_INVALID_MESH),
                                        checked_point(nodes, j, "node", RIIS_INVALID_MESH));
@@ -63,7 +63,7 @@ riis_cells_across cells_across(const Marks &marks, const Mesh &mesh, const Adjac
   for (const Lengths &block : by_block) all.add(block);
   const double eps = marks.half_thickness;
   if (all.n == 0) return {0, 0, 0, 0, 0, 0, eps, 0};
-  // Rounding of the sum does not put the mean of equal lengths beside them.
+  // The sum is rounded. Without the clamp the mean of equal lengths could differ from these lengths.
   const double mean = std::clamp(all.sum / static_cast<double>(all.n), all.shortest, all.longest);
   return {2 * eps / all.longest, 2 * eps / mean, 2 * eps / all.shortest, all.shortest, mean, all.longest, eps, all.n};
 }

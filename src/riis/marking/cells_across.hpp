@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many mesh edges lie across the band: the lengths of the edges with a marked node.
+// Counts the mesh edges across the band. The count is the band's thickness over the length of the mesh edges with a marked node.
 // In: a marking, the mesh with its adjacency. Out: counts and lengths.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace riis {
 
-// Fails with RIIS_INVALID_MESH if a coordinate is not usable.
+// Fails with RIIS_INVALID_MESH if a coordinate is not finite or too large.
 riis_cells_across cells_across(const Marks &marks, const Mesh &mesh, const Adjacency &adjacency, int n_threads);
 
 }  // namespace riis

@@ -72,7 +72,7 @@ NearestEdges::Box NearestEdges::box_around(std::int64_t begin, std::int64_t end)
   return {lower - margin, upper + margin, begin, end, 0};
 }
 
-// Adds the boxes of order_[begin] to order_[end - 1]: halves by the middles of the edges, down to a few edges.
+// Adds the boxes of order_[begin] to order_[end - 1]. A box with more than a few edges is halved by the middles of its edges.
 void NearestEdges::add(std::int64_t begin, std::int64_t end) {
   const std::int64_t own = view(boxes_).size();
   boxes_.push_back(box_around(begin, end));
@@ -101,9 +101,10 @@ std::int64_t NearestEdges::of(std::int32_t leaflet_id, Vec3 point) const {
   if (!tree) return -1;
   double least = std::numeric_limits<double>::infinity();
   std::int64_t nearest = -1;
-  // A box whose distance rounds to just above that of an edge in it may not be left out, so that equally near edges all count.
+  // Rounding may put the distance of a box just above the distance of an edge in it. The bound is a little smaller, so that the
+  // search never skips a box with an equally near edge.
   const auto bound = [&](std::int64_t box) { return (1 - 1e-12) * distance_sq(view(boxes_)[box], point); };
-  std::array<std::int64_t, 64> open;  // halves of halves: never more than the bits of a number of edges
+  std::array<std::int64_t, 64> open;  // boxes to visit: at most one for each level of a tree of below 64 levels
   std::size_t n_open = 0;
   open[n_open++] = tree->root;
   while (n_open > 0) {

@@ -14,7 +14,7 @@
 namespace riis {
 namespace {
 
-// Returns K at a distance d: (R / eps) delta(d) with delta(d) = (1 + cos(pi d / eps)) / (2 eps), and 0 from eps on.
+// Returns K at a distance d. K is (R / eps) delta(d) with delta(d) = (1 + cos(pi d / eps)) / (2 eps). K is 0 for d >= eps.
 double coefficient_at(const Resistance &resistance, double distance) {
   const double eps = resistance.half_thickness;
   if (!(distance < eps)) return 0;
@@ -27,7 +27,7 @@ double coefficient_at(const Resistance &resistance, const ListedNodes &list, std
   return coefficient_at(resistance, view(list.nodes.distance)[i]);
 }
 
-// Calls visit(i, K) for each node of a range with a resistance, in ascending order.
+// Calls visit(i, K) for each entry i of the range whose K is above 0, in ascending order.
 template <class Visit>
 void for_each_resistance(const Marks &marks, const Resistance &resistance, const Range &range, const Visit &visit) {
   for (std::int64_t i = range.begin; i < range.end; ++i) {
@@ -42,8 +42,8 @@ void require_field(const Marks &marks, std::int32_t field, const char *field_nam
          ", but the nodes were marked with options.fields = ", marks.data.given_fields);
 }
 
-// A sum by Neumaier's method (1974), which also sums the digits that its additions lose. So the sums of leaflets equal the sum of
-// the whole to a few digits of the last place, however many nodes there are.
+// Adds numbers by Neumaier's method (1974), which also adds up the rounding error of each addition. The sums over the leaflets
+// therefore add up to the sum over the surface, except for a few units in the last place, however many nodes there are.
 class Sum {
  public:
   void add(double x) {
@@ -70,7 +70,7 @@ void add_sum(const std::array<Sum, 3> &sum, double *to) {
   for (std::size_t c = 0; c < 3; ++c) to[c] += sum[c].total();
 }
 
-// Adds to the caller's arrays (3, n), which may be null.
+// Adds the sums to the caller's arrays of shape (3, n). Each array may be null.
 void add_sums(const Vector<Wrench> &sums, double *force, double *moment) {
   for (std::int64_t i = 0; i < view(sums).size(); ++i) {
     if (force) add_sum(view(sums)[i].force, force + 3 * i);
@@ -82,7 +82,8 @@ Vec3 vector_at(const UnfilledVector<double> &list, std::int64_t i) {
   return {view(list)[3 * i], view(list)[3 * i + 1], view(list)[3 * i + 2]};
 }
 
-// The surface's leaflets decide, not those of the nodes. So all ranks refuse, also those without a node of the leaflet.
+// Checks n_leaflets against the leaflets of the surface, not against the leaflets of the nodes. All ranks then refuse a wrong
+// n_leaflets, also a rank that has no node of the last leaflet.
 void check_leaflets(const Marks &marks, const riis_reaction &to) {
   const std::int32_t last = marks.leaflet_ids.empty() ? -1 : marks.leaflet_ids.back();
   if (to.n_leaflets <= last)
@@ -104,12 +105,12 @@ Edges checked_edges(const riis_reaction &reaction) {
   return edges;
 }
 
-// A block of the list that one thread takes at a time, and the length below which one thread takes all.
+// A thread takes blocks of nodes_per_block nodes. A list of fewer than few_nodes nodes uses one thread.
 constexpr std::int64_t nodes_per_block = 4096, few_nodes = 16384;
-// The same for the search of edges, which takes ten times as long a node.
+// The search of edges has smaller limits, because it takes ten times as long for each node.
 constexpr std::int64_t edge_nodes_per_block = 512, few_edge_nodes = 2048;
 
-// Finds the edge that gets the share of each node with a resistance. Others have no entry of use.
+// Finds the nearest edge of each node, to which the node's force is added. Entries of nodes without resistance have no meaning.
 Vector<std::int64_t> nearest_edges(const Marks &marks, const Resistance &resistance, const Edges &edges) {
   const NearestEdges search(edges);
   for (const std::int32_t leaflet : marks.leaflet_ids)
@@ -172,12 +173,12 @@ void add_resistance(const Marks &marks, const Resistance &resistance, const riis
   if (adds_k_u) require_field(marks, RIIS_FIELD_VELOCITY, "RIIS_FIELD_VELOCITY", "arrays.K_u_surface");
   const auto node_id = view(marks.within.nodes.node_id);
   const double *velocity = marks.within.fields.velocity.data();
-  // Components beside each other share a cache line.
+  // If the three components of a node are adjacent, they share a cache line.
   const int n_lines = adds_k_u && to.K_u_surface[1] == to.K_u_surface[0] + 1 ? 1 : 3;
   const int n_threads = marks.n_threads.for_part(node_id.size(), few_nodes);
   parallel_for_ranges(node_id.size(), nodes_per_block, n_threads, [&](const Range &range, int) {
     for_each_resistance(marks, resistance, range, [&](std::int64_t i, double k) {
-      // Nodes are far apart in the caller's arrays: they are fetched while earlier nodes are computed.
+      // The nodes lie far apart in the caller's arrays, so the entries of later nodes are prefetched.
       const std::int64_t ahead = node_id[std::min(i + 16, node_id.size() - 1)], node = node_id[i];
       if (to.K) {
         __builtin_prefetch(to.K + to.K_stride * ahead, 1);
@@ -204,7 +205,7 @@ void add_reaction(const Marks &marks, const Resistance &resistance, const riis_f
   Vector<Wrench> of_edge(static_cast<std::size_t>(edges.n));
   const Vec3 about{to.about[0], to.about[1], to.about[2]};
   const bool moves = (marks.data.fields & RIIS_FIELD_VELOCITY) != 0;
-  // One thread sums in the order of the nodes, so that the bits do not depend on the number of threads.
+  // A single thread adds the forces in the order of the nodes, so that the bits do not depend on the number of threads.
   for_each_resistance(marks, resistance, {0, marks.within.nodes.size()}, [&](std::int64_t i, double k) {
     const std::int64_t node = view(marks.within.nodes.node_id)[i];
     const Vec3 surface_velocity = moves ? vector_at(marks.within.fields.velocity, i) : Vec3{0, 0, 0};

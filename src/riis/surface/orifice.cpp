@@ -11,7 +11,7 @@
 namespace riis {
 namespace {
 
-// Looks along the valve's axis: undoes the rotation and the translation, keeps the scale, and drops z.
+// Projects points along the valve's axis. The projection undoes the rotation and the translation, keeps the scale, and drops z.
 class AlongAxis {
  public:
   explicit AlongAxis(const Placement &placement)

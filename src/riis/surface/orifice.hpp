@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The orifice of a valve: what its triangles leave uncovered of an outline, seen along the valve's axis.
+// Measures the orifice of a valve. The orifice is the part of an outline that the triangles do not cover, seen along the axis.
 // In: the triangles, and the frame of the valve. Out: areas and a perimeter, and the sizes of leaflets.
 #pragma once
 
@@ -14,21 +14,21 @@
 
 namespace riis {
 
-// How far the band around a rim reaches into an orifice, in half thicknesses: the c of A - c eps P. The band blocks the flow as
-// far as a wall of no thickness with a rim that much farther out would. The numbers lie midway between the open bileaflet valve
-// (0.98 and 0.95), whose leaflets guide the flow, and the open trileaflet valve (0.70 and 0.46), a funnel, beside the same
-// leaflets as walls in body-fitted meshes (docs/validation.md).
+// The factor c of the effective area A - c eps P. The band around a rim narrows the orifice by the distance c eps: a wall of no
+// thickness whose rim lies c eps farther out blocks the flow as much. Each number lies midway between the c of two valves that
+// docs/validation.md compares with walls in body-fitted meshes. The open bileaflet valve has 0.98 (round) and 0.95 (cut). The
+// open trileaflet valve has 0.70 and 0.46.
 inline constexpr double rim_reach_round = 0.84;  // RIIS_RIM_ROUND
 inline constexpr double rim_reach_cut = 0.70;    // RIIS_RIM_CUT
 
-// The place of the valve that a surface was made from.
+// The placement, the disc and the housing of the valve that a surface was made from.
 struct ValveFrame {
   Placement placement;
   Valve::Disc disc;      // before placement
-  std::int32_t housing;  // the leaflet_id of a wall, or -1
+  std::int32_t housing;  // the leaflet_id of the housing, or -1 if the valve has no housing
 };
 
-// The other numbers of riis_orifice follow from these and the frame.
+// The measured numbers. The caller computes the other fields of riis_orifice from these numbers and the frame.
 struct Orifice {
   double area, outline_area, perimeter, effective_area;
   std::int32_t outline;  // RIIS_OUTLINE_*
@@ -44,7 +44,7 @@ Orifice measure_orifice(const TriangleSet &set, const ValveFrame &frame, const O
 // Returns the leaflets, ascending by id.
 std::vector<riis_leaflet> leaflets_of(const TriangleSet &set);
 
-// Returns the area of all triangles but those of a leaflet.
+// Returns the area of all triangles except the triangles of one leaflet.
 double area_without(const TriangleSet &set, std::int32_t leaflet_id);
 
 }  // namespace riis

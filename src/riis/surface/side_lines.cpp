@@ -10,8 +10,8 @@
 namespace riis {
 namespace {
 
-// Finds the vertices on a side of a patch, in ascending order along it. A vertex of a subdivided quad may lie where another
-// vertex lies; one of them stays.
+// Finds the vertices on a side of a patch, in order along the side. Two vertices of a subdivided quad may lie at the same place.
+// Only the first of them is returned.
 Vector<std::int64_t> vertices_on(const TriangleSet &set, std::int64_t begin, std::int64_t end, PatchRim side) {
   const std::int64_t of_along = side == rim_v0 || side == rim_v1 ? 0 : 1;
   const auto along = [&](std::int64_t id) { return view(set.uv)[2 * id + of_along]; };
@@ -25,7 +25,8 @@ Vector<std::int64_t> vertices_on(const TriangleSet &set, std::int64_t begin, std
   return found;
 }
 
-// Returns the sides of all patches that choose(patch, rim) names, where rim has the patch's bits of PatchRim. 0 is no side.
+// Returns one side of each patch: the side that choose(patch, rim) returns. `rim` holds the patch's bits of PatchRim. The
+// function choose returns 0 to leave the patch out.
 template <class Choose>
 std::vector<SideLine> sides(const TriangleSet &set, const Choose &choose) {
   std::vector<SideLine> lines;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sides of patches that mean something: the free edges of leaflets, and the attachment, where tissue or a stent holds them.
-// In: the triangles of a valve. Out: the sides as vertices along them, and the attachment as edges.
+// Finds two kinds of sides of patches: the free edges of leaflets, and the attachment, where tissue or a stent holds a leaflet.
+// In: the triangles of a valve. Out: the vertices along each side, and the edges of the attachment.
 #pragma once
 
 #include <cstdint>
@@ -10,21 +10,22 @@
 
 namespace riis {
 
-// A side that has a length.
+// One side of one patch. Its length is above 0.
 struct SideLine {
   std::int32_t leaflet_id, patch_id;
-  Vector<std::int64_t> vertex_id;  // ascending along the side, no two at the same parameter
+  Vector<std::int64_t> vertex_id;  // in order along the side; no two vertices have the same parameter
 };
 
 double length_of(const TriangleSet &set, const SideLine &side);
 
-// Both functions return sides ascending by patch, and none for a surface from arrays.
-// A leaflet's free edge consists of the sides v = 1 of its patches that no other patch of the leaflet has.
+// free_edges and attached_sides return the sides in the order of their patches. A surface from arrays has no sides.
+// A leaflet's free edge consists of the sides v = 1 that only one patch of the leaflet has.
 std::vector<SideLine> free_edges(const TriangleSet &set);
-// The attachment consists of the sides at which patches are held (valve/patches.hpp), unless another patch has the side too.
+// The attachment consists of the sides that Patch::attached names (valve/patches.hpp). A side that two patches share is no part.
 std::vector<SideLine> attached_sides(const TriangleSet &set);
 
-// Edges ascend by patch, and along a side by its parameter. Edges without length are left out.
+// The edges of all attached sides. They are in the order of the patches, and within a side in order along it. Edges of length 0
+// are left out.
 struct Attachment {
   std::vector<double> edges;             // (3, 2, n_edges)
   std::vector<std::int64_t> vertex_id;   // (2, n_edges)

@@ -16,16 +16,17 @@
 namespace riis {
 namespace {
 
-// Openings are cut at multiples of 1 / n_steps, so that intervals with common ends add up. Points move along straight lines
-// from one to the next.
+// The interval of openings is cut at all multiples of 1 / n_steps inside it. The volumes of adjacent intervals therefore add up.
+// Between two cuts each point moves along a straight line.
 constexpr int n_steps = 64;
 
-// Patches are cut into n by n quads. The valve has about this many in all, within these limits for each patch.
+// Each patch is cut into n by n quads. The number n is between `fewest` and `most`, and the whole valve has about quads_wanted
+// quads.
 constexpr double quads_wanted = 65536;
 constexpr int fewest = 8, most = 64;
 
-// The volume that a triangle sweeps while its corners move along straight lines, exactly: the mean of the corners' shifts, times
-// the integral of its area vector.
+// Returns the volume that a triangle sweeps while its corners move along straight lines. The volume is exact: it is the mean of
+// the corners' shifts times the time average of the area vector.
 double swept(const Vec3 (&from)[3], const Vec3 (&to)[3]) {
   const Vec3 e = from[1] - from[0], f = from[2] - from[0];
   const Vec3 de = (to[1] - to[0]) - e, df = (to[2] - to[0]) - f;
@@ -42,7 +43,7 @@ Vector<Vec3> points_on(const PatchSet &set, const Side &side, const Vector<doubl
   return made;
 }
 
-// Returns the points of a patch at u and v from these shares, in the order of QuadGrid::points.
+// Returns the points of a patch at all pairs (u, v) of the shares, in the order of QuadGrid::points.
 Vector<Vec3> points_of(const PatchSet &set, const Patch &patch, const Vector<double> &shares) {
   SideVectors sides{points_on(set, patch.v0, shares), points_on(set, patch.v1, shares), {}, {}};
   if (patch.bulge == 0) {
@@ -86,7 +87,7 @@ void add_swept(const PatchSet &from, const PatchSet &to, const Vector<double> &s
       const PatchImage &image = before.images[i];
       const double volume =
           swept_by_grid(placed(image, points_before), placed(now.images[i], points_now), shares.size());
-      // Mirror images are turned over, to keep their normals downstream.
+      // The triangles of a mirror image are turned over, so that their normals point downstream. The sign of the volume changes.
       sums[image.leaflet_id] += image.mirror == Mirror::none ? volume : -volume;
     }
   }
@@ -119,7 +120,7 @@ SweptVolumes swept_volumes(const Valve &valve, double opening_from, double openi
     for (auto &[id, volume] : back) volume = -volume;
     return back;
   }
-  if (!valve.can_open()) patches_at(valve, opening_to);  // if it fails, the error names the caller's opening
+  if (!valve.can_open()) patches_at(valve, opening_to);  // if this fails, the error names the caller's opening
   std::vector<double> openings{opening_from};
   for (int i = 1; i < n_steps; ++i) {
     const double opening = static_cast<double>(i) / n_steps;

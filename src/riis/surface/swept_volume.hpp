@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The volume that a surface sweeps: the integral of u . n over the surface and time, positive along the normals.
+// Computes the volume that a surface sweeps. The volume is the integral of u . n over the surface and time, so motion along the
+// normals counts as positive.
 // In: a valve and two openings, or keyframes and two times. Out: the volume of each leaflet.
 #pragma once
 
@@ -11,10 +12,10 @@
 
 namespace riis {
 
-// By leaflet_id, before any placement.
+// Maps a leaflet_id to the volume that the leaflet sweeps. No placement is applied to the volumes.
 using SweptVolumes = std::map<std::int32_t, double>;
 
-// Fails as making the patches does. The other direction has the opposite sign, and otherwise the same bits.
+// Fails if the patches cannot be made at an opening. If the two openings are swapped, only the sign of the result changes.
 SweptVolumes swept_volumes(const Valve &valve, double opening_from, double opening_to, int n_threads);
 
 // Fails with RIIS_LIMIT_EXCEEDED for more than a million keys between the times.
