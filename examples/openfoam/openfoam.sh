@@ -240,7 +240,7 @@ openfoam_drops() {
   of_constant_flow closed 0 && of_run closed 1 &&
     of_constant_flow open 1 && of_run open 1 &&
     of_constant_flow none 1 && rm "$of_cases/none/system/fvOptions" && of_run none 1 || return
-  # OpenFOAM's own porosity acts in the same cells. Its coefficients differ by at most 1/400 of the largest one.
+  # OpenFOAM's own porosity acts in the same cells as K. Its coefficient in a cell differs from K by at most 1/400 of the largest.
   for model in powerLaw DarcyForchheimer; do
     of_constant_flow "$model" 0 && of_check zones "$of_cases/closed" "$of_cases/$model" "$model" && of_run "$model" 1 || return
   done

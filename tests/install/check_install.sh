@@ -251,8 +251,8 @@ while read -r file; do
   fi
 done < <(binaries "$prefix")
 
-# An absolute library directory does not move with the prefix, but everything must still be found. The static test has its own
-# build tree, so this may configure it again. The test's fixture restores it.
+# A library directory given as an absolute path does not move with the prefix, but everything must still be found. The check
+# configures the build tree again. Only the static test does so, because it has a build tree of its own. Its fixture restores it.
 is_configured_anew='' examples_of_moved=all
 if [ "$kind" = static ] && [[ $build == "$(dirname "$work")"/* ]]; then
   is_configured_anew=1 examples_of_moved=few

@@ -18,7 +18,7 @@ typedef struct cubic {
 struct mitral_oracle {
   cubic annulus[6], anterior, scallop[3];
   real u_pm, u_al, triangle, bulge; /* bulge is tan(surface_angle) / 2 */
-  /* The parameter, blended between the states, of the point with a third of the closed anterior edge's length behind it. */
+  /* The parameter at one third of the closed anterior edge's length, blended between the values of both valves. */
   real cleft;
   real translation[3];
 };
@@ -221,7 +221,7 @@ typedef struct states { /* on the heap, because it has tables of 14 curves */
   cubic cleft_annulus[6], cleft_anterior;
 } states;
 
-/* Returns the parameter of the point of the closed anterior edge with a third of the edge's length behind it. */
+/* Returns the parameter at one third of the closed anterior edge's length. */
 static real cleft_of(const mitral_parameters *p, cubic annulus[6], cubic *anterior) {
   annulus_curves(p, 0, annulus);
   anterior_curve(p, annulus, 0, anterior->point);
