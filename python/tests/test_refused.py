@@ -337,7 +337,7 @@ REFUSED = {
         riis.Valve(), o.mesh, numpy.zeros(1, int), numpy.ones(1, int))),
     "opening_tolerance": (Argument, "^opening_tolerance: is 0", lambda o: riis.find_first_passage(
         riis.Valve(), o.mesh, numpy.zeros(1, int), numpy.ones(1, int), opening_tolerance=0.0)),
-    "option of a first passage": (TypeError, "'thickness' is no option", lambda o: riis.find_first_passage(
+    "option of a first passage": (TypeError, "'thickness' is not an option", lambda o: riis.find_first_passage(
         riis.Valve(), o.mesh, numpy.zeros(1, int), numpy.ones(1, int), thickness=1.0)),
     "depth": (Argument, "depth", lambda o: riis.find_crossings(o.surface, depth=2.0)),
     "set_log": (TypeError, "function: must be callable or None, not str", lambda o: riis.set_log("print")),
