@@ -200,17 +200,24 @@ void move_by_keyframes(Input &in, State &state) {
       in, [&](riis_keyframes **made) { return riis_keyframes_create(mostly(in, &faces), mostly(in, &frames), made); });
   if (!keyframes) return;
   const double now = in.number(), since = in.one_in(2) ? in.number() : now;
+  const volatile double dt = now - since;  // its exceptions are raised here, not between the checks of the environment
   riis_surface_options options = initialised(in, riis_surface_options_init);
   options.zero_area = in.below(2);
   if (slot && in.one_in(2)) {
-    static_cast<void>(
-        call(in, [&] { return riis_surface_update_from_keyframes(slot, keyframes, now, now - since, &options); }));
+    static_cast<void>(call(in, [&] { return riis_surface_update_from_keyframes(slot, keyframes, now, dt, &options); }));
   } else if (riis_surface *made = made_by<riis_surface>(in, [&](riis_surface **surface) {
-               return riis_surface_create_from_keyframes(keyframes, now, now - since, &options, surface);
+               return riis_surface_create_from_keyframes(keyframes, now, dt, &options, surface);
              })) {
     riis_surface_destroy(&slot);
     slot = made;
   }
+  double volume = -7;
+  const std::int32_t leaflet = in.mostly(in.below(2) - 1);
+  if (call(in, [&] { return riis_keyframes_get_swept_volume(keyframes, since, now, &options, leaflet, &volume); }) ==
+      RIIS_OK)
+    EXPECT(!std::isnan(volume), "volume of %g to %g", since, now);
+  else
+    EXPECT(volume == -7, "a refused volume was written");
   riis_keyframes_destroy(&keyframes);
   EXPECT(keyframes == nullptr, "destroyed keyframes are not NULL");
 }

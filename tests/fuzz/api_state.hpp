@@ -115,6 +115,9 @@ void label_regions(Input &in, State &state);
 void find_passage(Input &in, State &state);
 void destroy_something(Input &in, State &state);
 void add_forces(Input &in, State &state);
+void measure_surface(Input &in, State &state);
+void measure_marks(Input &in, State &state);
+void measure_valve(Input &in, State &state);
 void advance_laws(Input &in, State &state);
 void move_by_keyframes(Input &in, State &state);
 

@@ -194,6 +194,9 @@ void (*const calls[])(Input &, State &) = {make_valve,
                                            advance_laws,
                                            move_by_keyframes,
                                            find_crossings,
+                                           measure_surface,
+                                           measure_marks,
+                                           measure_valve,
                                            destroy_something,
                                            [](Input &in, State &) { call_status_functions(in); },
                                            [](Input &in, State &) { call_init_functions(in); }};
@@ -210,6 +213,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t siz
   fuzz::State state;
   riis_set_log(in.one_in(4) ? fuzz::log_nothing : nullptr, nullptr);
   constexpr int n_calls = static_cast<int>(sizeof fuzz::calls / sizeof *fuzz::calls);
-  for (int i = 0; i < 42 && !in.is_used_up(); ++i) fuzz::calls[(in.byte() + i) % n_calls](in, state);
+  for (int i = 0; i < 45 && !in.is_used_up(); ++i) fuzz::calls[(in.byte() + i) % n_calls](in, state);
   return 0;
 }
