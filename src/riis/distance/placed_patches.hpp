@@ -29,8 +29,8 @@ struct PlacedPatch {
 
 struct PlacedPatches {
   std::vector<PlacedPatch> patches;
-  // For each patch, a bound on the distance between S and the smooth surface at equal (u,v), in placed units. It is at most
-  // max_error times the scale.
+  // For each patch, a bound on the distance between S and the smooth surface at equal (u,v), after the placement. The bound is at
+  // most max_error times the scale.
   std::vector<double> errors;
 
   // max_error is in the patches' units before placement. Fails with RIIS_LIMIT_EXCEEDED if make_grids does.
@@ -61,8 +61,8 @@ Speeds largest_speeds(const QuadGrid &grid);
 // Returns the box of the grid's points. It also holds S, which is a mean of these points everywhere.
 Bounds bounds_of(const QuadGrid &grid);
 
-// Returns the square of the distance from p to a box. For any point q in the box, it is no larger, even in the last bit, than
-// dot(q - p, q - p): rounding keeps the order of differences, squares and sums.
+// Returns the square of the distance from p to a box. The result is at most dot(q - p, q - p) for any point q in the box, even in
+// the last bit: rounding keeps the order of differences, squares and sums.
 double distance_sq_to(const Bounds &box, Vec3 p);
 
 }  // namespace riis

@@ -23,7 +23,7 @@ namespace riis {
 
 class Surface {
  public:
-  // Makes the surface, or makes it again after it moved and reuses its memory. After a failure the surface must not be used.
+  // Makes the surface. A surface that moved is made again in the same memory. After a failure the surface must not be used.
   void make(TriangleSet triangles, double half_thickness, int n_threads);
   // Moves the triangles out, so that the next surface's triangles can reuse their memory.
   TriangleSet take_triangles() { return std::move(triangles_); }
@@ -45,11 +45,11 @@ class Surface {
   // Returns the area of all triangles. The first call computes it. Several threads may call this function at once.
   double area() const;
 
-  // Bounds the difference between a velocity and the smooth valve's velocity at the same patch, u and v. It is 0 without a
-  // motion of patches. The first call computes it. Several threads may call this function at once.
+  // Bounds the difference between a velocity and the smooth valve's velocity at the same patch, u and v. The bound is 0 if the
+  // velocities do not come from patches. The first call computes it. Several threads may call this function at once.
   double velocity_error_bound() const;
 
-  // Returns the sides at which leaflets are attached; none for a surface from arrays. The first call makes them. Several threads
+  // Returns the sides at which leaflets are attached. A surface from arrays has none. The first call makes them. Several threads
   // may call this function at once.
   const Attachment &attachment() const;
 

@@ -112,7 +112,7 @@ struct Lanes {
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = reinterpret_cast<const Unaligned *>(from)[i];
     return lanes;
   }
-  // Fills a register with one number from each of as many addresses.
+  // Fills a register with numbers. The number of each lane comes from its own address.
   static RIIS_INLINE Register gather_register(const Scalar *const *f, int64_t offset) {
     if constexpr (per_register == 8)
       return Register{f[0][offset], f[1][offset], f[2][offset], f[3][offset],
@@ -270,7 +270,8 @@ RIIS_INLINE Floats zero_where_at_least(Floats a, Floats b, Floats x) {
 #endif
 }
 
-// Copies those of 16 integers whose bits are set, without gaps. It may write to all 16 places, even if it copies fewer.
+// Takes 16 integers, and copies the integers whose bits are set, without gaps. It may write to all 16 places, even if it copies
+// fewer.
 RIIS_INLINE void compress(uint32_t lanes, const int32_t *from, int32_t *to) {
 #if defined(__AVX512F__)
   _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(lanes), _mm512_loadu_si512(from)));

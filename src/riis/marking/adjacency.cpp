@@ -64,7 +64,7 @@ OwnAdjacency rows_of(std::int64_t n_nodes, int n_threads, const Append &append) 
   return made;
 }
 
-// Lists of the faces between two cells, for incidence.hpp. Its nodes are the cells, and an entry is a face.
+// The faces between two cells as lists for incidence.hpp. The lists' nodes are the cells, and an entry is a face.
 struct InnerFaces {
   static constexpr std::int64_t most_neighbors = 1;
 

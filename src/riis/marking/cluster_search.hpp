@@ -25,10 +25,10 @@ struct ClusterScratch {
   };
   struct alignas(64) Thread {
     std::vector<std::int32_t> candidates;  // groups near a region
-    std::vector<std::uint16_t> bits;       // for each candidate, a bit for each cluster of the region that it is near
+    std::vector<std::uint16_t> bits;       // for each candidate, a bit for each near cluster of the region
     std::vector<Item> items;
     std::vector<std::int32_t> near_groups;  // groups near the clusters of the items
-    std::vector<std::uint16_t> leaf_bits;   // for each near group, a bit for each leaf that it is near
+    std::vector<std::uint16_t> leaf_bits;   // for each near group, a bit for each near leaf of the cluster
     std::vector<std::int32_t> leaf_groups;
     struct alignas(64) NodeBounds {
       float of_node[nodes_per_leaf];

@@ -29,7 +29,7 @@ struct NodeFields {
 // Memory that the next marking's fields reuse.
 struct FieldScratch {
   UnfilledVector<VertexNumbers> at_vertices;
-  std::vector<Tie> ties;  // by node, then by leaflet: first its closest triangle, then those on its other patches
+  std::vector<Tie> ties;  // by node, then by leaflet; a leaflet's closest triangle comes first
 
   // Reserves memory for the fields of the nodes that a search found, and sorts their ties.
   void prepare(const SearchRequest &request, std::int32_t fields, const FoundNodes &found);

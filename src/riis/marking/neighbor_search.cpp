@@ -70,7 +70,8 @@ class NeighborSearch {
     n_threads_ = std::max(n_threads_, n_ran);
   }
 
-  // Finds the balls that may hold a node within the limit. For each it stores a lower bound on the distance of its centre.
+  // Finds the balls that may hold a node within the limit. For each ball, stores a lower bound on the distance of the ball's
+  // centre.
   void find_near_balls(const NodeBalls &balls) {
     std::vector<NearBall> &near = walked_.near_balls;
     near.clear();

@@ -166,7 +166,7 @@ riis_passage find_passage(const SearchRequest &request, const PassageEnds &ends)
   double limit = half_thickness, beyond = -1, growth = 2;
   for (int step = 0; opening.joins_beyond(limit); ++step) {
     beyond = limit;
-    if (step >= 4) growth *= growth;  // growth squares, in case the surface is tiny compared with the mesh
+    if (step >= 4) growth *= growth;  // growth is squared, in case the surface is tiny compared with the mesh
     limit = std::min(growth * limit, limit < widest ? widest : beyond_all);
   }
   const Candidate nearest = opening.open_until_joined(beyond);

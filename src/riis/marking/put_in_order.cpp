@@ -95,7 +95,7 @@ class Ordering {
   void write(NodeList &within, NodeList &marked) {
     parallel_for(n_stretches_, n_threads_, [&](std::int64_t stretch, int) {
       const OrderScratch::Counts *lists = scratch_.counts.data() + stretch * n_lists_;
-      // A stretch begins where the stretch before it ends.
+      // A stretch begins where the previous stretch ends.
       const std::int64_t begin = stretch == 0 ? 0 : lists[-1].n_within, end = lists[n_lists_ - 1].n_within;
       if (begin == end) return;
       const FoundNode *nodes = scratch_.by_stretch.data();

@@ -80,7 +80,7 @@ KeepsArenas::~KeepsArenas() {
   {
     const std::lock_guard<std::mutex> lock(pool_mutex);
     --pool.n_keepers;
-    // A child of fork() lacks the worker threads, and TBB might wait for what they held.
+    // A child of fork() lacks the worker threads, and TBB might wait for locks that these threads held.
     if (pool.n_keepers > 0 || getpid() != pool.process) return;
     first = std::exchange(pool.idle, nullptr);
     for (const PooledArena *arena = first; arena; arena = arena->next) --pool.n_arenas;

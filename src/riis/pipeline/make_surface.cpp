@@ -46,7 +46,7 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
   if (fixed) fixed->check(valve);
   // Turns parameters into curves and patches.
   PatchSet patches = valve.make_patches();
-  // Does the same for the state before. Corresponding points have the same u and v.
+  // Does the same for the earlier state. Corresponding points have the same u and v.
   std::optional<PatchSet> patches_before;
   std::optional<Motion> motion;
   if (moved) {

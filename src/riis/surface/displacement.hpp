@@ -47,7 +47,7 @@ class PatchMotion {
   // has. So the displacement does not jump between neighbouring quads.
   Vec3 without_jumps(std::size_t i, std::size_t j, int column, int row) const;
 
-  // Returns the displacement of O on each line of a patch of arcs.
+  // Returns how far the offset O of a patch of arcs (geometry/bulge.hpp) has moved on each of its lines.
   Vector<Vec3> offset_moves() const {
     Vector<Vec3> made;
     for (const std::size_t i : column_) made.push_back(offsets_[i]);
@@ -97,8 +97,8 @@ class ImageMotion {
   double seconds_, scale_before_;
 };
 
-// Returns O of a patch of arcs at the ascending u of these points, and 0 for other patches. At the ends O is made from the shared
-// sides, as in the neighbouring patches.
+// Returns the offsets O of a patch of arcs (geometry/bulge.hpp) at the ascending u of these points. Returns 0 for other patches.
+// At the ends, O comes from the shared sides, as in the neighbouring patches.
 Vector<Vec3> arc_offsets(const PatchSet &set, const Patch &patch, const CurvePoints &base, const CurvePoints &edge);
 
 // Fails with RIIS_INVALID_PARAMETER unless the patches of both states have the same build: the same numbers of patches, images

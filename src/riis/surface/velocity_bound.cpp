@@ -123,7 +123,7 @@ AlongCurve along(const CurveRange &on) {
           least >= tight_share * first && by_itself <= 1 - tight_share};
 }
 
-// Returns the bounds that follow from each state by itself. They are for a range in different pieces of the two states.
+// Returns bounds that follow from each state by itself. They serve a range on which the two states have different pieces.
 AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
   const auto of = [](Both a, Both b) { return Both{larger(a.size, b.size), a.size + b.size}; };
   return {of(now.length, before.length),

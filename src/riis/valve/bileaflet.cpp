@@ -114,7 +114,7 @@ class Turn {
   SineCosine closed_, now_;
 };
 
-// Every arc has this many pieces. A quarter of a circle is then right to 1e-9 of its radius.
+// Every arc has this many pieces. A quarter of a circle is then accurate to 1e-9 of its radius.
 constexpr int n_pieces = 8;
 
 // Bounds the distance of such an arc from its circle, in radii. For a piece of the angle a, it is 2/27 sin^6(a/4) / cos^2(a/4).
