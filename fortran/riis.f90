@@ -207,7 +207,7 @@ contains
     call c_version(major, minor, patch)
   end subroutine version
 
-  !> Gives the version of the linked library, such as '0.1.0'.
+  !> Gives the version of the linked library, such as '1.0.0'.
   function version_string() result(text)
     character(len=version_length()) :: text                 !< A copy.
     text = riis_c_text(c_version_string())

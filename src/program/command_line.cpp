@@ -54,7 +54,7 @@ std::string hint_of(const CLI::App &app) {
   const struct {
     const char *name;
     char mark;
-    int n_marks;  // the number of marks in a complete value
+    int n_marks;  // how often a complete value contains the character `mark`
   } forms[] = {{"--set", '=', 1}, {"--rotate", ',', 3}, {"--translate", ',', 2}};
   for (const auto &form : forms) {
     const CLI::Option *option = app.get_option_no_throw(form.name);

@@ -229,8 +229,8 @@ class Scan {
     skip_metadata(width);
   }
 
-  // Skips a block of METADATA after its keyword. The block ends with a blank line. But each component has a line for its name,
-  // and this line may be blank. VTK reads only the beginning of a keyword, so it takes INFORMATION8 1 for 8 keys.
+  // Skips a block of METADATA after its keyword. The block ends with a blank line, but the line with a component's name may also
+  // be blank. VTK reads only the beginning of a keyword: INFORMATION8 1 stands for 8 keys.
   void skip_metadata(std::int64_t n_components) {
     line();
     while (!rest_.empty()) {
@@ -268,7 +268,7 @@ class Scan {
         key = nullptr;
       } else if (const std::string lower = lower_case(keyword);
                  begins_with(lower, "information") || begins_with(lower, "component_names")) {
-        // VTK would begin the block again here.
+        // VTK would take this line for the beginning of another block.
         refuse("has metadata with '", keyword.substr(0, 40), "' behind INFORMATION");
       }
     }
@@ -347,8 +347,8 @@ class Scan {
     }
   }
 
-  // Skips the cells of files up to version 4. For each cell there is its number of corners and then its corners. n_values is the
-  // count of all these numbers.
+  // Skips the cells of files up to version 4. Each cell is stored as its number of corners, followed by the corners. n_values is
+  // the count of all these numbers.
   void counted_cells(std::int64_t n_cells, std::int64_t n_values) {
     line();
     corners_ = rest_;

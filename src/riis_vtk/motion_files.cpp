@@ -31,8 +31,8 @@ struct NamedDataSet {
   std::optional<std::string> file, timestep;
 };
 
-// Collects the elements /VTKFile/Collection/DataSet. It builds no tree. In a hostile file with deep nesting, destroying the tree
-// would overflow the stack.
+// Collects the elements /VTKFile/Collection/DataSet. It builds no tree, because a hostile file could nest so deeply that
+// destroying the tree would overflow the stack.
 class CollectionParser : public vtkXMLParser {
  public:
   static CollectionParser *New();

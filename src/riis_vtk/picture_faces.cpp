@@ -96,7 +96,7 @@ class Polygons {
     return generic_;
   }
 
-  // Appends the corners of a polygon. They come first among its points, and there are as many as edges.
+  // Appends the corners of a polygon. The corners are the polygon's first points, and it has as many corners as edges.
   void add_corners(vtkCell *polygon) {
     for (int i = 0; i < polygon->GetNumberOfEdges(); ++i) corners_.push_back(polygon->GetPointIds()->GetId(i));
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the direction of view, and the extents of the surface and the mesh. Out: the visible space, for the camera, the cut and
-// the scale bar. If the mesh extends beyond the panel, also planes that cut it and dashed lines at the cuts.
+// In: the direction of view, and the extents of the surface and the mesh. Out: the visible space, for the camera, the cut and the
+// scale bar. If the mesh extends beyond the panel, planes cut it, and dashed lines show the cuts.
 #pragma once
 
 #include <array>

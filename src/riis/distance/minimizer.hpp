@@ -13,7 +13,7 @@ namespace riis {
 
 class Minimizer final : public PatchDistance {
  public:
-  // Powell's method stops after an iteration that lowers the distance by no more than `enough`, in placed units.
+  // Powell's method stops after an iteration that lowers the distance by no more than `enough`, in mesh units.
   Minimizer(PlacedPatches patches, double enough);
 
   ClosestOnPatches closest(Vec3 p, double limit) const override;

@@ -47,7 +47,7 @@ class PatchDistance {
 
 struct DistanceRequest {
   std::int32_t method;  // RIIS_MEASURE_SAMPLING or RIIS_MEASURE_MINIMIZATION
-  double max_error;     // measure_tolerance * half_thickness, in units after the placement
+  double max_error;     // measure_tolerance * half_thickness, in mesh units
 };
 
 // Makes the method that a surface's options choose. Fails with RIIS_LIMIT_EXCEEDED if it would need too many patches or

@@ -29,8 +29,8 @@ struct PlacedPatch {
 
 struct PlacedPatches {
   std::vector<PlacedPatch> patches;
-  // For each patch, a bound on the distance between S and the smooth surface at equal (u,v), after the placement. The bound is at
-  // most max_error times the scale.
+  // For each patch, a bound on the distance between S and the smooth surface at equal (u,v), in mesh units. The bound is at most
+  // max_error times the scale.
   std::vector<double> errors;
 
   // max_error is in the patches' units before placement. Fails with RIIS_LIMIT_EXCEEDED if make_grids does.

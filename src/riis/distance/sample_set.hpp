@@ -31,8 +31,8 @@ SampleCounts samples_within(const QuadGrid &grid, double radius);
 
 class SampleSet final : public PatchDistance {
  public:
-  // Every distance differs from the distance to the smooth surface by at most max_error, in units after the placement. The
-  // covering radius is max_error minus the patches' own error. Fails with RIIS_LIMIT_EXCEEDED for more than max_samples.
+  // Every distance differs from the distance to the smooth surface by at most max_error, in mesh units. The covering radius is
+  // max_error minus the patches' own error. Fails with RIIS_LIMIT_EXCEEDED for more than max_samples.
   SampleSet(PlacedPatches patches, double max_error);
 
   ClosestOnPatches closest(Vec3 p, double limit) const override;

@@ -20,7 +20,7 @@ struct PointOnPiece {
   double t;
 };
 
-// Every piece but the first begins where the piece before ends, and in the same direction. So the curve's curvature may jump
+// Every piece but the first begins where the previous piece ends, and in the same direction. So the curve's curvature may jump
 // there, but its direction does not. (A curve with corners is several curves, and its patch is several patches.)
 class Curve {
  public:

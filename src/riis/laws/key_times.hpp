@@ -38,8 +38,8 @@ class KeyTimes {
   // a time that is not finite. `name` is the time's name in the message.
   KeysAround around(double time, const char *name = "time") const;
 
-  // Returns the time of the next key after this time, except for rounding. The interpolation changes there. Returns infinity if
-  // no key follows.
+  // Returns the first time after this one at which the interpolation changes. This is the time of a key, except for rounding.
+  // Returns infinity if the interpolation does not change any more.
   double next(double time) const;
 
   // Returns the value and the rate at the time, from the values at these four keys.

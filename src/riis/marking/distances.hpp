@@ -43,8 +43,8 @@ struct OtherDistances {
     return {found.distance_sq, found.patch};
   }
 
-  // The distance to fixed points is itself a lower bound. A minimisation may end anywhere on S, so it gives none for points near
-  // p. But each of its results is the distance to some point of S. So no result is below the distance to the triangles minus
+  // The distance to fixed points is itself a lower bound. A minimisation may end anywhere on S, so its result at p bounds no
+  // result near p. But each result is the distance to some point of S. So no result is below the distance to the triangles minus
   // triangle_error.
   double lower_bound(Vec3 p, double limit) const {
     if (method.is_of_fixed_points()) return std::sqrt(method.closest(p, limit).distance_sq);

@@ -31,9 +31,9 @@ class Pseudonormals {
 
   Vec3 of_face(std::int64_t triangle) const { return view(face_)[triangle]; }
 
-  // The face, edge or vertex that a closest point lies on, which the barycentric weights show. The normal has any length. The rim
-  // of a valve consists of the sides that only one patch has (surface/rims.hpp). The rim of triangles from arrays consists of the
-  // edges that only one triangle has.
+  // The face, edge or vertex that a closest point lies on. The point's barycentric weights tell which one it is. The normal may
+  // have any length. The rim of a valve consists of the sides that only one patch has (surface/rims.hpp). The rim of triangles
+  // from arrays consists of the edges that only one triangle has.
   struct Feature {
     Vec3 normal;
     bool is_on_rim;
