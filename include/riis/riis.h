@@ -371,9 +371,9 @@ typedef struct riis_keyframe_arrays {
   int64_t n_vertices;    /* of each frame, as in riis_surface_arrays */
   const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
   const void *xyz;       /* (3, n_vertices, n_keys): the vertices, frame after frame; magnitude at most 1e60 */
-  double period;         /* > 0: the motion repeats. All keys lie within a period of the first key; a key exactly a
-                            period after the first must have the first frame. 0, the default: the first frame
-                            holds before its time, the last one after its time */
+  double period;         /* > 0: the motion repeats. All keys lie within a period of the first key. A last key one
+                            period after the first must have the same frame. 0, the default: the surface rests
+                            before the first key and after the last */
   int32_t interpolation; /* RIIS_INTERPOLATION_*, of each coordinate. Default RIIS_INTERPOLATION_LINEAR */
   int32_t real_bits;     /* of xyz */
 } riis_keyframe_arrays;
@@ -409,8 +409,8 @@ typedef struct riis_surface_info {
   double half_thickness;     /* mesh units */
   double area;               /* of all triangles, mesh units squared */
   double lower[3], upper[3]; /* bounds of the triangles, mesh units */
-  double seconds_triangles;  /* wall time of the last create or update: checks and triangles */
-  double seconds_scene;      /* wall time of the Embree scene, and of samples or patches by RIIS_MEASURE_* */
+  double seconds_triangles;  /* wall time of the last create or update for checks and triangles */
+  double seconds_scene;      /* its wall time for the Embree scene, and for sampling or minimisation */
   double error_bound;        /* the most by which a point's distances to the triangles and to the smooth valve
                                 can differ; at most tolerance * half_thickness. 0 for a surface from arrays */
   double velocity_error_bound; /* the most by which a velocity on a triangle can differ from the smooth valve's
@@ -433,12 +433,12 @@ typedef struct riis_triangles {
   const int64_t *vertex_id;   /* (3, n_triangles): their vertices */
   const int64_t *triangle_id; /* (n_triangles), ascending: the id that queries report; 0, 1, 2, ... for a valve */
   const int32_t *leaflet_id;  /* (n_triangles): RIIS_LEAFLET_*, or the caller's from patches and arrays */
-  const int32_t *patch_id;    /* (n_triangles): aortic and trileaflet: 4 * leaflet + 0 bottom, 1 top, 2 mirrored
-                                 bottom, 3 mirrored top; mitral, from the posteromedial commissure round: anterior
-                                 0 commissure's triangle, 1 side, 2 middle, 3 mirrored middle, 4 mirrored side,
-                                 5 mirrored triangle, posterior 6 side scallop, 7 half of the middle one, 8 and 9
-                                 mirrored; bileaflet: 2 * leaflet + 0 and 1, the halves, 4 to 7 the ring's
-                                 quarters; from patches: the patch's number; from arrays: 0 */
+  const int32_t *patch_id;    /* (n_triangles). From arrays: 0. From patches: the patch's number, from 0.
+                                 Aortic, trileaflet: 4 * leaflet, plus 0 bottom, 1 top, 2 and 3 mirrored.
+                                 Mitral, anterior: 0 triangle at the posteromedial commissure, 1 side, 2 middle,
+                                 3 mirrored middle, 4 mirrored side, 5 mirrored triangle. Mitral, posterior: 6 side
+                                 scallop, 7 half of the middle scallop, 8 mirrored half, 9 mirrored side scallop.
+                                 Bileaflet: 2 * leaflet, plus 0 or 1 for the half; 4 to 7 the ring's quarters */
 } riis_triangles;
 /* Gives the triangles of the surface, until its next update or its destruction. */
 RIIS_API riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangles *triangles,
@@ -953,7 +953,7 @@ typedef struct riis_leak_list {
   int64_t n_edges;            /* edges that leak. If 0, node ids are -1 and all other fields but seconds are 0 */
   const int64_t *node_id;     /* (2, n_edges): the two nodes, the lower id first */
   const double *length;       /* (n_edges) */
-  const double *distance;     /* (n_edges): the half thickness that closes the edge: the distance of its nearer node */
+  const double *distance;     /* (n_edges): the distance of the edge's nearer node: this half thickness closes it */
   double half_thickness;      /* the smallest half thickness that gives each edge a marked node, for these triangles */
   int64_t longest_node_id[2]; /* the nodes of the longest edge, ascending. It is the first one of equally long edges */
   double longest_length;      /* the length of this edge */
@@ -1170,9 +1170,9 @@ typedef struct riis_opening_table {
   int64_t n_keys;        /* 1 to 1,000,000 */
   const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
   const double *opening; /* (n_keys), 0 to 1 */
-  double period;         /* > 0: the table repeats. All keys lie within a period of the first key; a key exactly a
-                            period after the first must have the first opening. 0, the default: the first opening
-                            holds before its time, the last one after its time */
+  double period;         /* > 0: the table repeats. All keys lie within a period of the first key. A last key one
+                            period after the first must have the same opening. 0, the default: the opening is
+                            constant before the first key and after the last */
   int32_t interpolation; /* RIIS_INTERPOLATION_*, default RIIS_INTERPOLATION_LINEAR */
   int32_t reserved;      /* 0 */
 } riis_opening_table;
@@ -1187,7 +1187,7 @@ RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, do
  * every 1 s. The ramps are of fifth degree, so neither the rate nor its derivative jumps. */
 typedef struct riis_opening_times {
   int64_t struct_size;    /* set by the init function */
-  double opening_start;   /* when the valve begins to open. Default NaN, which is refused, as for the next three */
+  double opening_start;   /* when the valve begins to open. Default NaN, which is refused, also in the next three */
   double opening_duration; /* how long opening takes, > 0 */
   double closing_start;   /* when it begins to close, at least opening_start + opening_duration */
   double closing_duration; /* how long closing takes, > 0 */
@@ -1212,8 +1212,8 @@ enum {
  * flow reverses), filter_time 0.002, dwell_time 0.02. */
 typedef struct riis_opening_switch {
   int64_t struct_size;    /* set by the init function */
-  double opening_duration; /* from closed to open, > 0. Default NaN, which is refused, as for the next */
-  double closing_duration; /* from open to closed, > 0 */
+  double opening_duration; /* time from closed to open, > 0. Default NaN, which is refused, also in the next field */
+  double closing_duration; /* time from open to closed, > 0 */
   double open_above;      /* pressure difference. Default 0 */
   double close_below;     /* flow. Default 0 */
   double filter_time;  /* time constant of a filter of pressure difference and flow, >= 0. Default 0: no filter */
@@ -1253,7 +1253,7 @@ RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
  * aortic and 3.5 for the mitral valve. */
 typedef struct riis_opening_angle {
   int64_t struct_size;  /* set by the init function */
-  double pressure_gain; /* K_p, >= 0. Default NaN, which is refused, as for the next three */
+  double pressure_gain; /* K_p, >= 0. Default NaN, which is refused, also in the next three fields */
   double flow_gain;     /* K_q, >= 0 */
   double friction;      /* K_f, >= 0 */
   double vortex_gain;   /* K_v, >= 0 */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the description of a valve, from the command line or from a case. Out: the valve, or the file with its surface; and the
+// In: the description of a valve, from the command line or from a case. Out: the valve or the file with its surface, and the
 // surface itself.
 #pragma once
 

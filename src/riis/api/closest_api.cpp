@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_closest_*: argument checks around the search for closest points.
+// Checks the arguments of riis_closest_*, and searches for closest points.
 #include <algorithm>
 #include <array>
 #include <cmath>

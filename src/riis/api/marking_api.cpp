@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_mark_*, riis_marks_*, riis_leaks_*, riis_find_*: argument checks around marking.
+// Checks the arguments of riis_mark_*, riis_marks_*, riis_leaks_* and riis_find_*. The work is in marking/.
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -180,7 +180,7 @@ const riis::Adjacency &require_adjacency(const riis::Mesh &mesh, const char *pur
   return *mesh.adjacency();
 }
 
-// Refuses marks that were made with another mesh. Only a different number of nodes can show this.
+// Refuses marks of another mesh. Another mesh with as many nodes is not noticed.
 void check_are_of_mesh(const riis::Mesh &mesh, const riis::Marks &marks) {
   if (!marks.was_marked) riis::fail(RIIS_INVALID_ARGUMENT, "marks are empty: call riis_mark_nodes with them first");
   if (marks.stats.n_nodes != mesh.nodes().n)
@@ -188,8 +188,7 @@ void check_are_of_mesh(const riis::Mesh &mesh, const riis::Marks &marks) {
                mesh.nodes().n);
 }
 
-// Refuses marks that were made with another mesh or surface. Only a different number of nodes or half thickness can show
-// this.
+// Refuses marks of another mesh or surface. They are noticed only if the number of nodes or the half thickness differs.
 void check_are_of_marking(const riis::SearchRequest &request, const riis::Marks &marks) {
   require_adjacency(request.mesh, "which a search for leaks needs");
   check_are_of_mesh(request.mesh, marks);

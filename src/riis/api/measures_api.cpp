@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines the public functions for leaflets, orifice, leak, first passage, cells across and swept volume. They check arguments.
+// Checks the arguments of the public functions for leaflets, orifice, leak, first passage, cells across and swept volume.
 #include <chrono>
 #include <cstdint>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_surface_*: argument checks around pipeline/updatable_surface.hpp.
+// Checks the arguments of riis_surface_*. The work is in pipeline/updatable_surface.hpp.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Placed patches as functions S(u,v) that can be evaluated anywhere (paper, 3.3), for sampling and minimisation.
+// Turns placed patches into functions S(u,v) that can be evaluated anywhere (paper, 3.3), for sampling and minimisation.
 // In: a valve's curves and patches, the allowed error, the placement. Out: a grid of quads for each image of a patch.
 #pragma once
 
@@ -38,8 +38,8 @@ struct PlacedPatches {
   double largest_error() const;
 };
 
-// Calls visit(along_u, along_v) for every quad. along_u has S_u at the lower and the upper v, and along_v has S_v at the
-// lower and the upper u. Elsewhere in the quad, S_u and S_v are means of these two.
+// Calls visit(along_u, along_v) for every quad. along_u has S_u at the lower and the upper v, and along_v has S_v at the lower
+// and the upper u. Elsewhere in the quad, S_u and S_v are weighted means of these.
 template <class Visit>
 void for_each_derivatives(const QuadGrid &grid, const Visit &visit) {
   for (std::size_t j = 0; j + 1 < grid.v.size(); ++j)

@@ -176,8 +176,8 @@ class NodeSorter {
     }
   };
 
-  // A part in blocks that threads share. Each block has its box, its counts and the positions of its streams. OneBlock is the
-  // same for one thread and one block.
+  // A part that is divided into blocks, which threads share. Each block has its box, its counts and the positions of its streams.
+  // OneBlock is the same for one thread and one block.
   struct ManyBlocks {
     const Part &part;
     int n_threads;

@@ -219,7 +219,7 @@ constexpr double most_of_allowed = 0.9;
 // limits.
 constexpr int steps_per_segment = 4;
 constexpr std::size_t least_steps = 64, most_steps = 4096;
-// One in this many states decides how many steps each line needs. Later all states check the lines.
+// Only one of this many states decides how many steps each line needs. Later every state checks the lines.
 constexpr std::size_t states_per_need = 4;
 
 // Halves those steps of a list that are too large. `is_too_large` has an entry for each step.

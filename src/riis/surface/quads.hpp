@@ -41,7 +41,7 @@ void for_each_quad(const QuadGrid &grid, const Visit &visit) {
 // No quad that the library accepts needs so many halvings.
 inline constexpr int most_halvings = 13;
 
-// The quads of a patch. Each has a level of subdivision, in the order of for_each_quad.
+// The quads of a patch, and their levels of subdivision in the order of for_each_quad.
 struct LevelledGrid {
   QuadGrid grid;
   Vector<int> levels;

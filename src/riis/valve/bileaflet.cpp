@@ -89,8 +89,8 @@ Shape blended(const ValveState &closed, const ValveState &open, double at) {
           blend(closed.values[closed_angle][0], open.values[open_angle][0], at)};
 }
 
-// Turns points of the orifice plane into points of the leaflet on the side x > 0. The point (x, y) stands for the leaflet's
-// point that is at (x, y) in the closed state, seen along the axis.
+// Turns points of the orifice plane into points of the leaflet on the side x > 0. Seen along the axis, the leaflet's point is at
+// (x, y) when the leaflet is closed.
 class Turn {
  public:
   explicit Turn(const Shape &shape)
