@@ -214,7 +214,7 @@ contains
   end function version_string
 
   !> Sets the procedure that receives the messages of the whole process. Without an argument no messages are sent, which is the
-  !! default. Any thread may call it. A message that another thread is sending may still reach the former procedure.
+  !! default. Any thread may call it. A message that another thread is sending may still reach the previous procedure.
   subroutine set_log(procedure)
     procedure(riis_log_procedure), optional :: procedure    !< Called until another one is set. It must be a module or external
                                                             !! procedure, not an internal one of a procedure that returns.

@@ -25,8 +25,8 @@ module riis_laws
   ! NaN stands for a number that has no default, or that is not known yet.
   real(c_double), parameter :: no_value = transfer(int(z'7FF8000000000000', int64), 0._c_double)
 
-  !> An opening by times. Example: a mitral valve opens at 0.45 s in 0.05 s, and closes at 0.95 s in 0.05 s, every 1 s. The ramps
-  !! are of fifth degree: neither the rate nor its derivative jumps.
+  !> An opening by times. Example: every second, a mitral valve begins to open at 0.45 s and to close at 0.95 s, and both take
+  !! 0.05 s. The ramps are of fifth degree: neither the rate nor its derivative jumps.
   type :: riis_opening_times
     real(c_double) :: opening_start = no_value   !< When the valve begins to open. This and the next three components have no
                                                  !! default.

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> The common part of the modules behind `riis`: errors, the addresses of the caller's arrays, integers of either kind. It is
-!! not for users: `use riis` does not give these names.
+!> The common part of the modules behind `riis`: errors, the addresses of the caller's arrays, integers of either kind. Users do
+!! not need this module: `use riis` does not give these names.
 module riis_support
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_intptr_t, c_null_char, c_ptr, c_associated, &
     c_loc, c_null_ptr, c_sizeof

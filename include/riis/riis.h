@@ -118,7 +118,7 @@ enum {
   RIIS_LOG_WARNING = 1 /* skipped triangles, sizes in different units, leaflets that cross */
 };
 /* Sets the log function of the process; NULL, the default, means no log. Any thread may call riis_set_log. A message
- * that another thread is sending may still reach the former function. With a log function, surfaces are searched
+ * that another thread is sending may still reach the previous function. With a log function, surfaces are searched
  * for crossings (riis_find_crossings) if the caller chose the valve's parameters, patches or open state. Each such
  * shape is searched at its first opening in each of the ranges 0, up to 0.05, up to 1/3, up to 2/3 and up to 1,
  * until a warning is logged for the shape. The search takes longer than an update.
@@ -338,8 +338,8 @@ RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve
                                          const riis_surface_options *options);
 /* Replaces the surface's content by the triangles that riis_surface_update makes, to the last bit, and gives every
  * vertex a velocity: its displacement from the point with the same patch, u and v in an earlier state, divided by
- * the time between the states (docs/theory.md, section 10). For a valve at rest, pass it as valve_before too.
- *   valve_before    the earlier state, of the same kind; if from patches, with the same curves and sides
+ * the time between the states (docs/theory.md, section 10). If the valve is at rest, also pass it as valve_before.
+ *   valve_before    the earlier state, of the same kind. A valve from patches has the same curves and sides
  *   dt              the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs back
  *   options_before  scale, rotation and translation of the earlier state; other fields are ignored. NULL: as now
  * The velocity, in mesh units per unit of dt, is the mean over the step. It approximates the velocity in the middle
@@ -566,7 +566,7 @@ RIIS_API riis_status riis_closest_points(const riis_surface *surface, const riis
                                          const riis_closest_options *options,
                                          const riis_closest_arrays *arrays);
 
-/* The default distance of far points: finite, for arithmetic without floating-point exceptions. */
+/* The default distance of far points. It is finite, so that arithmetic raises no floating-point exceptions. */
 #define RIIS_FAR_DISTANCE 1.0e30
 
 /* ---- Mesh: the nodes that are marked ------------------------------------------------------------------- */
@@ -810,9 +810,9 @@ typedef struct riis_dense_arrays {
   double far_distance;  /* written for nodes beyond the limit or masked out: NaN, or any value outside
                            [0, distance limit]. Default RIIS_FAR_DISTANCE */
   uint8_t *mark;        /* 1 for marked nodes, 0 for others */
-  double *distance;     /* of every node within the distance limit, else far_distance */
-  int64_t *triangle_id; /* of every node within the distance limit, else -1 */
-  int32_t *leaflet_id;  /* of every node within the distance limit, else -1 */
+  double *distance;     /* the distance of nodes within the distance limit, far_distance for others */
+  int64_t *triangle_id; /* the closest triangle of nodes within the distance limit, -1 for others */
+  int32_t *leaflet_id;  /* the leaflet of this triangle, -1 for others */
 } riis_dense_arrays;
 RIIS_API riis_status riis_dense_arrays_init(riis_dense_arrays *arrays, int64_t struct_size); /* the defaults */
 /* Writes the marks to every entry of the caller's arrays.
@@ -935,9 +935,9 @@ RIIS_API void riis_leaks_destroy(riis_leaks **leaks); /* destroys the leaks and 
  * surface. The decision is exact for coordinates in double precision; coordinates below 1e-90 count as 0. An edge
  * may be given in one row or in both, and is listed once. Edges to ghosts are ignored. Edges that are at most two
  * half thicknesses long do not leak (docs/meshes.md).
- *   surface, mesh  those of the marking. The mesh must have an adjacency
- *   marks          of riis_mark_nodes
- *   options        those of the marking. An edge to a node that node_mask leaves out does not leak
+ *   surface, mesh  the surface and the mesh of the marking. The mesh must have an adjacency
+ *   marks          marks from riis_mark_nodes
+ *   options        the options of the marking. An edge to a node that node_mask leaves out does not leak
  *   leaks          its content is replaced
  * A marking of the same triangles with the half thickness of riis_leak_list closes all of these edges, except by
  * RIIS_SEARCH_PAPER. But riis_surface_update with that half thickness moves a valve's triangles by up to
@@ -968,9 +968,9 @@ RIIS_API riis_status riis_leaks_get_list(const riis_leaks *leaks, riis_leak_list
 /* Labels the open regions: the connected components of the nodes that a marking left unmarked, along the
  * edges of the mesh's adjacency. An edge may be given in one row or in both. Edges to ghosts are ignored:
  * with MPI, ranks must exchange their labels (examples/mpi_leaks.c).
- *   mesh       that of the marking, with an adjacency
- *   marks      of riis_mark_nodes
- *   options    those of the marking; nodes that node_mask leaves out are in no region
+ *   mesh       the mesh of the marking, with an adjacency
+ *   marks      marks from riis_mark_nodes
+ *   options    the options of the marking; nodes that node_mask leaves out are in no region
  *   n_nodes    the number of nodes of the marking
  *   label      (n_nodes), the lowest node id of the node's region, -1 for nodes in no region
  *   n_regions  the number of regions; may be NULL
@@ -1183,8 +1183,8 @@ RIIS_API riis_status riis_opening_table_init(riis_opening_table *table, int64_t 
 RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening,
                                              double *rate);
 
-/* An opening by the times of two ramps: a mitral valve may open at 0.45 s in 0.05 s, and close at 0.95 s in 0.05 s,
- * every 1 s. The ramps are of fifth degree, so neither the rate nor its derivative jumps. */
+/* An opening by the times of two ramps. For example, every second a mitral valve begins to open at 0.45 s and to close
+ * at 0.95 s, and both take 0.05 s. The ramps are of fifth degree, so neither the rate nor its derivative jumps. */
 typedef struct riis_opening_times {
   int64_t struct_size;    /* set by the init function */
   double opening_start;   /* when the valve begins to open. Default NaN, which is refused, also in the next three */

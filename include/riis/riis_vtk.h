@@ -168,7 +168,7 @@ RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const c
  *   order. Polygons and quads are cut as in the first file.
  * - Leaflets come from the first file. `leaflets` names their cell array, as in riis_vtk_surface_read.
  * - An .stl file has triangles, in the same order in all files, and no vertices. Corners at exactly the same
- *   position in the first file become one vertex, and must be at one position in every other file too. If
+ *   position in the first file become one vertex. They must also share one position in every other file. If
  *   leaflets touch at corners in the first file and part later, use files with points instead.
  * - Times ascend strictly, and coordinates are finite, as in riis_keyframe_arrays.
  * Errors: RIIS_FILE_ERROR naming the file and the difference, with its value. */

@@ -198,7 +198,7 @@ void declare_pictures(Command &command, MarkOptions &options) {
                   })
           ->allow_extra_args(false);
   command
-      .values("--view", "VIEW", "View of a --picture: side, top or oblique (default); one for each, in their order",
+      .values("--view", "VIEW", "View of a --picture: side, top or oblique (default); one per picture, in order",
               [&options](const std::vector<std::string> &views) {
                 if (views.size() > options.pictures.size()) refuse_usage("--view: there are more views than pictures");
                 for (std::size_t i = 0; i < views.size(); ++i)

@@ -249,7 +249,7 @@ class Scan {
   }
 
   // Skips the rest of a block of METADATA: the keys, each with a NAME line and a DATA line. VTK looks for the stated number of
-  // keys, even after the blank line. After a number that it cannot read, it never stops.
+  // keys, even after the blank line. If it cannot read this number, it never stops.
   void skip_information(std::int64_t n_keys) {
     std::int64_t n_found = 0;
     vtkInformationKey *key = nullptr;

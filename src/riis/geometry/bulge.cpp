@@ -102,7 +102,7 @@ Along along_end(const Bezier &piece, double speed, bool at_end) {
 
 double norm(const IntervalVector &a) {
   const double bound = length(a.magnitudes());
-  return bound >= 0 ? bound : infinity;  // the length is NaN if infinities met
+  return bound >= 0 ? bound : infinity;  // the length is NaN if infinite bounds cancelled
 }
 
 // Returns O as a jet, from W and the base's tangent. The derivative of W is the edge's derivative minus the base's. Returns

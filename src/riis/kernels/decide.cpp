@@ -321,7 +321,7 @@ RIIS_INLINE double sum_of(Doubles x) {
   return sum;
 }
 
-// Scales vectors to length 1, except those without a length. Returns the lanes that have a length.
+// Scales vectors to length 1. Vectors without a length do not change. Returns the lanes that have a length.
 RIIS_INLINE Doubles::Mask normalize(Doubles3 &a) {
   const Doubles length = root(dot(a, a));
   const Doubles::Mask has_one = length > Doubles::all(1e-12);

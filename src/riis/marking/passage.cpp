@@ -124,8 +124,7 @@ class Opening {
     return made;
   }
 
-  // Returns the edges that lead to nodes that are not open and that are missing in these nodes' own rows. Most adjacencies have
-  // no such edges.
+  // Returns the edges to nodes that are not open, if the rows of these nodes lack the edges. Most adjacencies have no such edges.
   std::vector<OneWayEdge> one_way_edges() {
     constexpr std::int64_t rows_per_task = 4096;
     std::vector<std::vector<OneWayEdge>> by_thread;

@@ -10,8 +10,8 @@
 namespace riis {
 namespace {
 
-// Nodes are sorted stretch by stretch. A stretch is a range of node numbers. It is sorted by means of a set with one bit for
-// each of its nodes.
+// Nodes are sorted stretch by stretch. A stretch is a range of node numbers. A set with one bit for each node of the stretch
+// sorts its nodes.
 constexpr std::int64_t nodes_per_stretch = 16384, bits_per_word = 64;
 constexpr std::size_t n_words = nodes_per_stretch / bits_per_word;
 

@@ -27,10 +27,10 @@ struct MovedPatch {
   std::size_t patch;
 };
 
-// The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. Both states
-// are evaluated on the smooth patches: on their sides and, inside, as the same combination of the sides. A point is identified
-// in both states by its label (u,v) only, so the triangles may change in between. The result is exactly 0 if neither the sides
-// nor the bulge changed.
+// The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. Both states are
+// evaluated on the smooth patches: on the sides directly, and inside by the same combination of the sides. Only (u,v) identifies
+// a point in both states, so the triangles may change in between. The result is exactly 0 if neither the sides nor the bulge
+// changed.
 class PatchMotion {
  public:
   // The grid must have been made with its lines kept.
@@ -78,7 +78,7 @@ class ImageMotion {
     return {moved.x / seconds_, moved.y / seconds_, moved.z / seconds_};
   }
 
-  // Bounds the error of that velocity. The displacement and p may have errors up to the given ones.
+  // Bounds the error of that velocity. The arguments bound the errors of the displacement and of p.
   double velocity_error(double of_displacement, double of_point) const {
     const auto norm = [](const Rotation &a) {  // the Frobenius norm
       return std::sqrt(dot(a.row_x, a.row_x) + dot(a.row_y, a.row_y) + dot(a.row_z, a.row_z));

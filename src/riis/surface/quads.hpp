@@ -55,7 +55,7 @@ LevelledGrid with_levels(QuadGrid grid, double max_error);
 // Gives the quads the levels of a plan. The bounds of errors are refined no further than max_error requires.
 LevelledGrid with_planned_levels(QuadGrid grid, double max_error, const Vector<int> &planned);
 
-// Raises levels to those that the quads of a grid need for max_error. An empty list stands for levels of 0.
+// Raises levels to the levels that the quads of a grid need for max_error. An empty list stands for levels of 0.
 void raise_levels(const QuadGrid &grid, double max_error, Vector<int> &levels);
 
 }  // namespace riis

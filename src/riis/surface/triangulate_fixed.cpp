@@ -147,7 +147,7 @@ bool is_within(const PatchSet &state, const TriangulationPlan &plan, double aske
 
 namespace {
 
-// Raises the plan's levels to those that a state needs.
+// Raises the plan's levels to the levels that a state needs.
 void raise_levels(const PatchSet &set, double max_error, TriangulationPlan &plan) {
   const Vector<QuadGrid> grids = make_grids(set, plan.grids, max_error, 1, false);
   plan.levels.resize(grids.size());
