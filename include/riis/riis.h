@@ -263,7 +263,7 @@ enum {
   RIIS_TRIANGULATION_ADAPTED = 0, /* as few triangles as each state needs; they change as the valve opens */
   RIIS_TRIANGULATION_FIXED = 1    /* the same ids, vertices and neighbours at every opening, chosen by the first
                                      call with this option. After it only opening and placement may change:
-                                     RIIS_INVALID_PARAMETER names any other parameter that did, and
+                                     RIIS_INVALID_PARAMETER names any other parameter that changed, and
                                      RIIS_LIMIT_EXCEEDED refuses an opening where the tolerance does not hold.
                                      A triangle without area is left out, and its id is not reused. An update
                                      with RIIS_TRIANGULATION_ADAPTED forgets the choice */
@@ -1228,7 +1228,7 @@ typedef struct riis_opening_switch_state {
   double progress;            /* share of the way to open, 0 to 1; the opening is a smooth ramp over it */
   double pressure_difference; /* filtered; NaN: none yet */
   double flow;                /* filtered; NaN: none yet */
-  double turn_time;           /* of the last change of phase; NaN: none yet */
+  double turn_time;           /* time of the last change of phase; NaN: none yet */
   int32_t phase;              /* RIIS_PHASE_* */
   int32_t reserved;           /* 0 */
 } riis_opening_switch_state;

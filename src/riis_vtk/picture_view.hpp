@@ -52,8 +52,9 @@ struct Sight {
   bool is_cut() const { return cut_below[0] || cut_below[1] || cut_above[0] || cut_above[1]; }
 };
 
-// Returns a sight that contains the surface. Along an axis on which the mesh is not much larger, it also contains the mesh. So
-// pictures of a valve that moves in one mesh can be compared. Along other axes it contains the surface's neighbourhood.
+// Returns a sight that contains the surface. Along an axis on which the mesh is not much larger, the sight also contains the
+// mesh. So pictures of a valve that moves in one mesh can be compared. Along other axes, the sight contains the surface's
+// neighbourhood.
 //   mesh    NULL if there is none
 //   aspect  the panel's width divided by its height
 Sight sight_of(const Extents &surface, const Extents *mesh, double aspect);

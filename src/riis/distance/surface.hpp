@@ -53,7 +53,7 @@ class Surface {
   // may call this function at once.
   const Attachment &attachment() const;
 
-  // Returns the other method that measures distances, or null if the triangles' scene does.
+  // Returns the other method that measures distances, or null if the triangles' scene measures them.
   const PatchDistance *other_distance() const { return other_distance_.get(); }
   // Bounds by how much the distance to the triangles exceeds a distance that the method returns.
   double triangle_error() const { return triangle_error_; }
