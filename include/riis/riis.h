@@ -409,8 +409,8 @@ typedef struct riis_surface_info {
   double half_thickness;     /* mesh units */
   double area;               /* of all triangles, mesh units squared */
   double lower[3], upper[3]; /* bounds of the triangles, mesh units */
-  double seconds_triangles;  /* wall time of the last create or update for checks and triangles */
-  double seconds_scene;      /* its wall time for the Embree scene, and for sampling or minimisation */
+  double seconds_triangles;  /* wall time of the last create or update: for checks and triangles */
+  double seconds_scene;      /* wall time of the last create or update: for the scene, sampling, minimisation */
   double error_bound;        /* the most by which a point's distances to the triangles and to the smooth valve
                                 can differ; at most tolerance * half_thickness. 0 for a surface from arrays */
   double velocity_error_bound; /* the most by which a velocity on a triangle can differ from the smooth valve's
@@ -953,7 +953,7 @@ typedef struct riis_leak_list {
   int64_t n_edges;            /* edges that leak. If 0, node ids are -1 and all other fields but seconds are 0 */
   const int64_t *node_id;     /* (2, n_edges): the two nodes, the lower id first */
   const double *length;       /* (n_edges) */
-  const double *distance;     /* (n_edges): the distance of the edge's nearer node: this half thickness closes it */
+  const double *distance;     /* (n_edges): the distance of the edge's nearer node, a half thickness that closes it */
   double half_thickness;      /* the smallest half thickness that gives each edge a marked node, for these triangles */
   int64_t longest_node_id[2]; /* the nodes of the longest edge, ascending. It is the first one of equally long edges */
   double longest_length;      /* the length of this edge */

@@ -56,7 +56,7 @@ void add_marks(const Report &report, std::ostringstream &out) {
   if (report.distance != RIIS_MEASURE_TRIANGLES) out << ", distances by " << distance_name(report.distance);
   if (marks.n_unreached > 0) out << ", " << counted(marks.n_unreached, "node") << " not reached from a neighbour";
   out << "\n";
-  if (!marks.complete) out << "complete unknown: the search misses nodes that are not connected to its start\n";
+  if (!marks.complete) out << "complete  unknown: the search misses nodes that are not connected to its start\n";
 }
 
 void add_leaks(const LeakReport &leaks, std::ostringstream &out) {

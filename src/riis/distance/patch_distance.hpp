@@ -31,8 +31,8 @@ class PatchDistance {
   // Returns false only if no point lies within the limit of p.
   virtual bool may_be_within(Vec3 p, double limit) const = 0;
 
-  // Returns true if the method measures the distance to the same points for every p. The distances of two points p then differ by
-  // at most the distance between them.
+  // Returns true if the method measures the distance to the same set of points for every p. Then the distances of two queried
+  // points differ by at most the distance between these two.
   virtual bool is_of_fixed_points() const = 0;
 
   virtual const char *name() const = 0;

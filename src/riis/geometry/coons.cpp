@@ -222,8 +222,8 @@ QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size
   }
   grid.points.insert(grid.points.end(), edge.begin(), edge.end());
 
-  // Between two lines, base, edge and O differ from linear interpolation by their errors. On a line, the chords differ from the
-  // arc by |O| / 2 times the square of the row's height.
+  // Between two lines, the errors of base, edge and O are their distances from linear interpolation. On a line, the distance of
+  // the chords from the arc is |O| / 2 times the square of the row's height.
   const Vector<double> base_errors = errors_between(lines.u_lines, *sides.side_v0, &GridLine::t0);
   const Vector<double> edge_errors = errors_between(lines.u_lines, *sides.side_v1, &GridLine::t1);
   const double row = 1 / static_cast<double>(n_rows);

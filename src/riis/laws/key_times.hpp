@@ -29,7 +29,7 @@ class KeyTimes {
   // time one period later has the same keys.
   struct KeysAround {
     std::array<std::int64_t, 4> key;  // before the interval, at its two ends, after it
-    std::array<double, 3> width;      // from each of these keys to the next; infinite where a key is missing
+    std::array<double, 3> width;      // from each of these keys to the next; infinite if one of the two is missing
     double since;                     // time since the interval's first end
     bool is_at_rest;                  // before the first or after the last key, where the value is that of key[1]
   };
