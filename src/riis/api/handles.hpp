@@ -70,8 +70,8 @@ struct riis_surface : riis::Handle<riis::HandleKind::surface> {
   riis::KeepsMemory keeps_memory;
   riis::UpdatableSurface updatable;
   riis_surface_options options;  // the options of the last update, with defaults for the fields that the caller lacked
-  // Identifies the surface: no earlier one had this number. An address cannot identify a surface, because a later surface may get
-  // the same address.
+  // Identifies the surface: no earlier surface had this number. An address cannot identify a surface, because a later surface may
+  // get the same address.
   const std::uint64_t number = next_number();
 
  private:

@@ -58,7 +58,7 @@ riis::InstructionSet instructions_asked_for(std::int32_t instructions) {
   return set;
 }
 
-// Returns the arrays of a list, with NULL for an empty one. A field that was made only to compute K is not given out.
+// Returns the arrays of a list, with NULL for an empty one. A field that the marking needed only to compute K stays NULL.
 riis_mark_list arrays_of(const riis::ListedNodes &list, std::int32_t given_fields) {
   const auto array = [](const auto &values) { return values.empty() ? nullptr : values.data(); };
   const auto field = [&](std::int32_t which, const auto &values) {
@@ -117,7 +117,7 @@ const double *require_of_nodes(const double *array, const char *name, std::int64
   return n_nodes == 0 ? array : require(array, name);
 }
 
-// Checks the numbers of a reaction. Its leaflets and edges are checked with the marks.
+// Checks the numbers of a reaction. Its leaflets and edges are checked later, against the marks.
 riis_reaction checked_reaction(const riis_reaction *reaction) {
   const riis_reaction whole = riis::completed(require(reaction, "reaction"), "reaction", default_reaction);
   for (int c = 0; c < 3; ++c)

@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-// A memory sanitizer has to see every allocation and release, so nothing is recycled under one.
+// A sanitizer has to see every allocation and release, so no memory is recycled under a sanitizer.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define RIIS_OWN_MEMORY
 #elif defined(__has_feature)
@@ -115,7 +115,7 @@ void give_memory_back(void *memory, std::size_t n_bytes) noexcept {
     Pool &to = pools[own_pool()];
     const std::lock_guard<ShortLock> lock(to.in_use);
     // The last keeper lowers the count before it empties the pools under this lock. So if the count is above 0 here, the pool
-    // will still be emptied, and may keep the block.
+    // will still be emptied, and the block may be kept.
     if (n_keepers.load(std::memory_order_acquire) > 0) {
       Block *&first = to.kept[static_cast<std::size_t>(size_class(n_bytes) - smallest)];
       first = new (memory) Block{first};

@@ -38,7 +38,8 @@ void Minimizer::query(std::int64_t patch, Vec3 p, ClosestOnPatches &best) const 
     const Vec3 d = to_surface(at);
     return dot(d, d);
   };
-  // Returns the step of t that moves S by at most a tenth of `enough`. The step is never too short to change a computed square.
+  // Returns the step of t that moves S by at most a tenth of `enough`. Shorter steps than 1e-9 would be lost in the rounding of
+  // the square.
   const auto step_of = [&](Parameters along) {
     const double speed = std::abs(along.u) * measures.width + std::abs(along.v) * measures.height;
     const double longest = std::max(std::abs(along.u), std::abs(along.v));

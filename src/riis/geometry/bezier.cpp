@@ -248,7 +248,7 @@ double rough_curvature(const Bezier &curve, double t0, double t1) {
 }
 
 double largest_curvature(const Bezier &curve) {
-  // The bound from control points is loose if they vary much. Within a quarter of the curve they vary little.
+  // The bound from control points is loose if the control points vary much. Within a quarter of the curve they vary little.
   const auto [left, right] = split(curve, 0.5);
   const auto [first, second] = split(left, 0.5);
   const auto [third, fourth] = split(right, 0.5);

@@ -38,7 +38,7 @@ struct QuadGrid {
   Vector<double> u, v;  // ascending from 0 to 1
   Vector<Vec3> points;  // points[j * u.size() + i] at (u[i], v[j])
   // errors[j * (u.size() - 1) + i] belongs to the quad between lines i, i + 1 and j, j + 1. It bounds the distance, at equal
-  // (u,v), between the quad and the patch between the exact curves.
+  // (u,v), between the quad and the patch that the exact curves bound.
   Vector<double> errors;
 
   GridLines lines{};  // the lines that the grid was made from; empty unless requested

@@ -175,7 +175,7 @@ struct Uncovered {
   double length = 0, edge = 0;
 };
 
-// Measures the part of disjoint spans that lies in no cover, and the edges of the covers at the ends of this part.
+// Measures the part of disjoint spans that no cover contains. Also measures the edges of the covers at the ends of this part.
 Uncovered without(const std::vector<Span> &spans, std::vector<Span> covers) {
   std::sort(covers.begin(), covers.end(), [](const Span &a, const Span &b) { return a.begin.x < b.begin.x; });
   Uncovered made;

@@ -17,7 +17,7 @@ namespace riis {
 struct ClusterScratch {
   static constexpr std::int32_t room_for_pairs = 4096;
 
-  // A near cluster and its near groups: the thread whose lists hold them, and their range there.
+  // A near cluster, and the place of its near groups: the thread whose lists hold them, and their range in these lists.
   struct Item {
     std::int64_t cluster;
     std::size_t first, n;

@@ -272,7 +272,7 @@ struct TieOrder {
   }
 };
 
-// For each vertex, stores the numbers that the fields need next to each other, so that a query reads one place in memory.
+// Stores the numbers that the fields need vertex by vertex, so that a node's fields read few places in memory.
 void gather_at_vertices(const TriangleSet &set, std::int32_t fields, int n_threads, FieldScratch &scratch) {
   const bool has_velocity = fields & RIIS_FIELD_VELOCITY, has_uv = fields & RIIS_FIELD_UV;
   if (!has_velocity && !has_uv) return;

@@ -15,7 +15,7 @@ namespace {
 constexpr std::int64_t nodes_per_stretch = 16384, bits_per_word = 64;
 constexpr std::size_t n_words = nodes_per_stretch / bits_per_word;
 
-// The set of a stretch's found nodes. It returns the rank of each node among them.
+// The set of a stretch's found nodes. It gives the rank of each node in the set.
 class Ranks {
  public:
   void clear() { bits_.fill(0); }

@@ -419,7 +419,8 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
   for_each_quad(grid, [&](std::size_t i, std::size_t j) {
     const int level = *next_level++, n = 1 << level;
     const double row = grid.v[j + 1] - grid.v[j];
-    // The arcs add 2 v (1-v) times the offset. Between two vertices, this is off linear by row^2 / 2 times the offset.
+    // The arcs add 2 v (1-v) times the offset. Between two vertices, this differs from linear by at most row^2 / 2 times the
+    // offset.
     double error = larger_mix(at_v0[i], at_v1[i], grid.v[j], grid.v[j + 1]) +
                    larger_mix(at_u0[j], at_u1[j], grid.u[i], grid.u[i + 1]) +
                    largest_arc_weight(grid.v[j], grid.v[j + 1]) * offset[i] + 0.5 * row * row * rows[i];
