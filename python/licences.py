@@ -14,7 +14,7 @@ import re
 import subprocess
 import sys
 
-# The licences of libraries by SPDX's names. That of the module is in pyproject.toml.
+# The licences of libraries by SPDX's names. The module's licence is in pyproject.toml.
 GCC = "GPL-3.0-or-later WITH GCC-exception-3.1"
 EXPRESSIONS = {"libembree": "Apache-2.0", "libtbb": "Apache-2.0", "libgomp": GCC, "libgcc_s": GCC, "libstdc++": GCC}
 

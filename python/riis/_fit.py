@@ -39,7 +39,7 @@ _UNDETERMINED = 0.1
 _MOVES = ("rotation", "translation", "scale")
 # The rough search uses this number of points.
 _N_ROUGH = 400
-# This many results of the rough search are refined, with a width from the scatter of the points.
+# This many results of the rough search are refined. The width of Cauchy's loss then follows the scatter of the points.
 _N_ENDS = 3
 # Each further start chooses among this many rotations.
 _N_ROTATIONS = 150

@@ -188,7 +188,7 @@ void declare_loudness(Command &command, ValveOptions &options) {
   command.flag("--strict", "Exit with status 4 if there was a warning", options.strict);
 }
 
-// --view is declared after --picture, because CLI11 then passes the views when the pictures are known.
+// --view is declared after --picture. So CLI11 passes the views after the pictures, whose number is then known.
 void declare_pictures(Command &command, MarkOptions &options) {
   CLI::Option *const pictures =
       command

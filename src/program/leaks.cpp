@@ -109,7 +109,7 @@ double rounded_up(double x) {
 void look_for_leaks(const MarkOptions &options, const MarkedMesh &marked, Report &report) {
   const Stage stage("looking for leaks", options.quiet);
   LeakReport &leaks = report.leaks;
-  // Short edges may leak too if marks may be missing, or if distances are not measured to the triangles.
+  // Short edges may also leak if marks may be missing, or if distances are not measured to the triangles.
   const bool is_by_triangles = options.surface_options.measure == RIIS_MEASURE_TRIANGLES;
   const bool only_long = report.marks.complete && is_by_triangles;
   const double half_thickness = report.surface.half_thickness;

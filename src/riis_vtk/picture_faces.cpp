@@ -166,7 +166,7 @@ class LoneFaces {
     return view(entries_).size() - 1;
   }
 
-  std::vector<std::int64_t> first_;  // for each node, the faces whose lowest corner it is
+  std::vector<std::int64_t> first_;  // for each node, the faces with this node as their lowest corner
   std::vector<Entry> entries_;
   std::int64_t free_ = -1;
 };
