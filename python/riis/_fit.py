@@ -251,8 +251,8 @@ def fit(
     start      a dict of the start values of scale, rotation_axis, rotation_angle and translation. Without a
                translation, the middle of the valve starts at the middle of the points. Without a scale, a free scale
                starts from their extents
-    bounds     a dict from names in free to (low, high). The others have the bounds of valve.parameters, and lengths
-               half to twice the start value
+    bounds     a dict from names in free to (low, high). Other lengths are bounded by half and twice the start value, and
+               other parameters by the bounds in valve.parameters
     weights    (n,) float64 >= 0, of the squares of distances. If None: the area around each vertex of a
                surface, or 1 for other points
     whole      True: the points cover the whole valve, about evenly, so a surface that reaches beyond them is penalized.

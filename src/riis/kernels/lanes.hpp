@@ -307,7 +307,7 @@ RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
     m[i] = (__m128)least(least(of[i].part[0], of[i].part[1]), least(of[i].part[2], of[i].part[3]));
 #endif
   }
-  // Twice combines neighbouring halves, and keeps the lesser of each two lanes.
+  // Combines neighbouring halves twice. Each time, keeps the lesser of two lanes.
   const __m128 first = _mm_min_ps(_mm_unpacklo_ps(m[0], m[1]), _mm_unpackhi_ps(m[0], m[1]));
   const __m128 last = _mm_min_ps(_mm_unpacklo_ps(m[2], m[3]), _mm_unpackhi_ps(m[2], m[3]));
   _mm_storeu_ps(least_lane, _mm_min_ps(_mm_movelh_ps(first, last), _mm_movehl_ps(last, first)));
