@@ -39,7 +39,7 @@ _UNDETERMINED = 0.1
 _MOVES = ("rotation", "translation", "scale")
 # The rough search uses this number of points.
 _N_ROUGH = 400
-# This many results of the rough search are refined. The width of Cauchy's loss then follows the scatter of the points.
+# This many results of the rough search are refined, with a width from the scatter of the points.
 _N_ENDS = 3
 # Each further start chooses among this many rotations.
 _N_ROTATIONS = 150
@@ -251,8 +251,8 @@ def fit(
     start      a dict of the start values of scale, rotation_axis, rotation_angle and translation. Without a
                translation, the middle of the valve starts at the middle of the points. Without a scale, a free scale
                starts from their extents
-    bounds     a dict from names in free to (low, high). Other lengths are bounded by half and twice the start value, and
-               other parameters by the bounds in valve.parameters
+    bounds     a dict from names in free to (low, high). The others have the bounds of valve.parameters, and lengths
+               half to twice the start value
     weights    (n,) float64 >= 0, of the squares of distances. If None: the area around each vertex of a
                surface, or 1 for other points
     whole      True: the points cover the whole valve, about evenly, so a surface that reaches beyond them is penalized.

@@ -182,9 +182,9 @@ class Problem:
 
     # The last residual concerns the area. If points lie evenly over the whole valve, each has the probability density 1 / area.
     # So the logarithm of their likelihood contains the term -n log(area). Half the sum of squares is the rest of the likelihood,
-    # times noise^2. This sum is biased near an edge: noise moves points beyond the edge, and these points pull the edge outwards
-    # by n noise^2 / (4 area) per length. A quarter of the area's term pulls the edge inwards by the same amount, so edges stay
-    # where they are. Half the square of this residual is n noise^2 / 4 (log(area) + constant). The constant keeps the root real.
+    # times noise^2. It is biased near an edge: noise moves points beyond the edge, and these pull it outwards by n noise^2 / (4
+    # area) per length. A quarter of the area's term pulls the edge inwards by the same amount, so edges stay where they are. Half
+    # the square of this residual is n noise^2 / 4 (log(area) + constant). The constant keeps the root real.
     _CONSTANT = 4.0
 
     def _area_factor(self) -> float:

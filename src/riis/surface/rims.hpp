@@ -12,7 +12,7 @@
 namespace riis {
 
 // Bits of an entry of TriangleSet::rim_sides. The last bit marks a side v1 that no other patch of the same leaflet has. This side
-// is a part of the leaflet's free edge, even if closed leaflets meet there.
+// is a part of the leaflet's free edge, even where closed leaflets meet in it.
 enum PatchRim : std::uint8_t { rim_v0 = 1, rim_v1 = 2, rim_u0 = 4, rim_u1 = 8, free_v1 = 16 };
 
 // Returns, for each patch_id, the sides on the rim. Two patches share a side if it is the same curve and their images put it at

@@ -41,9 +41,9 @@ struct Side {
 // The side at which tissue or a stent holds a patch, or none.
 enum class AttachedSide : std::uint8_t { none, v0, u1 };
 
-// A patch, given by its four sides. Each side is named after the parameter that is constant on it. A curve that two patches share
-// is listed once. So it becomes one polyline, and the patches meet without cracks. S_u x S_v points downstream. Mirror images are
-// turned over, so that this also holds for them.
+// A patch, given by its four sides. Each side is named after the parameter that is constant on it. A curve that two patches
+// share is listed once. So it becomes one polyline, and the patches meet without cracks. S_u x S_v points downstream. Mirror
+// images are turned over, so that this holds for them too.
 struct Patch {
   Side v0, v1, u0, u1;
   Vector<PatchImage> images;

@@ -90,8 +90,8 @@ void check_values(const ParameterValues &values) {
   check_reach(half_cusp(open), open, "in the open state, ", "a cusp", ", open_radius_ratio, commissure_expansion");
 }
 
-// Sews the cusps together. The half y < 0 of a cusp meets the half y >= 0 of the previous cusp. At opening 0 the halves meet
-// along the free edge, otherwise only at the commissure.
+// Sews the cusps together. The half y < 0 of a cusp meets the half y >= 0 of the cusp before it. At opening 0 they meet along
+// the free edge, otherwise only at the commissure.
 void sew(PatchSet &set, bool is_closed) {
   const std::size_t top = set.patches.size() - 1;
   constexpr std::size_t right = 0, left = 1, non_coronary = 2;
