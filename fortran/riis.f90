@@ -207,14 +207,14 @@ contains
     call c_version(major, minor, patch)
   end subroutine version
 
-  !> Gives the version of the linked library, such as '0.1.0'.
+  !> Gives the version of the linked library, such as '1.0.0'.
   function version_string() result(text)
     character(len=version_length()) :: text                 !< A copy.
     text = riis_c_text(c_version_string())
   end function version_string
 
   !> Sets the procedure that receives the messages of the whole process. Without an argument no messages are sent, which is the
-  !! default. Any thread may call it. A message that another thread is sending may still reach the former procedure.
+  !! default. Any thread may call it. A message that another thread is sending may still reach the previous procedure.
   subroutine set_log(procedure)
     procedure(riis_log_procedure), optional :: procedure    !< Called until another one is set. It must be a module or external
                                                             !! procedure, not an internal one of a procedure that returns.

@@ -85,8 +85,8 @@ subroutine riisf_opening_switch_init(state, phase, status)
 end subroutine riisf_opening_switch_init
 
 !> Advances a switch to a time. The valve opens when the pressure difference exceeds open_above, and closes when the flow falls
-!! below close_below. It turns at the end of the step in which this happens, so the opening is accurate to first order in the time
-!! step. Errors: RIIS_INVALID_ARGUMENT naming the argument and its value.
+!! below close_below. The phase changes at the end of the step in which this happens, so the opening is accurate to first order in
+!! the time step. Errors: RIIS_INVALID_ARGUMENT naming the argument and its value.
 subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open_above, close_below, filter_time, &
     dwell_time, time, pressure_difference, flow, state, phase, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -100,13 +100,13 @@ subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open
   real(c_double), intent(in) :: close_below               !< A flow; usually 0.
   real(c_double), intent(in) :: filter_time            !< Time constant of a first-order filter of both, >= 0; 0: no
                                                           !! filter.
-  real(c_double), intent(in) :: dwell_time             !< The least time from one turn to the next, >= 0.
+  real(c_double), intent(in) :: dwell_time             !< The least time between changes of phase, >= 0.
   real(c_double), intent(in) :: time                      !< At least state(1).
   real(c_double), intent(in) :: pressure_difference       !< Upstream minus downstream, at the given time.
   real(c_double), intent(in) :: flow                      !< Positive downstream, at the given time.
   real(c_double), intent(inout) :: state(7)               !< Time, opening, rate, progress, filtered pressure difference,
-                                                          !! filtered flow, time of the last turn (NaN: none yet). Written on
-                                                          !! success.
+                                                          !! filtered flow, time of the last change of phase (NaN: none yet).
+                                                          !! Written on success.
   integer(int32), intent(inout) :: phase                  !< RIIS_PHASE_*, a part of the state. Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_opening_switch) :: law

@@ -25,8 +25,8 @@ module riis_laws
   ! NaN stands for a number that has no default, or that is not known yet.
   real(c_double), parameter :: no_value = transfer(int(z'7FF8000000000000', int64), 0._c_double)
 
-  !> An opening by times. Example: a mitral valve opens at 0.45 s in 0.05 s, and closes at 0.95 s in 0.05 s, every 1 s. The ramps
-  !! are of fifth degree: neither the rate nor its derivative jumps.
+  !> An opening by times. Example: every second, a mitral valve begins to open at 0.45 s and to close at 0.95 s, and both take
+  !! 0.05 s. The ramps are of fifth degree: neither the rate nor its derivative jumps.
   type :: riis_opening_times
     real(c_double) :: opening_start = no_value   !< When the valve begins to open. This and the next three components have no
                                                  !! default.
@@ -49,7 +49,7 @@ module riis_laws
     real(c_double) :: open_above = 0             !< A pressure difference.
     real(c_double) :: close_below = 0            !< A flow.
     real(c_double) :: filter_time = 0         !< Time constant of a first-order filter of both, >= 0. 0: no filter.
-    real(c_double) :: dwell_time = 0          !< The least time from one turn to the next, >= 0.
+    real(c_double) :: dwell_time = 0          !< The least time between changes of phase, >= 0.
   end type riis_opening_switch
 
   !> The state of a switch. It begins as a closed valve at time 0.
@@ -61,7 +61,7 @@ module riis_laws
                                                  !! ramp of it.
     real(c_double) :: pressure_difference = no_value !< Filtered; NaN: none yet.
     real(c_double) :: flow = no_value            !< Filtered; NaN: none yet.
-    real(c_double) :: turn_time = no_value       !< The time of the last turn; NaN: none yet.
+    real(c_double) :: turn_time = no_value       !< The time of the last change of phase; NaN: none yet.
     integer(int32) :: phase = RIIS_PHASE_CLOSING !< RIIS_PHASE_*.
   end type riis_opening_switch_state
 
@@ -164,7 +164,7 @@ contains
     call finish(code, status)
   end subroutine from_times
 
-  !> Advances a switch to a time. The valve turns at the end of the step in which its condition was met, so the opening is
+  !> Advances a switch to a time. The phase changes at the end of the step in which its condition is met, so the opening is
   !! accurate to first order in the time step. Errors: RIIS_INVALID_ARGUMENT naming the argument or component and its value.
   subroutine advance_switch(law, state, time, pressure_difference, flow, status)
     type(riis_opening_switch), intent(in) :: law            !< The law.

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> The common part of the modules behind `riis`: errors, the addresses of the caller's arrays, integers of either kind. It is
-!! not for users: `use riis` does not give these names.
+!> The common part of the modules behind `riis`: errors, the addresses of the caller's arrays, integers of either kind. Users do
+!! not need this module: `use riis` does not give these names.
 module riis_support
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_intptr_t, c_null_char, c_ptr, c_associated, &
     c_loc, c_null_ptr, c_sizeof
@@ -36,8 +36,8 @@ module riis_support
     module procedure get_int64
   end interface get_integer
 
-  !> Makes bytes of a mask: 1 for .true. and for numbers other than 0. If the bytes are not allocated, they count as absent when
-  !! passed to an optional argument.
+  !> Converts a mask to bytes: 1 for .true. and for numbers other than 0. An absent mask gives bytes that are not allocated. As an
+  !! optional argument these count as absent.
   interface get_mask
     module procedure get_mask_logical
     module procedure get_mask_int32
@@ -50,8 +50,8 @@ module riis_support
   end interface text_of
 
   interface
-    !> Makes the message the calling thread's last error, so that riis_last_error returns errors of this layer too. The function
-    !! is in the library's src/base/component.h.
+    !> Records the message as the calling thread's last error, so that riis_last_error also returns errors of this layer. The
+    !! function is declared in src/common/component.h.
     function riis_component_error(status, text) result(same) bind(c, name='riis_component_error')
       import :: c_char, riis_status
       implicit none
@@ -115,7 +115,7 @@ contains
     if (c_associated(handle)) code = refuse(name // ' was already created: destroy it first')
   end function check_not_created
 
-  !> Is called by the assignments. Two variables with one handle would destroy it twice.
+  !> Refuses to copy a handle, because two variables with one handle would destroy it twice. The assignments call this procedure.
   subroutine refuse_copy(left, right, name)
     type(c_ptr), intent(in) :: left                         !< The handle that would be overwritten.
     type(c_ptr), intent(in) :: right                        !< The handle that would be copied.

@@ -2,7 +2,7 @@
 """licences.py FOLDER MODULE: puts the licences of everything in a wheel into its metadata, as texts and as an expression.
 
 FOLDER  the wheel, repaired by auditwheel and unpacked
-MODULE  the extension module before the repair, which the loader links to the system's libraries that the wheel copies
+MODULE  the extension module before the repair; it still loads the system's libraries, which the wheel copies
 
 Debian keeps the licence of each package in /usr/share/doc, and the texts that it refers to in /usr/share/common-licenses. The
 module itself contains parts of nanobind and of its robin_map. The Python that runs this script must have the nanobind that built
@@ -14,7 +14,7 @@ import re
 import subprocess
 import sys
 
-# The licences of libraries by SPDX's names. That of the module is in pyproject.toml.
+# The licences of libraries by SPDX's names. The module's licence is in pyproject.toml.
 GCC = "GPL-3.0-or-later WITH GCC-exception-3.1"
 EXPRESSIONS = {"libembree": "Apache-2.0", "libtbb": "Apache-2.0", "libgomp": GCC, "libgcc_s": GCC, "libstdc++": GCC}
 

@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# The steps of ./run python, which reads this file: build the wheel, repair it, and test it in a fresh environment. They use its
-# variables and functions $n_jobs, install_missing, step, say and python_of_packages.
+# The steps of ./run python, which reads this file: build the wheel, repair it, and test it in a fresh environment. The steps use
+# variables and functions of ./run: $n_jobs, install_missing, step, say and python_of_packages.
 
 # Packages of Debian 12 or 13 that ./run python needs. Build tools and Python packages come from PyPI.
 python_packages=(gcc g++ cmake ninja-build binutils libembree-dev libtbb-dev python3 python3-dev python3-venv

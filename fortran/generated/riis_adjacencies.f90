@@ -18,11 +18,11 @@ module riis_adjacencies
   contains
     generic :: create_from_cells => cells_int32_int32, cells_int32_int64, cells_int64_int32, cells_int64_int64, &
       mixed_int32_int32, mixed_int32_int64, mixed_int64_int32, mixed_int64_int64
-                                                               !< Makes it from cells, given by their nodes.
+                                                               !< Makes the adjacency from cells, given by their nodes.
     generic :: create_from_faces => faces_int32_int32, faces_int32_int64, faces_int64_int32, faces_int64_int64, &
       owner_int32_int32, owner_int32_int64, owner_int64_int32, owner_int64_int64
-                                                               !< Makes it from faces between cells.
-    generic :: create_from_grid => grid_int32, grid_int64               !< Makes it from a structured grid.
+                                                               !< Makes the adjacency from faces between cells.
+    generic :: create_from_grid => grid_int32, grid_int64               !< Makes the adjacency of a structured grid.
     procedure, non_overridable :: is_created => adjacency_is_created    !< Returns whether it was created.
     procedure, non_overridable :: c_handle => adjacency_c_handle        !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => adjacency_destroy          !< Frees its memory.

@@ -214,12 +214,12 @@ module riis_c
     integer(c_int64_t) :: n_vertices         !< as riis_triangles.n_vertices
     integer(c_int64_t) :: n_triangles        !< triangles that answer queries
     integer(c_int64_t) :: n_zero_area        !< triangles skipped because they have no area
-    real(c_double) :: half_thickness         !< placed units
-    real(c_double) :: area                   !< of all triangles, placed units squared
-    real(c_double) :: lower(3), upper(3)     !< bounds of the triangles, placed units
-    real(c_double) :: seconds_triangles      !< wall time of the last create or update: checks and triangles
-    real(c_double) :: seconds_scene          !< wall time of the Embree scene, and of samples or patches by
-                                             !! RIIS_MEASURE_*
+    real(c_double) :: half_thickness         !< mesh units
+    real(c_double) :: area                   !< of all triangles, mesh units squared
+    real(c_double) :: lower(3), upper(3)     !< bounds of the triangles, mesh units
+    real(c_double) :: seconds_triangles      !< wall time of the last create or update: for checks and triangles
+    real(c_double) :: seconds_scene          !< wall time of the last create or update: for the scene, sampling,
+                                             !! minimisation
     real(c_double) :: error_bound            !< the most by which a point's distances to the triangles and to the smooth
                                              !! valve can differ; at most tolerance * half_thickness. 0 for a surface
                                              !! from arrays
@@ -406,12 +406,13 @@ module riis_c
     integer(c_int64_t) :: n_queries      !< closest-point queries, of nodes and of parts of the mesh
     real(c_double) :: seconds            !< wall time of riis_mark_nodes
     integer(c_int32_t) :: search         !< the search that ran, never RIIS_SEARCH_AUTO
-    integer(c_int32_t) :: n_threads      !< the most that ran in any part. A caller's TBB limit affects walks, not loops
+    integer(c_int32_t) :: n_threads      !< the largest number in any part. A caller's TBB limit affects walks, not
+                                         !! loops
     integer(c_int32_t) :: complete       !< 1: every node within the limit was found, for the coordinates last given; 0:
                                          !! not certain
     integer(c_int32_t) :: instructions   !< the instructions that were used, never RIIS_INSTRUCTIONS_AUTO
-    integer(c_int64_t) :: n_unreached    !< nodes within the limit that no walk of the neighbour search reached, but its
-                                         !! proof found
+    integer(c_int64_t) :: n_unreached    !< nodes within the limit that the neighbour search found by its proof, not by
+                                         !! its walk
   end type riis_mark_stats
 
   type, bind(c) :: riis_resistance_arrays
@@ -539,7 +540,7 @@ module riis_c
   !> The opening at which a valve first lets the mesh pass.
   type, bind(c) :: riis_first_passage
     real(c_double) :: opening        !< the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE
-    real(c_double) :: closed_opening !< the largest tried opening below it, which has no passage. Equals opening unless
+    real(c_double) :: closed_opening !< the largest tried opening below that, without a passage. Equals opening unless
                                      !! FOUND
     integer(c_int64_t) :: node_id    !< the passage at `opening`, as in riis_passage
     real(c_double) :: distance       !< as in riis_passage

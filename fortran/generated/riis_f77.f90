@@ -555,7 +555,7 @@ subroutine riisf_status_name(status, text)
   text = riis_c_text(riis_status_name(status))
 end subroutine riisf_status_name
 
-!> Gives the version of the linked library, such as '0.1.0'.
+!> Gives the version of the linked library, such as '1.0.0'.
 subroutine riisf_version(text)
   use riis_c, only: riis_c_text, riis_version_string
   implicit none

@@ -182,8 +182,8 @@ subroutine riisf_label_open_regions_64(mesh, marks, n_threads, n_nodes, region_n
 end subroutine riisf_label_open_regions_64
 
 !> Finds the widest passage from one set of nodes to another. It is the path, along the edges of the mesh's adjacency, whose
-!! smallest distance to the surface is largest. The ends count too. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or
-!! for a node that the mesh lacks, or that is within the half thickness.
+!! smallest distance to the surface is largest. A path includes its ends. Errors: RIIS_INVALID_ARGUMENT if the mesh has no
+!! adjacency, or for a node that the mesh lacks, or that is within the half thickness.
 subroutine riisf_find_passage(surface, mesh, n_from, from_num, n_to, to_num, n_threads, state, node_num, distance, &
     point, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof

@@ -92,7 +92,7 @@ subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
   status = riis_surface_get_leak(c_handle_of(surface), resistance, drop, flow)
 end subroutine riisf_surface_leak
 
-!> Tells how many mesh edges lie across the band around the surface, by the edges with a marked node. Errors:
+!> Gives the number of mesh edges across the band around the surface, from the lengths of the edges with a marked node. Errors:
 !! RIIS_INVALID_ARGUMENT for a mesh without an adjacency, and for marks that do not come from a marking with this mesh.
 subroutine riisf_cells_across(marks, mesh, least, mean, most, mean_edge, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -102,9 +102,9 @@ subroutine riisf_cells_across(marks, mesh, least, mean, most, mean_edge, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
-  real(c_double), intent(inout) :: least                  !< Two half thicknesses over the longest edge; 0 without an edge.
-  real(c_double), intent(inout) :: mean                   !< The same over the mean edge.
-  real(c_double), intent(inout) :: most                   !< The same over the shortest edge.
+  real(c_double), intent(inout) :: least                  !< 2 half thicknesses / longest edge; 0 without an edge.
+  real(c_double), intent(inout) :: mean                   !< 2 half thicknesses / mean edge.
+  real(c_double), intent(inout) :: most                   !< 2 half thicknesses / shortest edge.
   real(c_double), intent(inout) :: mean_edge              !< The mean length of the edges.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_cells_across) :: cells
@@ -189,7 +189,7 @@ subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num,
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
-  real(c_double), intent(inout) :: closed_opening         !< The largest opening below it that was tried.
+  real(c_double), intent(inout) :: closed_opening         !< The largest tried opening below that one.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options), target :: surface
   type(riis_mark_options), target :: marking
@@ -251,7 +251,7 @@ subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_n
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
-  real(c_double), intent(inout) :: closed_opening         !< The largest opening below it that was tried.
+  real(c_double), intent(inout) :: closed_opening         !< The largest tried opening below that one.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options), target :: surface
   type(riis_mark_options), target :: marking

@@ -437,8 +437,8 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
 end subroutine riisf_add_leaflet_reaction_64
 
 !> Adds the force of the flow, and its moment about the edge's middle, to edges. The force of a node goes to the edge nearest to
-!! its closest point, or to the first of several equally near edges. These shares of edges are for tissue codes, and do not come
-!! from the mechanics of a membrane. Ranks pass the same edges, and add their sums by a reduction. Errors: as for
+!! its closest point, or to the first of several equally near edges. The sums of edges are loads for tissue codes. They do not
+!! model how a membrane carries loads to its edges. Ranks pass the same edges, and add their sums by a reduction. Errors: as for
 !! riisf_add_reaction; RIIS_INVALID_ARGUMENT also for a bad edge, and for a leaflet without an edge.
 subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, &
     n_edges, edges, edge_leaflet_id, edge_force, edge_moment, status)

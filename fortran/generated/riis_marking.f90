@@ -648,10 +648,10 @@ contains
 
   !> Adds the force of the flow on the surface and its moment, for the whole surface, for each leaflet and for each edge. The
   !! force of a node is weight * K * (velocity - u_surface), and acts at the closest point of the surface. u_surface is used if
-  !! the marking had RIIS_FIELD_VELOCITY, and is 0 otherwise. Moments and the sums of edges need RIIS_FIELD_POINT. For tissue
-  !! codes, each edge gets a share of the forces, which does not come from the mechanics of a membrane. Ranks pass the same point
-  !! and edges, and add their sums by a reduction. Errors: as for %add_resistance; RIIS_INVALID_ARGUMENT also for too few
-  !! leaflets, for a leaflet without an edge, and for a bad edge.
+  !! the marking had RIIS_FIELD_VELOCITY, and is 0 otherwise. Moments and the sums of edges need RIIS_FIELD_POINT. The sums of
+  !! edges are loads for tissue codes. They do not model how a membrane carries loads to its edges. Ranks pass the same point and
+  !! edges, and add their sums by a reduction. Errors: as for %add_resistance; RIIS_INVALID_ARGUMENT also for too few leaflets,
+  !! for a leaflet without an edge, and for a bad edge.
   subroutine marks_add_reaction(this, R, velocity, weight, force, half_thickness, rim, moment, about, leaflet_force, &
       leaflet_moment, edges, edge_force, edge_moment, edge_leaflet_id, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.

@@ -86,8 +86,8 @@ contains
   end subroutine label_open_regions_int32
 
   !> Finds the widest passage from one set of nodes to another. It is the path, along the edges of the mesh's adjacency, whose
-  !! smallest distance to the surface is largest. The ends count too. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency,
-  !! or for a node that the mesh lacks, that node_mask leaves out, or that is within the half thickness.
+  !! smallest distance to the surface is largest. A path includes its ends. Errors: RIIS_INVALID_ARGUMENT if the mesh has no
+  !! adjacency, or for a node that the mesh lacks, that node_mask leaves out, or that is within the half thickness.
   subroutine find_passage_logical_int32(surface, mesh, from_num, to_num, passage, node_mask, n_threads, status)
     class(riis_surface), intent(in) :: surface              !< Must be created.
     class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. A marking is not needed.
@@ -211,7 +211,7 @@ contains
     call finish(code, status)
   end subroutine find_passage_int32_int64
 
-  ! Makes ids from node numbers, which is the only copy. Does nothing after an error.
+  ! Makes ids from node numbers. This is the only copy. Does nothing after an error.
   subroutine get_ids_int32(numbers, ids, code)
     integer(int32), intent(in) :: numbers(:)
     integer(int64), allocatable, intent(out) :: ids(:)
@@ -223,7 +223,7 @@ contains
     if (code == RIIS_OK) ids = int(numbers, int64) - 1
   end subroutine get_ids_int32
 
-  ! Makes ids from node numbers, which is the only copy. Does nothing after an error.
+  ! Makes ids from node numbers. This is the only copy. Does nothing after an error.
   subroutine get_ids_int64(numbers, ids, code)
     integer(int64), intent(in) :: numbers(:)
     integer(int64), allocatable, intent(out) :: ids(:)

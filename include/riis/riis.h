@@ -18,7 +18,7 @@
  *
  * These rules hold for every function:
  *
- * - Units: lengths have one unit of the caller's choice, angles are in degrees. The valve tables are in
+ * - Units: lengths have one unit of the caller's choice, angles are in degrees. The valves' default lengths are in
  *   centimetres; a placement's scale turns them into the mesh's unit (0.01 for metres).
  * - Ids: values called *_id count from 0, also in messages. If a struct has a field index_base, the ids in it
  *   count from that base, 0 (default) or 1. A field id_bits gives the ids' width: 32 (default) or 64.
@@ -38,20 +38,20 @@
  *   that a call returns belong to the handle, and are valid until the handle's next update or destruction. An array
  *   without entries is NULL if a call returns it, and may be NULL if the caller passes it.
  * - Structs: a struct that a call fills in is followed by its size, as in (&list, sizeof list), and the call
- *   writes no more. A struct that a call reads begins with struct_size. Its init function sets that field, the
+ *   writes no more bytes. A struct that a call reads begins with struct_size. Its init function sets that field, the
  *   defaults, and all else to 0 or NULL. A NULL options pointer means all defaults. New fields are appended, or
  *   replace `reserved`, which must be 0.
  * - Threads: any number of threads may read a handle (const) at once. One thread may write it while no other
  *   reads it. Different handles never interfere. Results are bitwise the same for any number of threads.
  * - n_threads: 1 to 1024, or 0, the default. The default is one thread, and one more for each 4096 triangles (of a
- *   surface's last content), 16,384 nodes, cells or faces, or 2048 points, but at most the processors in the
- *   calling thread's affinity mask. A part of a call with little work near the surface then takes one thread.
+ *   surface's last content), 16,384 nodes, cells or faces, or 2048 points. It never exceeds the number of processors
+ *   in the calling thread's affinity mask. By default, a part of a call with little work takes one thread.
  *   OMP_NUM_THREADS and omp_set_num_threads have no effect. With n_threads 1, no thread is started. If the
  *   system refuses a thread or its memory, OpenMP and TBB end the process (docs/building.md).
  * - fork(): if the library has used several threads, a child process may use only 1, and 0 means 1 there. More are
  *   refused as RIIS_UNAVAILABLE. A child makes no surfaces if another thread was inside the library at the fork.
  * - Environment: calls, and log functions within them, run with the default floating-point environment. Each call
- *   restores the caller's at its end. The caller's OpenMP and TBB settings are not changed.
+ *   restores the caller's environment at its end. The caller's OpenMP and TBB settings are not changed.
  *
  * "Paper" is B. van der Vuurst, J. Kosinka, C. Bertoglio, "Fast generation of 3D flow obstacles from
  * parametric surface models: application to cardiac valves" (2025); docs/theory.md lists every departure.
@@ -84,7 +84,7 @@ typedef int32_t riis_status;
 enum {
   RIIS_OK = 0,                  /* success */
   RIIS_INVALID_ARGUMENT = 1,    /* a NULL pointer, a number out of range, a non-finite option */
-  RIIS_INVALID_STRUCT_SIZE = 2, /* the size of no release: not initialised, or riis.h newer than the library */
+  RIIS_INVALID_STRUCT_SIZE = 2, /* a size that no release has: not initialised, or riis.h newer than the library */
   RIIS_INVALID_PARAMETER = 3,   /* a valve: unknown kind or name, value out of range, values that clash */
   RIIS_INVALID_SURFACE = 4,     /* the caller's surface: empty, non-finite, index out of range, zero area */
   RIIS_INVALID_MESH = 5,        /* the caller's mesh: empty, non-finite coordinate */
@@ -118,7 +118,7 @@ enum {
   RIIS_LOG_WARNING = 1 /* skipped triangles, sizes in different units, leaflets that cross */
 };
 /* Sets the log function of the process; NULL, the default, means no log. Any thread may call riis_set_log. A message
- * that another thread is sending may still reach the former function. With a log function, surfaces are searched
+ * that another thread is sending may still reach the previous function. With a log function, surfaces are searched
  * for crossings (riis_find_crossings) if the caller chose the valve's parameters, patches or open state. Each such
  * shape is searched at its first opening in each of the ranges 0, up to 0.05, up to 1/3, up to 2/3 and up to 1,
  * until a warning is logged for the shape. The search takes longer than an update.
@@ -173,11 +173,11 @@ RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, i
                                     double *values);
 
 /* Gives the valve a second state: opening 0 is then the valve's own state, opening 1 that of the valve `open`.
- * Between them, control points are blended linearly (docs/theory.md, section 5); of a bileaflet valve, lengths and
- * angles are. A second call replaces the state. No call removes it. A mitral or trileaflet valve takes its closed
+ * Between them, control points are blended linearly (docs/theory.md, section 5). A bileaflet valve blends lengths and
+ * angles instead. A second call replaces the state. No call removes it. A mitral or trileaflet valve takes its closed
  * curves from its own parameters and its open curves from the parameters of `open`.
- *   open  a valve of the same kind, which is copied; if from patches, with the same curves, sides and degrees (1 may
- *         stand for 2); if bileaflet, both have a ring or neither. Opening, leaflet ids and open state are ignored
+ *   open  a valve of the same kind, which is copied. From patches, it has the same curves, sides and degrees (1 may
+ *         stand for 2). Either both bileaflet valves have a ring or neither. Opening, leaflet ids, open state: ignored
  * Errors: RIIS_INVALID_PARAMETER for another kind, or other curves, degrees or sides. */
 RIIS_API riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open);
 
@@ -263,13 +263,13 @@ enum {
   RIIS_TRIANGULATION_ADAPTED = 0, /* as few triangles as each state needs; they change as the valve opens */
   RIIS_TRIANGULATION_FIXED = 1    /* the same ids, vertices and neighbours at every opening, chosen by the first
                                      call with this option. After it only opening and placement may change:
-                                     RIIS_INVALID_PARAMETER names any other parameter that did, and
+                                     RIIS_INVALID_PARAMETER names any other parameter that changed, and
                                      RIIS_LIMIT_EXCEEDED refuses an opening where the tolerance does not hold.
                                      A triangle without area is left out, and its id is not reused. An update
                                      with RIIS_TRIANGULATION_ADAPTED forgets the choice */
 };
 
-/* How a surface is made and then placed: x -> scale * rotation * x + translation, for valves and arrays. */
+/* How a surface is made and then placed. The placement, also of arrays, is x -> scale * rotation * x + translation. */
 typedef struct riis_surface_options {
   int64_t struct_size;     /* set by the init function */
   double half_thickness;   /* d_min (paper, 4.2), mesh units, 1e-50 to 1e50. Default RIIS_AUTO: 0.1 * scale */
@@ -280,7 +280,7 @@ typedef struct riis_surface_options {
   double rotation_angle;   /* degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6, default 0 */
   double translation[3];   /* mesh units; -1e50 to 1e50, default 0. Refused for a valve if coordinates would be
                               rounded by more than a thousandth of tolerance * half_thickness */
-  double measure_tolerance; /* of sampling and minimisation, half thicknesses, 1e-6 to 1. Default: tolerance */
+  double measure_tolerance; /* of sampling and minimisation, in half thicknesses, 1e-6 to 1. Default: tolerance */
   int32_t measure;         /* RIIS_MEASURE_*, for closest points and marking only; default
                               RIIS_MEASURE_TRIANGLES, the only one for surfaces from arrays */
   int32_t triangulation;   /* RIIS_TRIANGULATION_*; default RIIS_TRIANGULATION_ADAPTED */
@@ -338,12 +338,12 @@ RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve
                                          const riis_surface_options *options);
 /* Replaces the surface's content by the triangles that riis_surface_update makes, to the last bit, and gives every
  * vertex a velocity: its displacement from the point with the same patch, u and v in an earlier state, divided by
- * the time between the states (docs/theory.md, section 10). For a valve at rest, pass it as valve_before too.
- *   valve_before    the earlier state, of the same kind; if from patches, with the same curves and sides
+ * the time between the states (docs/theory.md, section 10). If the valve is at rest, also pass it as valve_before.
+ *   valve_before    the earlier state, of the same kind. A valve from patches has the same curves and sides
  *   dt              the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs back
  *   options_before  scale, rotation and translation of the earlier state; other fields are ignored. NULL: as now
- * The velocity, in mesh units per unit of dt, is the mean over the step. As the velocity in the middle of the step
- * it is accurate to second order, as that at either end to first order.
+ * The velocity, in mesh units per unit of dt, is the mean over the step. It approximates the velocity in the middle
+ * of the step to second order, and the velocity at either end to first order.
  * Errors: as riis_surface_update; RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or
  * with parameters that do not fit together. */
 RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve,
@@ -371,9 +371,9 @@ typedef struct riis_keyframe_arrays {
   int64_t n_vertices;    /* of each frame, as in riis_surface_arrays */
   const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
   const void *xyz;       /* (3, n_vertices, n_keys): the vertices, frame after frame; magnitude at most 1e60 */
-  double period;         /* > 0: the motion repeats. All keys lie within a period of the first key; a key exactly a
-                            period after the first must have the first frame. 0, the default: the first frame
-                            holds before its time, the last one after its time */
+  double period;         /* > 0: the motion repeats. All keys lie within a period of the first key. A last key one
+                            period after the first must have the same frame. 0, the default: the surface rests
+                            before the first key and after the last */
   int32_t interpolation; /* RIIS_INTERPOLATION_*, of each coordinate. Default RIIS_INTERPOLATION_LINEAR */
   int32_t real_bits;     /* of xyz */
 } riis_keyframe_arrays;
@@ -406,11 +406,11 @@ typedef struct riis_surface_info {
   int64_t n_vertices;        /* as riis_triangles.n_vertices */
   int64_t n_triangles;       /* triangles that answer queries */
   int64_t n_zero_area;       /* triangles skipped because they have no area */
-  double half_thickness;     /* placed units */
-  double area;               /* of all triangles, placed units squared */
-  double lower[3], upper[3]; /* bounds of the triangles, placed units */
-  double seconds_triangles;  /* wall time of the last create or update: checks and triangles */
-  double seconds_scene;      /* wall time of the Embree scene, and of samples or patches by RIIS_MEASURE_* */
+  double half_thickness;     /* mesh units */
+  double area;               /* of all triangles, mesh units squared */
+  double lower[3], upper[3]; /* bounds of the triangles, mesh units */
+  double seconds_triangles;  /* wall time of the last create or update: for checks and triangles */
+  double seconds_scene;      /* wall time of the last create or update: for the scene, sampling, minimisation */
   double error_bound;        /* the most by which a point's distances to the triangles and to the smooth valve
                                 can differ; at most tolerance * half_thickness. 0 for a surface from arrays */
   double velocity_error_bound; /* the most by which a velocity on a triangle can differ from the smooth valve's
@@ -433,12 +433,12 @@ typedef struct riis_triangles {
   const int64_t *vertex_id;   /* (3, n_triangles): their vertices */
   const int64_t *triangle_id; /* (n_triangles), ascending: the id that queries report; 0, 1, 2, ... for a valve */
   const int32_t *leaflet_id;  /* (n_triangles): RIIS_LEAFLET_*, or the caller's from patches and arrays */
-  const int32_t *patch_id;    /* (n_triangles): aortic and trileaflet: 4 * leaflet + 0 bottom, 1 top, 2 mirrored
-                                 bottom, 3 mirrored top; mitral, from the posteromedial commissure round: anterior
-                                 0 commissure's triangle, 1 side, 2 middle, 3 mirrored middle, 4 mirrored side,
-                                 5 mirrored triangle, posterior 6 side scallop, 7 half of the middle one, 8 and 9
-                                 mirrored; bileaflet: 2 * leaflet + 0 and 1, the halves, 4 to 7 the ring's
-                                 quarters; from patches: the patch's number; from arrays: 0 */
+  const int32_t *patch_id;    /* (n_triangles). From arrays: 0. From patches: the patch's number, from 0.
+                                 Aortic, trileaflet: 4 * leaflet, plus 0 bottom, 1 top, 2 and 3 mirrored.
+                                 Mitral, anterior: 0 triangle at the posteromedial commissure, 1 side, 2 middle,
+                                 3 mirrored middle, 4 mirrored side, 5 mirrored triangle. Mitral, posterior: 6 side
+                                 scallop, 7 half of the middle scallop, 8 mirrored half, 9 mirrored side scallop.
+                                 Bileaflet: 2 * leaflet, plus 0 or 1 for the half; 4 to 7 the ring's quarters */
 } riis_triangles;
 /* Gives the triangles of the surface, until its next update or its destruction. */
 RIIS_API riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangles *triangles,
@@ -486,7 +486,7 @@ RIIS_API void riis_crossings_destroy(riis_crossings **crossings); /* destroys th
  *   crossings  its content is replaced
  * Triangles of one leaflet that share a vertex (equal placed coordinates) are neighbours, not a pair. The call
  * uses the triangles with every RIIS_MEASURE_*. So where smooth leaflets touch, triangles may cross by twice
- * riis_surface_info.error_bound. A log function (riis_set_log) is warned of deeper crossings without this call.
+ * riis_surface_info.error_bound. A log function (riis_set_log) gets warnings of deeper crossings without this call.
  * Errors: RIIS_INVALID_ARGUMENT naming the field. */
 RIIS_API riis_status riis_find_crossings(const riis_surface *surface, const riis_crossing_options *options,
                                          riis_crossings *crossings);
@@ -495,17 +495,17 @@ RIIS_API riis_status riis_find_crossings(const riis_surface *surface, const riis
 typedef struct riis_crossing_list {
   int64_t n_pairs;            /* pairs that cross. If 0, ids are -1 and all other fields but seconds are 0 */
   const int64_t *triangle_id; /* (2, n_pairs): the two triangles, the lower id first */
-  const double *point;        /* (3, n_pairs): the middle of their intersection, which is a segment */
-  const double *depth;        /* (n_pairs) */
-  const double *length;       /* (n_pairs): of the segment */
+  const double *point;        /* (3, n_pairs): the middle of the segment in which the two triangles meet */
+  const double *depth;        /* (n_pairs): the penetration depth */
+  const double *length;       /* (n_pairs): the length of this segment */
   double total_length;        /* the sum of length */
-  double deepest_depth;       /* of the deepest pair; of equally deep ones, the first in the list */
-  double deepest_point[3];    /* its point */
-  int64_t deepest_triangle_id[2]; /* its triangles */
-  int32_t deepest_leaflet_id[2];  /* their leaflets */
+  double deepest_depth;       /* the depth of the deepest pair, which is the first one of equally deep pairs */
+  double deepest_point[3];    /* the point of the deepest pair */
+  int64_t deepest_triangle_id[2]; /* the triangles of the deepest pair */
+  int32_t deepest_leaflet_id[2];  /* the leaflets of these triangles */
   double seconds;             /* wall time of riis_find_crossings */
 } riis_crossing_list;
-/* Gives the pairs of the last riis_find_crossings; they are valid until its next call with these crossings. */
+/* Gives the pairs of the last riis_find_crossings, until the next riis_find_crossings with these crossings. */
 RIIS_API riis_status riis_crossings_get_list(const riis_crossings *crossings, riis_crossing_list *list,
                                              int64_t struct_size);
 
@@ -566,7 +566,7 @@ RIIS_API riis_status riis_closest_points(const riis_surface *surface, const riis
                                          const riis_closest_options *options,
                                          const riis_closest_arrays *arrays);
 
-/* The default distance of far points: finite, for arithmetic without floating-point exceptions. */
+/* The default distance of far points. It is finite, so that arithmetic raises no floating-point exceptions. */
 #define RIIS_FAR_DISTANCE 1.0e30
 
 /* ---- Mesh: the nodes that are marked ------------------------------------------------------------------- */
@@ -640,7 +640,7 @@ typedef struct riis_mesh_cells {
   int32_t n_threads;       /* default 0 */
 } riis_mesh_cells;
 RIIS_API riis_status riis_mesh_cells_init(riis_mesh_cells *cells, int64_t struct_size); /* the defaults */
-/* Makes the adjacency of nodes that an edge of a cell joins.
+/* Makes an adjacency of nodes from cells. Two nodes are neighbours if an edge of a cell joins them.
  * Errors: RIIS_INVALID_MESH naming the cell and its value. */
 RIIS_API riis_status riis_adjacency_create_from_cells(const riis_mesh_cells *cells, riis_adjacency **adjacency);
 
@@ -658,7 +658,7 @@ typedef struct riis_mesh_faces {
   int32_t reserved;        /* 0 */
 } riis_mesh_faces;
 RIIS_API riis_status riis_mesh_faces_init(riis_mesh_faces *faces, int64_t struct_size); /* the defaults */
-/* Makes the adjacency of cells with a common face.
+/* Makes an adjacency of cells from faces. Two cells are neighbours if they have a common face.
  * Errors: RIIS_INVALID_MESH naming the face and the owner or neighbor that is no cell. */
 RIIS_API riis_status riis_adjacency_create_from_faces(const riis_mesh_faces *faces, riis_adjacency **adjacency);
 
@@ -693,15 +693,16 @@ enum {
                                  mesh must have an adjacency, which need not be connected */
   RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm to the letter, for comparison: it misses nodes that are not
                                  connected to its one starting node. The mesh must have an adjacency */
-  RIIS_SEARCH_CLUSTERS = 4    /* filters clusters of nodes in single precision, decides in double. The exhaustive
-                                 search runs instead (stats.search) for 2^32 nodes and more, and if the mesh, its
-                                 distance or the distance limit is a million times the size of the surface */
+  RIIS_SEARCH_CLUSTERS = 4    /* filters clusters of nodes in single precision, and decides in double precision.
+                                 The exhaustive search runs instead (stats.search) for 2^32 nodes and more, and if
+                                 the mesh, its distance from the surface or the distance limit is a million times
+                                 the size of the surface */
 };
 
 /* The processor's instructions that a marking uses. The results are bitwise the same with all of them. */
 enum {
   RIIS_INSTRUCTIONS_AUTO = 0,     /* the best available */
-  RIIS_INSTRUCTIONS_BASELINE = 1, /* of every processor that the library was built for: SSE2 on x86-64 */
+  RIIS_INSTRUCTIONS_BASELINE = 1, /* available on every processor that the library was built for: SSE2 on x86-64 */
   RIIS_INSTRUCTIONS_AVX2 = 2,     /* AVX2 and FMA */
   RIIS_INSTRUCTIONS_AVX512 = 3    /* AVX-512 F, DQ, BW and VL */
 };
@@ -741,8 +742,8 @@ RIIS_API riis_status riis_resistance_init(riis_resistance *resistance, int64_t s
 /* Options of a marking. */
 typedef struct riis_mark_options {
   int64_t struct_size;       /* set by the init function */
-  double distance_limit;     /* up to here nodes get their distance, mesh units; half thickness to 1e60. Default
-                                RIIS_AUTO: the half thickness. Which nodes are marked does not depend on it */
+  double distance_limit;     /* the search finds nodes up to this distance; half thickness to 1e60. Default
+                                RIIS_AUTO: the half thickness. The limit does not change which nodes are marked */
   const uint8_t *node_mask;  /* (n_nodes): nodes with 0 are left out, but must be finite. NULL: all nodes */
   const riis_resistance *resistance; /* requests riis_mark_list.K and, if the last update of the surface gave
                                         velocities, riis_mark_list.K_u_surface. Default NULL: neither */
@@ -758,8 +759,9 @@ RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t 
 /* Finds every node whose distance to the surface is at most the half thickness (marked) or the distance
  * limit. The reported distance, in double precision, decides.
  *   marks  its content is replaced
- * The log warns if the largest sides of the boxes of mesh and surface differ by more than a factor of 50, or one is
- * less than the half thickness: once per surface and mesh, at most eight times per mesh, never below 1000 nodes.
+ * The log warns if the largest sides of the boxes of mesh and surface differ by more than a factor of 50, or if one is
+ * less than the half thickness. It warns once per surface and mesh, at most eight times per mesh, and never for fewer
+ * than 1000 nodes.
  * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,
                                      const riis_mark_options *options, riis_marks *marks);
@@ -786,14 +788,14 @@ typedef struct riis_mark_list {
                                  the normal, but against it on mirrored patches (cusps: patch_id % 4 >= 2;
                                  mitral: 3, 4, 5, 8, 9). With flipped normals it is the reverse */
   const double *velocity;     /* (3, n_nodes): the velocity of the surface at the point, from its last update.
-                                 Where leaflets are equally near, within 1e-6 half thicknesses, or patches of
-                                 one leaflet, within 1e-9, it is the mean of their velocities at their closest
-                                 points (docs/theory.md, section 10). Other fields are those of one triangle */
+                                 If several leaflets are equally near (within 1e-6 half thicknesses), or several
+                                 patches of one leaflet (within 1e-9), it is the mean of the velocities at their
+                                 closest points (docs/theory.md, section 10). Other fields are those of one triangle */
   const int32_t *side;        /* (n_nodes): as riis_closest.side */
-  const int32_t *rim;         /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a
-                                 valve is the sides of only one patch, such as free edges and the annulus, but
-                                 not free edges that coincide when closed. The rim of a surface from arrays is
-                                 the edges of only one triangle; vertices with equal coordinates count as one */
+  const int32_t *rim;         /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a valve
+                                 has the sides that only one patch has, such as free edges and the annulus. Free edges
+                                 that coincide when closed are not rim. The rim of a surface from arrays has the edges
+                                 that only one triangle has; vertices with equal coordinates count as one */
   const int32_t *patch_id;    /* (n_nodes): as in riis_triangles */
 } riis_mark_list;
 /* Gives a list of the last marking, until the next riis_mark_nodes with these marks or their destruction.
@@ -808,9 +810,9 @@ typedef struct riis_dense_arrays {
   double far_distance;  /* written for nodes beyond the limit or masked out: NaN, or any value outside
                            [0, distance limit]. Default RIIS_FAR_DISTANCE */
   uint8_t *mark;        /* 1 for marked nodes, 0 for others */
-  double *distance;     /* of every node within the distance limit, else far_distance */
-  int64_t *triangle_id; /* of every node within the distance limit, else -1 */
-  int32_t *leaflet_id;  /* of every node within the distance limit, else -1 */
+  double *distance;     /* the distance of nodes within the distance limit, far_distance for others */
+  int64_t *triangle_id; /* the closest triangle of nodes within the distance limit, -1 for others */
+  int32_t *leaflet_id;  /* the leaflet of this triangle, -1 for others */
 } riis_dense_arrays;
 RIIS_API riis_status riis_dense_arrays_init(riis_dense_arrays *arrays, int64_t struct_size); /* the defaults */
 /* Writes the marks to every entry of the caller's arrays.
@@ -825,10 +827,10 @@ typedef struct riis_mark_stats {
   int64_t n_queries;    /* closest-point queries, of nodes and of parts of the mesh */
   double seconds;       /* wall time of riis_mark_nodes */
   int32_t search;       /* the search that ran, never RIIS_SEARCH_AUTO */
-  int32_t n_threads;    /* the most that ran in any part. A caller's TBB limit affects walks, not loops */
+  int32_t n_threads;    /* the largest number in any part. A caller's TBB limit affects walks, not loops */
   int32_t complete;     /* 1: every node within the limit was found, for the coordinates last given; 0: not certain */
   int32_t instructions; /* the instructions that were used, never RIIS_INSTRUCTIONS_AUTO */
-  int64_t n_unreached;  /* nodes within the limit that no walk of the neighbour search reached, but its proof found */
+  int64_t n_unreached;  /* nodes within the limit that the neighbour search found by its proof, not by its walk */
 } riis_mark_stats;
 /* Tells how the last marking with the marks went; all 0 for empty marks. */
 RIIS_API riis_status riis_marks_get_stats(const riis_marks *marks, riis_mark_stats *stats, int64_t struct_size);
@@ -847,7 +849,7 @@ typedef struct riis_resistance_arrays {
 /* Fills *arrays with the defaults. */
 RIIS_API riis_status riis_resistance_arrays_init(riis_resistance_arrays *arrays, int64_t struct_size);
 /* Adds K and K u_surface to the caller's arrays, which then hold sums over several valves. The solver's term is
- * (sum of K) u - (sum of K u_surface). Nodes may be cell centres or quadrature points. riis_mark_list has both, too.
+ * (sum of K) u - (sum of K u_surface). Nodes may be cell centres or quadrature points. riis_mark_list also has both.
  *   resistance  RIIS_RIM_CUT needs RIIS_FIELD_RIM, and K_u_surface needs RIIS_FIELD_VELOCITY
  * Errors: RIIS_INVALID_ARGUMENT also for marks that no marking has filled, and for a field that they lack. */
 RIIS_API riis_status riis_marks_add_resistance(const riis_marks *marks, const riis_resistance *resistance,
@@ -881,7 +883,7 @@ typedef struct riis_reaction {
                                magnitude at most 1e60. An edge may have length 0 */
   const int32_t *edge_leaflet_id; /* (n_edges), >= 0: a node counts for the nearest edge of its leaflet, and each
                                leaflet needs an edge. NULL, the default: it counts for the nearest of all edges */
-  double *edge_force;       /* (3, n_edges): force of the nodes that count for the edge. The distance is that of a
+  double *edge_force;       /* (3, n_edges): force of the nodes that count for the edge. Distances are those of a
                                node's closest point. If edges are equally near, the first one counts */
   double *edge_moment;      /* (3, n_edges): moment of the same nodes about the middle of the edge */
 } riis_reaction;
@@ -903,8 +905,8 @@ RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis
 /* Sums over the nodes on either side of the surface: entry 0 is upstream (side -1), entry 1 is downstream. The
  * mean is sum / weight; with MPI, add up the sums and weights of all ranks first. */
 typedef struct riis_band_sums {
-  double sum[2];      /* of weight * value */
-  double weight[2];   /* of weight */
+  double sum[2];      /* the sum of weight * value */
+  double weight[2];   /* the sum of weight */
   int64_t n_nodes[2]; /* nodes in the band */
 } riis_band_sums;
 /* A band around the surface, and a value at the nodes. */
@@ -933,9 +935,9 @@ RIIS_API void riis_leaks_destroy(riis_leaks **leaks); /* destroys the leaks and 
  * surface. The decision is exact for coordinates in double precision; coordinates below 1e-90 count as 0. An edge
  * may be given in one row or in both, and is listed once. Edges to ghosts are ignored. Edges that are at most two
  * half thicknesses long do not leak (docs/meshes.md).
- *   surface, mesh  those of the marking. The mesh must have an adjacency
- *   marks          of riis_mark_nodes
- *   options        those of the marking. An edge to a node that node_mask leaves out does not leak
+ *   surface, mesh  the surface and the mesh of the marking. The mesh must have an adjacency
+ *   marks          marks from riis_mark_nodes
+ *   options        the options of the marking. An edge to a node that node_mask leaves out does not leak
  *   leaks          its content is replaced
  * A marking of the same triangles with the half thickness of riis_leak_list closes all of these edges, except by
  * RIIS_SEARCH_PAPER. But riis_surface_update with that half thickness moves a valve's triangles by up to
@@ -951,14 +953,14 @@ typedef struct riis_leak_list {
   int64_t n_edges;            /* edges that leak. If 0, node ids are -1 and all other fields but seconds are 0 */
   const int64_t *node_id;     /* (2, n_edges): the two nodes, the lower id first */
   const double *length;       /* (n_edges) */
-  const double *distance;     /* (n_edges): of the edge's nearer node: the half thickness that closes the edge */
-  double half_thickness;      /* the smallest with which each edge has a marked node, for these triangles */
-  int64_t longest_node_id[2]; /* the longest edge's nodes, ascending; of equal edges the first listed */
-  double longest_length;      /* its length */
-  double longest_middle[3];   /* its middle */
+  const double *distance;     /* (n_edges): the distance of the edge's nearer node, a half thickness that closes it */
+  double half_thickness;      /* the smallest half thickness that gives each edge a marked node, for these triangles */
+  int64_t longest_node_id[2]; /* the nodes of the longest edge, ascending. It is the first one of equally long edges */
+  double longest_length;      /* the length of this edge */
+  double longest_middle[3];   /* the middle of this edge */
   double seconds;             /* wall time of riis_find_leaks */
 } riis_leak_list;
-/* Gives the edges of the last riis_find_leaks; they are valid until its next call with these leaks. */
+/* Gives the edges of the last riis_find_leaks, until the next riis_find_leaks with these leaks. */
 RIIS_API riis_status riis_leaks_get_list(const riis_leaks *leaks, riis_leak_list *list, int64_t struct_size);
 
 /* ---- Open regions and passages: whether the unmarked nodes connect two regions (docs/meshes.md) -------- */
@@ -966,9 +968,9 @@ RIIS_API riis_status riis_leaks_get_list(const riis_leaks *leaks, riis_leak_list
 /* Labels the open regions: the connected components of the nodes that a marking left unmarked, along the
  * edges of the mesh's adjacency. An edge may be given in one row or in both. Edges to ghosts are ignored:
  * with MPI, ranks must exchange their labels (examples/mpi_leaks.c).
- *   mesh       that of the marking, with an adjacency
- *   marks      of riis_mark_nodes
- *   options    those of the marking; nodes that node_mask leaves out are in no region
+ *   mesh       the mesh of the marking, with an adjacency
+ *   marks      marks from riis_mark_nodes
+ *   options    the options of the marking; nodes that node_mask leaves out are in no region
  *   n_nodes    the number of nodes of the marking
  *   label      (n_nodes), the lowest node id of the node's region, -1 for nodes in no region
  *   n_regions  the number of regions; may be NULL
@@ -1093,7 +1095,7 @@ enum {
 /* The opening at which a valve first lets the mesh pass. */
 typedef struct riis_first_passage {
   double opening;        /* the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE */
-  double closed_opening; /* the largest tried opening below it, which has no passage. Equals opening unless FOUND */
+  double closed_opening; /* the largest tried opening below that, without a passage. Equals opening unless FOUND */
   int64_t node_id;       /* the passage at `opening`, as in riis_passage */
   double distance;       /* as in riis_passage */
   double point[3];       /* as in riis_passage */
@@ -1168,9 +1170,9 @@ typedef struct riis_opening_table {
   int64_t n_keys;        /* 1 to 1,000,000 */
   const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
   const double *opening; /* (n_keys), 0 to 1 */
-  double period;         /* > 0: the table repeats. All keys lie within a period of the first key; a key exactly a
-                            period after the first must have the first opening. 0, the default: the first opening
-                            holds before its time, the last one after its time */
+  double period;         /* > 0: the table repeats. All keys lie within a period of the first key. A last key one
+                            period after the first must have the same opening. 0, the default: the opening is
+                            constant before the first key and after the last */
   int32_t interpolation; /* RIIS_INTERPOLATION_*, default RIIS_INTERPOLATION_LINEAR */
   int32_t reserved;      /* 0 */
 } riis_opening_table;
@@ -1181,11 +1183,11 @@ RIIS_API riis_status riis_opening_table_init(riis_opening_table *table, int64_t 
 RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening,
                                              double *rate);
 
-/* An opening by the times of two ramps: a mitral valve may open at 0.45 s in 0.05 s, and close at 0.95 s in 0.05 s,
- * every 1 s. The ramps are of fifth degree, so neither the rate nor its derivative jumps. */
+/* An opening by the times of two ramps. For example, every second a mitral valve begins to open at 0.45 s and to close
+ * at 0.95 s, and both take 0.05 s. The ramps are of fifth degree, so neither the rate nor its derivative jumps. */
 typedef struct riis_opening_times {
   int64_t struct_size;    /* set by the init function */
-  double opening_start;   /* when the valve begins to open. Default NaN, which is refused, as for the next three */
+  double opening_start;   /* when the valve begins to open. Default NaN, which is refused, also in the next three */
   double opening_duration; /* how long opening takes, > 0 */
   double closing_start;   /* when it begins to close, at least opening_start + opening_duration */
   double closing_duration; /* how long closing takes, > 0 */
@@ -1210,11 +1212,11 @@ enum {
  * flow reverses), filter_time 0.002, dwell_time 0.02. */
 typedef struct riis_opening_switch {
   int64_t struct_size;    /* set by the init function */
-  double opening_duration; /* from closed to open, > 0. Default NaN, which is refused, as for the next */
-  double closing_duration; /* from open to closed, > 0 */
+  double opening_duration; /* time from closed to open, > 0. Default NaN, which is refused, also in the next field */
+  double closing_duration; /* time from open to closed, > 0 */
   double open_above;      /* pressure difference. Default 0 */
   double close_below;     /* flow. Default 0 */
-  double filter_time;  /* of a first-order filter of pressure difference and flow, >= 0. Default 0: no filter */
+  double filter_time;  /* time constant of a filter of pressure difference and flow, >= 0. Default 0: no filter */
   double dwell_time;   /* the least time from one change of phase to the next, >= 0. Default 0 */
 } riis_opening_switch;
 RIIS_API riis_status riis_opening_switch_init(riis_opening_switch *law, int64_t struct_size); /* the defaults */
@@ -1226,7 +1228,7 @@ typedef struct riis_opening_switch_state {
   double progress;            /* share of the way to open, 0 to 1; the opening is a smooth ramp over it */
   double pressure_difference; /* filtered; NaN: none yet */
   double flow;                /* filtered; NaN: none yet */
-  double turn_time;           /* of the last change of phase; NaN: none yet */
+  double turn_time;           /* time of the last change of phase; NaN: none yet */
   int32_t phase;              /* RIIS_PHASE_* */
   int32_t reserved;           /* 0 */
 } riis_opening_switch_state;
@@ -1251,7 +1253,7 @@ RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
  * aortic and 3.5 for the mitral valve. */
 typedef struct riis_opening_angle {
   int64_t struct_size;  /* set by the init function */
-  double pressure_gain; /* K_p, >= 0. Default NaN, which is refused, as for the next three */
+  double pressure_gain; /* K_p, >= 0. Default NaN, which is refused, also in the next three fields */
   double flow_gain;     /* K_q, >= 0 */
   double friction;      /* K_f, >= 0 */
   double vortex_gain;   /* K_v, >= 0 */

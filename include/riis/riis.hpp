@@ -143,7 +143,7 @@ template <class T>
 class Span {
  public:
   Span() = default;
-  // Where the library made no array, data is NULL. The span is then empty.
+  // If the library made no array, data is NULL, and the span is empty.
   Span(T *data, std::int64_t size) noexcept : data_(data), size_(data ? size : 0) {}
 
   T *data() const noexcept { return data_; }

@@ -65,9 +65,9 @@ RIIS_API riis_status riis_vtk_mesh_create_adjacency(const riis_vtk_mesh *mesh, i
 RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, int64_t *n_volume_cells,
                                                     int64_t *n_cells_left_out);
 
-/* Makes only those edges of that adjacency that riis_find_leaks needs, in one pass over the cells. They are
- * longer than a given length, and their bounding box meets that of the surface. It borrows nothing. Use it
- * only for riis_find_leaks: a search along so few edges would not get far from its start.
+/* Makes the part of that adjacency that riis_find_leaks needs, in one pass over the cells: the edges that are
+ * longer than a given length and whose bounding box meets that of the surface. It borrows nothing. Use it only
+ * for riis_find_leaks: a search along so few edges would not get far from its start.
  *   longer_than       twice the half thickness of the marking. 0 gives all edges near the surface; use it if
  *                     the marking was by RIIS_SEARCH_PAPER, or if distances were not measured to the
  *                     triangles. Edges shorter by up to a billionth are also included
@@ -102,8 +102,8 @@ RIIS_API riis_status riis_vtk_mesh_set_point_array(riis_vtk_mesh *mesh, const ch
                                                    int64_t n_components, const double *values);
 /* Tells whether the mesh has a point array of that name: *has is then 1, otherwise 0. */
 RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, const char *name, int32_t *has);
-/* Gives the median length of edges: those of volume cells, as in riis_vtk_mesh_create_adjacency, and those of
- * faces other than polygons. It is 0 if the mesh has no such cells. An edge counts once for each of its cells.
+/* Gives the median length of the edges of volume cells, as in riis_vtk_mesh_create_adjacency, and of faces
+ * other than polygons. It is 0 if the mesh has no such cells. An edge counts once for each of its cells.
  * At most 20,000 cells, at equal distances in the list, are measured. */
 RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, double *length);
 
@@ -157,7 +157,7 @@ RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const c
 /* ---- Motion -------------------------------------------------------------------------------------------- */
 
 /* The frames of a moving surface, such as a patient's valve, read from files: the same faces at several times.
- * Keyframes are made from it, which take the frames' period and interpolation:
+ * Keyframes are made from the frames, with a period and an interpolation that the caller sets:
  *   riis_vtk_motion_read_pvd("valve.pvd", NULL, &motion);
  *   riis_vtk_motion_get_arrays(motion, &arrays, sizeof arrays);
  *   riis_vtk_motion_get_frames(motion, &frames, sizeof frames);
@@ -168,7 +168,7 @@ RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const c
  *   order. Polygons and quads are cut as in the first file.
  * - Leaflets come from the first file. `leaflets` names their cell array, as in riis_vtk_surface_read.
  * - An .stl file has triangles, in the same order in all files, and no vertices. Corners at exactly the same
- *   position in the first file become one vertex, and must be at one position in every other file too. If
+ *   position in the first file become one vertex. They must also share one position in every other file. If
  *   leaflets touch at corners in the first file and part later, use files with points instead.
  * - Times ascend strictly, and coordinates are finite, as in riis_keyframe_arrays.
  * Errors: RIIS_FILE_ERROR naming the file and the difference, with its value. */
@@ -199,7 +199,7 @@ RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const 
                                                         const double *times, const char *leaflets,
                                                         riis_vtk_motion **motion);
 /* Gives the files that were read: one for each frame, or the one file with displacements.
- *   paths  (n_files), as given, or after the folder of the .pvd file; valid until the motion is destroyed */
+ *   paths  (n_files): the path as given, for a .pvd file after its folder; valid until the motion is destroyed */
 RIIS_API riis_status riis_vtk_motion_get_files(const riis_vtk_motion *motion, int64_t *n_files,
                                                const char *const **paths);
 /* Makes every connected piece of the first frame a leaflet, as riis_vtk_surface_number_pieces does. */
@@ -227,15 +227,15 @@ enum {
 typedef struct riis_vtk_picture_options {
   int64_t struct_size;    /* set by the init function */
   const char *title;      /* precedes the number of triangles. Default NULL: "Surface" */
-  const char *unit;       /* follows the number at the scale bar, such as "mm". Default NULL, and "": "mesh units", or
-                             "units" without a mesh */
+  const char *unit;       /* follows the number at the scale bar, such as "mm". NULL, the default, and "" stand for
+                             "mesh units", or for "units" without a mesh */
   int64_t n_leaflet_names;/* >= 0, default 0 */
   const char *const *leaflet_names; /* (n_leaflet_names): the names by leaflet_id, for the key of the colours. Default
                                        NULL: "leaflet 0", ..., as for leaflets without a name here */
   int64_t n_leaking_edges;/* >= 0, default 0 */
   const int64_t *leaking_edges; /* (2, n_leaking_edges): node ids of mesh edges, drawn in red in front of everything.
-                                   Default NULL: the picture does not mention leaks. If not NULL, but n_leaking_edges
-                                   is 0, it says that no edge leaks */
+                                   Default NULL: the picture does not mention leaks. If n_leaking_edges is 0 and this
+                                   is not NULL, the picture says that no edge leaks */
   int32_t view;           /* RIIS_VTK_VIEW_*. Default RIIS_VTK_VIEW_OBLIQUE */
   int32_t width, height;  /* pixels, 64 to 8192. Default 1600 x 800 */
   int32_t reserved;       /* 0 */
@@ -248,8 +248,8 @@ RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *opt
  *   below it names as many leaflets as fit, and dots replace the others. Leaflets seen edge-on appear as
  *   lines.
  * - The right panel shows marked cells in the faint outline of the mesh. A cell with all nodes marked has the
- *   colour of the leaflet nearest to one of them. Of other cells with a marked node, only the far side is
- *   drawn, in a pale colour.
+ *   colour of the leaflet nearest to one of them. Other cells with a marked node show only their far side, in
+ *   a pale colour.
  * - Captions count nodes and cells. If the mesh has volume cells, flat cells are neither drawn nor counted.
  * - Axes and a scale bar are below the panels. A mesh much longer than the surface is cut at dashed lines.
  *   Pictures lower than 120 pixels have no texts, axes or bar.

@@ -24,7 +24,7 @@ class InvalidArgumentError(Error, ValueError):
 
 
 class InvalidParameterError(Error, ValueError):
-    """A valve refuses a kind, the name or value of a parameter, or values that do not fit together."""
+    """A kind of valve is unknown, a parameter's name or value is refused, or values do not fit together."""
 
     status = 3
     status_name = "RIIS_INVALID_PARAMETER"

@@ -84,7 +84,7 @@ def plot(
 ) -> Any:
     """Draws a surface, coloured by leaflet, and the marked nodes, coloured by distance.
 
-    mesh, marks  of a marking, both or neither. The mesh must still have the nodes of the marking
+    mesh, marks  the mesh and the marks of a marking, both or neither. The mesh must still have the nodes of the marking
     screenshot   a .png file to write; then no window opens
     plotter      a pyvista.Plotter to draw into. If None, a new one is used, and shown unless there is a screenshot
 

@@ -145,12 +145,12 @@ class FirstPassage(NamedTuple):
     """The opening at which a valve first lets a mesh pass."""
 
     state: Literal["found", "always", "never", "none"]  #: "always": open at 0; "none": the mesh itself has no path
-    opening: float  #: tried, with a passage; 0 for "always" and "none", 1 for "never"
-    closed_opening: float  #: the largest below it that was tried
+    opening: float  #: the first opening with a passage; 0 for "always" and "none", 1 for "never"
+    closed_opening: float  #: the largest opening below that was tried
     node_id: int  #: the passage at the opening, as in Passage
     distance: float  #: as in Passage
     point: Reals  #: (3,), as in Passage
-    n_openings: int  #: how many were tried
+    n_openings: int  #: number of openings that were tried
     seconds: float
 
 
@@ -167,9 +167,9 @@ class Orifice(NamedTuple):
     """The area that a valve's triangles leave uncovered, seen along the valve's axis. Lengths are in mesh units."""
 
     area: float
-    outline_area: float  #: inside of the outline
+    outline_area: float  #: area inside the outline
     perimeter: float  #: length of the orifice's edge along the triangles
-    effective_area: float  #: that the band leaves to the flow: area - c eps perimeter to first order
+    effective_area: float  #: area that the band leaves to the flow: area - c eps perimeter to first order
     rim_reach: float  #: c
     half_thickness: float  #: eps
     radius: float  #: of the disc; 0 for other outlines
@@ -180,14 +180,14 @@ class Orifice(NamedTuple):
 class CellsAcross(NamedTuple):
     """The number of mesh edges across the band: 2 * half_thickness divided by the lengths of edges with a marked node."""
 
-    least: float  #: over the longest
-    mean: float  #: over the mean
-    most: float  #: over the shortest
+    least: float  #: for the longest of these edges
+    mean: float  #: for the mean of these lengths
+    most: float  #: for the shortest of these edges
     shortest_edge: float
     mean_edge: float
     longest_edge: float
     half_thickness: float
-    n_edges: int  #: without one, the other numbers but half_thickness are 0
+    n_edges: int  #: number of these edges; if 0, the other numbers except half_thickness are 0
 
 
 class Crossings(NamedTuple):

@@ -53,9 +53,10 @@ class OpeningTable(_Timed):
 
 @dataclass(frozen=True)
 class OpeningTimes(_Timed):
-    """An opening from times. OpeningTimes(0.45, 0.05, 0.95, 0.05, period=1.0) opens at 0.45 in 0.05 and closes at 0.95 in 0.05.
+    """An opening from times.
 
-    The ramps are of fifth degree: neither the rate nor its derivative jumps.
+    OpeningTimes(0.45, 0.05, 0.95, 0.05, period=1.0) begins to open at 0.45 and to close at 0.95. Both take 0.05. The ramps are of
+    fifth degree: neither the rate nor its derivative jumps.
     """
 
     opening_start: float
@@ -89,7 +90,7 @@ class OpeningSwitchState:
     progress: float = 0.0  #: fraction of the way from closed to open
     pressure_difference: float = nan  #: filtered; NaN: none yet
     flow: float = nan  #: filtered; NaN: none yet
-    turn_time: float = nan  #: the time of the last turn; NaN: none yet
+    turn_time: float = nan  #: the time of the last change of phase; NaN: none yet
     phase: Literal["closing", "opening"] = "closing"
 
 
@@ -101,8 +102,8 @@ class OpeningSwitch:
     closing_duration: float  #: time from open to closed
     open_above: float = 0.0  #: a pressure difference
     close_below: float = 0.0  #: a flow
-    filter_time: float = 0.0  #: time constant of a filter of both; 0: no filter
-    dwell_time: float = 0.0  #: the least time from one turn to the next
+    filter_time: float = 0.0  #: time constant of a filter of pressure difference and flow; 0: no filter
+    dwell_time: float = 0.0  #: the least time from one change of phase to the next
 
     def advance(
         self, before: OpeningSwitchState, time: float, pressure_difference: float, flow: float

@@ -23,7 +23,7 @@ void drop_adjacency(Mesh &mesh) {
   mesh.adjacency = nb::object();
 }
 
-// Without arguments, the coordinates changed in place.
+// A call without arguments tells that the coordinates changed in place.
 void update(Mesh &self, nb::handle xyz, nb::handle y, nb::handle z) {
   const Writing writing(self.usage, "mesh");
   const bool in_place = xyz.is_none() && y.is_none() && z.is_none();

@@ -208,8 +208,8 @@ void make_from_state(Valve *self, const nb::tuple &state) {
                                       nb::arg("leaflet_id") = patches[4], nb::arg("index_base") = patches[5]);
   Valve &valve = object<Valve>(made, "valve");
   if (!open.is_none()) {
-    // The valve accepts the open state only with that state's values. The valve's own values are set afterwards, because only
-    // surfaces check whether values fit together.
+    // The valve first gets the open state's values, because the library refuses an open state that does not fit the valve. The
+    // valve's own values come last: only surfaces check whether they fit together.
     set_all(valve, values_of(object<Valve>(open, "open")));
     set_open_state(valve, open);
   }

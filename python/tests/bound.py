@@ -122,7 +122,7 @@ LEFT_OUT = {
 
 
 def texts_of_the_library(root: pathlib.Path) -> list[str]:
-    """Returns the texts in the library's sources that name a part of riis.h. Statuses have their C names in Python too."""
+    """Returns the texts in the library's sources that name a part of riis.h. Statuses also have their C names in Python."""
     folders = [folder for folder in (root / "src" / "riis").iterdir() if folder.is_dir()]
     paths = sorted(path for folder in folders for path in folder.rglob("*.[ch]pp") if path.name != "library_api.cpp")
     lines = [line for path in paths for line in path.read_text(encoding="utf-8").splitlines()]

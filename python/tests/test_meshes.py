@@ -87,7 +87,7 @@ def test_leaks_regions_and_passages_tell_the_same(grid):
 
 
 def test_what_a_valve_means_for_the_flow():
-    """In a box that the valve fills, with nodes 0.1 apart."""
+    """The mesh is a box that the valve fills, with nodes 0.1 apart."""
     valve = riis.Valve("trileaflet", opening=1.0)
     surface = riis.Surface(valve)
     orifice = surface.orifice()

@@ -30,7 +30,8 @@ def test_every_library_of_the_wheel_has_its_licence():
     }
     assert sorted(importlib.metadata.metadata("riis").get_all("License-File")) == sorted(licences)
     assert "Apache License" in licences["LICENSE"]
-    # What a licence has to say of each library, and SPDX's name of it: a library of another name needs a line here.
+    # The text that the licence of each library must contain, and the licence's SPDX name. A library of another name needs a line
+    # here.
     gcc = "RUNTIME LIBRARY EXCEPTION", "GPL-3.0-or-later WITH GCC-exception-3.1"
     words = {"embree": ("Apache", "Apache-2.0"), "tbb": ("Apache", "Apache-2.0"), "gomp": gcc, "gcc_s": gcc, "stdc++": gcc}
     assert "Wenzel Jakob" in licences["nanobind.copyright"] and "tessil" in licences["robin_map.copyright"]

@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-/* Makes `text`, cut to the library's limit, the calling thread's last error and returns `status`. */
+/* Records `text`, cut to the library's limit, as the calling thread's last error. Returns `status`. */
 RIIS_API riis_status riis_component_error(riis_status status, const char *text);
 
 #ifdef __cplusplus

@@ -24,7 +24,7 @@ struct CaseOpening {
 
 // Reads a number or an object. An object is {"file"} or {"times", "openings"}, each with "period" and "interpolation", or it is
 // {"opening_start", "opening_duration", "closing_start", "closing_duration", "closed", "open", "period"}. in_folder turns a path
-// of the case file into one relative to the working folder.
+// of the case file into a path relative to the working folder.
 CaseOpening case_opening(const CaseValues &valve, const std::function<std::string(const std::string &)> &in_folder);
 
 }  // namespace riis::program

@@ -54,7 +54,7 @@ std::string hint_of(const CLI::App &app) {
   const struct {
     const char *name;
     char mark;
-    int n_marks;  // the number of marks in a complete value
+    int n_marks;  // how often a complete value contains the character `mark`
   } forms[] = {{"--set", '=', 1}, {"--rotate", ',', 3}, {"--translate", ',', 2}};
   for (const auto &form : forms) {
     const CLI::Option *option = app.get_option_no_throw(form.name);
@@ -76,9 +76,9 @@ std::string nearest_option(const CLI::App &app, const std::string &name) {
 
 bool looks_like_option(const std::string &argument) { return argument.size() > 1 && argument[0] == '-'; }
 
-// Returns a text that lists the words that CLI11 did not understand, in the order of typing. (CLI11 does not keep this order.)
-// If there are unknown options among them, the text lists only these, because their values are also left over or were taken for
-// the mesh.
+// Returns a text that lists the words that CLI11 did not understand, in the order of typing. (CLI11 does not keep this order.) If
+// some of them are unknown options, the text lists only these options: their values are also left over, or were taken for the
+// mesh.
 std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
   std::vector<std::string> left = app.remaining();
   const bool has_options = std::any_of(left.begin(), left.end(), looks_like_option);

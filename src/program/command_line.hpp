@@ -12,8 +12,8 @@ namespace riis::program {
 // The command that the user requested, with its options. The commands riis surface and riis check also use MarkOptions.
 using Request = std::variant<MarkOptions, StatesOptions, ExportOptions, ParamsOptions>;
 
-// Parses the command line. If it requests only help or the version, prints that and returns nothing. Throws a Refusal for wrong
-// usage.
+// Parses the command line. If the user requests only help or the version, prints this text and returns nothing. Throws a Refusal
+// for wrong usage.
 std::optional<Request> parse_command_line(int argc, char **argv);
 
 }  // namespace riis::program

@@ -83,7 +83,7 @@ void declare_file(Command &command, ValveOptions &options) {
   riis_surface_options &how = options.surface_options;
   command.group("Surface");
   CLI::Option *const surface = command.text(
-      "--surface", "FILE", "A file in place of a valve: .vtp, .vtu, .stl, or .pvd, its motion", options.surface);
+      "--surface", "FILE", "A file in place of a valve: .vtp, .vtu, .stl, or .pvd for a motion", options.surface);
   for (const char *name : {"--valve", "--opening", "--params", "--params-open", "--set"})
     surface->excludes(command.option(name));
   command
@@ -101,7 +101,7 @@ void declare_file(Command &command, ValveOptions &options) {
                  triangulation_names(), how.triangulation);
   for (const char *name : {"--tolerance", "--triangulation"}) surface->excludes(command.option(name));
   command
-      .value("--time", "T", "Time at which to take a motion, --surface FILE.pvd",
+      .value("--time", "T", "Time at which to take the motion --surface FILE.pvd",
              [&options](const std::string &text) { options.time = parse_number(text, "--time"); })
       ->needs(surface);
   command.positive("--period", "P", "Period of that motion, or of --cycle (default none)", options.period);
@@ -147,7 +147,7 @@ void declare_half_thickness(Command &command, ValveOptions &options) {
 
 // Declares --threads. The option applies to the search for nodes and to the search for crossings.
 void declare_threads(Command &command, MarkOptions &options) {
-  command.value("--threads", "N", "Number of threads (default as many as the work feeds)",
+  command.value("--threads", "N", "Number of threads (default as many as have work)",
                 [&options](const std::string &text) {
                   options.n_threads = options.mark_options.n_threads = parse_integer(text, "--threads");
                 });
@@ -188,7 +188,7 @@ void declare_loudness(Command &command, ValveOptions &options) {
   command.flag("--strict", "Exit with status 4 if there was a warning", options.strict);
 }
 
-// --view is declared after --picture, because CLI11 then passes the views when the pictures are known.
+// --view is declared after --picture. So CLI11 passes the views after the pictures, whose number is then known.
 void declare_pictures(Command &command, MarkOptions &options) {
   CLI::Option *const pictures =
       command
@@ -198,7 +198,7 @@ void declare_pictures(Command &command, MarkOptions &options) {
                   })
           ->allow_extra_args(false);
   command
-      .values("--view", "VIEW", "View of a --picture: side, top or oblique (default); one for each, in their order",
+      .values("--view", "VIEW", "View of a --picture: side, top or oblique (default); one per picture, in order",
               [&options](const std::vector<std::string> &views) {
                 if (views.size() > options.pictures.size()) refuse_usage("--view: there are more views than pictures");
                 for (std::size_t i = 0; i < views.size(); ++i)
@@ -236,7 +236,7 @@ void declare_series(Command &command, MarkOptions &options) {
   CLI::Option *const movie =
       command.text("--movie", "OUT.mp4|OUT.gif", "Draw each time and make a movie of it, by ffmpeg", series.movie);
   command
-      .value("--frame-rate", "N", "Frames of the movie a second (default 10)",
+      .value("--frame-rate", "N", "Frames of the movie per second (default 10)",
              [&series](const std::string &text) { series.frame_rate = parse_positive_finite(text, "--frame-rate"); })
       ->needs(movie);
   command.choice("--movie-view", "side, top or oblique (default)", view_names, series.movie_view, "VIEW")->needs(movie);
@@ -364,7 +364,7 @@ void declare_export(Command command, ExportOptions &options) {
                          [&to, name](const std::string &text) { to = parse_span(text, name); });
   };
   command
-      .value("--time-step", "DT", "Time step of the solver, which plays a frame in each",
+      .value("--time-step", "DT", "Time step of the solver, which plays one frame a step",
              [&options](const std::string &text) { options.time_step = parse_positive_finite(text, "--time-step"); })
       ->required();
   command
@@ -393,7 +393,7 @@ void declare_export(Command command, ExportOptions &options) {
 }
 
 void declare_params(Command command, ParamsOptions &options) {
-  command.flag("--describe", "A table with units, ranges and descriptions, in place of JSON", options.describe);
+  command.flag("--describe", "Print a table with units, ranges and descriptions, not JSON", options.describe);
   declare_loudness(command, options);
   declare_valve(command, options);
   declare_opening(command, options);

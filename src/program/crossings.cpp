@@ -120,8 +120,8 @@ double depth_of_contacts(const ValveOptions &options, const riis_surface *surfac
   return has_cusps ? 1e-3 * info.half_thickness : 2 * info.error_bound;
 }
 
-// Returns the surface at an opening, or null if the valve cannot have that opening. The latter is no error, because the user did
-// not request the opening.
+// Returns the surface at an opening, or null if the valve cannot have that opening. This is no error, because the user did not
+// request the opening.
 Surface surface_at(riis_valve *valve, double opening, const riis_surface_options &how) {
   check(riis_valve_set_scalar(valve, "opening", opening));
   riis_surface *surface = nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis check crossings, and a shorter check of every shape that the user chose.
+// Implements riis check crossings, and a shorter check of every shape that the user chose.
 // In: a valve or its surface. Out: the first opening at which leaflets go through each other.
 #pragma once
 

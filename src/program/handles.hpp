@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handles of riis_vtk's objects beside those of riis.hpp, and the content of handles as structs.
+// Adds handles of riis_vtk's objects to the handles of riis.hpp, and returns the content of handles as structs.
 #pragma once
 
 #include <riis/riis_vtk.h>

@@ -90,7 +90,7 @@ closed. Seen along its axis, 19 % of a disc of radius 1.2 cm stay open. --valve 
 )"},
     {"patches", "a file of curves for a valve of your own",
      R"(
---valve FILE.json is a valve from patches, by the curves that bound them:
+--valve FILE.json is a valve from patches, which are given by the curves that bound them:
 {"curves":  {"hinge": [[0,0,0], [1,0,0]], "edge": [[0,1,0], [0.5,1,0.3], [1,1,0]],
              "left": [[0,0,0], [0,1,0]], "right": [[1,1,0], [1,0,0]]},
  "patches": [{"v0": "hinge", "v1": "edge", "u0": "left", "u1": "-right", "leaflet": 0}]}
@@ -123,7 +123,7 @@ ffmpeg. The check for leaks runs at the time when the valve is least open. For -
  "valves": [{"name": "mitral", "valve": "mitral", "opening": {"file": "beat.csv", "period": 0.8}},
             {"name": "aortic", "valve": "trileaflet",
              "rotate": [1,0,0,-30], "translate": [0,3.8,1], "opening": 0.3, "half_thickness": 0.08}]}
-Paths are relative to the file. A MESH, --times and --distance-limit on the command line take the place of the file's.
+Paths are relative to the file. A MESH, --times and --distance-limit on the command line replace those in the file.
 A valve has "valve", a kind or a file of patches, or it has "surface", a file. A surface is at rest unless the file is a
 .pvd. Such a file may have a "period". A valve may have "parameters" and "open_parameters", each an object or a file, and
 "scale", "surface_unit", "rotate", "translate", "half_thickness", "resistance", "tolerance", "triangulation", "flip_normals",
@@ -148,7 +148,7 @@ A line on stderr names a suspicious result and the options to write instead. It 
 any nodes are marked. It is also printed if the half thickness does not fit the surface or the edges of the mesh. --quiet
 does not silence it, because wrong marks look like right ones. --allow-none is for valves that are sometimes near no node.
 One fault may cause the others. The order is units, half thickness, places, leaks. Only the first warning in this order has
-advice. Mend that fault and run the program again. A unit that you name by --unit or --scale counts as known, if the sizes
+advice. Correct that fault and run the program again. A unit that you name by --unit or --scale counts as known, if the sizes
 allow it. With --strict the status is 4 after a warning of any kind. Coordinates have enough digits for an edge of the mesh
 at that place. They have the unit of --unit.
 )"},
@@ -194,10 +194,10 @@ NAME_close.dat. The same files of a face "box" widen the box in which the solver
 of flow. The folder must be new or empty. The block for the solver's input goes to stdout; it needs --resistance. The solver
 plays a frame in each of its time steps, so --time-step must be the solver's step. The valve opens from 0 to 1 in
 --opening-seconds by a ramp of fifth degree, and closes in --closing-seconds. With --cycle it opens from the last key of its
-least opening to the next key of its largest. It closes from the last key of its largest opening to the next key of its
-least. --opening-span and --closing-span set other times. The solver measures distances to the middles of triangles. With a
---largest-edge of 0.15 half thicknesses its sum of K is within 1 % of the exact sum. Triangles without area in some frame are
-left out, and a line on stderr says so.
+least opening to the next key of its largest opening. It closes from the last key of its largest opening to the next key of
+its least opening. --opening-span and --closing-span set other times. The solver measures distances to the middles of
+triangles. With a --largest-edge of 0.15 half thicknesses its sum of K is within 1 % of the exact sum. Triangles without area
+in some frame are left out, and a line on stderr says so.
 )"},
     {"searches", "how nodes are found",
      R"(

@@ -32,7 +32,7 @@ Leaks leaks_of(const MarkedMesh &marked, const riis_mark_options &options, doubl
   Leaks leaks(leaks_handle);
   const riis_status status = riis_find_leaks(marked.surface, marked.mesh, marked.result, &options, leaks.get());
   check(riis_mesh_set_adjacency(marked.mesh,
-                                nullptr));  // before the rows are destroyed; this call changes no error message
+                                nullptr));  // the rows are destroyed soon; this call changes no error message
   check(status);
   return leaks;
 }
@@ -70,7 +70,7 @@ double closing_half_thickness(const MarkOptions &options, const MarkedMesh &mark
       wanted = rounded_up(std::max(left.half_thickness, 1.01 * wanted));
     }
   } catch (const Refusal &) {
-    // With some half thicknesses no surface can be made. The marks and the warning are valid even without advice.
+    // With some half thicknesses no surface can be made. The warning then gives no advice, but is valid.
   }
   return 0;
 }
@@ -109,7 +109,7 @@ double rounded_up(double x) {
 void look_for_leaks(const MarkOptions &options, const MarkedMesh &marked, Report &report) {
   const Stage stage("looking for leaks", options.quiet);
   LeakReport &leaks = report.leaks;
-  // Short edges may leak too if marks may be missing, or if distances are not measured to the triangles.
+  // Short edges may also leak if marks may be missing, or if distances are not measured to the triangles.
   const bool is_by_triangles = options.surface_options.measure == RIIS_MEASURE_TRIANGLES;
   const bool only_long = report.marks.complete && is_by_triangles;
   const double half_thickness = report.surface.half_thickness;
@@ -214,7 +214,7 @@ struct Ends {
   int64_t from, to;
 };
 
-// Finds the opening at which the valve first joins the ends.
+// Finds the opening at which unmarked nodes first join the ends.
 riis_first_passage first_passage_of(const MarkOptions &options, const MarkedMesh &marked, const Ends &ends) {
   riis_passage_ends sets;
   riis_first_passage_options how;
@@ -274,7 +274,7 @@ double closing_half_thickness(const MarkOptions &options, const MarkedMesh &mark
       wanted = rounded_up(std::max(left.distance, 1.01 * wanted));
     }
   } catch (const Refusal &) {
-    // The answer is valid even without advice. An end point may lie in the thicker band, for example.
+    // The answer is valid even without advice. There is no advice, for example, if an end point lies in the thicker band.
   }
   return 0;
 }

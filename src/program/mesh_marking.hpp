@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a mesh, marks it for one valve, and makes its arrays. Runs at one time and series share this code.
+// Reads a mesh, marks it for one valve, and makes its arrays. Runs at a single time and series share this code.
 #pragma once
 
 #include <riis/riis_vtk.h>

@@ -50,11 +50,12 @@ class MovingValve {
 void look_for_leaks_of(const Case &all, const std::vector<MovingValve> &valves, riis_mesh *mesh,
                        const riis_vtk_mesh *file);
 
-// Makes the valves of a case. In a series, they are at its first time. Tries each valve with its options.
+// Makes the valves of a case. In a series, the valves are at the series' first time. Tries each valve's options on a single node,
+// so that bad ones are refused early.
 std::vector<MovingValve> moving_valves(Case &all);
 
-// In: the surfaces of several valves. Out: one surface with the triangles of all. The leaflets of each valve are numbered on
-// from those of the valve before it.
+// In: the surfaces of several valves. Out: one surface with the triangles of all. The numbers of a valve's leaflets follow those
+// of the previous valve.
 
 // Returns the largest leaflet id plus one.
 int32_t n_leaflets_of(const riis_surface *surface);

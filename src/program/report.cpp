@@ -56,7 +56,7 @@ void add_marks(const Report &report, std::ostringstream &out) {
   if (report.distance != RIIS_MEASURE_TRIANGLES) out << ", distances by " << distance_name(report.distance);
   if (marks.n_unreached > 0) out << ", " << counted(marks.n_unreached, "node") << " not reached from a neighbour";
   out << "\n";
-  if (!marks.complete) out << "complete  unknown: nodes that are not connected to the search's one start are missing\n";
+  if (!marks.complete) out << "complete  unknown: the search misses nodes that are not connected to its start\n";
 }
 
 void add_leaks(const LeakReport &leaks, std::ostringstream &out) {
@@ -114,9 +114,9 @@ void add_flow(const FlowReport &flow, std::ostringstream &out) {
     if (flow.first->state == RIIS_FIRST_PASSAGE_FOUND)
       out << "for the mesh at opening " << flow.first->opening << ", closed at " << flow.first->closed_opening;
     else if (flow.first->state == RIIS_FIRST_PASSAGE_ALWAYS)
-      out << "always: for the mesh it is open at opening 0";
+      out << "always: the mesh has a passage at opening 0";
     else
-      out << (flow.first->state == RIIS_FIRST_PASSAGE_NEVER ? "never: for the mesh it is closed at each opening tried"
+      out << (flow.first->state == RIIS_FIRST_PASSAGE_NEVER ? "never: the mesh has no passage at any opening tried"
                                                             : "unknown: the mesh itself has no path");
     out << "\n";
   }

@@ -37,7 +37,7 @@ struct PassageReport {
   bool is_end = false;                // true if the position is an end of the path, so that the passage may be wider
   double closing_half_thickness = 0;  // for the user to type; 0 if none was found or if the passage is not open
   std::string place{};                // the position, as text
-  bool is_unknown = false;            // true if it is closed along the known edges, but unknown edges may open it
+  bool is_unknown = false;  // true if the passage is closed along the known edges, but unknown edges may open it
 };
 
 struct LeakReport {

@@ -34,8 +34,8 @@ int64_t n_nodes_of(const riis_vtk_mesh *file) {
   return n;
 }
 
-// Returns the names of the arrays of a series. If only a part of the mesh is written, it also has an array of its nodes' ids in
-// the whole mesh.
+// Returns the names of the arrays of a series. If only a part of the mesh is written, the part also has an array of its nodes'
+// ids in the whole mesh.
 std::vector<std::string> names_of_series(const Case &all) {
   std::vector<std::string> names;
   for (const ValveSource &valve : all.valves) {

@@ -264,7 +264,7 @@ std::string text_of_changes(const States &states) {
   return text.empty() ? "all " + range : "not " + range + ": " + text;
 }
 
-// Returns the names with letters, digits and _ only. Numbers replace them if a name has other characters, as "x > 0" has.
+// Returns the names in letters, digits and _. If a name has other characters, such as "x > 0", numbers replace all names.
 std::vector<std::string> columns_of(const States &states) {
   std::vector<std::string> columns = states.names;
   bool are_words = true;

@@ -139,7 +139,7 @@ void write_export(const ExportOptions &options, const UrisMotion &motion, UrisLe
 std::string block_name(const ExportOptions &options) {
   if (!is_valve_file(options.valve)) return options.valve;
   std::string name = std::filesystem::path(options.valve).stem().string();
-  // A dash is replaced too, because two dashes in a row would end the comment in the XML.
+  // A dash is also replaced, because two dashes in a row would end the comment in the XML.
   for (char &c : name) c = c != '-' && is_prefix(std::string(1, c)) ? c : '_';
   return name;
 }

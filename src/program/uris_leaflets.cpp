@@ -178,7 +178,7 @@ void UrisLeaflets::add_boxes(const UrisMotion &motion) {
   };
   for (UrisLeaflet &leaflet : leaflets_)
     if (leaflet.is_scaffold) add(resting, leaflet);
-  // The face "box" must be the last, because of several equally near triangles the solver takes the first.
+  // The face "box" must be the last: if several triangles are equally near, the solver takes the first.
   leaflets_.push_back({"box", {}, {}, false});
   add(moving, leaflets_.back());
 }

@@ -70,7 +70,7 @@ class FinerTriangles {
 double uris_grid(double largest);
 
 // Three triangles, one along each axis. The middle of each is exactly the middle of a triangle of the valve, so the solver never
-// finds it nearer than the valve. Its corners extend beyond the valve's box at both ends.
+// finds it nearer than the valve. The corners extend beyond the valve's box at both ends.
 class UrisBox {
  public:
   static constexpr std::int64_t n_nodes = 9;

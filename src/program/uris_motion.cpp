@@ -33,8 +33,8 @@ class Keys {
   const OpeningTable &table_;
 };
 
-// Returns the first span from a key with the opening `from` to the next key with the opening `to`. It starts at the last key
-// with `from` before that.
+// Returns the first span from a key with the opening `from` to the next key with the opening `to`. The span starts at the last
+// key with `from` before that key.
 std::optional<TimeSpan> way_between(const Keys &keys, double from, double to) {
   std::optional<double> start;
   for (std::size_t i = 0; i < keys.size(); ++i) {

@@ -242,7 +242,7 @@ std::string by_meshio(const std::string &path, const char *format) {
 
 std::string conversion_hint(const std::string &path, Content wanted) {
   const std::string ending = ending_of(path);
-  // A path with control characters would be changed in the one line of a refusal, so it gets no hint.
+  // A refusal replaces control characters. So a path with such characters gets no hint, because the command would not work.
   if (std::any_of(path.begin(), path.end(), [](unsigned char c) { return c < ' ' || c == 127; })) return "";
   if (wanted == Content::mesh) {
     if (meshes_of_gmsh.count(ending) != 0) return by_gmsh(path, "vtk");

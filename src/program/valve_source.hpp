@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the description of a valve, from the command line or from a case. Out: the valve, or the file with its surface; and the
+// In: the description of a valve, from the command line or from a case. Out: the valve or the file with its surface, and the
 // surface itself.
 #pragma once
 
@@ -26,7 +26,8 @@ struct ValveSource {
 
 // `subject` begins the refusal of an unknown kind.
 Valve make_kind(const std::string &kind, const std::string &subject);
-// If yes, make_valve refuses a file of patches that cannot open far enough. If no, only making the surface refuses it.
+// `yes`: make_valve refuses a file of patches that cannot open far enough. `no`: such a file is refused only when the surface is
+// made.
 enum class OpeningCheck { no, yes };
 // Makes the valve of --valve, --params and the options that belong to them.
 Valve make_valve(const ValveOptions &options, OpeningCheck opening = OpeningCheck::yes);

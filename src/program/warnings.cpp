@@ -60,7 +60,7 @@ std::string text_of(const Box &box, double edge) {
 
 bool has_all(const Situation &s) { return s.n_marked == s.n_nodes && s.n_nodes >= fewest_judged_nodes; }
 
-// If the surface were covered by a single layer of nodes, they would be about area / edge^2 nodes.
+// A single layer of nodes over the surface would have about area / edge^2 nodes.
 bool has_hardly_any(const Situation &s) {
   if (s.n_marked == 0 || s.n_nodes < fewest_judged_nodes || s.median_edge == 0) return false;
   return static_cast<double>(s.n_marked) * s.median_edge * s.median_edge < 0.1 * s.area;
@@ -78,7 +78,7 @@ std::string marked_text(const Situation &s) {
   return has_hardly_any(s) ? "only " + text : text + ", which looks wrong";
 }
 
-// Names the positions of mesh and surface. It is for marks that sizes do not explain.
+// Returns a warning that names the positions of mesh and surface. It is used if sizes do not explain the marks.
 Warning warning_of_places(const Situation &s) {
   return {Cause::place,
           "the mesh is in " + text_of(s.mesh, s.median_edge) + ", the surface in " + text_of(s.surface, s.median_edge) +
@@ -186,8 +186,8 @@ bool edges_fit_at(double factor, const Situation &s) {
 std::optional<double> missing_factor(const Situation &s) {
   const bool sizes_fit = sizes_fit_at(1, s);
   if (sizes_fit && edges_fit_at(1, s)) {
-    // Similar sizes have the same unit. Sizes that fit in the units that the user named have these units. In both cases the
-    // position is wrong.
+    // Similar sizes have the same unit. If the sizes fit in the user's units, those units are right. In both cases the position
+    // is wrong.
     const bool are_alike = mesh_in_surfaces(s) > 1.0 / 3 && mesh_in_surfaces(s) < 3;
     if (overlap_at(1, s) || are_alike || s.options.unit || s.options.has_scale) return std::nullopt;
   }
@@ -227,8 +227,8 @@ Situation rescaled(const Situation &s, double factor) {
   return changed;
 }
 
-// Returns a half thickness that fits: the present one times a power of ten. If none fits, returns the mesh's edge length, or 0
-// if that does not fit either.
+// Returns a half thickness that fits: the present one times a power of ten. If none fits, returns the mesh's edge length, or 0 if
+// this length does not fit either.
 double better_half_thickness(const Situation &s) {
   const auto fits = [&](double half_thickness) {
     return !is_too_large(half_thickness, s) && !is_too_small(half_thickness, s);

@@ -91,8 +91,8 @@ class MappedFile {
 // temporary file, and the final place stays unchanged.
 class ReplacingFile {
  public:
-  // Fails if the path cannot be written to: the folder is missing, permission is lacking, it is not a regular file, or links
-  // form a circle.
+  // Fails if the path cannot be written to: the folder or a permission is missing, the path is not a regular file, or links form
+  // a circle.
   explicit ReplacingFile(const std::string &path);
   ~ReplacingFile();
   ReplacingFile(const ReplacingFile &) = delete;

@@ -20,8 +20,8 @@ struct Frames {
 };
 
 // Reads a file for each time. Fails if a file has other cells than the first one, or if a coordinate is not finite. In .stl
-// files, corners at the same position in the first file become one vertex. They must then be at one position in every other file
-// too.
+// files, corners at the same position in the first file become one vertex. In each other file, these corners must also share one
+// position.
 Frames frames_of_files(const std::vector<std::string> &paths, std::vector<double> times, const LeafletArray &leaflets,
                        const CaughtOutput &caught);
 

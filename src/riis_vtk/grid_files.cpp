@@ -222,7 +222,7 @@ class WatchedReader : public Reader {
   Steps &steps() { return steps_; }
 
  private:
-  // Checks the length of the next array. The last offset is the number of values in another array, which VTK reads next.
+  // Checks the array that VTK reads after an array of offsets. The last offset is that array's number of values.
   void check_next_array(vtkXMLDataElement *element, vtkDataArray *array, vtkIdType n) {
     const std::string name = element->GetAttribute("Name") ? element->GetAttribute("Name") : "";
     const std::string parent = element->GetParent() ? element->GetParent()->GetName() : "";

@@ -32,8 +32,8 @@ int size_of_type(std::string_view type) {
   return is_in({"string", "utf8_string"}) ? 0 : -1;
 }
 
-// Returns whether VTK reads the whole word as a number of this type. VTK reads with C++ streams. These refuse infinite and too
-// large numbers, and accept too small ones.
+// Returns whether VTK reads the whole word as a number of this type. VTK reads with C++ streams, which refuse infinite numbers
+// and numbers that are too large, but accept numbers that are too small.
 bool is_number(std::string_view word, const std::string &type) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   if (type == "float" || type == "double") {
@@ -229,8 +229,8 @@ class Scan {
     skip_metadata(width);
   }
 
-  // Skips a block of METADATA after its keyword. The block ends with a blank line. But each component has a line for its name,
-  // and this line may be blank. VTK reads only the beginning of a keyword, so it takes INFORMATION8 1 for 8 keys.
+  // Skips a block of METADATA after its keyword. The block ends with a blank line, but the line with a component's name may also
+  // be blank. VTK reads only the beginning of a keyword: INFORMATION8 1 stands for 8 keys.
   void skip_metadata(std::int64_t n_components) {
     line();
     while (!rest_.empty()) {
@@ -249,7 +249,7 @@ class Scan {
   }
 
   // Skips the rest of a block of METADATA: the keys, each with a NAME line and a DATA line. VTK looks for the stated number of
-  // keys, even after the blank line. After a number that it cannot read, it never stops.
+  // keys, even after the blank line. If it cannot read this number, it never stops.
   void skip_information(std::int64_t n_keys) {
     std::int64_t n_found = 0;
     vtkInformationKey *key = nullptr;
@@ -268,7 +268,7 @@ class Scan {
         key = nullptr;
       } else if (const std::string lower = lower_case(keyword);
                  begins_with(lower, "information") || begins_with(lower, "component_names")) {
-        // VTK would begin the block again here.
+        // VTK would take this line for the beginning of another block.
         refuse("has metadata with '", keyword.substr(0, 40), "' behind INFORMATION");
       }
     }
@@ -347,8 +347,8 @@ class Scan {
     }
   }
 
-  // Skips the cells of files up to version 4. For each cell there is its number of corners and then its corners. n_values is the
-  // count of all these numbers.
+  // Skips the cells of files up to version 4. Each cell is stored as its number of corners, followed by the corners. n_values is
+  // the count of all these numbers.
   void counted_cells(std::int64_t n_cells, std::int64_t n_values) {
     line();
     corners_ = rest_;

@@ -31,8 +31,8 @@ struct NamedDataSet {
   std::optional<std::string> file, timestep;
 };
 
-// Collects the elements /VTKFile/Collection/DataSet. It builds no tree. In a hostile file with deep nesting, destroying the tree
-// would overflow the stack.
+// Collects the elements /VTKFile/Collection/DataSet. It builds no tree, because a hostile file could nest so deeply that
+// destroying the tree would overflow the stack.
 class CollectionParser : public vtkXMLParser {
  public:
   static CollectionParser *New();
@@ -96,7 +96,7 @@ std::vector<NamedDataSet> data_sets_of(const std::string &path, const CaughtOutp
 
 // The files of a collection and their times.
 struct Collection {
-  std::vector<std::string> paths;  // for a relative name, the collection's folder is put before it
+  std::vector<std::string> paths;  // a relative name is preceded by the collection's folder
   std::vector<double> times;       // finite and strictly ascending
 };
 

@@ -96,7 +96,7 @@ class Polygons {
     return generic_;
   }
 
-  // Appends the corners of a polygon. They come first among its points, and there are as many as edges.
+  // Appends the corners of a polygon. The corners are the polygon's first points, and it has as many corners as edges.
   void add_corners(vtkCell *polygon) {
     for (int i = 0; i < polygon->GetNumberOfEdges(); ++i) corners_.push_back(polygon->GetPointIds()->GetId(i));
   }
@@ -166,7 +166,7 @@ class LoneFaces {
     return view(entries_).size() - 1;
   }
 
-  std::vector<std::int64_t> first_;  // for each node, the faces whose lowest corner it is
+  std::vector<std::int64_t> first_;  // for each node, the faces with this node as their lowest corner
   std::vector<Entry> entries_;
   std::int64_t free_ = -1;
 };

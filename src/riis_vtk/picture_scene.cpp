@@ -189,7 +189,7 @@ void add_key(vtkRenderer *renderer, const Layout &layout, int panel, double left
 }
 
 // Draws all texts of a picture in a layer behind its panels. `unit` follows the number at the scale bar. If has_plural is true,
-// it gets an s, unless the number is 1.
+// the unit gets an s, unless the number is 1.
 vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &panels,
                                               const View &view, const Sight &sight, const std::string &unit,
                                               bool has_plural) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the direction of view, and the extents of the surface and the mesh. Out: the visible space, for the camera, the cut and
-// the scale bar. If the mesh extends beyond the panel, also planes that cut it and dashed lines at the cuts.
+// In: the direction of view, and the extents of the surface and the mesh. Out: the visible space, for the camera, the cut and the
+// scale bar. If the mesh extends beyond the panel, planes cut it, and dashed lines show the cuts.
 #pragma once
 
 #include <array>
@@ -52,8 +52,9 @@ struct Sight {
   bool is_cut() const { return cut_below[0] || cut_below[1] || cut_above[0] || cut_above[1]; }
 };
 
-// Returns a sight that contains the surface. Along an axis on which the mesh is not much larger, it also contains the mesh. So
-// pictures of a valve that moves in one mesh can be compared. Along other axes it contains the surface's neighbourhood.
+// Returns a sight that contains the surface. Along an axis on which the mesh is not much larger, the sight also contains the
+// mesh. So pictures of a valve that moves in one mesh can be compared. Along other axes, the sight contains the surface's
+// neighbourhood.
 //   mesh    NULL if there is none
 //   aspect  the panel's width divided by its height
 Sight sight_of(const Extents &surface, const Extents *mesh, double aspect);

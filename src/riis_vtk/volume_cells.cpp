@@ -58,7 +58,8 @@ void add_face(vtkCell *face, std::vector<Edge> &edges) {
   }
   const int last = static_cast<int>(face->GetNumberOfPoints()) - 1;
   if (last == n_sides + view(middles).size()) {
-    // Four quads meet at the middle of a quad, and six triangles meet at the middle of a triangle.
+    // The middle of a quad has edges to the middles of its four sides. The middle of a triangle also has edges to the three
+    // corners.
     for (int i = n_sides == 3 ? 0 : n_sides; i < last; ++i)
       edges.push_back(edge_between(face->GetPointId(i), face->GetPointId(last)));
   } else if (!middles.empty()) {
@@ -113,7 +114,7 @@ const Shape &known_shape(int type) {
 using Orders = std::array<int, 4>;  // the orders along three axes, then the number of nodes, as in VTK
 
 void add_tetrahedron_lattice(int order, std::vector<Edge> &edges) {
-  // Each position of the lattice of one order less belongs to a small tetrahedron.
+  // Each small tetrahedron has four barycentric coordinates, whose sum is order - 1. Adding 1 to one of them gives a corner.
   for (vtkIdType i = 0; i < order; ++i)
     for (vtkIdType j = 0; i + j < order; ++j)
       for (vtkIdType k = 0; i + j + k < order; ++k) {

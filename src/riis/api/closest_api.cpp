@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_closest_*: argument checks around the search for closest points.
+// Checks the arguments of riis_closest_*, and searches for closest points.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -137,7 +137,7 @@ void find_closest(const riis::Surface &content, const Points &points, const riis
   const int n_threads = riis::threads_for(options.n_threads, "options.n_threads", wanted.n(), riis::points_per_thread);
   // Makes the pseudonormals before anything is written: if memory runs out here, the arrays are still unchanged.
   if (to.side) content.pseudonormals();
-  // write_found(i) writes entry i and returns true, or returns false if nothing lies within the limit of point i.
+  // write_found(i) writes entry i and returns true. It returns false if the surface is farther from point i than the limit.
   const auto for_each_point = [&](const auto &write_found) {
     constexpr std::int64_t points_per_block = 512;
     riis::parallel_for_ranges(wanted.n(), points_per_block, n_threads, [&](const riis::Range &range, int) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_find_crossings and its list: argument checks around the search (surface/crossings.hpp).
+// Checks the arguments of riis_find_crossings and riis_crossings_*. The search is in surface/crossings.hpp.
 #include <algorithm>
 #include <chrono>
 #include <numeric>

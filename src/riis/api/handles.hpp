@@ -49,7 +49,8 @@ AnyHandle *require_handle(AnyHandle *handle, const char *argument) {
   return handle;
 }
 
-// The body of a destroy function. A handle of another kind is left alone: a leak is better than freeing it as the wrong type.
+// The body of a destroy function. A handle of another kind is not destroyed, because losing its memory is better than freeing it
+// as the wrong type.
 template <class AnyHandle>
 void destroy_handle(AnyHandle **handle, const char *argument) noexcept {
   if (!handle || !*handle) return;
@@ -69,7 +70,8 @@ struct riis_surface : riis::Handle<riis::HandleKind::surface> {
   riis::KeepsMemory keeps_memory;
   riis::UpdatableSurface updatable;
   riis_surface_options options;  // the options of the last update, with defaults for the fields that the caller lacked
-  // Identifies the surface: no earlier one had this number. An address would not do, because a later object may get it again.
+  // Identifies the surface: no earlier surface had this number. An address cannot identify a surface, because a later surface may
+  // get the same address.
   const std::uint64_t number = next_number();
 
  private:

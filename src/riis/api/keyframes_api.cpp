@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_keyframes_*: argument checks around surface/keyframes.hpp.
+// Checks the arguments of riis_keyframes_*. The work is in surface/keyframes.hpp.
 #include "api/handles.hpp"
 #include "api/structs.hpp"
 #include "base/errors.hpp"

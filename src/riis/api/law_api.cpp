@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_opening_*: argument checks around laws/.
+// Checks the arguments of riis_opening_*. The work is in laws/.
 #include <limits>
 
 #include "api/structs.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The public functions that belong to no handle: the last error, names of statuses, version, log.
+// Defines the public functions that belong to no handle: the last error, names of statuses, version, log.
 #include "api/structs.hpp"
 #include "base/errors.hpp"
 #include "base/log.hpp"

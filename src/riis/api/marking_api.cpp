@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_mark_*, riis_marks_*, riis_leaks_*, riis_find_*: argument checks around marking.
+// Checks the arguments of riis_mark_*, riis_marks_*, riis_leaks_* and riis_find_*. The work is in marking/.
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -58,7 +58,7 @@ riis::InstructionSet instructions_asked_for(std::int32_t instructions) {
   return set;
 }
 
-// Returns the arrays of a list, with NULL for an empty one. A field that was made only to compute K is not given out.
+// Returns the arrays of a list, with NULL for an empty one. A field that the marking needed only to compute K stays NULL.
 riis_mark_list arrays_of(const riis::ListedNodes &list, std::int32_t given_fields) {
   const auto array = [](const auto &values) { return values.empty() ? nullptr : values.data(); };
   const auto field = [&](std::int32_t which, const auto &values) {
@@ -117,7 +117,7 @@ const double *require_of_nodes(const double *array, const char *name, std::int64
   return n_nodes == 0 ? array : require(array, name);
 }
 
-// Checks the numbers of a reaction. Its leaflets and edges are checked with the marks.
+// Checks the numbers of a reaction. Its leaflets and edges are checked later, against the marks.
 riis_reaction checked_reaction(const riis_reaction *reaction) {
   const riis_reaction whole = riis::completed(require(reaction, "reaction"), "reaction", default_reaction);
   for (int c = 0; c < 3; ++c)
@@ -180,7 +180,7 @@ const riis::Adjacency &require_adjacency(const riis::Mesh &mesh, const char *pur
   return *mesh.adjacency();
 }
 
-// Refuses marks that were made with another mesh. Only a different number of nodes can show this.
+// Refuses marks of another mesh. Another mesh with as many nodes is not noticed.
 void check_are_of_mesh(const riis::Mesh &mesh, const riis::Marks &marks) {
   if (!marks.was_marked) riis::fail(RIIS_INVALID_ARGUMENT, "marks are empty: call riis_mark_nodes with them first");
   if (marks.stats.n_nodes != mesh.nodes().n)
@@ -188,8 +188,7 @@ void check_are_of_mesh(const riis::Mesh &mesh, const riis::Marks &marks) {
                mesh.nodes().n);
 }
 
-// Refuses marks that were made with another mesh or surface. Only a different number of nodes or half thickness can show
-// this.
+// Refuses marks of another mesh or surface. They are noticed only if the number of nodes or the half thickness differs.
 void check_are_of_marking(const riis::SearchRequest &request, const riis::Marks &marks) {
   require_adjacency(request.mesh, "which a search for leaks needs");
   check_are_of_mesh(request.mesh, marks);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines the public functions for leaflets, orifice, leak, first passage, cells across and swept volume. They check arguments.
+// Checks the arguments of the public functions for leaflets, orifice, leak, first passage, cells across and swept volume.
 #include <chrono>
 #include <cstdint>
 #include <vector>
@@ -56,7 +56,7 @@ riis_orifice orifice_of(const riis::Surface &surface, const riis::ValveFrame &fr
           0};
 }
 
-// Tries openings of a valve in a mesh. It calls the public functions, so it refuses bad input with the same messages as they do.
+// Tries openings of a valve in a mesh. It calls the public functions, so refusals of bad input have the same messages.
 class PassageTrials {
  public:
   PassageTrials(const riis_valve *valve, const riis_mesh *mesh, const riis_passage_ends *ends,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_mesh_*, riis_csr_*, riis_adjacency_*: argument checks around the caller's nodes and their neighbours.
+// Checks the arguments of riis_mesh_*, riis_csr_* and riis_adjacency_*: the caller's nodes and their neighbours.
 #include <memory>
 #include <optional>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every struct crosses the interface with its size, so that callers compiled against an older header keep working. A field
-// that the caller's header lacks takes its default on the way in, and is not written on the way out.
+// Every struct crosses the interface with its size, so that callers compiled against an older header keep working. If the
+// caller's header lacks a field, the field has its default when the library reads the struct. The library does not write it.
 #pragma once
 
 #include <algorithm>

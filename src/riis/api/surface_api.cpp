@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_surface_*: argument checks around pipeline/updatable_surface.hpp.
+// Checks the arguments of riis_surface_*. The work is in pipeline/updatable_surface.hpp.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -52,7 +52,7 @@ void check_precision(const riis_surface_options &options, const char *name, doub
                ", where coordinates round by more than a thousandth of ", name, " * half_thickness, ", wanted);
 }
 
-// Returns the request. It passes on n_threads even if it is 0, because the surface itself chooses the default.
+// Returns the request. An n_threads of 0 is passed on, because the surface itself chooses the default.
 riis::SurfaceRequest request_of(const riis_surface_options &options) {
   return {riis::half_thickness_of(options), riis::placement_of(options), options.flip_normals != 0, options.n_threads};
 }

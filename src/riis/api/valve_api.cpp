@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_valve_*: argument checks around valve/.
+// Checks the arguments of riis_valve_*. The work is in valve/.
 #include "api/handles.hpp"
 #include "api/structs.hpp"
 #include "base/errors.hpp"

@@ -23,7 +23,7 @@ template <class... Parts>
   throw Error{status, Message(parts...)};
 }
 
-// Makes the text the calling thread's last error and returns the status.
+// Records the text as the calling thread's last error. Returns the status.
 riis_status record_error(riis_status status, const char *text) noexcept;
 
 // Returns the calling thread's last error, or "" if it has none.

@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-// A memory sanitizer has to see every allocation and release, so nothing is recycled under one.
+// A sanitizer has to see every allocation and release, so no memory is recycled under a sanitizer.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define RIIS_OWN_MEMORY
 #elif defined(__has_feature)
@@ -44,8 +44,8 @@ constexpr std::size_t largest_block = std::size_t{1} << largest;
 // another thread took. So a thread whose pool is empty looks into the other pools before it asks the system.
 constexpr unsigned n_pools = 16;
 
-// A lock that is held for a few instructions only and that two threads seldom want at once. With a mutex, locking would take
-// half of the time that an array takes.
+// A lock for a few instructions, which two threads seldom want at once. With a mutex, half of the time to take memory for an
+// array would go into locking.
 class ShortLock {
  public:
   void lock() noexcept {
@@ -114,8 +114,8 @@ void give_memory_back(void *memory, std::size_t n_bytes) noexcept {
   if (n_bytes <= largest_block) {
     Pool &to = pools[own_pool()];
     const std::lock_guard<ShortLock> lock(to.in_use);
-    // The last keeper first lowers the count and then empties the pools under this lock. So a block is kept here only if it
-    // will still be emptied.
+    // The last keeper lowers the count before it empties the pools under this lock. So if the count is above 0 here, the pool
+    // will still be emptied, and the block may be kept.
     if (n_keepers.load(std::memory_order_acquire) > 0) {
       Block *&first = to.kept[static_cast<std::size_t>(size_class(n_bytes) - smallest)];
       first = new (memory) Block{first};

@@ -20,8 +20,7 @@ Minimizer::Minimizer(PlacedPatches patches, double enough) : PatchDistance(std::
     for (const Vec3 &p : {box.lower, box.upper})
       largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
-  // A point is the result of three linear interpolations. Each is right to two units of rounding in each of three
-  // coordinates.
+  // A point is the result of three linear interpolations. Each is accurate to two units of rounding in each of three coordinates.
   rounding_ = 0x1p-49 * largest;
 }
 
@@ -39,8 +38,8 @@ void Minimizer::query(std::int64_t patch, Vec3 p, ClosestOnPatches &best) const 
     const Vec3 d = to_surface(at);
     return dot(d, d);
   };
-  // Returns the step of t that moves S by at most a tenth of `enough`. The step is at least so long that it changes a
-  // square noticeably.
+  // Returns the step of t that moves S by at most a tenth of `enough`. Shorter steps than 1e-9 would be lost in the rounding of
+  // the square.
   const auto step_of = [&](Parameters along) {
     const double speed = std::abs(along.u) * measures.width + std::abs(along.v) * measures.height;
     const double longest = std::max(std::abs(along.u), std::abs(along.v));
@@ -52,8 +51,8 @@ void Minimizer::query(std::int64_t patch, Vec3 p, ClosestOnPatches &best) const 
 }
 
 ClosestOnPatches Minimizer::closest(Vec3 p, double limit) const {
-  // Starts with the patch whose box is nearest, so that most other patches need no query: no distance on a patch is less than
-  // the distance to its box.
+  // Starts with the patch whose box is nearest. No point of a patch is nearer than the patch's box, so most other patches need no
+  // query.
   const auto measures = view(measures_);
   std::int64_t first = 0;
   double nearest = std::numeric_limits<double>::infinity();

@@ -13,7 +13,7 @@ namespace riis {
 
 class Minimizer final : public PatchDistance {
  public:
-  // Powell's method stops after an iteration that lowers the distance by no more than `enough`, in placed units.
+  // Powell's method stops after an iteration that lowers the distance by no more than `enough`, in mesh units.
   Minimizer(PlacedPatches patches, double enough);
 
   ClosestOnPatches closest(Vec3 p, double limit) const override;
@@ -27,12 +27,12 @@ class Minimizer final : public PatchDistance {
     double width, height;  // bounds of |S_u| and |S_v|
   };
 
-  // Replaces `best` if the patch's local minimum is less.
+  // Replaces `best` if the patch's local minimum is lower.
   void query(std::int64_t patch, Vec3 p, ClosestOnPatches &best) const;
   double lower_bound(const Bounds &box, Vec3 p) const;
 
   double enough_;
-  double rounding_ = 0;             // how far a computed point S(u,v) may lie outside of its box
+  double rounding_ = 0;             // how far a computed point S(u,v) may lie outside of its patch's box
   std::vector<Measures> measures_;  // one for each patch
   Bounds box_;                      // of all patches together
 };

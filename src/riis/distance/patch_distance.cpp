@@ -13,8 +13,8 @@
 namespace riis {
 namespace {
 
-// The share of the allowed error that the patches' own deviation from the smooth surface may take. It is small, because more
-// grid lines are cheaper than more samples.
+// The patches deviate from the smooth surface by at most this share of the allowed error. The share is small, because more grid
+// lines are cheaper than more samples.
 constexpr double patch_share = 0.1;
 
 PlacedPatches make_patches(const PatchSet &set, double max_error, const Placement &placement, bool flip_normals) {

@@ -31,8 +31,8 @@ class PatchDistance {
   // Returns false only if no point lies within the limit of p.
   virtual bool may_be_within(Vec3 p, double limit) const = 0;
 
-  // Returns true if the method measures the distance to a fixed set of points, the same for every p. The distances of two p
-  // then differ by at most the distance between the two.
+  // Returns true if the method measures the distance to the same set of points for every p. Then the distances of two queried
+  // points differ by at most the distance between these two.
   virtual bool is_of_fixed_points() const = 0;
 
   virtual const char *name() const = 0;
@@ -47,7 +47,7 @@ class PatchDistance {
 
 struct DistanceRequest {
   std::int32_t method;  // RIIS_MEASURE_SAMPLING or RIIS_MEASURE_MINIMIZATION
-  double max_error;     // measure_tolerance * half_thickness, placed units
+  double max_error;     // measure_tolerance * half_thickness, in mesh units
 };
 
 // Makes the method that a surface's options choose. Fails with RIIS_LIMIT_EXCEEDED if it would need too many patches or

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Placed patches as functions S(u,v) that can be evaluated anywhere (paper, 3.3), for sampling and minimisation.
+// Turns placed patches into functions S(u,v) that can be evaluated anywhere (paper, 3.3), for sampling and minimisation.
 // In: a valve's curves and patches, the allowed error, the placement. Out: a grid of quads for each image of a patch.
 #pragma once
 
@@ -29,7 +29,7 @@ struct PlacedPatch {
 
 struct PlacedPatches {
   std::vector<PlacedPatch> patches;
-  // For each patch, a bound on the distance between S and the smooth surface at equal (u,v), in placed units. It is at most
+  // For each patch, a bound on the distance between S and the smooth surface at equal (u,v), in mesh units. The bound is at most
   // max_error times the scale.
   std::vector<double> errors;
 
@@ -38,8 +38,8 @@ struct PlacedPatches {
   double largest_error() const;
 };
 
-// Calls visit(along_u, along_v) for every quad. along_u has S_u at the lower and the upper v, and along_v has S_v at the
-// lower and the upper u. Elsewhere in the quad, S_u and S_v are means of these two.
+// Calls visit(along_u, along_v) for every quad. along_u has S_u at the lower and the upper v, and along_v has S_v at the lower
+// and the upper u. Elsewhere in the quad, S_u and S_v are weighted means of these.
 template <class Visit>
 void for_each_derivatives(const QuadGrid &grid, const Visit &visit) {
   for (std::size_t j = 0; j + 1 < grid.v.size(); ++j)
@@ -61,8 +61,8 @@ Speeds largest_speeds(const QuadGrid &grid);
 // Returns the box of the grid's points. It also holds S, which is a mean of these points everywhere.
 Bounds bounds_of(const QuadGrid &grid);
 
-// Returns the square of the distance from p to a box. For any point q in the box, it is no larger, even in the last bit, than
-// dot(q - p, q - p): rounding keeps the order of differences, squares and sums.
+// Returns the square of the distance from p to a box. The result is at most dot(q - p, q - p) for any point q in the box, even in
+// the last bit: rounding keeps the order of differences, squares and sums.
 double distance_sq_to(const Bounds &box, Vec3 p);
 
 }  // namespace riis

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Minimises a function of (u,v) in [0,1]^2 by Powell's method: M. J. D. Powell, "An efficient method for finding the
-// minimum of a function of several variables without calculating derivatives", The Computer Journal 7 (1964) 155-162,
-// with that paper's modified rule for the direction to give up. Lines are searched by Brent's method: R. P. Brent,
-// "Algorithms for Minimization without Derivatives" (1973), chapter 5.
+// Minimises a function of (u,v) in [0,1]^2 by Powell's method: M. J. D. Powell, "An efficient method for finding the minimum of a
+// function of several variables without calculating derivatives", The Computer Journal 7 (1964) 155-162, with that paper's
+// modified rule for the direction to drop. Lines are searched by Brent's method: R. P. Brent, "Algorithms for Minimization
+// without Derivatives" (1973), chapter 5.
 // In: a function, a start, the tolerance. Out: a local minimum whose value is at most the start's.
 #pragma once
 
@@ -42,9 +42,9 @@ inline Parameters step(Parameters from, double t, Parameters along) {
   return {std::clamp(from.u + t * along.u, 0.0, 1.0), std::clamp(from.v + t * along.v, 0.0, 1.0)};
 }
 
-// Finds a minimum of f(t) on [low, high] by Brent's localmin, with t right to about 3 tolerance. Returns the least of all values
-// computed, so f may have several minima. Uses parabolas through the last three points, and golden sections where a parabola
-// does not help.
+// Finds a minimum of f(t) on [low, high] by Brent's localmin. The error of t is about 3 tolerance. Returns the least of all
+// computed values, so f may have several minima. Uses parabolas through the last three points, and golden sections where a
+// parabola does not help.
 template <class Function>
 std::array<double, 2> minimum_on_segment(const Function &f, double low, double high, double tolerance) {
   constexpr double golden = 0.3819660112501051;  // (3 - sqrt 5) / 2
@@ -92,7 +92,7 @@ std::array<double, 2> minimum_on_segment(const Function &f, double low, double h
 // Minimises f >= 0 over [0,1]^2 from a start in the square. Each line is searched over its whole segment in the square. The
 // search also evaluates both ends of the segment, because closest points at the rim are common and Brent's method only
 // approaches the ends.
-//   enough       iterations end after one that lowers the root of f by no more than this
+//   enough iterations end once one of them lowers the root of f by no more than this
 //   step_of(d)   the allowed error of a line search along d, in units of d
 template <class Function, class StepOf>
 LocalMinimum minimize_by_powell(const Function &f, Parameters start, double enough, const StepOf &step_of) {
@@ -124,8 +124,7 @@ LocalMinimum minimize_by_powell(const Function &f, Parameters start, double enou
       if (value - best.value > largest_gain) largest_gain = value - best.value, of_largest = k;
     }
     if (std::sqrt(before.value) - std::sqrt(best.value) <= enough) break;
-    // Extrapolates: the point lies as far beyond the end of this iteration as the iteration came, or on the edge of the
-    // square.
+    // Extrapolates: repeats the move of this iteration, but stops at the edge of the square.
     const Parameters whole = best.at - before.at;
     const double beyond = f(step(best.at, std::min(1.0, segment_within_square(best.at, whole).high), whole));
     if (!(beyond < before.value)) continue;

@@ -11,7 +11,7 @@
 namespace riis {
 namespace {
 
-// Returns the least number n, at most too_many, of equal steps from 0 to 1 that are no longer than h.
+// Returns the least number of equal steps from 0 to 1 whose length is at most h. Returns at most too_many.
 std::int64_t n_steps(double h) {
   constexpr double too_many = 1e15;
   return h < 1 ? static_cast<std::int64_t>(std::min(std::ceil(1 / h), too_many)) : 1;
@@ -55,7 +55,7 @@ SampleSet::SampleSet(PlacedPatches patches, double max_error) : PatchDistance(st
   add_patches(0, static_cast<std::int32_t>(patches_.patches.size()));
 }
 
-// The tree halves the list of patches, and within a patch the longer side of a block of samples.
+// Each level of the tree halves the list of patches. Within a patch, it halves the longer side of a block of samples.
 std::int32_t SampleSet::add_patches(std::int32_t begin, std::int32_t end) {
   if (end - begin == 1) {
     const SampleCounts &counts = view(counts_)[begin];
@@ -113,7 +113,7 @@ void SampleSet::join(std::int32_t node, std::int32_t second) {
 
 struct SampleSet::Query {
   Vec3 p;
-  double most;  // the bound on squares that are still of interest
+  double most;  // samples with a larger square no longer matter
   double distance_sq = std::numeric_limits<double>::infinity();
   std::int64_t sample = -1;
   std::int32_t leaf = -1;
@@ -129,8 +129,7 @@ void SampleSet::visit(std::int32_t at, Query &query) const {
       std::swap(near, far);
       std::swap(to_near, to_far);
     }
-    // A box at exactly this distance is also visited, because the first of equally near samples is wanted in any order of
-    // visits.
+    // A box at exactly this distance is also visited. So the first of equally near samples is found in any order of visits.
     if (to_near <= query.most) visit(near, query);
     if (to_far <= query.most) visit(far, query);
     return;

@@ -21,8 +21,8 @@ struct SampleCounts {
   double n() const { return static_cast<double>(u + 1) * static_cast<double>(v + 1); }
 };
 
-// Bounds the distance of any S(u,v) from the sample nearest to it in u and in v. The bound is half the longest diagonal
-// that a parallelogram h_u S_u, h_v S_v has anywhere on S.
+// Bounds the distance between any S(u,v) and the sample with the nearest u and v. The bound is half of the longest diagonal of a
+// parallelogram with the sides h_u S_u and h_v S_v anywhere on S.
 double covering_radius(const QuadGrid &grid, double h_u, double h_v);
 
 // Returns the fewest samples that keep the covering radius within `radius`. Their numbers in u and v are in the proportion of
@@ -31,7 +31,7 @@ SampleCounts samples_within(const QuadGrid &grid, double radius);
 
 class SampleSet final : public PatchDistance {
  public:
-  // Every distance differs from that to the smooth surface by at most max_error, in placed units. The covering radius is
+  // Every distance differs from the distance to the smooth surface by at most max_error, in mesh units. The covering radius is
   // max_error minus the patches' own error. Fails with RIIS_LIMIT_EXCEEDED for more than max_samples.
   SampleSet(PlacedPatches patches, double max_error);
 

@@ -23,7 +23,7 @@ namespace riis {
 
 class Surface {
  public:
-  // Makes the surface, or makes it again after it moved and reuses its memory. After a failure the surface must not be used.
+  // Makes the surface. A surface that moved is made again in the same memory. After a failure the surface must not be used.
   void make(TriangleSet triangles, double half_thickness, int n_threads);
   // Moves the triangles out, so that the next surface's triangles can reuse their memory.
   TriangleSet take_triangles() { return std::move(triangles_); }
@@ -45,17 +45,17 @@ class Surface {
   // Returns the area of all triangles. The first call computes it. Several threads may call this function at once.
   double area() const;
 
-  // Bounds the difference between a velocity and the smooth valve's velocity at the same patch, u and v. It is 0 without a
-  // motion of patches. The first call computes it. Several threads may call this function at once.
+  // Bounds the difference between a velocity and the smooth valve's velocity at the same patch, u and v. The bound is 0 if the
+  // velocities do not come from patches. The first call computes it. Several threads may call this function at once.
   double velocity_error_bound() const;
 
-  // Returns the sides at which leaflets are attached; none for a surface from arrays. The first call makes them. Several threads
+  // Returns the sides at which leaflets are attached. A surface from arrays has none. The first call makes them. Several threads
   // may call this function at once.
   const Attachment &attachment() const;
 
-  // Returns the other method that measures distances, or null if the triangles' scene does.
+  // Returns the other method that measures distances, or null if the triangles' scene measures them.
   const PatchDistance *other_distance() const { return other_distance_.get(); }
-  // Bounds the distance to the triangles minus the distance to any point of the method's patches.
+  // Bounds by how much the distance to the triangles exceeds a distance that the method returns.
   double triangle_error() const { return triangle_error_; }
 
   // Returns the normals for sides and rims. The first call makes them. Several threads may call this function at once.
@@ -73,14 +73,14 @@ class Surface {
   TriangleScene scene_;
   double half_thickness_ = 0;
   std::vector<std::int32_t> leaflet_ids_;
-  // Computed on demand, because marking never needs it. Threads that compute it at the same time get the same bits.
+  // The area is computed on demand, because marking never needs it. Threads that compute it at the same time get the same bits.
   mutable std::atomic<double> area_{not_known};
   std::optional<ValveFrame> frame_;
   std::optional<TwoStates> states_;
   mutable std::atomic<double> velocity_error_bound_{not_known};
   std::unique_ptr<const PatchDistance> other_distance_;
   double triangle_error_ = 0;
-  // Made when a side is first queried, because marking never needs them.
+  // The pseudonormals are made when a side is first queried, because marking alone does not need them.
   mutable std::mutex pseudonormals_mutex_;
   mutable std::optional<const Pseudonormals> pseudonormals_owner_;
   mutable std::atomic<const Pseudonormals *> pseudonormals_{nullptr};

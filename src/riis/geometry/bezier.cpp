@@ -84,7 +84,7 @@ double length_tolerance(const Bezier &curve) {
     if (i > 0) control_length += distance(curve.control[i - 1], q);
     largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
   }
-  // The second term is for a curve that is short compared with its coordinates: rounding alone changes its length by so much.
+  // The second term is for a curve that is short compared with its coordinates: rounding alone changes its length by that much.
   // The third term is for a curve shorter than any triangle may be (surface/triangle_set.hpp), because its squares underflow.
   return 1e-13 * control_length + 1e-14 * largest + 1e-74;
 }
@@ -110,15 +110,15 @@ double first_guess(const Speed &speed, double share) {
   return t;
 }
 
-// Integrates the speed over a range shorter than a thousandth. There the rule with 2 points is exact to rounding.
+// Integrates the speed over a range of t shorter than 1/1000. There the rule with 2 points is exact to rounding.
 double short_quadrature(const Speed &speed, double t0, double t1) {
   constexpr double node = 0.57735026918962576451;
   const double middle = 0.5 * (t0 + t1), half = 0.5 * (t1 - t0);
   return half * (speed(middle - half * node) + speed(middle + half * node));
 }
 
-// Integrates in steps of at most a twelfth. In such steps the rule with 8 points is exact to rounding, unless the curve nearly
-// stops.
+// Integrates the speed in steps of t of at most 1/12. In such steps the rule with 8 points is exact to rounding, unless the speed
+// is nearly 0 somewhere.
 double stepwise_quadrature(const Speed &speed, double t0, double t1) {
   constexpr double longest = 1.0 / 12;
   if (t1 - t0 <= longest) return quadrature(speed, t0, t1);
@@ -128,8 +128,8 @@ double stepwise_quadrature(const Speed &speed, double t0, double t1) {
   return sum;
 }
 
-// Finds the parameters of ascending lengths, each from the one before. Returns false if the lengths do not add up to the length
-// of the curve. The speed is then too far from a polynomial, as at a cusp, and one quadrature for each step is not enough.
+// Finds the parameters of ascending lengths, each from the previous parameter. Returns false if the lengths do not add up to the
+// length of the curve. The speed is then too far from a polynomial, as at a cusp, and one quadrature for each step is not enough.
 bool find_in_one_pass(const Speed &speed, double curve_length, const Vector<double> &behind, double *t) {
   const double close_enough = 1e-14 * curve_length;
   double at = 0, at_length = 0;
@@ -227,8 +227,8 @@ static double rough_curvature(const Bezier &curve) {
 }
 
 double rough_curvature(const Bezier &curve, double t0, double t1) {
-  // Blossoms of B' and B'' give the control points of this part's derivatives. Its chord is parallel to the sum of the three
-  // `first`.
+  // Blossoms of B' and B'' give the control points of this part's derivatives. The part's chord is parallel to the sum of the
+  // three vectors `first`.
   const Speed along(curve);
   const Vec3 first[3] = {along.constant + t0 * (along.linear + t0 * along.quadratic),
                          along.constant + (0.5 * (t0 + t1)) * along.linear + (t0 * t1) * along.quadratic,
@@ -248,7 +248,7 @@ double rough_curvature(const Bezier &curve, double t0, double t1) {
 }
 
 double largest_curvature(const Bezier &curve) {
-  // The bound from control points is loose if they vary much. Within a quarter of the curve they vary little.
+  // The bound from control points is loose if the control points vary much. Within a quarter of the curve they vary little.
   const auto [left, right] = split(curve, 0.5);
   const auto [first, second] = split(left, 0.5);
   const auto [third, fourth] = split(right, 0.5);

@@ -78,7 +78,7 @@ Vec3 unit(Vec3 a) {
   return size > 0 ? (1 / size) * a : a;
 }
 
-// Returns the tangent over a whole piece, which spans at most du.
+// Returns the tangent over a whole piece. The piece spans at most du.
 Along along_piece(const Bezier &piece, double speed, double du) {
   if (!(speed > 0)) return {JetVector{}, 0};
   const Derivatives d(piece);
@@ -102,7 +102,7 @@ Along along_end(const Bezier &piece, double speed, bool at_end) {
 
 double norm(const IntervalVector &a) {
   const double bound = length(a.magnitudes());
-  return bound >= 0 ? bound : infinity;  // the length is NaN if infinities met
+  return bound >= 0 ? bound : infinity;  // the length is NaN if infinite bounds cancelled
 }
 
 // Returns O as a jet, from W and the base's tangent. The derivative of W is the edge's derivative minus the base's. Returns
@@ -134,7 +134,8 @@ Vec3 Bulge::at(double u) const { return offset_at(base_, edge_, u, factor_); }
 
 OffsetBounds bound_offset(const ArcRange &range, double factor) {
   const double du = range.du;
-  // W stays near the line between its ends. The largest bend over all pairs of pieces bounds the distance from it.
+  // W stays near the line between its two end values. The largest bend over all pairs of pieces bounds the distance from this
+  // line.
   const Vec3 start = range.edge.front().first() - range.base.front().first();
   const Vec3 end = range.edge.back().last() - range.base.back().last();
   Vector<Along> along_base, along_edge;
@@ -165,7 +166,7 @@ double Bulge::linear_error(double u0, double u1, double enough) const {
   const OffsetBounds bounds =
       bound_offset({base.pieces(), edge.pieces(), base_.length(), edge_.length(), u1 - u0}, factor_);
   // Intervals overestimate |O''| several times over. So O is evaluated at a few points, and the bound on |O''| is used only
-  // between neighbouring points. With n parts, it contributes n^2 times less.
+  // between neighbouring points. With n parts, this bound contributes n^2 times less.
   double error = infinity;
   for (int n = 1; n <= 8 && !(error <= enough); n *= 8) error = sampled_error(base, edge, u0, u1, n, bounds.second);
   return error <= bounds.largest ? error : bounds.largest;  // also if the error is NaN

@@ -21,8 +21,8 @@ double smallest_step(const Vector<double> &t) {
   return smallest;
 }
 
-// Between each two neighbouring grid lines, bounds the distance of a side from its curve. The bound is the error of the side's
-// segment there plus the distance that shared lines are shifted along the side.
+// For each two neighbouring grid lines, bounds the distance between a side and its curve. The bound is the error of the side's
+// segment there, plus the shift of shared lines along the side.
 Vector<double> errors_between(const Vector<GridLine> &lines, const Polyline &side, double GridLine::*t) {
   Vector<double> errors(lines.size() - 1, 0.0);
   if (!(side.length > 0)) return errors;
@@ -70,7 +70,8 @@ class ArcRefinement {
   }
 
  private:
-  // Returns where to cut the range: at a joint that is not too near an end, because this removes a kink, or else in the middle.
+  // Returns the place at which to cut the range. A cut at a joint removes a kink, so joints that are not too near an end come
+  // first. Without such a joint, the cut is in the middle.
   double cut(double from, double to) const {
     for (const double joint : bulge_.joints())
       if (joint > 0.875 * from + 0.125 * to && joint < 0.125 * from + 0.875 * to) return joint;
@@ -172,7 +173,7 @@ QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines) {
     sides_on_lines.u1.push_back(evaluate(*sides.side_u1, line.t1));
   }
   grid.points = coons_combination(grid.u, grid.v, sides_on_lines);
-  // A point of the patch takes over the errors of four side points, with the same weights as their positions.
+  // The error of a point of the patch combines the errors of four side points. The weights are those of the points' positions.
   const Vector<double> error_v0 = errors_between(u_lines, *sides.side_v0, &GridLine::t0);
   const Vector<double> error_v1 = errors_between(u_lines, *sides.side_v1, &GridLine::t1);
   const Vector<double> error_u0 = errors_between(v_lines, *sides.side_u0, &GridLine::t0);
@@ -221,8 +222,8 @@ QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size
   }
   grid.points.insert(grid.points.end(), edge.begin(), edge.end());
 
-  // Between two lines, base, edge and O differ from linear interpolation by their errors. On a line, the chords differ from the
-  // arc by |O| / 2 times the square of the row's height.
+  // Between two lines, the errors of base, edge and O are their distances from linear interpolation. On a line, the distance of
+  // the chords from the arc is |O| / 2 times the square of the row's height.
   const Vector<double> base_errors = errors_between(lines.u_lines, *sides.side_v0, &GridLine::t0);
   const Vector<double> edge_errors = errors_between(lines.u_lines, *sides.side_v1, &GridLine::t1);
   const double row = 1 / static_cast<double>(n_rows);

@@ -17,8 +17,8 @@ struct PatchSides {
   const Polyline *side_v0, *side_v1, *side_u0, *side_u1;
 };
 
-// A line of the grid. Two vertices on opposite sides share a line if their parameters nearly agree, and each stays where it is.
-// So there are no sliver quads. Neighbouring patches fit without cracks, because no vertex of a shared curve is lost or moved.
+// A line of the grid. Two vertices on opposite sides share a line if their parameters nearly agree, so there are no sliver quads.
+// Neither vertex moves. Neighbouring patches fit without cracks, because no vertex of a shared curve is lost or moved.
 struct GridLine {
   double t0, t1;  // the line's parameter on the first and on the second of the two sides that it joins
   double middle;  // the mean of both, which is the line's u (or v) in the grid
@@ -38,7 +38,7 @@ struct QuadGrid {
   Vector<double> u, v;  // ascending from 0 to 1
   Vector<Vec3> points;  // points[j * u.size() + i] at (u[i], v[j])
   // errors[j * (u.size() - 1) + i] belongs to the quad between lines i, i + 1 and j, j + 1. It bounds the distance, at equal
-  // (u,v), between the quad and the patch between the exact curves.
+  // (u,v), between the quad and the patch that the exact curves bound.
   Vector<double> errors;
 
   GridLines lines{};  // the lines that the grid was made from; empty unless requested
@@ -78,13 +78,13 @@ struct ArcLimits {
   std::size_t max_lines;
 };
 
-// Returns the grid lines of the two sides side_v0 and side_v1, and adds lines until O is within max_error of linear between
-// neighbouring lines. Adds no more once there are more than max_lines. offset_u0 and offset_u1 are O at the two ends, with the
+// Returns the grid lines of the two sides side_v0 and side_v1. Adds lines until O differs from linear by at most max_error
+// between neighbouring lines, or until there are more than max_lines. offset_u0 and offset_u1 are O at the two ends, with the
 // same bits as in the neighbouring patches. Fails with RIIS_INVALID_PARAMETER if O has no direction.
 ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset_u0, Vec3 offset_u1,
                         const ArcLimits &limits);
 
-// Makes the grid with n_rows rows of equal height h. An arc lies within |O| / 2 times h squared of its chords.
+// Makes the grid with n_rows rows of equal height h. The distance of an arc from its chords is at most |O| h^2 / 2.
 QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size_t n_rows);
 
 // A linear function is at0 at 0 and at1 at 1. Returns the larger of its values at `from` and `to`.

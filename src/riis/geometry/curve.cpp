@@ -206,7 +206,7 @@ VelocityBend::VelocityBend(const Bezier &curve, double curve_length, const Bezie
     view(u_)[k] = k == n_cells ? 1 : at.behind / total;
     view(bend_)[k] = 0;
     if (!(at.speed > 0)) continue;
-    // The rate at which the parameter of a fixed share u of the length changes.
+    // The rate of change of the parameter that belongs to a fixed share u of the length.
     const double t_rate = -(at.rate_behind - view(u_)[k] * rate_total) / at.speed;
     const Vec3 first_rate = at.rate_first + t_rate * at.second, second_rate = at.rate_second + t_rate * at.third;
     const double speed_rate = dot(at.tangent, first_rate), inverse = 1 / at.speed;

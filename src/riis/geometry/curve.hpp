@@ -20,7 +20,7 @@ struct PointOnPiece {
   double t;
 };
 
-// Every piece but the first begins where the piece before ends, and in the same direction. So the curve's curvature may jump
+// Every piece but the first begins where the previous piece ends, and in the same direction. So the curve's curvature may jump
 // there, but its direction does not. (A curve with corners is several curves, and its patch is several patches.)
 class Curve {
  public:
@@ -91,13 +91,13 @@ struct Flattened {
   Vector<double> errors;  // for every chord: a bound on its distance from the curve, at equal shares of their lengths
 };
 
-// Halves the curve until two conditions hold for every part. First, its flatness shows that it lies within max_error (> 0) of
-// its chord. A Bézier piece is at most 3/4 (cubic) or 1/2 (quadratic) of its flatness away from its chord. Second, the part and
-// its chord are at most max_error apart at equal shares of their lengths. With `bend`, a part is also halved if its velocity is
-// estimated to be more than max_bend off linear. Parts are halved by length, whereas the paper (algorithm "Recursive de
+// Halves the curve until two conditions hold for every part. First, its flatness shows that it lies within max_error (> 0) of its
+// chord. A Bézier piece is at most 3/4 (cubic) or 1/2 (quadratic) of its flatness away from its chord. Second, the part and its
+// chord are at most max_error apart at equal shares of their lengths. With `bend`, a part is also halved if its velocity is
+// estimated to differ from linear by more than max_bend. Parts are halved by length, whereas the paper (algorithm "Recursive de
 // Casteljau subdivision") halves the parameter. So shares of two curves either agree to the last bit or differ by at least a
-// part, and no slivers arise between them. A common point of two parts appears once. Fails with RIIS_LIMIT_EXCEEDED for more
-// than 2^20 parts.
+// part, and no slivers arise between them. A common point of two parts appears once. Fails with RIIS_LIMIT_EXCEEDED for more than
+// 2^20 parts.
 Flattened flatten(const Curve &curve, double max_error, const VelocityBend *bend = nullptr, double max_bend = 0);
 
 }  // namespace riis

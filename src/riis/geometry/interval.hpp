@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Interval arithmetic with first and second derivatives. It bounds a function and its derivatives on a range.
-// In: ranges. Out: ranges that hold every value. Rounding of the bounds is ignored, because it is far smaller than they are.
+// In: ranges. Out: ranges that hold every value. Rounding of the bounds is ignored, because it is far smaller than the bounds.
 #pragma once
 
 #include <algorithm>

@@ -39,8 +39,8 @@ Triangle moved(const Triangle &t, Vec3 origin) { return {t[0] - origin, t[1] - o
 
 std::array<Vec3, 3> edges_of(const Triangle &t) { return {t[1] - t[0], t[2] - t[1], t[0] - t[2]}; }
 
-// Returns whether t reaches beyond the limit on both sides of a plane. Its corners are relative to a point of the plane, and w
-// is the plane's normal.
+// Returns whether t reaches beyond the limit on both sides of a plane. The corners of t are relative to a point of the plane, and
+// w is the plane's normal.
 bool cuts_plane(const Triangle &t, Vec3 w, double limit) {
   const double x = dot(w, t[0]), y = dot(w, t[1]), z = dot(w, t[2]), least = limit * length(w);
   return std::max({x, y, z}) > least && -std::min({x, y, z}) > least;

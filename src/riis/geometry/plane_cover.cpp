@@ -13,8 +13,8 @@
 namespace riis {
 namespace {
 
-// One end of a span on a line. `along` is the length of the edge at this end between two lines with spacing 1. It is 0 if lines
-// in the other direction measure the edge.
+// One end of a span on a line. An edge passes through this end, and `along` is the edge's length between two lines with spacing
+// 1. The length is 0 if lines in the other direction measure the edge.
 struct End {
   double x, along;
 };
@@ -142,7 +142,8 @@ class Covered {
   std::int64_t shape_ = -1;
 };
 
-// Returns the spans within `reach` of the triangles. A point is there if it lies in a triangle or within `reach` of the rim.
+// Returns the spans within `reach` of the triangles. These spans have the points that lie in a triangle or within `reach` of the
+// rim.
 SpansOfLines covered(const Cover &cover, double reach, const ScanLines &lines, bool counts_equal) {
   Covered made(lines, counts_equal);
   for (const PlaneTriangle &corner : cover.triangles) {
@@ -174,7 +175,7 @@ struct Uncovered {
   double length = 0, edge = 0;
 };
 
-// Measures the part of disjoint spans that lies in no cover, and the edges of the covers at the ends of this part.
+// Measures the part of disjoint spans that no cover contains. Also measures the edges of the covers at the ends of this part.
 Uncovered without(const std::vector<Span> &spans, std::vector<Span> covers) {
   std::sort(covers.begin(), covers.end(), [](const Span &a, const Span &b) { return a.begin.x < b.begin.x; });
   Uncovered made;
@@ -224,7 +225,7 @@ Cover swapped(const Cover &cover) {
   return made;
 }
 
-// Lines that are seen edge on enclose only an area by rounding.
+// Returns false for lines that enclose an area only by rounding, such as lines seen edge on.
 bool has_area(const Outline &outline, double rounding) {
   const double height = ScanLines(outline, 1).spacing(), width = ScanLines(swapped(outline), 1).spacing();
   const double size = std::max(height, width);

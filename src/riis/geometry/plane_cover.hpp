@@ -24,7 +24,7 @@ struct Outline {
 
 Outline circle(double radius, const PlanePoint &centre);
 // Returns the outline of these lines, or nothing if they enclose no area or are not closed. Closed lines have an even number of
-// ends at each place. Coordinates may be off by `rounding`, which encloses an area, too.
+// ends at each place. Coordinates may be off by `rounding`, so an area that such errors can enclose does not count.
 std::optional<Outline> closed_outline(const std::vector<std::vector<PlanePoint>> &lines, double rounding = 0);
 
 // The triangles, and the rim: the edges that may bound the covered part. An edge is not in the rim if its two triangles lie on

@@ -14,7 +14,7 @@ namespace riis {
 struct PointOnTriangle {
   double distance_sq;
   Vec3 point;
-  std::array<double, 3> barycentric;  // >= 0; exactly 0 for a corner that is not on the point's edge or vertex
+  std::array<double, 3> barycentric;  // >= 0; if the point is on an edge or a vertex, exactly 0 for the other corners
 };
 
 // The triangle must have an area (has_zero_area in surface/triangle_set.hpp). The result is the best of four candidates: the

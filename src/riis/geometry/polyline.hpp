@@ -20,8 +20,9 @@ struct Polyline {
 // repeated points, so that t ascends strictly. Needs at least one point.
 Polyline make_polyline(const Vector<Vec3> &points);
 
-// Returns a polyline that replaces a curve. Every segment is within max_error (> 0) of it. A vertex's t is its share of the
-// curve's length, not of the polyline's length as in the paper. So the vertex is the curve's point at that t for any tolerance.
+// Returns a polyline that replaces a curve. Every segment is within max_error (> 0) of the curve. A vertex's t is its share of
+// the curve's length, not of the polyline's length as in the paper. So the vertex is the curve's point at that t for any
+// tolerance.
 Polyline make_polyline(const Curve &curve, double max_error);
 // Also keeps the estimated distance of the velocity from linear within max_bend on each segment.
 Polyline make_polyline(const Curve &curve, double max_error, const Bezier &velocity, double max_bend);

@@ -45,7 +45,7 @@ struct PairSpread {
 Bounds bounds_of(const StridedPoints &points, double &sum) {
   const double *const x = points.x, *const y = points.y, *const z = points.z;
   const std::int64_t stride = points.stride;
-  // Two separate spreads are faster, because each comparison has to wait for the last comparison of the same bounds.
+  // Two separate spreads are faster, because each comparison has to wait for the previous comparison of the same bounds.
   PairSpread pairs[2];
   std::int64_t i = 0;
   for (; i + 4 <= points.n; i += 4)

@@ -321,7 +321,7 @@ RIIS_INLINE double sum_of(Doubles x) {
   return sum;
 }
 
-// Scales vectors to length 1, except those without a length. Returns the lanes that have a length.
+// Scales vectors to length 1. Vectors without a length do not change. Returns the lanes that have a length.
 RIIS_INLINE Doubles::Mask normalize(Doubles3 &a) {
   const Doubles length = root(dot(a, a));
   const Doubles::Mask has_one = length > Doubles::all(1e-12);
@@ -349,7 +349,7 @@ RIIS_INLINE void choose_axes(Doubles3 across, Doubles3 along, Axes &axes) {
   const Doubles::Mask has_edge = normalize(along);
   const Doubles::Mask steep = magnitude(across.x) < Doubles::all(0.6);
   along = choose(has_edge, along, {choose(steep, one, zero), choose(steep, zero, one), zero});
-  // Removes the part along `across` that rounding left. It is large for an edge nearly along `across`.
+  // Removes the part along `across` that rounding left. This part is large for an edge nearly along `across`.
   for (int i = 0; i < 2; ++i) {
     along = take_across_away(along);
     normalize(along);
@@ -428,8 +428,8 @@ RIIS_INLINE void make_frames(const GroupCorners &corners, TriangleGroup &group,
     const Direction e = direction(b - a, {one, zero, zero});
     put(e.unit, group.e, from);
     put(e.length, group.ab + from);
-    // Returns the part of v at right angles to e. It is called twice, because in a needle rounding leaves a part along e, which
-    // the second call removes.
+    // Returns the part of v at right angles to e. It is called twice: in a needle-shaped triangle, rounding leaves a part along
+    // e, and the second call removes this part.
     const auto across = [&](Doubles3 v) RIIS_LAMBDA { return v - dot(v, e.unit) * e.unit; };
     // If rounding left nothing of the triangle's height, the part at right angles to e is noise and may again run along e.
     Doubles3 over = across(ac);

@@ -112,8 +112,8 @@ RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, const Floats
   for (int h = 0; h < halves; ++h) best[h].store(leaf.best + 16 * h);
 }
 
-// Moves to the front the group that is nearest to two of the leaf's nodes. So near triangles are found early, and groups farther
-// away need no comparison.
+// Moves one group to the front: the group with the least sum of bounds to two of the leaf's nodes. So near triangles are found
+// early, and groups farther away need no comparison.
 RIIS_INLINE void nearest_first(const LeafTask &leaf) {
   int32_t nearest = 0;
   float least_sum = __builtin_inff();

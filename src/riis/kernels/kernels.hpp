@@ -3,7 +3,7 @@
 // chosen at run time. This header has only plain data and declarations: a function body here would be compiled for several
 // instruction sets under one name.
 //
-// filter_*: single precision, only to dismiss pairs that cannot matter. Results are right to filter_error (docs/theory.md,
+// filter_*: single precision, only to dismiss pairs that cannot matter. Results are accurate to filter_error (docs/theory.md,
 // section 8). Coordinates are in the surface's frame: relative to its middle, and scaled by a power of two so that its half
 // extent is from 1/2 to 1.
 // decide, locate: double precision, with exactly the bits of the decision kernel (geometry/point_triangle.hpp).
@@ -59,8 +59,8 @@ struct alignas(64) Boxes {
   float lower[3][16], upper[3][16];
 };
 
-// The filter's input for a whole search. x * ratio + shift takes the mesh's frame to the surface's frame, and the limits are in
-// the latter.
+// The filter's input for a whole search. x * ratio + shift takes the mesh's frame to the surface's frame. The limits are in the
+// surface's frame.
 struct FilterTask {
   float ratio, shift[3];
   float reach_sq;   // (limit + 2 * error)^2
@@ -122,7 +122,7 @@ struct alignas(64) PlacedBy {
   double of_image[3][4], offset_of_image[4], rotation[3][4], translation[4], scale;
 };
 
-// The most keys that are ranked in one call, as many as two leaves have nodes.
+// The most keys that are ranked in one call: the number of nodes in two leaves.
 constexpr int32_t keys_at_once = 2 * nodes_per_leaf;
 
 struct FilterKernels {

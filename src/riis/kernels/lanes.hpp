@@ -112,7 +112,7 @@ struct Lanes {
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = reinterpret_cast<const Unaligned *>(from)[i];
     return lanes;
   }
-  // Fills a register with one number from each of as many addresses.
+  // Fills a register with numbers. The number of each lane comes from its own address.
   static RIIS_INLINE Register gather_register(const Scalar *const *f, int64_t offset) {
     if constexpr (per_register == 8)
       return Register{f[0][offset], f[1][offset], f[2][offset], f[3][offset],
@@ -270,7 +270,8 @@ RIIS_INLINE Floats zero_where_at_least(Floats a, Floats b, Floats x) {
 #endif
 }
 
-// Copies those of 16 integers whose bits are set, without gaps. It may write to all 16 places, even if it copies fewer.
+// Takes 16 integers, and copies the integers whose bits are set, without gaps. It may write to all 16 places, even if it copies
+// fewer.
 RIIS_INLINE void compress(uint32_t lanes, const int32_t *from, int32_t *to) {
 #if defined(__AVX512F__)
   _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(lanes), _mm512_loadu_si512(from)));
@@ -306,7 +307,7 @@ RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
     m[i] = (__m128)least(least(of[i].part[0], of[i].part[1]), least(of[i].part[2], of[i].part[3]));
 #endif
   }
-  // Twice combines neighbouring halves, and keeps the lesser of each two lanes.
+  // Combines neighbouring halves twice. Each time, keeps the lesser of two lanes.
   const __m128 first = _mm_min_ps(_mm_unpacklo_ps(m[0], m[1]), _mm_unpackhi_ps(m[0], m[1]));
   const __m128 last = _mm_min_ps(_mm_unpacklo_ps(m[2], m[3]), _mm_unpackhi_ps(m[2], m[3]));
   _mm_storeu_ps(least_lane, _mm_min_ps(_mm_movelh_ps(first, last), _mm_movehl_ps(last, first)));

@@ -29,7 +29,7 @@ class KeyTimes {
   // time one period later has the same keys.
   struct KeysAround {
     std::array<std::int64_t, 4> key;  // before the interval, at its two ends, after it
-    std::array<double, 3> width;      // from each of these keys to the next; infinite where a key is missing
+    std::array<double, 3> width;      // from each of these keys to the next; infinite if one of the two is missing
     double since;                     // time since the interval's first end
     bool is_at_rest;                  // before the first or after the last key, where the value is that of key[1]
   };
@@ -38,8 +38,8 @@ class KeyTimes {
   // a time that is not finite. `name` is the time's name in the message.
   KeysAround around(double time, const char *name = "time") const;
 
-  // Returns the first time after this one at which the interpolation changes, give or take rounding: that of a key. Returns
-  // infinity if there is none.
+  // Returns the first time after this one at which the interpolation changes. This is the time of a key, except for rounding.
+  // Returns infinity if the interpolation does not change any more.
   double next(double time) const;
 
   // Returns the value and the rate at the time, from the values at these four keys.

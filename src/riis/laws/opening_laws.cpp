@@ -73,7 +73,7 @@ ValueAndRate opening_from_times(const riis_opening_times &times, double time) {
 
 namespace {
 
-// Returns the time since the state before. Also checks the values that drive the law.
+// Returns the time since the previous state. Also checks the values that drive the law.
 double checked_step(double before, double time, double pressure_difference, double flow) {
   check_range("before", "time", before, -largest, largest);
   check_range("", "time", time, before, largest);
@@ -114,8 +114,8 @@ riis_opening_switch_state advance(const riis_opening_switch &law, const riis_ope
     now.pressure_difference = filtered(before.pressure_difference, pressure_difference, step, law.filter_time);
     now.flow = filtered(before.flow, flow, step, law.filter_time);
   }
-  // A valve that has just turned does not turn back within dwell_time. So noise in the solver's pressure and flow does not make
-  // it flutter.
+  // A valve that has just changed its phase does not change back within dwell_time. So noise in the solver's pressure and flow
+  // does not make the valve flutter.
   const bool may_turn = std::isnan(before.turn_time) || time - before.turn_time >= law.dwell_time;
   const bool opens = before.phase == RIIS_PHASE_CLOSING && now.pressure_difference > law.open_above;
   const bool closes = before.phase == RIIS_PHASE_OPENING && now.flow < law.close_below;
@@ -161,7 +161,7 @@ class AngleLaw {
                          law_.vortex_gain * std::max(flow, 0.0) * std::sin(2 * at.angle)};
   }
 
-  // Bounds the rate at which the motion changes. The number of steps follows from it.
+  // Bounds the rate at which the motion changes. The number of steps follows from this bound.
   double fastest() const {
     const double pressure = std::max(std::abs(from_.pressure_difference), std::abs(to_.pressure_difference));
     const double flow = std::max(std::abs(from_.flow), std::abs(to_.flow));
@@ -182,7 +182,7 @@ Motion runge_kutta(const AngleLaw &law, Motion at, double from, double to, doubl
   return at + (seconds / 6) * (k1 + 2 * k2 + 2 * k3 + k4);
 }
 
-// Keeps the leaflet between its stops. A stop takes away all speed towards it.
+// Keeps the leaflet between its stops. A leaflet at a stop has no speed towards this stop.
 Motion stopped(Motion at, double least, double most) {
   if (at.angle <= least) return {least, std::max(at.rate, 0.0)};
   if (at.angle >= most) return {most, std::min(at.rate, 0.0)};
@@ -202,8 +202,8 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
   if (!(law.angle_max > law.angle_min))
     fail(RIIS_INVALID_ARGUMENT, "law.angle_max is ", law.angle_max, "; it must be above law.angle_min, ",
          law.angle_min);
-  // A first state has no drive, so the present drive is used for it. Its angle of 0 then means angle_min, where the valve is
-  // closed.
+  // An initial state has no pressure difference and no flow, so the present ones are used. Its angle of 0 means angle_min, where
+  // the valve is closed.
   const bool has_drive = !std::isnan(before.pressure_difference) && !std::isnan(before.flow);
   const double angle = has_drive || before.angle != 0 ? before.angle : law.angle_min;
   check_range("before", "angle", angle, law.angle_min, law.angle_max);
@@ -212,8 +212,8 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
 
   const AngleLaw::Drive to{pressure_difference, flow};
   const AngleLaw angle_law(law, has_drive ? AngleLaw::Drive{before.pressure_difference, before.flow} : to, to);
-  // The method's error falls with the fourth power of the step. At this step it is far below the error of assuming a linear
-  // drive.
+  // The method's error falls with the fourth power of the step. With steps of this size, that error is far below the error of
+  // assuming a linear drive.
   constexpr double largest_step = 0.05;
   const double n_wanted = std::ceil(step * angle_law.fastest() / largest_step);
   constexpr double max_steps = 1e6;

@@ -22,8 +22,8 @@ void check_count(const char *field, std::int64_t n, std::int64_t least) {
 }
 
 constexpr std::int64_t rows_per_block = 4096;
-// Makes rows. append(i, neighbors) appends the neighbours of node i in any order, perhaps repeatedly. It is called twice for
-// each node, first for the row's length and then for its columns. So memory never holds a list of all pairs.
+// Makes rows. append(i, neighbors) appends the neighbours of node i in any order, perhaps repeatedly. append is called twice for
+// each node, first for the row's length and then for the row's columns. So memory never holds a list of all pairs.
 template <class Append>
 OwnAdjacency rows_of(std::int64_t n_nodes, int n_threads, const Append &append) {
   OwnAdjacency made;
@@ -64,7 +64,7 @@ OwnAdjacency rows_of(std::int64_t n_nodes, int n_threads, const Append &append) 
   return made;
 }
 
-// Lists of the faces between two cells, for incidence.hpp. Its nodes are the cells, and an entry is a face.
+// Lists for incidence.hpp in which the nodes are the cells and an entry is a face between two cells.
 struct InnerFaces {
   static constexpr std::int64_t most_neighbors = 1;
 

@@ -64,7 +64,7 @@ inline const CellNeighbors *neighbors_in_cell(std::int64_t n_nodes) {
   }
 }
 
-// The caller's lists of cells as given: the nodes of each cell follow those of the cell before it.
+// The caller's lists of cells as given: the nodes of each cell follow the nodes of the previous cell.
 template <class Id>
 struct CellNodes {
   const Id *ids, *offsets;  // offsets is NULL if all cells have the same number of nodes

@@ -56,8 +56,8 @@ class ClusterSearch {
     own_.prepare(request.n_threads);
   }
 
-  // Finds the clusters that may be near the surface. For each cluster it lists the groups that may be near it. For each of these
-  // groups it marks the cluster's leaves that may be near the group.
+  // Finds the clusters that may be near the surface. For each of them, lists the groups that may be near the cluster. For each of
+  // these groups, sets a bit for each leaf of the cluster that may be near the group.
   void find_near_clusters() {
     const Bounds &bounds = scene_.bounds();
     const Vec3 lower = groups_.frame(bounds.lower), upper = groups_.frame(bounds.upper);
@@ -135,7 +135,7 @@ class ClusterSearch {
       add_cluster(cluster, cluster - of_region.begin, own);
   }
 
-  // Appends the numbers[k] for which bits[k] has the given bit, and returns how many they are.
+  // Appends each numbers[k] whose bits[k] has the given bit. Returns how many were appended.
   static std::size_t add_marked(const std::int32_t *numbers, const std::uint16_t *bits, std::size_t n, std::int64_t bit,
                                 std::vector<std::int32_t> &to) {
     const std::size_t first = to.size();

@@ -17,7 +17,7 @@ namespace riis {
 struct ClusterScratch {
   static constexpr std::int32_t room_for_pairs = 4096;
 
-  // A near cluster and its near groups: the thread whose lists hold them, and their range there.
+  // A near cluster, and the place of its near groups: the thread whose lists hold them, and their range in these lists.
   struct Item {
     std::int64_t cluster;
     std::size_t first, n;
@@ -25,10 +25,10 @@ struct ClusterScratch {
   };
   struct alignas(64) Thread {
     std::vector<std::int32_t> candidates;  // groups near a region
-    std::vector<std::uint16_t> bits;       // for each candidate, a bit for each cluster of the region that it is near
+    std::vector<std::uint16_t> bits;       // for each candidate, a bit for each near cluster of the region
     std::vector<Item> items;
     std::vector<std::int32_t> near_groups;  // groups near the clusters of the items
-    std::vector<std::uint16_t> leaf_bits;   // for each near group, a bit for each leaf that it is near
+    std::vector<std::uint16_t> leaf_bits;   // for each near group, a bit for each near leaf of the cluster
     std::vector<std::int32_t> leaf_groups;
     struct alignas(64) NodeBounds {
       float of_node[nodes_per_leaf];

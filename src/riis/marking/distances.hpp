@@ -35,7 +35,7 @@ struct TriangleDistances {
 struct OtherDistances {
   const PatchDistance &method;
   const TriangleScene &scene;
-  double triangle_error;  // a distance to the triangles exceeds the one to S(u,v) by at most this
+  double triangle_error;  // the distance to the triangles exceeds a distance to S(u,v) by at most this
 
   bool may_be_within(Vec3 p, double limit) const { return method.may_be_within(p, limit); }
   ClosestTriangle closest(Vec3 p, double limit, Ties * = nullptr) const {
@@ -43,8 +43,9 @@ struct OtherDistances {
     return {found.distance_sq, found.patch};
   }
 
-  // A method that may end anywhere on S proves nothing about points nearby. But its result is the distance to some point of S.
-  // So the distance to the triangles minus triangle_error is a lower bound.
+  // The distance to fixed points is itself a lower bound. A minimisation may end anywhere on S, so its result at p bounds no
+  // result near p. But each result is the distance to some point of S. So no result is below the distance to the triangles minus
+  // triangle_error.
   double lower_bound(Vec3 p, double limit) const {
     if (method.is_of_fixed_points()) return std::sqrt(method.closest(p, limit).distance_sq);
     const double infinity = std::numeric_limits<double>::infinity();

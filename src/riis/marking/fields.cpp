@@ -30,8 +30,8 @@ void for_each_array(std::int32_t fields, const Visit &visit) {
   if (has(RIIS_FIELD_PATCH)) visit(&NodeFields::patch_id, std::int64_t{1});
 }
 
-// Finds the position of a triangle in the set from its id. The two are equal, unless the set left out some of the caller's
-// triangles.
+// Finds the position of a triangle in the set from its id. Position and id are equal, unless the set left out some of the
+// caller's triangles.
 class Positions {
  public:
   explicit Positions(const TriangleSet &set)
@@ -272,7 +272,7 @@ struct TieOrder {
   }
 };
 
-// Stores the numbers of each vertex that the fields need next to each other.
+// Stores the numbers that the fields need vertex by vertex, so that a node's fields read few places in memory.
 void gather_at_vertices(const TriangleSet &set, std::int32_t fields, int n_threads, FieldScratch &scratch) {
   const bool has_velocity = fields & RIIS_FIELD_VELOCITY, has_uv = fields & RIIS_FIELD_UV;
   if (!has_velocity && !has_uv) return;

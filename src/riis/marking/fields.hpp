@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fields: data about a node's closest point, besides its distance, that a solver's force needs.
+// A field is data about a node's closest point that a solver's force needs besides the distance.
 // In: nodes within the limit with their decided triangles. Out: an array for each requested field.
 #pragma once
 
@@ -29,7 +29,7 @@ struct NodeFields {
 // Memory that the next marking's fields reuse.
 struct FieldScratch {
   UnfilledVector<VertexNumbers> at_vertices;
-  std::vector<Tie> ties;  // by node, then by leaflet: first its closest triangle, then those on its other patches
+  std::vector<Tie> ties;  // by node, then by leaflet; a leaflet's closest triangle comes first
 
   // Reserves memory for the fields of the nodes that a search found, and sorts their ties.
   void prepare(const SearchRequest &request, std::int32_t fields, const FoundNodes &found);
@@ -41,7 +41,7 @@ void check_fields(const Surface &surface, std::int32_t fields);
 // Returns whether the fields of n_nodes nodes need Surface::pseudonormals().
 bool need_normals(const Surface &surface, std::int32_t fields, std::int64_t n_nodes);
 
-// Returns the rule for the ties that a search has to find for these fields.
+// Returns the rule for ties that a search must follow for these fields.
 TieRule ties_for(const Surface &surface, std::int32_t fields);
 
 // Writes the fields of the nodes in the list. The memory must be reserved, so this function does not throw.

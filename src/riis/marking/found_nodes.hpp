@@ -33,7 +33,7 @@ struct FoundNode {
 static_assert(sizeof(FoundNode) == 16);
 
 // Gives each thread's list room for twice the longest list, because the threads' shares differ from step to step. The room is a
-// power of two. So a step that needs a little more than all steps before it needs no new memory.
+// power of two. So a step that finds a few more nodes than all previous steps allocates no memory.
 template <class Threads, class ListOf>
 void make_room(Threads &threads, const ListOf &list_of) {
   std::size_t largest = 0, room = 1;
@@ -46,11 +46,11 @@ void make_room(Threads &threads, const ListOf &list_of) {
 // One list for each thread. The order within a list has no meaning.
 struct FoundNodes {
   std::vector<std::vector<FoundNode>> by_thread;
-  std::vector<Ties> ties_by_thread;  // stay empty unless the rule asks for ties
+  std::vector<Ties> ties_by_thread;  // stay empty unless the rule requests ties
 
   // Empties the lists, and makes room for the next search.
   void prepare(int n_threads, const TieRule &ties = {}) {
-    // Resizes each list on its own, because an earlier call may have run out of memory after the first.
+    // Checks each list on its own, because an earlier call may have resized only the first and then run out of memory.
     if (view(by_thread).size() < n_threads) resize(by_thread, n_threads);
     if (view(ties_by_thread).size() < n_threads) resize(ties_by_thread, n_threads);
     make_room(

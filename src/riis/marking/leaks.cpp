@@ -24,8 +24,8 @@ struct Edge {
 
 // Returns a length such that no edge of at most this length leaks. If such an edge meets the surface, its nearer node is at most
 // half the length from the crossing, so the node is within the half thickness and marked. The margins are several times the
-// rounding, so this also holds for computed distances. Returns -1, so that no edge counts as short, if marks may be missing or
-// do not follow the distances to the triangles.
+// rounding, so this also holds for computed distances. Returns -1 if marks may be missing or do not follow the distances to the
+// triangles. Then no edge counts as short.
 double length_that_cannot_leak(const Surface &surface, const Marks &marks) {
   if (surface.other_distance() || !marks.stats.complete) return -1;
   return 2 * surface.half_thickness() * (1 - 0x1p-40) - 4 * surface.scene().rounding();

@@ -10,7 +10,7 @@
 
 namespace riis {
 
-// The options of a marking that its search for nodes does not need, and the kind of search.
+// The kind of search, and the options of a marking that the search itself does not need.
 struct MarkingRequest {
   std::int32_t search;           // RIIS_SEARCH_*
   std::int32_t fields;           // a sum of RIIS_FIELD_*

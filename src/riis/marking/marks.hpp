@@ -21,7 +21,7 @@ namespace riis {
 // The data that a marking computes for its nodes, besides their distances.
 struct WantedData {
   std::int32_t fields = 0;        // the sum of RIIS_FIELD_* that are computed
-  std::int32_t given_fields = 0;  // the sum of those that the caller requested
+  std::int32_t given_fields = 0;  // the sum of the fields that the caller requested
   bool k = false, k_u_surface = false;
 };
 

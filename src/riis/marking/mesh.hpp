@@ -41,7 +41,7 @@ class Mesh {
   const Bounds &bounds() const { return bounds_; }
   const std::optional<Adjacency> &adjacency() const { return adjacency_; }
 
-  // To be called when the nodes have moved. Balls, clusters and edges are then made again when they are next needed.
+  // Call this function when the nodes have moved. Balls, clusters and edges are then made again when they are next needed.
   void forget_places() {
     has_balls_.store(false, std::memory_order_relaxed);
     has_clusters_.store(false, std::memory_order_relaxed);

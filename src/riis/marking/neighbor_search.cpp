@@ -70,7 +70,8 @@ class NeighborSearch {
     n_threads_ = std::max(n_threads_, n_ran);
   }
 
-  // Finds the balls that may hold a node within the limit. For each it stores a lower bound on the distance of its centre.
+  // Finds the balls that may hold a node within the limit. For each ball, stores a lower bound on the distance of the ball's
+  // centre.
   void find_near_balls(const NodeBalls &balls) {
     std::vector<NearBall> &near = walked_.near_balls;
     near.clear();
@@ -104,7 +105,7 @@ class NeighborSearch {
     });
     n_threads_ = std::max(n_threads_, n_ran);
     for (const auto &own : walked_.threads) near.insert(near.end(), own.near_balls.begin(), own.near_balls.end());
-    // Sorts them, because their order must not depend on the threads.
+    // Sorts the near balls, because their order must not depend on the threads.
     std::sort(near.begin(), near.end(), [](const auto &a, const auto &b) { return a.ball < b.ball; });
   }
 
@@ -121,8 +122,8 @@ class NeighborSearch {
     }
   }
 
-  // Deals with the nodes of near balls that the walk did not reach. Each is proven far by means of its ball's centre, or
-  // queried.
+  // Deals with the nodes of near balls that the walk did not reach. Queries such a node unless its ball's centre proves that it
+  // is far.
   void prove(const NodeBalls &balls) {
     const auto n = view(walked_.near_balls).size();
     const int n_ran = parallel_for_ranges(n, balls_per_block, threads_near(), [&](const Range &block, int thread) {
@@ -171,8 +172,8 @@ class NeighborSearch {
     return near.distance - from_centre > limit_ + slack(near.distance + from_centre, centre);
   }
 
-  // Bounds the rounding of two distances and of a ball's radius. It is proportional to these and to the coordinates of the nodes
-  // and the triangles.
+  // Bounds the rounding of two distances and of a ball's radius. The bound is proportional to these and to the coordinates of the
+  // nodes and the triangles.
   double slack(double distances, Vec3 centre) const {
     return 1e-14 * (distances + std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z)) +
            2 * distances_.rounding();

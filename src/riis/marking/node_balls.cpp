@@ -25,8 +25,8 @@ double rounded_up(double radius, Vec3 centre) {
   return radius * (1 + 1e-15) + 1e-15 * (std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z));
 }
 
-// Returns a ball around the balls of a range. Its centre is the middle of the box around their centres. A node counts as a ball
-// of radius 0.
+// Returns a ball around the balls of a range. The new centre is the middle of the box around the given centres. A node counts as
+// a ball of radius 0.
 template <class BallAt>
 Ball ball_around(const Range &range, const BallAt &ball_at) {
   Bounds box;

@@ -119,7 +119,8 @@ class NodeSorter {
   static constexpr int n_small_bins = 64;
   typedef std::array<Node, n_bins> Counts;
   // Items are counted and moved four at a time, one from each quarter of a block. Neighbouring items are often in the same bin
-  // and stream, and an update of a count has to wait for the last update of the same count. So each quarter has its own counts.
+  // and stream, and an update of a count has to wait for the previous update of the same count. So each quarter has its own
+  // counts.
   static constexpr int n_quarters = 4;
   typedef std::array<Node, n_quarters> OfQuarters;
   typedef std::array<OfQuarters, n_bins> QuarterCounts;
@@ -175,8 +176,8 @@ class NodeSorter {
     }
   };
 
-  // A part in blocks that threads share. Each block has its box, its counts and the positions of its streams. OneBlock is the
-  // same for one thread and one block.
+  // A part that is divided into blocks, which threads share. Each block has its box, its counts and the positions of its streams.
+  // OneBlock is the same for one thread and one block.
   struct ManyBlocks {
     const Part &part;
     int n_threads;
@@ -229,7 +230,7 @@ class NodeSorter {
   static NodeBox box_of(const Item *items, const Part &part) {
     typedef float Four __attribute__((vector_size(16)));
     static_assert(sizeof(Item) >= sizeof(Four));
-    // Two separate boxes are faster, because each comparison has to wait for the last comparison of the same bounds.
+    // Two separate boxes are faster, because each comparison has to wait for the previous comparison of the same bounds.
     Four lower[2], upper[2];
     for (int k = 0; k < 2; ++k) lower[k] = Four{} + NodeBox::inf, upper[k] = Four{} - NodeBox::inf;
     for (std::int64_t i = part.begin; i < part.end; i += 2)

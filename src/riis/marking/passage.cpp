@@ -124,8 +124,7 @@ class Opening {
     return made;
   }
 
-  // Returns the edges that lead to nodes that are not open and that are missing in these nodes' own rows. Most adjacencies have
-  // no such edges.
+  // Returns the edges to nodes that are not open, if the rows of these nodes lack the edges. Most adjacencies have no such edges.
   std::vector<OneWayEdge> one_way_edges() {
     constexpr std::int64_t rows_per_task = 4096;
     std::vector<std::vector<OneWayEdge>> by_thread;
@@ -166,7 +165,7 @@ riis_passage find_passage(const SearchRequest &request, const PassageEnds &ends)
   double limit = half_thickness, beyond = -1, growth = 2;
   for (int step = 0; opening.joins_beyond(limit); ++step) {
     beyond = limit;
-    if (step >= 4) growth *= growth;  // growth squares, in case the surface is tiny compared with the mesh
+    if (step >= 4) growth *= growth;  // growth is squared, in case the surface is tiny compared with the mesh
     limit = std::min(growth * limit, limit < widest ? widest : beyond_all);
   }
   const Candidate nearest = opening.open_until_joined(beyond);

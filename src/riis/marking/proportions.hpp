@@ -14,8 +14,8 @@ namespace riis {
 // The surfaces that were reported as misfits for a mesh. Several threads may call both functions at once.
 class WarnedSurfaces {
  public:
-  // Records the number, which must not be 0. Returns true if it is new. Once the list is full, returns false for new numbers
-  // too.
+  // Records the number, which must not be 0. Returns true if it is new. Once the list is full, also returns false for new
+  // numbers.
   bool is_first(std::uint64_t surface_number);
   bool has(std::uint64_t surface_number) const;
 

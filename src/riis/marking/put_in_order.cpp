@@ -10,12 +10,12 @@
 namespace riis {
 namespace {
 
-// Nodes are sorted stretch by stretch. A stretch is a range of node numbers. It is sorted by means of a set with one bit for
-// each of its nodes.
+// Nodes are sorted stretch by stretch. A stretch is a range of node numbers. A set with one bit for each node of the stretch
+// sorts its nodes.
 constexpr std::int64_t nodes_per_stretch = 16384, bits_per_word = 64;
 constexpr std::size_t n_words = nodes_per_stretch / bits_per_word;
 
-// The set of a stretch's found nodes. It returns the rank of each node among them.
+// The set of a stretch's found nodes. It gives the rank of each node in the set.
 class Ranks {
  public:
   void clear() { bits_.fill(0); }
@@ -95,7 +95,7 @@ class Ordering {
   void write(NodeList &within, NodeList &marked) {
     parallel_for(n_stretches_, n_threads_, [&](std::int64_t stretch, int) {
       const OrderScratch::Counts *lists = scratch_.counts.data() + stretch * n_lists_;
-      // A stretch begins where the stretch before it ends.
+      // A stretch begins where the previous stretch ends.
       const std::int64_t begin = stretch == 0 ? 0 : lists[-1].n_within, end = lists[n_lists_ - 1].n_within;
       if (begin == end) return;
       const FoundNode *nodes = scratch_.by_stretch.data();

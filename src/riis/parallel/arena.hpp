@@ -17,9 +17,9 @@
 namespace riis {
 
 // Borrows an arena of up to n_threads threads, including the calling one, for as long as this object lives. TBB has a limit on
-// the threads of the process. If the limit is lower than n_threads and the caller did not set it, this object raises it while it
-// lives. The arena stays within the limit, because TBB would print a message about a larger arena on stderr. An arena of one
-// thread uses only the calling thread.
+// the threads of the process. If the caller did not set this limit and it is lower than n_threads, it is raised during this
+// object's life. The arena stays within the limit, because TBB would print a message about a larger arena on stderr. An arena of
+// one thread uses only the calling thread.
 class Arena {
  public:
   explicit Arena(int n_threads) {

@@ -42,7 +42,7 @@ PooledArena *take_idle(int n_threads) noexcept {
 void destroy(PooledArena *first) noexcept {
   std::optional<tbb::global_control> no_workers;
   try {
-    // With this limit TBB frees an arena at once, even if workers that it called have not come yet.
+    // With this limit TBB frees an arena at once, and does not wait for workers that it has called.
     no_workers.emplace(tbb::global_control::max_allowed_parallelism, 1);
   } catch (...) {  // no memory for the limit: TBB frees the arena later or keeps it
   }
@@ -80,7 +80,7 @@ KeepsArenas::~KeepsArenas() {
   {
     const std::lock_guard<std::mutex> lock(pool_mutex);
     --pool.n_keepers;
-    // A child of fork() lacks the worker threads, and TBB might wait for what they held.
+    // A child of fork() lacks the worker threads, and TBB might wait for locks that these threads held.
     if (pool.n_keepers > 0 || getpid() != pool.process) return;
     first = std::exchange(pool.idle, nullptr);
     for (const PooledArena *arena = first; arena; arena = arena->next) --pool.n_arenas;

@@ -30,8 +30,9 @@ class Threads {
   bool is_default_ = false;
 };
 
-// Returns whether this process may use several threads, and records that it does. A child of fork() may not if the library had
-// used several threads before the fork: the run-times of OpenMP and TBB would wait for ever for threads that the child lacks.
+// Returns whether this process may use several threads, and records that it does. A child of fork() may not use several threads
+// if the library had used them before the fork: the run-times of OpenMP and TBB would wait for ever for threads that the child
+// lacks.
 bool begin_threads() noexcept;
 
 // Returns whether this process is a child of fork() that may not use several threads.

@@ -27,7 +27,8 @@ class CrossingWatch {
   };
   Shape &remembered(std::uint64_t digest);
 
-  // The number of shapes that are remembered. A caller that alternates between at most so many gets one warning for each.
+  // The number of shapes that are remembered. A caller that alternates between no more shapes than this gets one warning for each
+  // shape.
   static constexpr std::size_t n_remembered = 8;
 
   std::array<Shape, n_remembered> shapes_{};

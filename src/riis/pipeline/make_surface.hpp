@@ -16,7 +16,7 @@
 
 namespace riis {
 
-// The values that every surface is made with. Lengths are in placed units, which are the mesh's units.
+// The values that every surface is made with. Lengths are in mesh units.
 struct SurfaceRequest {
   double half_thickness;
   Placement placement;
@@ -24,7 +24,7 @@ struct SurfaceRequest {
   int n_threads;
 };
 
-// The allowed difference between distances to a generated valve and to the smooth valve, in placed units.
+// The allowed difference between distances to a generated valve and to the smooth valve, in mesh units.
 struct ValveAccuracy {
   double triangle_error;
   std::int32_t measure;   // RIIS_MEASURE_*

@@ -9,7 +9,8 @@
 namespace riis {
 namespace {
 
-// A triangle takes some 300 bytes. With more triangles than this, keeping the memory would cost more than allocating it again.
+// The memory of a larger surface is not kept, because keeping it would cost more than allocating it again. A triangle takes some
+// 300 bytes.
 constexpr std::int64_t max_triangles_kept = 1'000'000;
 
 }  // namespace

@@ -27,10 +27,10 @@ struct MovedPatch {
   std::size_t patch;
 };
 
-// The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. Both states
-// are evaluated on the smooth patches: on their sides and, inside, as the same combination of the sides. A point is identified
-// in both states by its label (u,v) only, so the triangles may change in between. The result is exactly 0 if neither the sides
-// nor the bulge changed.
+// The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. Both states are
+// evaluated on the smooth patches: on the sides directly, and inside by the same combination of the sides. Only (u,v) identifies
+// a point in both states, so the triangles may change in between. The result is exactly 0 if neither the sides nor the bulge
+// changed.
 class PatchMotion {
  public:
   // The grid must have been made with its lines kept.
@@ -47,7 +47,7 @@ class PatchMotion {
   // has. So the displacement does not jump between neighbouring quads.
   Vec3 without_jumps(std::size_t i, std::size_t j, int column, int row) const;
 
-  // Returns the displacement of O on each line of a patch of arcs.
+  // Returns how far the offset O of a patch of arcs (geometry/bulge.hpp) has moved on each of its lines.
   Vector<Vec3> offset_moves() const {
     Vector<Vec3> made;
     for (const std::size_t i : column_) made.push_back(offsets_[i]);
@@ -78,7 +78,7 @@ class ImageMotion {
     return {moved.x / seconds_, moved.y / seconds_, moved.z / seconds_};
   }
 
-  // Bounds the error of that velocity. The displacement and p may have errors up to the given ones.
+  // Bounds the error of that velocity. The arguments bound the errors of the displacement and of p.
   double velocity_error(double of_displacement, double of_point) const {
     const auto norm = [](const Rotation &a) {  // the Frobenius norm
       return std::sqrt(dot(a.row_x, a.row_x) + dot(a.row_y, a.row_y) + dot(a.row_z, a.row_z));
@@ -97,8 +97,8 @@ class ImageMotion {
   double seconds_, scale_before_;
 };
 
-// Returns O of a patch of arcs at the ascending u of these points, and 0 for other patches. At the ends O is made from the shared
-// sides, as in the neighbouring patches.
+// Returns the offsets O of a patch of arcs (geometry/bulge.hpp) at the ascending u of these points. Returns 0 for other patches.
+// At the ends, O comes from the shared sides, as in the neighbouring patches.
 Vector<Vec3> arc_offsets(const PatchSet &set, const Patch &patch, const CurvePoints &base, const CurvePoints &edge);
 
 // Fails with RIIS_INVALID_PARAMETER unless the patches of both states have the same build: the same numbers of patches, images

@@ -127,7 +127,7 @@ class PlannedArcs {
     const Vector<Bezier> &on_base = base_.between(i, j), &on_edge = edge_.between(i, j);
     const Curve &base = set_.curve_of(patch_.v0), &edge = set_.curve_of(patch_.v1);
     if (on_base.size() > 1 || on_edge.size() > 1) {
-      // O' may jump inside this range, and only the other bound takes jumps into account.
+      // O' may jump inside this range. Bulge::linear_error takes jumps into account, and bound_offset does not.
       made.off_line = made.largest = Bulge(along(set_, patch_.v0), along(set_, patch_.v1), patch_.bulge)
                                          .linear_error(shares_[i], shares_[j], offset_share * max_error_);
       return made;
@@ -181,8 +181,8 @@ struct Needs {
   Vector<double> at, need;
 };
 
-// Takes the fewest of these positions so that each segment's error is at most `most` of the allowed error. The first and the
-// last position are always taken.
+// Takes as few of these positions as possible. Each segment's error stays within the share `most` of the allowed error. The first
+// and the last position are always taken.
 Vector<double> segments(const Needs &needs, double most) {
   Vector<double> made{needs.at.front()};
   for (std::size_t i = 0; i < needs.need.size();) {
@@ -215,10 +215,11 @@ Vector<double> balanced_segments(const Needs &needs, double most) {
 // Needs come from narrow steps, and errors of wide segments are bounded a little less closely. So some of the allowed error is
 // held back.
 constexpr double most_of_allowed = 0.9;
-// Needs are computed on steps. Their number is this many times the segments of the curve that has most, within these limits.
+// Needs are computed on steps. The number of steps is this factor times the largest number of segments of a curve, within these
+// limits.
 constexpr int steps_per_segment = 4;
 constexpr std::size_t least_steps = 64, most_steps = 4096;
-// One in this many states decides how many steps each line needs. Later all states check the lines.
+// Only one of this many states decides how many steps each line needs. Later every state checks the lines.
 constexpr std::size_t states_per_need = 4;
 
 // Halves those steps of a list that are too large. `is_too_large` has an entry for each step.
@@ -327,7 +328,7 @@ class Planner {
     return shares;
   }
 
-  // Gives each curve those lines of its family that it needs. `vertices` adds more.
+  // Gives each curve those lines of its family that it needs at first. The function `vertices` adds lines later.
   void plan_families() {
     first_shares_.assign(set_.curves.size(), {0, 1});
     for (const Family &family : families()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Grids whose lines stay the same while a valve opens (docs/theory.md, "Fixed triangulation").
-// In: the patches of a valve at many openings, the allowed error. Out: lines that keep the error at all these openings, and
-// grids on these lines at any opening with their errors there.
+// In: the patches of a valve at many openings, the allowed error. Out: lines that keep the error at all these openings. Also
+// grids on these lines at any opening, with their errors.
 #pragma once
 
 #include <cstddef>
@@ -20,11 +20,11 @@ struct PatchPlan {
   // A patch of arcs has lines in u, and joints of the base that the lines move with. Both are given at one of the openings.
   // Between two joints, a line keeps its relative position. Without joints the lines do not move.
   Vector<double> u, joints;
-  Vector<int> n_parts;  // the parts between two lines, at whose ends O is evaluated to bound its error
+  Vector<int> n_parts;  // the number of parts between two lines; O is evaluated at the ends of the parts
 };
 
-// The numbering of curves that the sides of patches use. At different openings a valve may share different curves: closed mitral
-// leaflets share curves that open ones do not.
+// The numbering of curves that the sides of patches use. The numbering may depend on the opening: closed mitral leaflets share
+// curves that are separate in open ones.
 class CurveNumbering {
  public:
   explicit CurveNumbering(const PatchSet &set);

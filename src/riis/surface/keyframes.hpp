@@ -15,8 +15,8 @@ namespace riis {
 
 class Keyframes {
  public:
-  // Copies all arrays. Fails as triangles_from_arrays does for the faces with the first frame's vertices. Faces without area are
-  // not refused here but when a surface is made. Messages about bad coordinates name the frame.
+  // Copies all arrays. Fails as triangles_from_arrays does with the faces and the first frame's vertices. Faces without area are
+  // refused only when a surface is made. Messages about bad coordinates name the frame.
   Keyframes(const riis_surface_arrays &arrays, const riis_keyframe_arrays &frames);
   Keyframes(Keyframes &&) = default;  // moving a vector leaves its elements, such as the times, at their address
 
@@ -24,9 +24,9 @@ class Keyframes {
   // linear key it is the derivative after the key. Otherwise the velocity is the mean from time - dt to time.
   void at(double time, double dt, std::vector<double> &xyz, std::vector<double> &velocity) const;
 
-  // Returns the ends of the steps from one time to a later one, ascending. The last is the later time. Within a step all vertices
-  // move along nearly straight lines, exactly so for linear interpolation. Fails with RIIS_LIMIT_EXCEEDED for more than a million
-  // keys.
+  // Returns the ends of the steps from one time to a later one, ascending. The last is the later time. Within a step, all
+  // vertices move along nearly straight lines. With linear interpolation, the lines are exactly straight. Fails with
+  // RIIS_LIMIT_EXCEEDED for more than a million keys.
   std::vector<double> steps_between(double time_from, double time_to) const;
 
   const UserFaces &faces() const { return faces_; }

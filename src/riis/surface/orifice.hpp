@@ -14,10 +14,10 @@
 
 namespace riis {
 
-// The factor c of the effective area A - c eps P. The band around a rim narrows the orifice by the distance c eps: a wall of no
-// thickness whose rim lies c eps farther out blocks the flow as much. Each number lies midway between the c of two valves that
-// docs/validation.md compares with walls in body-fitted meshes. The open bileaflet valve has 0.98 (round) and 0.95 (cut). The
-// open trileaflet valve has 0.70 and 0.46.
+// The factor c of the effective area A - c eps P. The band around a rim narrows the orifice by the distance c eps. A wall without
+// thickness blocks the flow equally if its rim reaches c eps farther into the orifice. Each number lies midway between the c of
+// two valves that docs/validation.md compares with walls in body-fitted meshes. The open bileaflet valve has 0.98 (round) and
+// 0.95 (cut). The open trileaflet valve has 0.70 and 0.46.
 inline constexpr double rim_reach_round = 0.84;  // RIIS_RIM_ROUND
 inline constexpr double rim_reach_cut = 0.70;    // RIIS_RIM_CUT
 

@@ -44,8 +44,8 @@ PatchVertices vertices_of(const PatchSet &set, std::size_t patch, const Levelled
   for_each_quad(grid, [&](std::size_t i, std::size_t j) {
     const int level = *level_of_next++;
     if (level == 0) return;
-    // At one level, all parts of a bilinear quad have the same flatness. So recursive halving would end in equal parts, and
-    // these are made directly.
+    // At one level, all parts of a bilinear quad have the same flatness. So recursive halving would end in equal parts, which
+    // this loop makes directly.
     const int n_parts = 1 << level;
     const double step = 1.0 / n_parts;  // a power of two
     const Quad quad = quad_of(grid, i, j);

@@ -39,7 +39,7 @@ class Pieces {
   Pieces(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids, TriangleSet &triangles);
 
   const Vector<Piece> &all() const { return pieces_; }
-  // Bounds the distance between the triangles and the smooth surface, in placed units.
+  // Bounds the distance between the triangles and the smooth surface, in mesh units.
   double error_bound() const;
 
   // Places the vertices of every piece, and then calls work(i) for piece i. Several threads call work at once.
@@ -82,7 +82,7 @@ class Pieces {
 bool is_missed(const TriangleSet &set, const LeftOut &triangle);
 
 // Returns the triangulation's request with a smaller allowed error: the patches' own deviation is subtracted. Fails if the rest
-// is too small, or if the state before has another build.
+// is too small, or if the earlier state has another build.
 Triangulation checked(const PatchSet &set, const Triangulation &asked);
 
 // Adds the rims of the patches. If the valve moves, also keeps the grids, which the bound of the velocities' errors needs.

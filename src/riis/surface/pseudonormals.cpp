@@ -27,7 +27,7 @@ std::uint64_t hash(Vec3 p) {
 
 // Numbers the positions of all vertices. Vertices with equal coordinates get the same number.
 UnfilledShortVector<std::int32_t> distinct_positions(const TriangleSet &set, std::int64_t &n_positions) {
-  // A hash table of vertices that is at most half full. Each vertex is stored at the first free place from its hash on.
+  // A hash table of vertices that is at most half full. Each vertex is stored at the first free place, starting at its hash.
   constexpr std::int32_t none = -1;
   UnfilledShortVector<std::int32_t> position;
   resize(position, set.n_vertices());

@@ -31,8 +31,8 @@ class Pseudonormals {
 
   Vec3 of_face(std::int64_t triangle) const { return view(face_)[triangle]; }
 
-  // The face, edge or vertex that a closest point lies on, by its barycentric weights: its normal, of any length, and whether it
-  // is on the rim. The rim of a valve consists of the sides that only one patch has (surface/rims.hpp). The rim of triangles
+  // The face, edge or vertex that a closest point lies on. The point's barycentric weights tell which one it is. The normal may
+  // have any length. The rim of a valve consists of the sides that only one patch has (surface/rims.hpp). The rim of triangles
   // from arrays consists of the edges that only one triangle has.
   struct Feature {
     Vec3 normal;

@@ -71,7 +71,7 @@ Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double m
   if (!(error <= left)) {
     double shortest = 0;
     const Quad merged = without_shortest_edge(quad, shortest);
-    // The quad and its triangles are each within half the edge of the merged quad and its triangles.
+    // The distance between the quad and the merged quad is at most half the edge. The same holds for their triangles.
     error = std::min(split_error_at(quad, level, infinity), split_error_at(merged, level, infinity) + shortest);
   }
   return {level, grid.error(i, j) + error};

@@ -41,7 +41,7 @@ void for_each_quad(const QuadGrid &grid, const Visit &visit) {
 // No quad that the library accepts needs so many halvings.
 inline constexpr int most_halvings = 13;
 
-// The quads of a patch. Each has a level of subdivision, in the order of for_each_quad.
+// The quads of a patch, and their levels of subdivision in the order of for_each_quad.
 struct LevelledGrid {
   QuadGrid grid;
   Vector<int> levels;
@@ -55,7 +55,7 @@ LevelledGrid with_levels(QuadGrid grid, double max_error);
 // Gives the quads the levels of a plan. The bounds of errors are refined no further than max_error requires.
 LevelledGrid with_planned_levels(QuadGrid grid, double max_error, const Vector<int> &planned);
 
-// Raises levels to those that the quads of a grid need for max_error. An empty list stands for levels of 0.
+// Raises levels to the levels that the quads of a grid need for max_error. An empty list stands for levels of 0.
 void raise_levels(const QuadGrid &grid, double max_error, Vector<int> &levels);
 
 }  // namespace riis

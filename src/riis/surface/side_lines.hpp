@@ -21,11 +21,12 @@ double length_of(const TriangleSet &set, const SideLine &side);
 // free_edges and attached_sides return the sides in the order of their patches. A surface from arrays has no sides.
 // A leaflet's free edge consists of the sides v = 1 that only one patch of the leaflet has.
 std::vector<SideLine> free_edges(const TriangleSet &set);
-// The attachment consists of the sides that Patch::attached names (valve/patches.hpp). A side that two patches share is no part.
+// The attachment consists of the sides that Patch::attached names (valve/patches.hpp). A side that two patches share does not
+// belong to it.
 std::vector<SideLine> attached_sides(const TriangleSet &set);
 
-// The edges of all attached sides. They are in the order of the patches, and within a side in order along it. Edges of length 0
-// are left out.
+// The edges of all attached sides. Their order is that of the patches. The edges of one side follow each other along the side.
+// Edges of length 0 are left out.
 struct Attachment {
   std::vector<double> edges;             // (3, 2, n_edges)
   std::vector<std::int64_t> vertex_id;   // (2, n_edges)

@@ -56,8 +56,8 @@ struct Ties {
     candidates.push_back({point, other});
   }
 
-  // Keeps those candidates that are ties, once all points are decided. closest_to(point) returns the closest triangle, or one
-  // with the position -1 if there is none. node_of(point) returns the node.
+  // Keeps those candidates that are ties, once all points are decided. closest_to(point) returns the closest triangle, or the
+  // position -1 if there is none. node_of(point) returns the node.
   template <class ClosestTo, class NodeOf>
   void settle(const ClosestTo &closest_to, const NodeOf &node_of) {
     for (const Tie &tie : candidates) {

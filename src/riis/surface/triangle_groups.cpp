@@ -104,8 +104,8 @@ void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, in
   constexpr double much = 2;
   frame = surface_frame;
   const bool is_by_place = set.grouping.end.empty();
-  // Groups by position are kept until they become much larger. If the number of triangles is the same, most triangles have only
-  // moved.
+  // If the number of triangles is the same, the triangles have probably only moved. So groups by position are kept until they
+  // become much larger.
   const bool are_known = is_by_place ? is_by_place_ && view(grouping_.order).size() == set.n_triangles()
                                      : !is_by_place_ && grouping_ == set.grouping;
   const auto group_anew = [&] {

@@ -34,8 +34,8 @@ struct Release {
 using Scene = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release>;
 using Geometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Release>;
 
-// Returns the one device that all surfaces of the process share. It exists as long as one of them, because a device costs more
-// than a small scene. Its default configuration leaves the number of threads to the caller's TBB settings.
+// Returns the device that all surfaces of the process share, because a device costs more than a small scene. The device exists as
+// long as one of the surfaces. Its default configuration leaves the number of threads to the caller's TBB settings.
 std::shared_ptr<std::remove_pointer_t<RTCDevice>> shared_device() {
   static std::mutex mutex;
   static std::weak_ptr<std::remove_pointer_t<RTCDevice>> current;
@@ -57,9 +57,9 @@ constexpr double far_away = 1e6;
 // Returns the radius, in the frame's units, that makes Embree visit every triangle whose computed distance from q is at most
 // `distance`. In single precision, Embree compares sums of squares, from the rounded point to boxes rounded outwards, with the
 // square of the radius. The unit roundoff is e = 2^-24. The point is off by at most sqrt(3) e max|q|. The subtractions, squares
-// and sums are right to a factor 1 + 6 e, and the radius' square is right to 1 + e. The factor 1 + 2^-20 = 1 + 16 e and the term
-// 4 e max|q| cover these errors and the rounding of this function itself. `rounding` covers the rounding of the kernel. 2^-60
-// keeps the radius' square a normal float.
+// and sums are accurate to a factor 1 + 6 e, and the radius' square is accurate to a factor 1 + e. The factor 1 + 2^-20 = 1 + 16
+// e and the term 4 e max|q| cover these errors and the rounding of this function itself. `rounding` covers the rounding of the
+// kernel. 2^-60 keeps the radius' square a normal float.
 float inflated_radius(double distance, Vec3 q, double rounding) {
   const double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)});
   return round_up(distance * (1.0 + 0x1p-20) + largest * 0x1p-22 + rounding + 0x1p-60);
@@ -173,9 +173,9 @@ bool add_group(RTCPointQueryFunctionArguments *arguments) {
   return false;
 }
 
-// Bounds the rounding of a distance. The kernel computes a point of the triangle. Each of its coordinates is right to a few
-// units of rounding of the largest coordinate, and 16 units cover this amply. The distance from that point is right to its own
-// rounding.
+// Bounds the rounding of a distance. The kernel computes a point of the triangle. Each of the point's coordinates is accurate to
+// a few units of rounding of the largest coordinate, and 16 units cover this amply. The distance from that point is accurate to
+// its own rounding.
 double rounding_of_distances(const Bounds &bounds) {
   const Vec3 a = bounds.lower, b = bounds.upper;
   return 0x1p-49 * std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z), std::abs(b.x), std::abs(b.y), std::abs(b.z)});

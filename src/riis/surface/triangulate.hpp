@@ -23,14 +23,15 @@ struct LeftOut {
   bool other_was_kept;
 };
 
-// The triangles of a plan at one of the openings, in terms of its vertices. Two openings share them if the same triangles have
-// area.
+// The triangles of a plan at one of the openings, as ids of the plan's vertices. Two openings share them if the same triangles
+// have area.
 struct Connectivity {
   std::vector<std::int64_t> vertex_id, triangle_id;
   std::vector<std::int32_t> leaflet_id, patch_id;
   Grouping grouping;
   Vector<LeftOut> left_out;
-  // For each image of each patch: the end of its triangles, and whether the triangles are the same as those of the image before.
+  // For each image of each patch: the end of its triangles, and whether its triangles are the same as those of the previous
+  // image.
   struct OfImage {
     std::int64_t end;
     bool is_as_before;
@@ -49,7 +50,7 @@ struct TriangulationPlan {
 };
 
 // Makes the plan from a valve's patches at many openings. asked_error is the max_error of a Triangulation. The plan holds back a
-// small part of it for other openings. Fails as triangulate_fixed does.
+// small part of this error for other openings. Fails as triangulate_fixed does.
 TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked_error, int n_threads);
 
 // Returns whether the plan's triangles are within asked_error of the smooth surface in a state.

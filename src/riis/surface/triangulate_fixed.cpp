@@ -49,7 +49,7 @@ double rounding_of_corners(const QuadGrid &grid, const Patch &patch, const Place
   double largest = 0, farthest = 0;
   for (const Vec3 &p : grid.points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   for (const PatchImage &image : patch.images) farthest = std::max(farthest, length(image.translation));
-  // Each coordinate is a sum that is right to 16 units of rounding of its terms.
+  // Each coordinate is a sum that is accurate to 16 units of rounding of its terms.
   return 0x1p-48 * (placement.scale * (2 * largest + farthest) + length(placement.translation));
 }
 
@@ -147,7 +147,7 @@ bool is_within(const PatchSet &state, const TriangulationPlan &plan, double aske
 
 namespace {
 
-// Raises the plan's levels to those that a state needs.
+// Raises the plan's levels to the levels that a state needs.
 void raise_levels(const PatchSet &set, double max_error, TriangulationPlan &plan) {
   const Vector<QuadGrid> grids = make_grids(set, plan.grids, max_error, 1, false);
   plan.levels.resize(grids.size());

@@ -25,7 +25,7 @@ struct UserFaces {
 // RIIS_INVALID_SURFACE or RIIS_LIMIT_EXCEEDED. The message names the field, the face or vertex, and the value.
 UserFaces faces_from_arrays(const riis_surface_arrays &arrays, UserFaces memory = {});
 
-// Makes triangles from `faces` and from the vertices and velocities in `arrays`, whose own faces are ignored. `memory` is a set
+// Makes triangles from `faces` and from the vertices and velocities in `arrays`. Ignores the faces in `arrays`. `memory` is a set
 // whose memory is reused.
 TriangleSet triangles_from_arrays(const UserFaces &faces, const riis_surface_arrays &arrays, const Placement &placement,
                                   bool skip_zero_area, bool flip_normals, TriangleSet memory = {});

@@ -123,7 +123,7 @@ AlongCurve along(const CurveRange &on) {
           least >= tight_share * first && by_itself <= 1 - tight_share};
 }
 
-// Returns the bounds that follow from each state by itself. They are for a range in different pieces of the two states.
+// Returns bounds that follow from each state by itself. They serve a range on which the two states have different pieces.
 AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
   const auto of = [](Both a, Both b) { return Both{larger(a.size, b.size), a.size + b.size}; };
   return {of(now.length, before.length),
@@ -419,7 +419,8 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
   for_each_quad(grid, [&](std::size_t i, std::size_t j) {
     const int level = *next_level++, n = 1 << level;
     const double row = grid.v[j + 1] - grid.v[j];
-    // Between two vertices, the arcs' part is as far from linear as 2 v (1-v), times the offset.
+    // The arcs add 2 v (1-v) times the offset. Between two vertices, this differs from linear by at most row^2 / 2 times the
+    // offset.
     double error = larger_mix(at_v0[i], at_v1[i], grid.v[j], grid.v[j + 1]) +
                    larger_mix(at_u0[j], at_u1[j], grid.u[i], grid.u[i + 1]) +
                    largest_arc_weight(grid.v[j], grid.v[j + 1]) * offset[i] + 0.5 * row * row * rows[i];

@@ -89,8 +89,8 @@ Shape blended(const ValveState &closed, const ValveState &open, double at) {
           blend(closed.values[closed_angle][0], open.values[open_angle][0], at)};
 }
 
-// Turns points of the orifice plane into points of the leaflet on the side x > 0. The point (x, y) stands for the leaflet's
-// point that is at (x, y) in the closed state, seen along the axis.
+// Turns points of the orifice plane into points of the leaflet on the side x > 0. Seen along the axis, the leaflet's point is at
+// (x, y) when the leaflet is closed.
 class Turn {
  public:
   explicit Turn(const Shape &shape)
@@ -114,7 +114,7 @@ class Turn {
   SineCosine closed_, now_;
 };
 
-// Every arc has this many pieces. A quarter of a circle is then right to 1e-9 of its radius.
+// Every arc has this many pieces. A quarter of a circle is then accurate to 1e-9 of its radius.
 constexpr int n_pieces = 8;
 
 // Bounds the distance of such an arc from its circle, in radii. For a piece of the angle a, it is 2/27 sin^6(a/4) / cos^2(a/4).

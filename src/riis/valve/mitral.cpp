@@ -108,7 +108,7 @@ class Annulus {
 };
 
 // Returns the cubic from `first` to `last` that passes through the tip at 1/2. It is the affine image of the cubic that
-// approximates a circular arc of that angle. (The paper's matrix has rank 3. This curve is the one that it is meant to give.)
+// approximates a circular arc of that angle. (The paper's matrix is meant to give this curve, but has rank 3.)
 Bezier free_edge(Vec3 first, Vec3 tip, Vec3 last, double arc_angle) {
   const auto [quarter_sine, quarter_cosine] = sine_cosine_degrees(0.25 * arc_angle);
   const auto [half_sine, half_cosine] = sine_cosine_degrees(0.5 * arc_angle);

@@ -38,7 +38,7 @@ struct Side {
   bool reversed = false;
 };
 
-// The side at which tissue or a stent holds a patch, if it is held along one.
+// The side at which tissue or a stent holds a patch, or none.
 enum class AttachedSide : std::uint8_t { none, v0, u1 };
 
 // A patch, given by its four sides. Each side is named after the parameter that is constant on it. A curve that two patches
@@ -80,7 +80,7 @@ inline Curve along(const PatchSet &set, const Side &side) {
   return side.reversed ? set.curve_of(side).reversed() : set.curve_of(side);
 }
 
-// Returns O on a side that is itself an arc. So the two patches at the side get the same bits.
+// Returns the offset O (geometry/bulge.hpp) on a side that is itself an arc. So the two patches at the side get the same bits.
 inline Vec3 arc_offset(const PatchSet &set, const Side &side) {
   return arc_offset(set.curve_of(side).pieces().front());
 }

@@ -27,10 +27,10 @@ constexpr double turns[3] = {0, 120, -120};
 void check_values(const ParameterValues &values);
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
 
-// Lengths are in centimetres. Sources of the values (docs/theory.md has more): the root from Roman et al. 1989, the cylinder
-// between Thubrikar et al. 1981 and Jelenc et al. 2024, the heights from Bierbach et al. 2010 and Schaefers et al. 2013, the
-// orifice from Bonow et al. 2006, and the expansion of the commissures from Pang et al. 2000. The bending curve is chosen to fit
-// these.
+// The defaults are in centimetres, and docs/theory.md lists their sources. The root follows Roman et al. 1989. The heights follow
+// Bierbach et al. 2010 and Schaefers et al. 2013. The orifice follows Bonow et al. 2006, and the expansion of the commissures
+// Pang et al. 2000. Root and commissures have equal radii: their measured ratio is 1.11 in Jelenc et al. 2024 and 1/1.2 in
+// Thubrikar et al. 1981. The bending curve is chosen to fit these values.
 // clang-format off
 ValveKind make_kind() {
   constexpr double shortest = 1e-9, longest = 1e9;

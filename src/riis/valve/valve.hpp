@@ -81,8 +81,8 @@ class Valve {
   bool can_open() const { return open_ || kind_->opens_by_itself; }
   double opening() const { return state_.values[kind_->opening][0]; }
 
-  // Returns the disc of the root or of the housing about the z axis, or a radius of 0 if the valve has no such parameter. It
-  // does not depend on the opening.
+  // Returns the disc of the root or of the housing about the z axis, or a radius of 0 if the valve has no such parameter. The
+  // disc does not depend on the opening.
   struct Disc {
     double radius, x, y;  // the centre is the mean translation of the valve or of its leaflets
   };
