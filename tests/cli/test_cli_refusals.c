@@ -217,7 +217,7 @@ static void test_input_files(void **state) {
   assert_int_equal(scratch_exists("a.vtu"), 0);
 }
 
-/* Some faults of the data are found only by the library. The refusal then also names the file. */
+/* Only the library finds some faults of the data. The refusal then also names the file. */
 static void test_bad_data(void **state) {
   (void)state;
   scratch_write_text(

@@ -245,7 +245,7 @@ static void test_killed(void **state) {
   const int n = n_listed("dead.pvd");
   kill(process, SIGKILL);
   finish_program(process);
-  if (!is_stopped) skip(); /* skipped where the system lets no process stop another's threads */
+  if (!is_stopped) skip(); /* skipped if the system does not let a process stop the threads of another */
   assert_int_equal(program_exit_code, 128 + SIGKILL);
   assert_true(n_files >= 12 && n_files < 2001);
   assert_true(n == n_files || n == n_files - 1);

@@ -390,8 +390,8 @@ typedef struct {
 
 static random_source rng;
 
-/* Checks a point that is marked or in a pressure band: it must lie in the box. The solver must take the point's distance from
- * the leaflets' triangles. */
+/* Checks a point that is marked or in a pressure band. The point must lie in the box, and its nearest triangle by the solver's
+ * rule must belong to a leaflet. */
 static void look_at(frame *at, const double point[3]) {
   double expected = 0, distance = 0;
   const int leaflet = uris_nearest(&at->leaflets, point, &expected);

@@ -117,7 +117,7 @@ static void test_open_lines(void **state) {
     const double flat[3][6] = {{0, 0, 0, x, y, 0}, {x, y, 0, 2 * x, 2 * y, 1}, {2 * x, 2 * y, 1, 0, 0, 0}};
     assert_true(shim_uncovered_inside(3, flat[0], 0, NULL, n_lines) == -1);
   }
-  /* So do lines along x and along y with rounded coordinates. */
+  /* Triangles that are lines along x or y up to rounding also cover nothing. */
   const double near_x[3][6] = {{0, 0, 0, 1, 1e-16, 0}, {1, 1e-16, 0, 2, -1e-16, 1}, {2, -1e-16, 1, 0, 0, 0}};
   const double near_y[3][6] = {{0, 0, 0, 1e-16, 1, 0}, {1e-16, 1, 0, -1e-16, 2, 1}, {-1e-16, 2, 1, 0, 0, 0}};
   assert_true(shim_uncovered_inside(3, near_x[0], 0, NULL, n_lines) == -1);

@@ -147,7 +147,7 @@ check_by_pkg_config() { # arguments: prefix, all|few, more pkg-config options
     done
   fi
   if has Fortran && [ "$2" = all ]; then
-    # Compiled as codes do that use no modules.
+    # Compiles the program as a code without modules does.
     # shellcheck disable=SC2046
     quietly "$FC" -std=legacy "$source/tests/fortran/test_f77.f" "$source/tests/fortran/f77_checks.f" -o "$out/test_f77" \
       $(flags --cflags --libs "${@:3}" riis-fortran)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * The widest passage is compared with a binary search over half thicknesses, which does a flood fill for each. It is also
- * compared with holes of known position and size. RIIS_TEST_LONG=1 tries many more. */
+ * compared with holes of known position and size. RIIS_TEST_LONG=1 tries many more cases. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -39,7 +39,7 @@ static int are_joined(const test_mesh *rows, const uint8_t *is_open, const ends 
   return 0;
 }
 
-/* Finds, by bisection, the node that separates the two ends when it is closed after all nearer nodes. */
+/* Nodes are closed in the order of their distances. Finds, by bisection, the node whose closing separates the two ends. */
 static riis_passage expected_passage(const test_mesh *rows, const riis_surface *surface, const uint8_t *mask,
                                      const ends *e) {
   const size_t n = (size_t)rows->n;

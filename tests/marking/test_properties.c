@@ -126,7 +126,7 @@ static void order_of_triangles_does_not_matter(void **state) {
   for (int i = 0; i < n; ++i) CHECK_SAME(shuffled[i], plain[i]);
 }
 
-/* Each cusp of the valve is its own mirror image, so the distances are symmetric too. */
+/* Each cusp of the valve is its own mirror image, so the distances are also symmetric. */
 static void cusps_are_symmetric(void **state) {
   (void)state;
   static double plain[n], mirrored[n], mirrored_nodes[3 * n];

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The library warns if a mesh, a surface and a half thickness can hardly be in one unit. The warning comes once, and not for a
- * part of a mesh that lies elsewhere. It depends on the nodes' bounding box, which is tested for every layout of the
- * coordinates. */
+ * The library warns if a mesh, a surface and a half thickness can hardly be in one unit. The warning comes once. A part of a mesh
+ * that lies elsewhere gets no warning. The warning depends on the bounding box of the nodes, which is tested for every layout of
+ * the coordinates. */
 #include <pthread.h>
 #include <riis/riis.h>
 
@@ -124,8 +124,8 @@ static void one_warning_a_mesh_and_surface(void **state) {
   mark(first, other);
   mark(first, other);
   assert_int_equal(warnings.n, 3);
-  /* Surfaces are created and destroyed. Each counts as new, even at the last one's address. The library's list of warned
-   * surfaces eventually fills up. */
+  /* Surfaces are created and destroyed. Each surface counts as new, even if it has the address of the last one. The library's
+   * list of warned surfaces eventually fills up. */
   for (int i = 0; i < 20; ++i) {
     free_one_owned(second);
     second = aortic_surface(NULL);

@@ -470,7 +470,7 @@ static void check_case(int kind, int32_t triangulation, int trial) {
     check_exact(of_edge + i, got->edge_force + 3 * i, got->edge_moment + 3 * i, before->edge_force + 3 * i,
                 before->edge_moment + 3 * i);
 
-  /* The bits of the sums must not depend on the number of threads, and not on the other sums that the call adds. */
+  /* The bits of the sums must not depend on the number of threads, or on the other sums that the call adds. */
   memset(got, 0, sizeof *got);
   CHECK_OK(riis_marks_add_reaction(f.marks, &resistance, &flow, &reaction));
   static const int32_t threads[3] = {2, 3, 8};

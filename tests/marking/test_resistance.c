@@ -513,7 +513,7 @@ static void refusals_leave_the_arrays(void **state) {
                 band_sums_of(f.result, 0, 0.1, 0, f.value, f.weight, &sums, sizeof sums));
   UNCHANGED();
 
-  /* Wrong resistances in the options of a marking, whose refusals leave the marks, and wrong layouts. */
+  /* Wrong resistances in the options of a marking are refused, and the marks stay. Wrong layouts are also refused. */
   riis_mark_options with_resistance = mark_options();
   const riis_mark_list list_before = marked_list(f.result);
   with_resistance.resistance = &resistance;
@@ -540,7 +540,7 @@ static void refusals_leave_the_arrays(void **state) {
                 riis_marks_add_resistance(f.result, &resistance, &arrays));
   UNCHANGED();
 
-  /* Calls that need fields which the marks lack. */
+  /* These calls need fields that the marks lack. */
   const char *lacks = "options.fields = 0";
   resistance.rim = RIIS_RIM_CUT;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "RIIS_RIM_CUT needs RIIS_FIELD_RIM|options.fields = 0",

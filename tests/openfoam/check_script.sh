@@ -116,7 +116,7 @@ left=$(cd "$of_cases/beat" && echo processor0/* postProcessing*)
 [[ $left == 'processor0/0 processor0/0.16 processor0/0.2 processor0/1e-05 processor0/constant postProcessing*' ]] ||
   problem "after of_forget_after there is: $left"
 
-# If the leaflet height were missing in the dictionary, the test of a restart would lack its other valve.
+# of_height must add a leaflet height that the dictionary lacks. Otherwise the test of a restart would not get its other valve.
 mkdir -p "$of_cases/tall/system"
 echo 'valve { kind trileaflet; }' >"$of_cases/tall/system/fvOptions"
 ends 0 "" of_height tall 1.123456789012

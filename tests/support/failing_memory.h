@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Makes allocations fail when a test asks for it. An executable with failing_memory.cpp replaces operator new for all C++ code
- * of the process. The return address distinguishes the library's allocations from others. The executable also replaces
- * rtcNewDevice, in order to give Embree a memory monitor. */
+ * Makes allocations fail when a test requests it. An executable with failing_memory.cpp replaces operator new for all C++ code of
+ * the process. The return address distinguishes the library's allocations from others. The executable also replaces rtcNewDevice,
+ * in order to give Embree a memory monitor. */
 #ifndef RIIS_TEST_FAILING_MEMORY_H
 #define RIIS_TEST_FAILING_MEMORY_H
 

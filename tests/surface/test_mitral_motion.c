@@ -349,7 +349,7 @@ static void any_parameter_moves(void **state) {
     states now = paper_at(random_between(&rng, 0.05, 0.95)), before;
     before = now;
     if (i == n_scalars) before.closed.translation[random_bits(&rng) % 3] += 0.1;
-    for (int k = 0; k < n_scalars; ++k) { /* changes one of them, or all in the last round */
+    for (int k = 0; k < n_scalars; ++k) { /* changes one parameter, or all in the last round */
       if (i != k && i != n_scalars + 1) continue;
       *scalar_of(&before.closed, k) *= random_between(&rng, 0.95, 0.99);
       *scalar_of(&before.open, k) *= random_between(&rng, 0.95, 0.99);

@@ -31,7 +31,7 @@ static const struct {
              {"opening", 1}};
 enum { n_scalars = sizeof table / sizeof *table };
 
-/* The valve before its translation, because the expected numbers are given without it. */
+/* Returns the valve without its translation, because the expected numbers are given without it. */
 static riis_valve *mitral_valve(double opening) {
   const double no_shift[3] = {0, 0, 0};
   riis_valve *valve = new_valve("mitral");
@@ -57,7 +57,7 @@ static void parameters_are_the_papers(void **state) {
   double values[3];
   riis_valve *valve = new_valve("mitral");
   CHECK_OK(riis_valve_get_n_parameters(valve, &n));
-  /* 18 parameters, as the paper says: those of its table, its t and the translation. */
+  /* The 18 parameters of the paper are those of its table, its t and the translation. */
   assert_int_equal(n, n_scalars + 1);
   for (int i = 0; i < n_scalars; ++i) {
     riis_parameter parameter;

@@ -336,7 +336,7 @@ static void a_switch_opens_by_pressure_and_closes_by_flow(void **state) {
   CHECK_NEAR(now.opening, where, 1e-6);
 }
 
-/* A solver's steps may not hit the ramp's end exactly: steps of 2 ms that add up to 0.04 s end a rounding error before it. */
+/* A solver's steps may not hit the ramp's end exactly: by rounding, the sum of steps of 2 ms is slightly less than 0.04 s. */
 static void an_opening_rounds_to_at_most_one(void **state) {
   (void)state;
   const riis_opening_switch law = some_switch();

@@ -111,7 +111,7 @@ static void perimeters_are_derivatives_of_areas(void **state) {
     const riis_resistance less = resistance((slit - step) / found.rim_reach, RIIS_RIM_ROUND),
                           more = resistance((slit + step) / found.rim_reach, RIIS_RIM_ROUND);
     const double lost = orifice_of(surface, &less).effective_area - orifice_of(surface, &more).effective_area;
-    /* The mean over the step, because a slit that closes within it takes both of its edges along. */
+    /* Takes the mean perimeter over the step, because a slit that closes within the step loses both of its edges. */
     enum { n_parts = 8 };
     double mean = 0;
     for (int i = 0; i <= n_parts; ++i) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The demo's meshes, made by gmsh, which valves fill. A valve's attachment lies on the wall, so a closed valve separates
- * inflow from outflow. The flow is a flood fill over unmarked nodes. In wider cylinders the flow passes around the valve's
- * outside. */
+ * Tests the demo's meshes, which gmsh makes and which valves fill. A valve's attachment lies on the wall, so a closed valve
+ * separates inflow from outflow. The flow is a flood fill over unmarked nodes. In wider cylinders the flow passes around the
+ * valve's outside. */
 #include <riis/riis_vtk.h>
 
 #include "../support/test_support.h"
