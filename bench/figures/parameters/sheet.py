@@ -53,7 +53,7 @@ class Sheet:
     # ------------------------------------------------------------------------------------------------------- parameters
 
     def of_cusps(self, name):
-        """Returns the parameters of all cusps for which a name without a cusp stands."""
+        """Returns the parameters of all three cusps for a name that names no cusp."""
         return [each for full, each in self.parameters.items() if full.partition(".")[2] == name]
 
     def value(self, name):
