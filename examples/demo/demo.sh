@@ -13,7 +13,7 @@ build_demo() {
 }
 
 # demo_mesh NAME: makes the mesh of examples/demo/NAME.geo, unless it exists. examples/demo/fill.geo explains why the surface is
-# written to a file first. gmsh runs with one thread, because with more it sometimes left stray cells in the mesh.
+# written to a file first. gmsh runs with one thread, because several threads sometimes left stray cells in the mesh.
 demo_mesh() {
   local mesh=$build/demo/$1 surface=examples/demo/$1.geo volume=examples/demo/fill.geo
   [[ ! -s $mesh.vtk || $surface -nt $mesh.vtk || $volume -nt $mesh.vtk ]] || return 0

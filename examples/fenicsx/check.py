@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The checks and the picture of ./run fenicsx. A check prints its numbers, and ends with an error if one is not as it must be."""
+"""The checks and the picture of ./run fenicsx. A check prints its numbers, and ends with an error if a number is out of its
+bounds."""
 import itertools
 import json
 import pathlib
@@ -163,7 +164,7 @@ def drops():
 
 
 def refusals():
-    """Bad input and the words that answer it."""
+    """Checks that each bad input is refused with the expected error and words."""
     from mpi4py import MPI
     import riis
     import valve_in_duct
