@@ -43,7 +43,7 @@ using Segments = std::vector<std::array<Vec3, 2>>;
 
 // Triangles or quads, each with a colour.
 struct Faces {
-  std::size_t n_corners;  // of each face
+  std::size_t n_corners;  // number of corners of each face
   Points points;
   std::vector<std::int64_t> corners;  // (n_corners, n)
   std::vector<Colour> colours;

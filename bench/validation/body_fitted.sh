@@ -90,7 +90,7 @@ run_case() {
     rm -rf "$case/constant/polyMesh" && say "$1"
 }
 
-# run_blood NAME: continues from the steady flow of the case with blood's viscosity. The unsteady run is in blood/NAME.
+# run_blood NAME: continues with blood's viscosity from the steady flow of the case. The unsteady run is in blood/NAME.
 run_blood() {
   local case=$out/blood/$1 mesh=$1 from
   [[ ! -e $case/complete ]] || return 0

@@ -115,7 +115,8 @@ class _Component:
         self.D = _kron(*[jump if d == c else sp.diags(side[d].size) for d in range(3)])
 
     def given(self, kind, a):
-        """Returns the prescribed velocities on the box's faces normal to c, 0 elsewhere, and the friction of its other faces."""
+        """Returns the prescribed velocities on the box's faces normal to c, which are 0 elsewhere. Also returns the friction of
+        the box's other faces."""
         def velocity(x, y, z):
             r = np.hypot(x, y)
             u_r, u_z, _ = exact.disc(a, r, z) if kind == "disc" else exact.hole(a, r, z)

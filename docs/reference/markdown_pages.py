@@ -14,8 +14,9 @@ FENCE = re.compile(r"^( *)```(\w*) *$")
 CODE = r"(`+)(?:(?!\1).)*\1(?!`)"
 FORMULA = re.compile(CODE + r"|(?<![\w$\\])\$(?=[^\s$])([^$]*?)(?<=[^\s$])\$(?![\w$])")
 
-# What TeX does about space, and latex2mathml and browsers leave out: none around a slash and behind a sign, some around
-# functions; columns by the style that Chromium knows; primes as high as they are drawn.
+# latex2mathml and browsers lack some of TeX's rules. A slash has no space around it, and a sign no space behind it. Functions
+# have some space around them. Columns need a style that Chromium knows. Primes are already drawn high, so they are no
+# superscripts.
 THIN = '<mspace width="0.167em" />'
 SPACING = [
     (r"<mi>(&#x000B1;)</mi>", r"<mo>\1</mo>"),

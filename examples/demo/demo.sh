@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
 # The steps of ./run demo, which reads this file: compile the program, make meshes, mark and draw, measure times, and print a
-# summary. They use its variables and functions $build, $logs, $n_jobs, $demo_packages, install_missing and step.
+# summary. The steps use $build, $logs, $n_jobs, $demo_packages, install_missing and step of `run`.
 
 # build_demo: compiles the program. A folder that is configured for the tests keeps its configuration, so that ./run test need not
 # build everything again.

@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# The steps of ./run fenicsx, which reads this file: install dolfinx and the Python package, run the example, check, draw. They
-# use its $packages, install_missing, is_on_offer, version_on_offer, say and step.
+# The steps of ./run fenicsx, which reads this file: install dolfinx and the Python package, run the example, check, draw. The
+# steps use $packages, install_missing, is_on_offer, version_on_offer, say and step of `run`.
 
 # Debian's reference BLAS makes the solver of the linear systems ten times slower than OpenBLAS.
 fenicsx_packages=(gcc g++ cmake ninja-build libembree-dev libtbb-dev python3 python3-dev python3-venv

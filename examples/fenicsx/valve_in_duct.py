@@ -36,7 +36,7 @@ def duct(comm, size):
 
 
 def flow(comm, law, dt, n_steps, size=2e-3, eps=2e-3, **parameters):
-    """Yields the state after each time step. The law gives the opening at a time, the parameters are the valve's."""
+    """Yields the state after each time step. The law gives the opening at a time, and the parameters are those of the valve."""
     mesh, tags = duct(comm, size)
     P1 = basix.ufl.element("Lagrange", mesh.basix_cell(), 1)
     P2 = basix.ufl.element("Lagrange", mesh.basix_cell(), 2, shape=(3,))

@@ -223,7 +223,8 @@ static void interrupt_series(int signal_number) {
 }
 
 /* The main thread is stopped in the middle of a step, as if the step took very long. The program must still write the list.
- * Then the process is killed. The list may lack one file, if the thread stopped between a file and its entry. */
+ * Then the process is killed. The list may lack one file, if the thread was stopped after it wrote a file and before it listed
+ * the file. */
 static void test_killed(void **state) {
   (void)state;
   write_cycle("0,0\n1,1\n");

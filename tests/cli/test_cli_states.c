@@ -2,7 +2,7 @@
  *
  * `riis states`: lengths of free edges are compared with the valves' curves. Areas and orifices are compared with the
  * surface's triangles. */
-/* clang-format off: test_support.h checks statuses if riis.h came before */
+/* clang-format off: test_support.h checks statuses if riis.h comes before it */
 #include <riis/riis.h>
 
 #include "calls.h"
@@ -339,8 +339,8 @@ static void test_collapsed_sides(void **state) {
   expect_said("edges     not measured: a leaflet has no side v = 1 on its rim\n");
 }
 
-/* Two patches above each other share a side. It is the side v = 1 of one patch, but no free edge. The patches' other curves
- * bend differently, so each patch would cut the common side into different parts. The test has one straight and one curved
+/* Two patches above each other share a side. The common side is the side v = 1 of one patch, but no free edge. The patches' other
+ * curves bend differently, so each patch would cut the common side into different parts. The test has one straight and one curved
  * side. */
 static void test_shared_sides(void **state) {
   (void)state;

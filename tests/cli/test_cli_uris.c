@@ -2,7 +2,7 @@
  *
  * `riis export uris`: the test reads the files back as svMultiPhysics does, and compares their vertices with the library's at
  * the openings of the frames. It also marks nodes by the solver's rule. */
-/* clang-format off: test_support.h checks statuses if riis.h came before */
+/* clang-format off: test_support.h checks statuses if riis.h comes before it */
 #include <riis/riis.h>
 #include <riis/riis_vtk.h>
 

@@ -187,7 +187,7 @@ static int read_column(const char *kind, const char *name, double *values) {
   return n;
 }
 
-/* Expects that the row's cells are the column's numbers and their changes since the first. */
+/* Expects that the row's cells are the column's numbers, and the changes of these numbers since the first. */
 static void expect_row(const char *kind, int figure, const char *row, const char *column) {
   double values[8];
   const int n = read_column(kind, column, values);
@@ -351,7 +351,7 @@ static void test_given_figures_refused(void **state) {
   }
 }
 
-/* Faults of the tables of states are reported too. */
+/* Faults of the tables of states are also reported. */
 static void test_tables_refused(void **state) {
   (void)state;
   const struct {

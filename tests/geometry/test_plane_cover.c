@@ -19,7 +19,7 @@ static void test_circle(void **state) {
   for (int n = 64; n <= n_lines; n *= 2) {
     const double error = fabs(shim_circle_area(radius, centre, n) / area - 1);
     CHECK_AT_MOST(error, pow(n, -1.5));
-    CHECK_AT_MOST(error, last / 2.5); /* a little less than 2 to the power of 1.5 */
+    CHECK_AT_MOST(error, last / 2.5); /* 2.5 is a little less than 2 to the power of 1.5 */
     last = error;
     CHECK_NEAR(shim_uncovered_circle(radius, centre, 0, NULL, n), shim_circle_area(radius, centre, n), 1e-13);
   }
@@ -150,7 +150,7 @@ static void test_growing(void **state) {
     const double area = is_plate ? pi * (radius * radius - edge * edge) : pi * edge * edge;
     CHECK_NEAR(shim_area_beyond(radius, centre, 2 * m, xy, 2 * m, ids, reach), area, 2e-4 * pi * radius * radius);
     CHECK_NEAR(shim_edge_beyond(radius, centre, 2 * m, xy, 2 * m, ids, reach), 2 * pi * edge,
-               16 * radius / n_edge_lines); /* a spacing where each of eight arcs ends */
+               16 * radius / n_edge_lines); /* one spacing for the end of each of eight arcs */
     CHECK_NEAR(shim_area_beyond(radius, centre, 2 * m, xy, 2 * m, ids, 2 * radius), 0, 0);
     CHECK_NEAR(shim_edge_beyond(radius, centre, 2 * m, xy, 2 * m, ids, 2 * radius), 0, 0);
   }

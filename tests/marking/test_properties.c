@@ -25,7 +25,7 @@ static void distances(const riis_surface *surface, const double *xyz, double lim
   free_owned_after(owned_before);
 }
 
-/* Checks that the distances b equal the distances a times the scale. A node near the limit may be on either side of it. */
+/* Checks that the distances b equal the distances a times the scale. A node near the limit may be on either side of the limit. */
 static void check_scaled(const double *a, const double *b, double scale, double limit, double tolerance) {
   int n_near = 0;
   for (int i = 0; i < n; ++i) {

@@ -14,8 +14,8 @@ static random_source rng;
 
 /* --- Valves ------------------------------------------------------------------------------------------------------------ */
 
-/* Returns how deep inside the triangle the segment passes, as a fraction of its size. The result is negative if it passes
- * outside. */
+/* Returns how deep inside the triangle the segment passes, as a fraction of the triangle's size. The result is negative if the
+ * segment passes outside. */
 static long double depth_in(const double *a, const double *b, const double *const *corner) {
   long double e1[3], e2[3], along[3], from[3], p[3], q[3], det = 0, t = 0, u = 0, v = 0;
   for (int i = 0; i < 3; ++i) {

@@ -188,7 +188,7 @@ double powell_minimum(double (*f)(double u, double v), double enough, double ste
  *   "standard"  another standard exception, "boom"
  *   "other"     an int
  *   "worker"    an Error thrown by a worker thread of a parallel loop
- * "workers"   two such errors; the second block's error comes first
+ *   "workers"   two such errors; the second block's error comes first
  *   "nothing"   no exception */
 riis_status wall_meets(const char *exception);
 

@@ -196,7 +196,7 @@ static void copies_and_moving_updates(void **state) {
 }
 
 /* With fixed triangles, a vertex's velocity is its displacement divided by the time. It differs slightly only on grid lines
- * that end between two vertices of a side, because they end on chords. */
+ * that end between two vertices of a side, because such a line ends on a chord. */
 static void fixed_triangulations(void **state) {
   (void)state;
   const riis_surface_options options = fixed_options();

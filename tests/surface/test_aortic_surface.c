@@ -189,8 +189,8 @@ static void three_cusps_are_three_pieces(void **state) {
 static int compare_edges(const void *a, const void *b) { return memcmp(a, b, 6 * sizeof(double)); }
 
 /* The two halves of each cusp meet in its symmetry plane to the last bit, however the cusp is turned and moved. Every edge in
- * that plane (u = 0 at both ends) belongs to exactly two triangles. The sides of points depend on this where the cusp is
- * folded. */
+ * that plane (u = 0 at both ends) belongs to exactly two triangles. Where the cusp is folded, the sides of points depend on this
+ * property. */
 static void halves_meet_to_the_last_bit(void **state) {
   (void)state;
   const double turned[3] = {10, -20, 77}, moved[3] = {0.3, 0.2, -0.1};

@@ -265,8 +265,8 @@ static void closed_leaflets_share_their_edge(void **state) {
   assert_true(n_shared >= 6 && 3 * n_shared >= n_of_edge);
 }
 
-/* Returns the least distance between two neighbouring grid lines of a patch, as a fraction of the longer of the sides that
- * they join. */
+/* Two neighbouring grid lines of a patch join the same two sides. Returns the least distance between two such lines, as a
+ * fraction of the longer side. */
 static double least_step(const riis_triangles *c, int32_t patch, double *longer) {
   double length_of[2] = {0, 0}, *u = own(malloc((size_t)c->n_triangles * 2 * sizeof *u));
   size_t n = 0;
@@ -454,7 +454,7 @@ static void refusals(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "open is NULL", riis_valve_set_open_state(aortic, NULL));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'tricuspid'|aortic, bileaflet, mitral, trileaflet",
                 riis_valve_create("tricuspid", &aortic));
-  /* The message names which of the two states is wrong. */
+  /* The message names the state that is wrong. */
   riis_valve *open = mitral_valve(1);
   CHECK_OK(riis_valve_set_scalar(open, "anterior_length", 20));
   CHECK_OK(riis_valve_set_open_state(valve, open));

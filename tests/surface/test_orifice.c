@@ -217,7 +217,7 @@ static void leaks_are_ideal(void **state) {
                   riis_surface_get_leak(surface, &how, 1, &flow));
     how.R = NAN;
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.R is nan", riis_surface_get_leak(surface, &how, 1, &flow));
-    /* A smaller R would make the flow infinite, and NaN without a drop. */
+    /* With a smaller R the flow would be infinite, or NaN if there is no drop. */
     how.R = 1e-61;
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.R is 1e-61", riis_surface_get_leak(surface, &how, 0, &flow));
     how.R = 1e-60, how.half_thickness = 1e50;

@@ -284,8 +284,8 @@ static void opens_by_itself(void **state) {
 }
 
 /* With fixed triangles, a vertex's velocity is its displacement divided by the time. It differs slightly only on grid lines
- * that end between two vertices of a side, because they end on chords. Where closed cusps meet, each vertex has the velocity
- * of its own cusp: outwards. */
+ * that end between two vertices of a side, because such a line ends on a chord. Where closed cusps meet, each vertex has the
+ * velocity of its own cusp: outwards. */
 static void velocity_is_that_of_the_vertices(void **state) {
   (void)state;
   riis_surface_options options = surface_options();

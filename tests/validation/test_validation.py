@@ -35,8 +35,8 @@ def results_of(tasks, library):
 
 
 def stokes_row(scale_eps=1.0, scale_K=1.0):
-    """An edge acts as if it lay farther out by c half thicknesses. Compares c of the band of a hole, with a round rim, with c of
-    a solid plate."""
+    """Compares c of a hole whose band has a round rim with c of a hole in a solid plate. An edge acts as if it lay c half
+    thicknesses farther out."""
     library, n, cells = marking.Library(PROGRAM, scale_K, scale_eps), 4, (1.5, 2, 3)
     values = [(1 - stokes.effective_radius(library, "hole", 1 / n, c, "round")[0]) * n for c in cells]
     solid = [(1 - stokes.solid_radius(library, "hole", 1 / n, c, "round")[0]) * n for c in cells]

@@ -262,8 +262,8 @@ static void closed_mitral_valve_seals_its_tube(void **state) {
   }
 }
 
-/* The paper's cusps end at different radii, 0.13 apart at a commissure. So no wall is within half of the half thickness of all
- * ends. Flow passes through the middle. */
+/* The paper's cusps end at different radii, 0.13 apart at a commissure. So no wall is within 0.05, half of the half thickness, of
+ * all ends. Flow passes through the middle. */
 static void the_papers_valve_leaks_in_its_root(void **state) {
   (void)state;
   const filled_mesh root = mesh_by_gmsh(RIIS_DEMO "/aortic_root.geo", "-setnumber paper 1");

@@ -119,7 +119,7 @@ contains
     call demand(all(abs(order - 2) < 0.2_dp), 'both are of second order')
   end subroutine check_duct
 
-  ! (b) A plate closes a duct with a given flow. The whole drop must be there in the next step, for every time step.
+  ! (b) A plate closes a duct with a given flow. The whole drop must be there in the next step, for every size of the time step.
   subroutine check_drop()
     real(dp), parameter :: h = 1e-3_dp, R = 1e4_dp, eps = 1.5_dp * h, u = 0.1_dp
     type(flow) :: fluid
