@@ -54,7 +54,7 @@ const std::vector<Subject> &subjects() {
        "the disc of <code>root_radius</code>",
        "Three equal cusps, whose free edges meet along the lines from the commissures to the axis when the valve is "
        "closed. "
-       "What stays uncovered then are slivers at the wall.",
+       "Only slivers at the wall stay uncovered then.",
        not_in_the_paper},
       {"mitral",
        "The mitral valve, from closed to open",

@@ -85,7 +85,7 @@ openfoam_has_source() {
   rm -rf "$of_source"
   mkdir -p "$of_source"
   if ! (step "OpenFOAM's headers, from its source package (45 MB)" openfoam_source "$version" "$of_source"); then
-    say "OpenFOAM is left out: the source package of openfoam $version, which has its headers, cannot be had"
+    say "OpenFOAM is left out: the source package of openfoam $version, which has its headers, is not available"
     return 1
   fi
 }

@@ -245,7 +245,7 @@ contains
         1e6_dp * abs(least(with))
     end do
     call demand(abs(u(1) / w - 1) < 0.01_dp .and. abs(u(2)) < 0.01_dp * w .and. displaced(1) > 10 * abs(displaced(2)), &
-      'with it the fluid moves with the plate, without it the fluid rests; leaflets push the fluid only with it')
+      'with K u_surface the plate and the leaflets move the fluid, without K u_surface the fluid rests')
   end subroutine check_u_surface
 
   ! (f) Prints the effect of R and eps on the drop of a plate at ten places between faces, and on the leak of the closed valve.
