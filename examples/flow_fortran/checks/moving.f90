@@ -225,7 +225,7 @@ contains
         call finish_root(fluid, valve)
       end do
     end do
-    call demand(all(ratio(1, :) < 1.05_dp), 'with the source the jet is at most 1.05 of it')
+    call demand(all(ratio(1, :) < 1.05_dp), 'with the source the jet is at most 1.05 sqrt(2 dp/rho)')
     call demand(all(ratio(0, :) > 1.05_dp), 'without the source it is more')
   end subroutine check_jet
 
