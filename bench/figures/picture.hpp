@@ -101,7 +101,7 @@ class Picture {
   PictureSize size_;
   Vec3 right_, up_, direction_;
   Vec3 focus_;    // the point in the middle of the picture
-  double depth_;  // half of the largest extent
+  double depth_;  // half of the largest extent of the objects
   double pixel_;  // the size of a pixel in centimetres
   vtkSmartPointer<vtkRenderer> renderer_;
 };

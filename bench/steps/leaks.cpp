@@ -38,7 +38,7 @@ riis_surface_info info_of(const Surface &surface) {
   return info;
 }
 
-// Returns the same triangles with another half thickness.
+// Returns a surface with the same triangles as the given one, and with another half thickness.
 Surface with_half_thickness(const Surface &surface, double thickness) {
   riis_surface_arrays arrays;
   check(riis_surface_arrays_init(&arrays, sizeof arrays));

@@ -144,7 +144,7 @@ class Page(unittest.TestCase):
             return file.read()
 
     def details(self, names=tuple(FILES)):
-        """Does the same and returns out/bench/details.md."""
+        """Writes the JSON and both pages, and returns out/bench/details.md."""
         self.page(names)
         with open(os.path.join(self.folder, "details.md"), encoding="utf-8") as file:
             return file.read()

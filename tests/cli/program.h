@@ -31,7 +31,7 @@ void finish_program(pid_t process);
 
 /* Runs the program, and fails the test unless it succeeds with nothing on stderr. */
 #define RUN_FINE(...) (run_program(__VA_ARGS__, NULL), expect_run_fine(__FILE__, __LINE__))
-/* Does the same for a mesh without volume cells. There the run must report leaks as unknown. */
+/* Runs the program on a mesh without volume cells. The run must succeed and report leaks as unknown. */
 #define RUN_WITHOUT_CELLS(...) (run_program(__VA_ARGS__, NULL), expect_run_without_cells(__FILE__, __LINE__))
 /* Runs the program, and fails the test unless it ends with this exit code, nothing on stdout, and one line on stderr with this
  * text. */

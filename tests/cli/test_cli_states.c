@@ -309,8 +309,8 @@ static void test_prosthesis(void **state) {
   CHECK_NEAR(cell(1, "orifice_area"), 3.79, 0.01);
 }
 
-/* One side of this flat triangular patch is a point. The triangles at the point have no area, so that end of the edge belongs
- * to no triangle. The sides along the axes have the lengths 1 and 2, and the slanted one sqrt(5). */
+/* One side of this flat triangular patch is a point. The triangles at the point have no area. The end of the edge at the point
+ * therefore belongs to no triangle. The sides along the axes have the lengths 1 and 2, and the slanted one sqrt(5). */
 static void run_flat_triangle(const char *sides) {
   char text[512];
   snprintf(text, sizeof text,

@@ -34,7 +34,7 @@ static int run(const char *program, const char *arguments) {
 
 static int run_program(const char *arguments) { return run(RIIS_FIGURES_PROGRAM, arguments); }
 
-/* Does the same with a JSON file whose plots follow the figures. */
+/* Draws the page with a JSON file whose plots follow the figures. Returns the program's exit status. */
 static int run_with_plots(const char *name, const char *json) {
   char arguments[1024];
   scratch_write("plots.json", json, strlen(json));

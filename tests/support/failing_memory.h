@@ -30,7 +30,8 @@ int memory_of_all_can_fail(void);
 
 /* Returns the number of allocations that the library's own code has made and not yet freed. */
 int64_t memory_live_of_library(void);
-/* Returns the same for Embree: its C++ allocations plus the bytes that its memory monitor counts. */
+/* Returns the memory that Embree has taken and not yet freed: its C++ allocations plus the bytes that its memory monitor counts.
+ * */
 int64_t memory_live_of_embree(void);
 int64_t memory_live_bytes_of_embree(void);
 

@@ -111,7 +111,8 @@ const char *kernels_name(int set);
 void kernels_decide(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
                     const double *corners, double *distance_sq);
 
-/* Does the same for at most 8 pairs, and gives the closest points (3, n) and their barycentric coordinates (3, n). */
+/* Computes squared distances of at most 8 pairs. Also gives the closest points (3, n) and their barycentric coordinates (3, n).
+ * */
 void kernels_locate(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
                     const double *corners, double *distance_sq, double *closest, double *barycentric);
 

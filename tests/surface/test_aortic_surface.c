@@ -115,7 +115,7 @@ static void normals_point_downstream(void **state) {
       assert_int_equal(below.leaflet_id, cusp);
       assert_int_equal(below.side, -downstream);
     }
-    /* The same holds for whole cusps: each cusp's area vector points outwards and upwards. */
+    /* Whole cusps also face downstream: each cusp's area vector points outwards and upwards. */
     double outwards[3] = {0, 0, 0}, upwards[3] = {0, 0, 0};
     const double *xyz = triangles_of(surface).xyz;
     const int64_t n = triangles_of(surface).n_triangles;

@@ -97,7 +97,7 @@ static void a_shape_is_named_once(void **state) {
   own(copy);
   update(surface, copy);
   assert_int_equal(warnings.n, 2);
-  /* A new surface has not searched yet. */
+  /* A new surface has not searched for crossings yet, so it warns again. */
   new_surface(valve, NULL);
   assert_int_equal(warnings.n, 3);
 }
