@@ -304,8 +304,8 @@ static void no_vertex_is_an_outlier(void **state) {
   CHECK_AT_MOST(0.98 * 2.581, largest);
 }
 
-/* A patch without a bulge is a Coons patch with the same labels. Arcs that are nearly straight have few triangles. Between
- * vertices the velocity is linear, so the bend's rate appears only where the arcs are bent. */
+/* A patch without a bulge is a Coons patch with the same labels. Arcs that are nearly straight have few triangles, and between
+ * vertices the velocity is linear. A change of the bulge therefore appears only where the arcs are bent. */
 static void a_bulge_goes_through_zero(void **state) {
   (void)state;
   static const struct {
