@@ -113,7 +113,7 @@ else()
   string(REGEX REPLACE "/$" "" riis_pc_up ${riis_pc_up})
   set(riis_pc_prefix "\${pcfiledir}/${riis_pc_up}")
 endif()
-# The helper appends to the prefix; an absolute path replaces it.
+# cmake_path appends a relative folder to the prefix, and replaces the prefix by an absolute folder.
 set(riis_pc_libdir "\${prefix}")
 set(riis_pc_includedir "\${prefix}")
 cmake_path(APPEND riis_pc_libdir ${CMAKE_INSTALL_LIBDIR})

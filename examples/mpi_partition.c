@@ -22,9 +22,8 @@ static void check(riis_status status) {
 /* Returns the first node of a rank's part, which consists of whole planes of the grid. */
 static int first_node(int rank, int n_ranks) { return n * rank / n_ranks * plane; }
 
-/* Makes compressed sparse rows of the rank's own nodes, n_rows from the first one on. The neighbours in the planes before and
- * behind belong to other ranks. These ghost nodes are numbered from n_rows on, as in most solvers. Returns the number of own
- * nodes and ghost nodes. */
+/* Makes compressed sparse rows of the rank's n_rows own nodes. The neighbours in the planes before and behind belong to other
+ * ranks. These ghost nodes are numbered from n_rows on, as in most solvers. Returns the number of own nodes and ghost nodes. */
 static int make_rows(int first, int n_rows) {
   int n_before = first > 0 ? plane : 0, n_behind = first + n_rows < n_nodes ? plane : 0, end = 0;
   for (int i = 0; i < n_rows; ++i) {
@@ -81,8 +80,8 @@ int main(int argc, char **argv) {
   check(riis_marks_create(&marks));
 
   /* If every core has a rank, each rank should use one thread. If each rank is bound to several cores, such as by mpirun
-   * --map-by slot:PE=4, leave n_threads at 0, which means all cores of the rank. If ranks are not bound, 0 means all cores of
-   * the machine for each rank. */
+   * --map-by slot:PE=4, leave n_threads at 0, which means all cores of the rank. If ranks are not bound, each rank would then
+   * take all cores of the machine. */
   riis_mark_options options;
   check(riis_mark_options_init(&options, sizeof options));
   options.n_threads = 1;

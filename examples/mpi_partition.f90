@@ -38,8 +38,8 @@ program mpi_partition
     call mesh%create(xyz(:, first:last))
     call mesh%set_adjacency(offsets(1:last - first + 2), columns, n_all=n_all)
     ! If every core has a rank, each rank should use one thread. If each rank is bound to several cores, such as by mpirun
-    ! --map-by slot:PE=4, leave n_threads out, which means all cores of the rank. If ranks are not bound, it means all cores of
-    ! the machine for each rank.
+    ! --map-by slot:PE=4, leave n_threads out, which means all cores of the rank. If ranks are not bound, each rank would then
+    ! take all cores of the machine.
     call riis_mark_nodes(surface, mesh, result, search=RIIS_SEARCH_NEIGHBOR, n_threads=1)
     n_marked = int(result%n_marked())
     call result%dense(distance=distance(first:last))
@@ -69,8 +69,8 @@ program mpi_partition
 
 contains
 
-  ! Makes compressed sparse rows of the rank's own nodes, n_rows from the first one on. The neighbours in the planes before and
-  ! behind belong to other ranks. These ghost nodes are numbered from n_rows + 1 on, as in most solvers.
+  ! Makes compressed sparse rows of the rank's n_rows own nodes. The neighbours in the planes before and behind belong to other
+  ! ranks. These ghost nodes are numbered from n_rows + 1 on, as in most solvers.
   subroutine make_rows(n_rows, n_all)
     integer, intent(in) :: n_rows
     integer, intent(out) :: n_all ! the number of own nodes and ghost nodes

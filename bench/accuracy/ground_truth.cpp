@@ -20,7 +20,7 @@ struct Place {
   double u, v;
 };
 
-// Draws points evenly by area, up to the tolerance of the triangles from which it draws.
+// Draws points evenly by area. The areas are those of triangles, so the points are even up to the triangles' tolerance.
 class Places {
  public:
   Places(const PatchSet &patches, const SmoothSurface &smooth)
@@ -94,9 +94,8 @@ GroundTruth make_ground_truth(const PatchSet &patches, const TruthRequest &reque
     const Vec3 p = foot.point + offset * foot.normal;
     const double xyz[3] = {p.x, p.y, p.z};
     const riis_closest closest = fine.closest(xyz);
-    // The curvature is bounded. So, at a distance r from the foot, the surface around the foot is at least sqrt(height^2 + r^2 /
-    // 2) from the point. If the nearest triangle is farther from the foot than this allows, it belongs to another part of the
-    // surface.
+    // The curvature is bounded. A point of the surface near the foot, at the distance r from the foot, is therefore at least
+    // sqrt(height^2 + r^2 / 2) from the moved point. A nearest triangle that is closer belongs to another part of the surface.
     const double reach = 3 * std::sqrt(error * (height + error)) + error;
     if (closest.distance < height - error || norm(closest.point, foot.point) > reach) {
       ++truth.n_nearer;

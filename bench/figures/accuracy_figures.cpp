@@ -48,7 +48,7 @@ Colour colour_of_error(double error) {
 // Returns a fraction of the half thickness as text.
 std::string share_text(double share) { return number(100 * share, 2) + " %"; }
 
-// A part of a patch's range of one parameter.
+// A part of the range of a patch's parameter u or v.
 struct Part {
   double from, to;
 };
@@ -96,7 +96,7 @@ class Painter {
     return painting;
   }
 
-  // Returns how many cells are needed for the longest of several lines, along each of which one parameter takes its whole range.
+  // Several lines run along one parameter of a patch. Returns the number of cells that the longest line needs.
   std::size_t n_cells(std::size_t image, const Part &u, const Part &v, bool along_u) const {
     constexpr std::size_t n = 16;
     const std::vector<Vec3> net = smooth_.at_lines(image, ends_of_steps(n, u), ends_of_steps(n, v));
@@ -156,14 +156,14 @@ Figure accuracy_figure() {
   constexpr std::array<Setting, 3> painted{{{RIIS_MEASURE_MINIMIZATION, 0.01, "0.01"},
                                             {RIIS_MEASURE_SAMPLING, 0.1, "10 %"},
                                             {RIIS_MEASURE_TRIANGLES, 0.1, "10 %"}}};
-  // A cusp, a part of it, and a mitral leaflet.
+  // The rows show a cusp, a part of this cusp, and a mitral leaflet.
   for (const std::size_t row : {0, 1, 2}) {
     const std::size_t k = row / 2;
     const PatchSet patches = patches_of(leaflets[k]);
     const SmoothSurface smooth(patches);
     for (const Setting &setting : painted) {
       const MeasuredSurface surface(patches, setting.method, setting.tolerance);
-      // Minimisation is slow, and its errors vary less finely than those of sampling.
+      // Minimisation is slow, and its errors vary over larger distances than those of sampling. Its cells are therefore larger.
       const double cell = setting.method == RIIS_MEASURE_MINIMIZATION ? 0.007 : 0.0035;
       const Painting painting = row == 1
                                     ? Painter(smooth, surface, 0.001).part(smooth.image_of(0), {0, 0.3}, {0.6, 0.9})

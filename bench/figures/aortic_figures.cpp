@@ -104,7 +104,7 @@ Figure aortic_valve_figure() {
   for (std::size_t cusp = 0; cusp < 3; ++cusp)
     figure.key.push_back({leaflet_colours[cusp], std::string(cusp_names[cusp]) + " cusp"});
   figure.caption =
-      "Three cusps, each of two mirrored halves, each half of four curves of which the two halves share the symmetry "
+      "Each of the three cusps has two mirrored halves. Four curves make a half, and the halves share the symmetry "
       "curve: " +
       count(n_curves) + " curves with " + count(n_control_points) +
       " control points in all. Parameters: the paper's. Surfaces: " + count(faces.size()) +

@@ -44,7 +44,7 @@ json json_of(const CuspCurves &curves) {
           {"symmetry", json_of(curves.symmetry)}};
 }
 
-// Returns the same patches in their own frames, before cusps are turned and moved.
+// Returns the given patches in their own frames, before cusps are turned and moved.
 PatchSet in_own_frames(PatchSet set) {
   for (Patch &patch : set.patches)
     for (PatchImage &image : patch.images) {

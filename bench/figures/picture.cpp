@@ -111,7 +111,7 @@ Vec3 Picture::at_pixel(double x, double y) const {
   return focus_ + pixel_ * (x - 0.5 * size_.width) * right_ + pixel_ * (y - 0.5 * size_.height) * up_;
 }
 
-// Moves the point towards the eye. In a picture without perspective, the point's position does not change.
+// Moves the point towards the eye. The picture has no perspective, so the point stays at its place in the picture.
 Vec3 Picture::raised(Vec3 p, int layer) const { return p - 0.004 * layer * depth_ * direction_; }
 
 vtkSmartPointer<vtkPolyData> Picture::lines(const std::vector<Points> &lines, int layer) const {

@@ -43,7 +43,7 @@ using Segments = std::vector<std::array<Vec3, 2>>;
 
 // Triangles or quads, each with a colour.
 struct Faces {
-  std::size_t n_corners;  // of each face
+  std::size_t n_corners;  // number of corners of each face
   Points points;
   std::vector<std::int64_t> corners;  // (n_corners, n)
   std::vector<Colour> colours;
@@ -101,7 +101,7 @@ class Picture {
   PictureSize size_;
   Vec3 right_, up_, direction_;
   Vec3 focus_;    // the point in the middle of the picture
-  double depth_;  // half of the largest extent
+  double depth_;  // half of the largest extent of the objects
   double pixel_;  // the size of a pixel in centimetres
   vtkSmartPointer<vtkRenderer> renderer_;
 };

@@ -218,7 +218,7 @@ CuspCurves cusp_curves(const PatchSet &set, std::int32_t cusp) {
 
 // The patches of one half of the valve are listed from the anterior point of the annulus to the posterior point.
 MitralCurves mitral_curves(const PatchSet &set) {
-  std::array<Pieces, 2> annulus, anterior, posterior;  // here each curve, and its mirror image
+  std::array<Pieces, 2> annulus, anterior, posterior;  // each array has a curve and its mirror image
   for (const Patch &patch : set.patches)
     for (std::size_t k = 0; k < 2; ++k) {
       const PatchImage &image = patch.images.at(k);

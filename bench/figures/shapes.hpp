@@ -62,7 +62,7 @@ std::array<BoundaryPolyline, 4> boundary_polylines(const PatchSet &set, const Pa
 
 // The curves that define half a cusp in the paper. They are rejoined where the bending curve cuts them.
 struct CuspCurves {
-  std::array<Pieces, 2> leaflet, bending, sinus;  // each curve, and its mirror image
+  std::array<Pieces, 2> leaflet, bending, sinus;  // each array has a curve and its mirror image
   Pieces symmetry;
 };
 CuspCurves cusp_curves(const PatchSet &set, std::int32_t cusp);

@@ -15,7 +15,7 @@ namespace riis::figures {
 namespace {
 
 constexpr PictureSize size{480, 400};
-constexpr std::size_t most_openings = 6;  // as many pictures side by side
+constexpr std::size_t most_openings = 6;  // so many pictures stand side by side
 constexpr double margin = 26, tolerance = 0.01;
 constexpr Colour orifice_colour{247, 196, 190}, outline_colour = dark;
 // The housing is higher than the closed leaflets, so that they lie inside it.
@@ -54,7 +54,7 @@ const std::vector<Subject> &subjects() {
        "the disc of <code>root_radius</code>",
        "Three equal cusps, whose free edges meet along the lines from the commissures to the axis when the valve is "
        "closed. "
-       "What stays uncovered then are slivers at the wall.",
+       "Only slivers at the wall stay uncovered then.",
        not_in_the_paper},
       {"mitral",
        "The mitral valve, from closed to open",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench peers: gives the same nodes and triangles to other programs (CGAL, VTK, OpenVDB), on one thread. First it compares
-// their marks with those of a loop over all triangles. Then it takes their times in turns. Fails if the library or CGAL does not
+// their marks with those of a loop over all triangles. Then it times the programs in turns. Fails if the library or CGAL does not
 // mark the same nodes as the loop.
 //   argv[1]  a file for the results as JSON
 //   argv[2]  thousands of nodes; default 100

@@ -53,7 +53,7 @@ def fcpw(np, nodes, vertices, triangles):
         scene.find_closest_points(asked, squared_radii, found)
         return None
 
-    # The list becomes an array after the measured time.
+    # The list becomes an array after the timing, so that the conversion is not measured.
     ask.read = lambda: np.array([at.d if at.primitive_index != 2**32 - 1 and at.d >= 0 else np.inf for at in found])
     return ask
 

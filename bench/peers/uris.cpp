@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run uris: reads exports back and marks the nodes of a cylinder by the rule of svMultiPhysics. By this rule a node's distance
-// is the distance to the nearest middle of a triangle. The program compares this with the library's distances to the same
-// triangles, and prints rows of the table in docs/export.md.
+// is the distance to the nearest middle of a triangle. The program compares these distances with the library's distances to the
+// same triangles, and prints rows of the table in docs/export.md.
 //   argv[1]   the kind of the valve
 //   argv[2]   thousands of nodes
 //   argv[3..] the output of riis export
@@ -32,7 +32,7 @@ namespace {
 using namespace bench;
 
 constexpr double pi = 3.14159265358979323846;
-// Contains the bileaflet valve, open or closed.
+// This cylinder contains the bileaflet valve, open or closed.
 constexpr Cylinder prosthesis_cylinder{1.6, -1.0, 1.6, 0};
 
 [[noreturn]] void give_up(const std::string &text) {
@@ -196,7 +196,7 @@ double delta(double distance, double thickness) {
   return distance < thickness ? (1 + std::cos(pi * distance / thickness)) / (2 * thickness) : 0;
 }
 
-// Checks that a loop over all middles finds the same distances as the locator.
+// Checks that a loop over all middles finds the same distances as VTK's point locator.
 void check_locator(const std::vector<double> &middles, const std::vector<double> &xyz,
                    const std::vector<double> &found) {
   constexpr std::int64_t n_checked = 100;

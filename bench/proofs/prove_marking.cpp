@@ -57,7 +57,7 @@ class NearTriangles {
       if (!has(boxes_[t], p)) continue;
       const auto [a, b, c] = set_.corners(t);
       const double sq = riis::closest_point_on_triangle({p[0], p[1], p[2]}, a, b, c).distance_sq;
-      if (sq < best.distance_sq) best = {sq, static_cast<std::int64_t>(t)};  // positions ascend in every cell
+      if (sq < best.distance_sq) best = {sq, static_cast<std::int64_t>(t)};  // positions ascend, so the lowest wins
       ++n_pairs;
     }
     return best;
@@ -72,7 +72,8 @@ class NearTriangles {
       if (p[i] < box.lower[i] || p[i] > box.upper[i]) return false;
     return true;
   }
-  // The function is monotone. So if a point is in a box, the point's cell is one of the box's cells.
+  // The cell is a monotone function of the coordinate. If a point is in a box, the point's cell is therefore one of the box's
+  // cells.
   std::size_t cell_of(double coordinate, int i) const {
     return static_cast<std::size_t>((coordinate - whole_.lower[i]) / edge_);
   }

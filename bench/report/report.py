@@ -297,7 +297,8 @@ def stage_shares(case):
 
 
 def floor_values(data):
-    """Returns the step's time if the missed bars were met, and the time of the step's parts by the roofline's fractions."""
+    """Returns the time that a step would take if it met the missed bars, and the time of the step's parts by the roofline's
+    fractions."""
     least = {name: t["least_ms"] for name, t in data.marking["times"].items()}
     step, fine = least.get("step, 1 thread"), least.get("step, 2 threads, fine triangles")
     queries, cgal = least.get("the paper's search, point queries, 1 thread"), least.get("CGAL, every node, 1 thread")
@@ -588,8 +589,8 @@ def images_for_page(data, folder):
 
 
 def measured_text(data, name):
-    """Returns when and where a part was measured, in HTML. It includes the machine, because the page of figures has no table
-    of it."""
+    """Returns when and where a part was measured, in HTML. It includes the machine, because the page of figures does not describe
+    the machine."""
     run = data.run(name)
     if not run:
         return ""

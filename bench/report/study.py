@@ -19,7 +19,7 @@ PAPER_THREADS = (1, 2, 4, 8, 12)
 SEARCHES = "exhaustive|clusters|neighbor_warm|neighbor_cold|paper|all_distances|paper_exhaustive|paper_neighbor"
 ONCE = "^search_(every_triangle|groups|adjacency)"
 STAGES = "^(calibration|pipeline|distance_query|surface_update|closest_point|mark_exhaustive|brute_force)"
-# Baselines keep these benchmarks: all that take at most about a second, on the smallest mesh.
+# Baselines keep these benchmarks. Each takes at most about a second, on the smallest mesh.
 GUARDED = (
     r"^(calibration|pipeline|surface_update|closest_point/|mark_exhaustive|distance_query/.*/(method:0/|method:1/tolerance:50/))"
     r"|^search_(exhaustive|clusters|neighbor_warm|neighbor_cold|all_distances)/[01]/110/[12]/"
@@ -150,7 +150,7 @@ class Study:
         self.run("accuracy", [self.program("riis_accuracy"), "OUT", "20000" if full else "2000"])
 
     def peers(self):
-        # The results of the Python packages belong to the last run of the peers.
+        # Earlier results of the Python packages belong to an earlier run of the peers, so they are removed.
         if os.path.exists(self.path("peers_python")):
             os.remove(self.path("peers_python"))
         os.makedirs(os.path.join(self.out, "peers"), exist_ok=True)

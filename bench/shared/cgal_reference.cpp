@@ -38,7 +38,7 @@ double distance_sq(const Point &p, const CGAL::Bbox_3 &box) {
 }
 
 // Tells CGAL's traversal which boxes to enter and what to do with a triangle. CGAL's own class for closest points does the same,
-// but this one starts with a limit on the distance.
+// but this class starts with a limit on the distance.
 struct WithinLimit {
   double radius_sq;
   bool has_found = false;

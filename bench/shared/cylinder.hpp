@@ -39,7 +39,7 @@ class CylinderNodes {
   std::vector<double> xyz_;
 };
 
-// Makes a mesh of the library from these nodes. It borrows their coordinates.
+// Makes a mesh of the library from these nodes. The mesh borrows the nodes' coordinates.
 Mesh mesh_over(const CylinderNodes &nodes);
 
 // A mesh with the adjacency from its tetrahedra.
@@ -49,7 +49,7 @@ class CylinderMesh : public CylinderNodes {
 
   // The rows have 64-bit offsets and 32-bit columns.
   riis_csr rows() const;
-  // The mesh borrows from this object.
+  // The mesh borrows the coordinates of this object.
   const riis_mesh *mesh() const { return mesh_.get(); }
 
  private:

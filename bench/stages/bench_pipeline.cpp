@@ -30,7 +30,7 @@ Surface surface_of(const riis_valve *valve) {
   return make_surface(valve, &options);
 }
 
-// From parameters to curves and patches.
+// Times the way from parameters to curves and patches.
 void pipeline_patches(benchmark::State &state, const char *kind) {
   const Valve valve = moved_valve(kind);
   for (auto _ : state) benchmark::DoNotOptimize(valve->valve.make_patches());

@@ -48,7 +48,7 @@ double status_kb(const char *field) {
   return kb;
 }
 
-// Returns by how many megabytes the work raises the peak memory, in a process of its own.
+// Runs the work in a process of its own, and returns by how many megabytes the peak memory rises.
 double peak_megabytes(const std::function<void()> &work) {
   int ends[2];
   if (pipe(ends) != 0) {

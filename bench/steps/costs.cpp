@@ -40,7 +40,7 @@ struct Row {
   std::string call, time[2], memory[2];
 };
 
-// The table's rows, one valve's column at a time.
+// Collects the table's rows. The column of one valve is filled at a time.
 class Table {
  public:
   void begin(int column) {

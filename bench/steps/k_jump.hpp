@@ -13,7 +13,7 @@ namespace bench {
 
 struct KJump {
   double motion;        // the largest change of K in a step, on triangles so fine that their change does not matter
-  double with_adapted;  // the largest difference from that change, with adapted triangles
+  double with_adapted;  // the largest difference from the change `motion`, with adapted triangles
   double with_fixed;
 };
 

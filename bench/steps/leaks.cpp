@@ -38,7 +38,7 @@ riis_surface_info info_of(const Surface &surface) {
   return info;
 }
 
-// Returns the same triangles with another half thickness.
+// Returns a surface with the same triangles as the given one, and with another half thickness.
 Surface with_half_thickness(const Surface &surface, double thickness) {
   riis_surface_arrays arrays;
   check(riis_surface_arrays_init(&arrays, sizeof arrays));
@@ -52,9 +52,9 @@ Surface with_half_thickness(const Surface &surface, double thickness) {
   return make_surface(arrays, thickness);
 }
 
-// Nodes at the corners and in the middles of small cubes that fill a large cube, turned and shifted at random. The large cube is
-// cut into equal tetrahedra. Some of their edges are edges of the small cubes, of this length. The others lead from a middle to
-// the eight corners around it and are 0.87 times as long.
+// Nodes lie at the corners and in the middles of small cubes. These cubes fill a large cube that is turned and shifted at random,
+// and the large cube is cut into equal tetrahedra. Some edges of the tetrahedra are edges of the small cubes. The others lead
+// from a middle to the eight corners around it, and are 0.87 times as long.
 struct Crystal {
   std::vector<double> xyz;
   std::vector<std::int64_t> offsets{0}, columns;
@@ -126,7 +126,7 @@ Mesh mesh_over(const Crystal &crystal) {
   return Mesh(mesh);
 }
 
-// Returns the numbers of leaks. The list's arrays are not valid.
+// Returns the numbers of leaks. The arrays of the list are NULL, because the leaks are destroyed.
 riis_leak_list leaks_of(const Surface &surface, const Mesh &mesh) {
   const Result result = make_result();
   const Leaks leaks = make_leaks();

@@ -22,7 +22,7 @@ namespace {
 
 using namespace bench;
 
-constexpr int n_steps = 21;  // steps of each part, of which the median counts
+constexpr int n_steps = 21;  // steps of each part; their median counts
 using NodeDistances = std::vector<std::pair<std::int64_t, double>>;
 
 double milliseconds_of(std::chrono::steady_clock::duration time) {

@@ -115,7 +115,7 @@ def chosen(runs):
 
 
 def place(run, value):
-    """Returns one entry of the field grids of a row (rows.py)."""
+    """Returns one entry of a row's field `grids` (rows.py)."""
     name = "walls" if run.fitted else f"ε {10 * run.eps:g} mm"
     return {"n": f"{name}, h {10 * run.size:g} mm", "h": round(run.size * 1e-2, 7), "eps": round(run.eps * 1e-2, 7),
             "rim": run.rim, "value": round(float(value), 4)}

@@ -45,7 +45,7 @@ logged() {
   return 1
 }
 
-# Runs one function object in the folder of the mesh, to see whether it works. Replaces the function in openfoam.sh.
+# Tests whether OpenFOAM can run a function object in the folder of the mesh. This function replaces the one in openfoam.sh.
 openfoam_function_object() { "${of_with[@]}" postProcess -case "$mesh" -func writeCellCentres -time 0; }
 
 # make_mesh NAME VALVE FITTED SIZE BAND [FAR]: makes a mesh with gmsh, in meshes/NAME. VALVE is the name of the .geo file, a
@@ -90,7 +90,7 @@ run_case() {
     rm -rf "$case/constant/polyMesh" && say "$1"
 }
 
-# run_blood NAME: continues from the steady flow of the case with blood's viscosity. The unsteady run is in blood/NAME.
+# run_blood NAME: continues with blood's viscosity from the steady flow of the case. The unsteady run is in blood/NAME.
 run_blood() {
   local case=$out/blood/$1 mesh=$1 from
   [[ ! -e $case/complete ]] || return 0

@@ -58,8 +58,8 @@ def contraction(m):
 
 
 def contraction_by_streamline(m, n=200_000):
-    """Returns the same contraction from a numerical integral along the free streamline. The integral is the height of the edge
-    minus the half width of the jet."""
+    """Returns the value of contraction(m) from a numerical integral along the free streamline. The integral is the height of the
+    edge minus the half width of the jet."""
     C = contraction(m)
     k = max(C * m, 1e-7)
     # t goes from the sink to the edge, and w = exp(i s) with s = pi/2 t^2. This removes the factor 1/s of the integrand.

@@ -47,8 +47,8 @@ def _kron(a, b, c):
 
 
 def effective_radius(library, kind, eps, per_eps, rim, tolerance=1e-6):
-    """Returns what stokes.effective_radius returns, a_eff and the number of cells. The plate lies on a face of the grid. The rim
-    may lie anywhere between faces."""
+    """Returns a_eff and the number of cells, as stokes.effective_radius does. The plate lies on a face of the grid. The rim may
+    lie anywhere between faces."""
     h = eps / per_eps
     n, m = round(1.5 * per_eps + 1), round(1 + 2.5 * eps * 1.0 / h + 1 / h)
     side = [_Side(graded(h, (0, m * h), (0, BOX), 1.15))] * 2 + [_Side(graded(h, (0, n * h), (0, BOX), 1.15))]
@@ -115,7 +115,8 @@ class _Component:
         self.D = _kron(*[jump if d == c else sp.diags(side[d].size) for d in range(3)])
 
     def given(self, kind, a):
-        """Returns the prescribed velocities on the box's faces normal to c, 0 elsewhere, and the friction of its other faces."""
+        """Returns the prescribed velocities on the box's faces normal to c, which are 0 elsewhere. Also returns the friction of
+        the box's other faces."""
         def velocity(x, y, z):
             r = np.hypot(x, y)
             u_r, u_z, _ = exact.disc(a, r, z) if kind == "disc" else exact.hole(a, r, z)

@@ -111,8 +111,8 @@ def resistance_tasks(variant):
 
 
 def resistance_rows(variant, results):
-    """Returns the rows that show the effect of R on a hole. The flow enters the band to a depth at which K equals mu over the
-    depth squared, which is proportional to (R/mu)^(-1/4). If R is small, blood also leaks through the plate."""
+    """Returns the rows that show the effect of R on a hole. The flow enters the band to the depth at which K equals mu over the
+    depth squared. This depth is proportional to (R/mu)^(-1/4). If R is small, blood also leaks through the plate."""
     n, rows, cells = variant.stokes_n[1], [], variant.stokes_cells
     for factor in FACTORS:
         ratio = factor * marking.R / marking.MU

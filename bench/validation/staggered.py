@@ -188,7 +188,8 @@ class Flow:
         return residual, jacobian
 
     def solve_linear(self, mu, K, q, edge_u=None, edge_v=None):
-        """Solves for Stokes flow, which has rho = 0. Later calls use the factors of the first call, and so its mu and K."""
+        """Solves for Stokes flow, which has rho = 0. Later calls reuse the matrix factors of the first call, and with them its mu
+        and K."""
         if not hasattr(self, "_stokes"):
             A, _ = self.viscous(mu, edge_u, edge_v)
             A = A + sp.diags(K * np.concatenate([self.u_volume.ravel(), self.v_volume.ravel()]))

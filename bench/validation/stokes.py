@@ -73,8 +73,8 @@ def effective_radius(library, kind, eps, per_eps, rim, place=(0.0, 0.0), solid=F
 
 
 def solid_radius(library, kind, eps, per_eps, rim):
-    """Returns what effective_radius returns, for a solid plate with the shape of the band. Plane sides of the plate lie on faces
-    of the grid. The library is not called."""
+    """Returns a_eff and the number of cells, as effective_radius does, for a solid plate with the shape of the band. Plane sides
+    of the plate lie on faces of the grid. The library is not called."""
     return effective_radius(library, kind, eps, per_eps, rim, solid=True)
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# check_fortran.py ford.md, run by the Python that FORD was installed for: every public Fortran name has a text in what FORD
-# makes. The names that FORD shows are compared with the names of the PUBLIC statements, so a name that FORD overlooks is also
-# found.
+# check_fortran.py ford.md: checks that every public Fortran name has a text in FORD's output. The names that FORD shows are
+# compared with the names of the PUBLIC statements, so the check also finds a name that FORD overlooks. The Python that FORD was
+# installed for runs this script.
 import pathlib
 import re
 import sys

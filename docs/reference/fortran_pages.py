@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# fortran_pages.py FOLDER BOOTSTRAP: makes FORD's pages in the folder self-contained. FORD's pages take Bootstrap and MathJax
-# from a server. They get the Bootstrap of the other folder, which is the distribution's. They have no formulas, so MathJax is
-# taken out.
+# fortran_pages.py FOLDER BOOTSTRAP: makes FORD's pages in the folder self-contained. FORD's pages load Bootstrap and MathJax from
+# a server. Here the pages get the distribution's Bootstrap, from the folder BOOTSTRAP. The pages have no formulas, so they need
+# no MathJax.
 import pathlib
 import re
 import shutil

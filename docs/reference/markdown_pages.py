@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-# markdown_pages.py FILE.md...: the pages as Doxygen reads them, on stdout. Their formulas are written as git's web pages want
-# them, $...$ within a line and ```math around lines of their own; here they become MathML, which browsers show without scripts,
-# fonts or a network. Links lose their places (#...), which Doxygen names otherwise. Run by the Python that has latex2mathml.
+# markdown_pages.py FILE.md...: writes the pages to stdout in the form that Doxygen reads. The pages have formulas in the form
+# that git hosts show: $...$ within a line, and ```math around lines of their own. The script turns the formulas into MathML,
+# which browsers show without scripts, fonts or a network. Links lose their places (#...), because Doxygen gives places other
+# names. The Python that has latex2mathml runs this script.
 import pathlib
 import re
 import sys
@@ -9,12 +10,13 @@ import sys
 from latex2mathml.converter import convert
 
 FENCE = re.compile(r"^( *)```(\w*) *$")
-# A formula begins behind a blank or a bracket, and no blank is inside of its dollars; it ends before a blank or punctuation.
+# A formula begins behind a blank or a bracket, and ends before a blank or punctuation. No blank stands just inside its dollars.
 CODE = r"(`+)(?:(?!\1).)*\1(?!`)"
 FORMULA = re.compile(CODE + r"|(?<![\w$\\])\$(?=[^\s$])([^$]*?)(?<=[^\s$])\$(?![\w$])")
 
-# What TeX does about space, and latex2mathml and browsers leave out: none around a slash and behind a sign, some around
-# functions; columns by the style that Chromium knows; primes as high as they are drawn.
+# latex2mathml and browsers lack some of TeX's rules. A slash has no space around it, and a sign no space behind it. Functions
+# have some space around them. Columns need a style that Chromium knows. Primes are already drawn high, so they are no
+# superscripts.
 THIN = '<mspace width="0.167em" />'
 SPACING = [
     (r"<mi>(&#x000B1;)</mi>", r"<mo>\1</mo>"),
@@ -28,7 +30,7 @@ SPACING = [
 
 
 def mathml(formula, display, place):
-    # Bars as brackets, which they are, not as operators with space around them.
+    # Bars are brackets here, not operators with space around them.
     formula = formula.replace(r"\lvert", r"\left\lvert").replace(r"\rvert", r"\right\rvert")
     text = convert(formula, display="block" if display else "inline")
     if re.search(r"\\|&(?!#)", text):
@@ -36,7 +38,7 @@ def mathml(formula, display, place):
     text = re.sub(r' xmlns="[^"]*"', "", text)
     for pattern, replacement in SPACING:
         text = re.sub(pattern, replacement, text)
-    # Doxygen's Markdown would take these for its own.
+    # Doxygen's Markdown would interpret these characters.
     return re.sub(r">([^<]*)<", lambda found: ">" + re.sub(r"[*_`|~]", lambda c: f"&#{ord(c[0])};", found[1]) + "<", text)
 
 

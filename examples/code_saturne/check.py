@@ -160,8 +160,8 @@ def check_closed(report, study):
     rows.append(cost_row("the solver's own zone", 1, reference, "-", f"{target:.1f}", f"{flat:.0f} (flat)"))
     report.check(first["c"]["resistances"][0] == first["fortran"]["resistances"][0],
                  "C and Fortran: the same cells are marked, and K has the same bits")
-    # The leaflets' area is larger than the tube's section, so the flow through them is slower. The integral of K is R/eps times
-    # their area.
+    # The leaflets' area is larger than the tube's section, so the flow through the leaflets is slower. The integral of K is R/eps
+    # times the leaflets' area.
     ratio, one = RESISTANCE / HALF_THICKNESS, first["c"]
     curved = ratio * one["flow"][-1] / (one["integral"][-1] / ratio)
     report.check(abs(target / curved - 1) < 0.2,

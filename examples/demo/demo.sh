@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
 # The steps of ./run demo, which reads this file: compile the program, make meshes, mark and draw, measure times, and print a
-# summary. They use its variables and functions $build, $logs, $n_jobs, $demo_packages, install_missing and step.
+# summary. The steps use $build, $logs, $n_jobs, $demo_packages, install_missing and step of `run`.
 
 # build_demo: compiles the program. A folder that is configured for the tests keeps its configuration, so that ./run test need not
 # build everything again.
@@ -13,7 +13,7 @@ build_demo() {
 }
 
 # demo_mesh NAME: makes the mesh of examples/demo/NAME.geo, unless it exists. examples/demo/fill.geo explains why the surface is
-# written to a file first. gmsh runs with one thread, because with more it sometimes left stray cells in the mesh.
+# written to a file first. gmsh runs with one thread, because several threads sometimes left stray cells in the mesh.
 demo_mesh() {
   local mesh=$build/demo/$1 surface=examples/demo/$1.geo volume=examples/demo/fill.geo
   [[ ! -s $mesh.vtk || $surface -nt $mesh.vtk || $volume -nt $mesh.vtk ]] || return 0

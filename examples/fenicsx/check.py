@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The checks and the picture of ./run fenicsx. A check prints its numbers, and ends with an error if one is not as it must be."""
+"""The checks and the picture of ./run fenicsx. A check prints its numbers, and ends with an error if a number is out of its
+bounds."""
 import itertools
 import json
 import pathlib
@@ -71,7 +72,8 @@ def order(xyz):
 
 
 def compare(xyz, fields, other_xyz, other):
-    """Compares two runs point by point. Returns rows with counts of points, and requires what has to hold."""
+    """Compares two runs point by point. Returns how many points have other bits, and a row of counts and differences for each
+    step."""
     require(len(xyz) == len(other_xyz), f"both have as many points, not {len(xyz)} and {len(other_xyz)}")
     partner = numpy.empty(len(xyz), int)  # its ordinal in the other run, by the order of coordinates to 1e-10 m
     partner[order(xyz)] = order(other_xyz)
@@ -133,7 +135,7 @@ def marks(folder, *ranks):
 
 
 def drops():
-    """The drop across the closed valve against (R / eps) times the flow over the area of the leaflets."""
+    """Compares the drop across the closed valve with (R / eps) Q/A, where Q is the flow and A the area of the leaflets."""
     from mpi4py import MPI
     import valve_in_duct
 
@@ -163,7 +165,7 @@ def drops():
 
 
 def refusals():
-    """Bad input and the words that answer it."""
+    """Checks that each bad input is refused with the expected error and words."""
     from mpi4py import MPI
     import riis
     import valve_in_duct

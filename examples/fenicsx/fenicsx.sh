@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# The steps of ./run fenicsx, which reads this file: install dolfinx and the Python package, run the example, check, draw. They
-# use its $packages, install_missing, is_on_offer, version_on_offer, say and step.
+# The steps of ./run fenicsx, which reads this file: install dolfinx and the Python package, run the example, check, draw. The
+# steps use $packages, install_missing, is_on_offer, version_on_offer, say and step of `run`.
 
 # Debian's reference BLAS makes the solver of the linear systems ten times slower than OpenBLAS.
 fenicsx_packages=(gcc g++ cmake ninja-build libembree-dev libtbb-dev python3 python3-dev python3-venv
@@ -51,7 +51,7 @@ fenicsx_environment() {
   /usr/bin/python3 -m venv --system-site-packages "$venv" && "$venv/bin/pip" install --no-deps .
 }
 
-# Open MPI refuses root, and more ranks than processors, unless it is told. Each rank has one thread.
+# By default, Open MPI refuses to run as root and with more ranks than processors. Each rank has one thread.
 fenicsx_settings() {
   export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl=self,sm
   export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none

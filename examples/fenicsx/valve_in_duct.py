@@ -22,7 +22,7 @@ GRAD_DIV = 2.0  # in Pa s, about R h / eps / 10
 
 
 def duct(comm, size):
-    """The mesh, whose edges have the given size at the valve, and the tags of its inlet, 1, outlet, 2, and wall, 3."""
+    """Returns the mesh and the tags of its inlet (1), outlet (2) and wall (3). Edges at the valve have the given size."""
     if not 2e-4 <= size <= 1e-2:
         raise ValueError(f"size is {size}; it must be from 2e-4 to 1e-2, in m")
     gmsh.initialize(["gmsh", "-setnumber", "size", str(size)])
@@ -36,13 +36,13 @@ def duct(comm, size):
 
 
 def flow(comm, law, dt, n_steps, size=2e-3, eps=2e-3, **parameters):
-    """Yields the state after each time step. The law gives the opening at a time, the parameters are the valve's."""
+    """Yields the state after each time step. The law gives the opening at a time, and the parameters are those of the valve."""
     mesh, tags = duct(comm, size)
     P1 = basix.ufl.element("Lagrange", mesh.basix_cell(), 1)
     P2 = basix.ufl.element("Lagrange", mesh.basix_cell(), 2, shape=(3,))
     W, V = fem.functionspace(mesh, basix.ufl.mixed_element([P2, P1])), fem.functionspace(mesh, P2)
 
-    # K and K u_valve are functions with values at the points of the velocity, which riis marks where they lie.
+    # K and K u_valve are functions with values at the points of the velocity. riis marks these points.
     K, K_u = fem.Function(fem.functionspace(mesh, ("Lagrange", 2))), fem.Function(V)
     xyz = V.tabulate_dof_coordinates()
     assert numpy.array_equal(xyz, K.function_space.tabulate_dof_coordinates())

@@ -19,8 +19,8 @@ flow_compile_solver() {
     cmake --build "$flow_build/solver" --parallel "$n_jobs"
 }
 
-# flow_restart FOLDER FIRST SECOND WORD...: goes on from the step FIRST of a run to the step SECOND. Both states must be the same
-# there, and so must the rows of the table be in between.
+# flow_restart FOLDER FIRST SECOND WORD...: restarts a run from its step FIRST, and goes on to the step SECOND. The state at
+# SECOND and the rows of the table in between must equal those of the first run.
 flow_restart() {
   local folder=$1 first=$2 second=$3 again=$1/again
   shift 3
@@ -32,7 +32,7 @@ flow_restart() {
     rm -rf "$again"
 }
 
-# flow_story FOLDER: says what the beat was, from its table.
+# flow_story FOLDER: describes the heartbeat, from its table.
 flow_story() {
   LC_ALL=C awk -F , '
     NR == 1 { next }

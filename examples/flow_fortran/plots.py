@@ -214,7 +214,7 @@ class Movie:
 
 
 def choose_stills(frames, table):
-    """Numbers of the frames that tell the story: closed, opening, at the largest flow, closing, closed again."""
+    """Returns the numbers of the frames for the stills: closed, opening, at the largest flow, closing, closed again."""
     opening = np.array([frame.opening for frame in frames])
     time = np.array([frame.time for frame in frames])
     most = int(np.argmin(abs(time - table["time_s"][np.argmax(table["flow_m3_per_s"])])))

@@ -198,7 +198,8 @@ def beat(*cases):
 
 
 def restart(whole, again, none, none_again):
-    """Compares a restart of the heartbeat with the run that was not stopped. The same is done without a valve."""
+    """Compares a restart of the heartbeat with the run that was not stopped. Also compares a restart of a flow without a
+    valve."""
     print("A restart on 2 ranks while the valve closes, against the run that went on:")
     for name, first, second, fields in (("with the valve", whole, again, (K_NAME, KU_NAME, "p", "U")),
                                         ("without a valve", none, none_again, ("p", "U"))):

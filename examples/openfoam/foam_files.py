@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads OpenFOAM's fields, lists and tables, as text or binary. If a file is not readable, the program ends with its name and the
-reason."""
+"""Reads OpenFOAM's fields, lists and tables, as text or binary. If a file is not readable, the program ends with the file's name
+and the reason."""
 import pathlib
 import re
 
@@ -144,7 +144,7 @@ def table(case, name):
 def steps(case):
     """Reads the solver's log. Returns for each step: time, opening, cells, seconds of the library and of the whole step.
 
-    The integral of K stands between cells and seconds. The first step has NaN in the place of the last.
+    The integral of K stands between cells and seconds. In the first step, NaN stands for the seconds of the whole step.
     """
     path = pathlib.Path(case) / "log.pimpleFoam"
     rows, before = [], numpy.nan

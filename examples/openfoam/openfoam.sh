@@ -62,7 +62,7 @@ openfoam() {
   say "wrote out/openfoam/beat.png, out/openfoam/velocity.png, and the heartbeat in $of_cases/beat"
 }
 
-# Tells whether the distribution has the package openfoam. Prints the reason if it has not.
+# Tells whether the distribution has the package openfoam. Prints the reason if the package is missing.
 openfoam_has_package() {
   if ! command -v dpkg-query >/dev/null; then
     say "OpenFOAM is left out: this is no Debian system, and the plug-in is built for Debian's package openfoam"
@@ -85,7 +85,7 @@ openfoam_has_source() {
   rm -rf "$of_source"
   mkdir -p "$of_source"
   if ! (step "OpenFOAM's headers, from its source package (45 MB)" openfoam_source "$version" "$of_source"); then
-    say "OpenFOAM is left out: the source package of openfoam $version, which has its headers, cannot be had"
+    say "OpenFOAM is left out: the source package of openfoam $version, which has its headers, is not available"
     return 1
   fi
 }
@@ -246,8 +246,8 @@ openfoam_drops() {
   done
 }
 
-# openfoam_hexahedra N: makes a mesh of the root from cubes, N to 36 mm, in hexahedra-N. The cubes of a box that lie outside the
-# root's surface are removed.
+# openfoam_hexahedra N: makes a mesh of the root from cubes, in hexahedra-N. The edges of the cubes are 36 mm / N long. The cubes
+# of a box that lie outside the root's surface are removed.
 openfoam_hexahedra() {
   local folder=$of_work/hexahedra-$1 layers=$(((13 * $1 + 6) / 12)) top
   [[ ! -e $folder/complete || $openfoam_here/root.geo -nt $folder/complete ]] || return 0

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_complete.sh TEST_SOURCE HEADER...
-# Every function, enum constant, struct and field of the headers must appear in the test, appended ones too.
+# Every function, enum constant, struct and field of the headers must appear in the test. This includes appended ones.
 set -euo pipefail
 test_source=$1
 shift

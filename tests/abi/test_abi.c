@@ -18,7 +18,8 @@
     assert_int_equal(offsetof(type, field), offset);    \
     assert_int_equal(sizeof(((type *)0)->field), size); \
   } while (0)
-/* Checks the type of a function, including its arguments. Callers in other languages do not see the header and rely on it. */
+/* Checks the type of a function, including its arguments. Callers in other languages do not see the header, but rely on these
+ * types. */
 #define SIGNATURE(function, result, arguments) assert_true(_Generic(&function, result(*) arguments : 1, default : 0))
 
 static void test_structs(void **state) {

@@ -18,7 +18,7 @@ enum { longest_output = 65536 };
 extern int program_exit_code; /* 128 + N if signal N ended the program */
 extern char program_out[longest_output], program_err[longest_output];
 extern char program_leaks[longest_output];     /* the warning about leaks, not in program_err; "" if there was none */
-extern char program_crossings[longest_output]; /* the warning about crossings, also kept apart */
+extern char program_crossings[longest_output]; /* the warning about crossings; "" if there was none */
 
 /* The path of a file for the program's stdout, or "" for a closed stdout. NULL, the default, keeps stdout in program_out. */
 extern const char *program_stdout;
@@ -31,7 +31,7 @@ void finish_program(pid_t process);
 
 /* Runs the program, and fails the test unless it succeeds with nothing on stderr. */
 #define RUN_FINE(...) (run_program(__VA_ARGS__, NULL), expect_run_fine(__FILE__, __LINE__))
-/* Does the same for a mesh without volume cells. There the run must report leaks as unknown. */
+/* Runs the program on a mesh without volume cells. The run must succeed and report leaks as unknown. */
 #define RUN_WITHOUT_CELLS(...) (run_program(__VA_ARGS__, NULL), expect_run_without_cells(__FILE__, __LINE__))
 /* Runs the program, and fails the test unless it ends with this exit code, nothing on stdout, and one line on stderr with this
  * text. */

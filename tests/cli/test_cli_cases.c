@@ -28,7 +28,7 @@ static int has_array(const char *path, const char *name) {
   return shim_read_array(path, 'p', name, NULL, NULL, NULL, NULL);
 }
 
-/* Compares an array of the series' part with the single run's array at the part's nodes. */
+/* Compares an array of the written part of the mesh with the array of a single run, at the nodes of this part. */
 static void expect_same_array(const char *part, const char *single, const char *name) {
   static double ids[n_nodes], values[3 * n_nodes], whole[3 * n_nodes];
   const int64_t n = read_array(part, "riis_node_id", ids);

@@ -185,7 +185,7 @@ static void every_run_looks(void **state) {
   expect_tall(tall_crosses);
   run_program("surface", "--valve", write_squares(), "--output", scratch_path("half_open.vtp"), NULL);
   expect_tall("riis: leaflets 0 and 1 cross at opening 0.5: ");
-  /* Only the open state has a shape of the user's. The closed state is the paper's. */
+  /* The user chose only the shape of the open state. The closed state is the paper's. */
   scratch_write_text("turned.json", "{\"right.rotation\": [0, 0, 60]}");
   run_program("mark", in, "--valve", "aortic", "--params-open", scratch_path("turned.json"), "--opening", "0", NULL);
   expect_tall("riis: leaflets right and left cross at opening ");

@@ -107,7 +107,7 @@ static double n_marked_in(const char *path, const char *name) {
   return n;
 }
 
-/* Two valves in one mesh, one after the other. */
+/* Marks two valves in one mesh, one after the other. */
 static void test_two_valves(void **state) {
   (void)state;
   char first[256], both[256];

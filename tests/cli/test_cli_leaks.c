@@ -157,7 +157,7 @@ static void test_surface_from_file(void **state) {
 }
 
 /* The table of statistics also reports leaks. The first three searches report the same leaks. The paper's search and other
- * distances report leaks too. */
+ * distances also report leaks. */
 static void test_searches_and_distances(void **state) {
   (void)state;
   riis_surface *surface = make_surface("mitral", 0.1);
@@ -391,7 +391,7 @@ static void expect_warned(int exit_code) {
              program_crossings);
 }
 
-/* Runs the program with a warning: 0 is the status without --strict, 4 with it. */
+/* Runs the program on input that gives a warning. The status is 0 without --strict, and 4 with --strict. */
 #define EXPECT_STRICT(...)                      \
   do {                                          \
     run_program(__VA_ARGS__, NULL);             \

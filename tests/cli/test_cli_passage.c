@@ -83,7 +83,7 @@ static void test_open_valve(void **state) {
   assert_non_null(strstr(program_out, "\npassage   closed: at "));
 }
 
-/* The measures of valve and mesh for the flow equal those of the library's calls. */
+/* The measures of valve and mesh for the flow equal the results of the library's calls. */
 static void test_flow(void **state) {
   (void)state;
   RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, "--valve", "trileaflet", "--opening", "0",

@@ -151,7 +151,7 @@ static int is_covered(double x, double y, double tolerance) {
 }
 
 /* Returns how many vertical lines of a grid meet no triangle. The grid is centred on the axis and covers the disc inside the
- * ring, whose radius is 1.2 and whose polygon is off by at most 0.01. The grid has extra rows on the lines where leaflets
+ * ring. The ring's radius is 1.2, and its polygon is off by at most 0.01. The grid has extra rows on the lines where leaflets
  * meet. */
 static int n_uncovered(void) {
   const double radius = 1.19, tolerance = 1e-9;

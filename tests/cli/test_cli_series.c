@@ -72,7 +72,8 @@ static void expect_as_single(int step, const char *part) {
   }
 }
 
-/* Returns the nodes of all cells that have, in some step, a node within the half thickness. They are in the input's order. */
+/* Returns the nodes of all cells that have, in some step, a node within the half thickness. The nodes are in the input's order.
+ * */
 static int64_t nodes_near_sweep(double *ids) {
   static unsigned char is_near[n_box], is_wanted[n_box];
   static double marked[n_box];
@@ -144,8 +145,8 @@ static void test_cells(void **state) {
   }
 }
 
-/* Compares a step's fields with those of the C interface. The velocity is the mean since the previous time. At the first time, it
- * is the mean since one step before. */
+/* Compares a step's fields with those of the C interface. The velocity is the mean since the previous time. At the first time,
+ * the velocity is the mean since one step earlier. */
 static void expect_fields(int step, const char *path) {
   static double xyz[3 * n_box], normal[3 * n_box], velocity[3 * n_box], momentum[3 * n_box], side[n_box], K[n_box];
   riis_valve *now = NULL, *before = NULL;
@@ -269,7 +270,8 @@ static void test_cycles(void **state) {
   assert_true(fabs(expected - 0.25) > 0.01);
 }
 
-/* The velocity at the first time is the mean since one step before. A cycle with a period has another opening there. */
+/* The velocity at the first time is the mean since one step before. At this earlier time, a cycle with a period has another
+ * opening. */
 static void test_first_velocity(void **state) {
   (void)state;
   double time = -1, opening = -1, n_marked = 0, speed = 0;

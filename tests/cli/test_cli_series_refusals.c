@@ -223,7 +223,8 @@ static void interrupt_series(int signal_number) {
 }
 
 /* The main thread is stopped in the middle of a step, as if the step took very long. The program must still write the list.
- * Then the process is killed. The list may lack one file, if the thread stopped between a file and its entry. */
+ * Then the process is killed. The list may lack one file, if the thread was stopped after it wrote a file and before it listed
+ * the file. */
 static void test_killed(void **state) {
   (void)state;
   write_cycle("0,0\n1,1\n");
@@ -245,7 +246,7 @@ static void test_killed(void **state) {
   const int n = n_listed("dead.pvd");
   kill(process, SIGKILL);
   finish_program(process);
-  if (!is_stopped) skip(); /* skipped where the system lets no process stop another's threads */
+  if (!is_stopped) skip(); /* skipped if the system does not let a process stop the threads of another */
   assert_int_equal(program_exit_code, 128 + SIGKILL);
   assert_true(n_files >= 12 && n_files < 2001);
   assert_true(n == n_files || n == n_files - 1);

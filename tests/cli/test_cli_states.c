@@ -2,7 +2,7 @@
  *
  * `riis states`: lengths of free edges are compared with the valves' curves. Areas and orifices are compared with the
  * surface's triangles. */
-/* clang-format off: test_support.h checks statuses if riis.h came before */
+/* clang-format off: test_support.h checks statuses if riis.h comes before it */
 #include <riis/riis.h>
 
 #include "calls.h"
@@ -309,8 +309,8 @@ static void test_prosthesis(void **state) {
   CHECK_NEAR(cell(1, "orifice_area"), 3.79, 0.01);
 }
 
-/* One side of this flat triangular patch is a point. The triangles at the point have no area, so that end of the edge belongs
- * to no triangle. The sides along the axes have the lengths 1 and 2, and the slanted one sqrt(5). */
+/* One side of this flat triangular patch is a point. The triangles at the point have no area. The end of the edge at the point
+ * therefore belongs to no triangle. The sides along the axes have the lengths 1 and 2, and the slanted one sqrt(5). */
 static void run_flat_triangle(const char *sides) {
   char text[512];
   snprintf(text, sizeof text,
@@ -339,8 +339,8 @@ static void test_collapsed_sides(void **state) {
   expect_said("edges     not measured: a leaflet has no side v = 1 on its rim\n");
 }
 
-/* Two patches above each other share a side. It is the side v = 1 of one patch, but no free edge. The patches' other curves
- * bend differently, so each patch would cut the common side into different parts. The test has one straight and one curved
+/* Two patches above each other share a side. The common side is the side v = 1 of one patch, but no free edge. The patches' other
+ * curves bend differently, so each patch would cut the common side into different parts. The test has one straight and one curved
  * side. */
 static void test_shared_sides(void **state) {
   (void)state;

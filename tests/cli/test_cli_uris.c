@@ -2,7 +2,7 @@
  *
  * `riis export uris`: the test reads the files back as svMultiPhysics does, and compares their vertices with the library's at
  * the openings of the frames. It also marks nodes by the solver's rule. */
-/* clang-format off: test_support.h checks statuses if riis.h came before */
+/* clang-format off: test_support.h checks statuses if riis.h comes before it */
 #include <riis/riis.h>
 #include <riis/riis_vtk.h>
 
@@ -390,8 +390,8 @@ typedef struct {
 
 static random_source rng;
 
-/* Checks a point that is marked or in a pressure band: it must lie in the box. The solver must take the point's distance from
- * the leaflets' triangles. */
+/* Checks a point that is marked or in a pressure band. The point must lie in the box, and its nearest triangle by the solver's
+ * rule must belong to a leaflet. */
 static void look_at(frame *at, const double point[3]) {
   double expected = 0, distance = 0;
   const int leaflet = uris_nearest(&at->leaflets, point, &expected);

@@ -184,7 +184,7 @@ static void test_cycles(void **state) {
   expect_openings("opening: 8 frames, from opening 0 to 1\n");
   expect_openings("closing: 38 frames, from opening 1 to 0\n");
   uris_free(&valve);
-  /* With the period, the span of opening or closing crosses the end of the cycle. */
+  /* With a period, the span of opening or closing crosses the end of the cycle. */
   scratch_write_text("over.csv", "0,0.5\n0.25,1\n0.5,0\n");
   valve = EXPORTED("--time-step", "0.125", "--cycle", scratch_path("over.csv"), "--period", "1", "--interpolation",
                    "cubic");

@@ -237,7 +237,7 @@ static void test_changed_files(void **state) {
     write_flap(changes[i].can_open, changes[i].found, changes[i].replacement);
     RUN_REFUSED(1, changes[i].text, "mark", scratch_path("in.vtu"), "--valve", scratch_path("v.json"));
   }
-  /* One curve without length gets a length, and the reverse. */
+  /* A curve without length gets a length, and a curve with a length loses it. */
   write_flap(1, "[[1, 0.5, -1]]", "[[1, 0.5, -1], [1, 0.5, -1]]");
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", scratch_path("v.json"), "--opening", "1");
   /* An output must not replace an input. */

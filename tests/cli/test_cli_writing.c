@@ -244,7 +244,7 @@ static void test_limited_size(void **state) {
   small.rlim_cur = 200;
   assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
   run_program("mark", scratch_path("in.vtu"), "--stats", scratch_path("limit.json"), "--quiet", "--half-thickness",
-              "0.5", NULL); /* avoids leaks, because the warning would go to stderr, which has the same limit */
+              "0.5", NULL); /* no edge leaks, because a warning would go to stderr, which has the same limit */
   setrlimit(RLIMIT_FSIZE, &before);
   expect_run_refused(1, "limit.json: cannot be written: File too large", __FILE__, __LINE__);
   expect_text("limit.vtu", "before");

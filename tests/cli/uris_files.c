@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* clang-format off: test_support.h has CMocka's headers in order */
+/* clang-format off: test_support.h includes CMocka's headers in the right order */
 #include "test_support.h"
 /* clang-format on */
 

@@ -45,7 +45,7 @@ typedef struct {
 
 /* Frame k of the closing, or of the opening, with the first n_faces faces. The caller frees it. */
 uris_state uris_state_of(const uris_valve *valve, int n_faces, int is_closing, int k);
-/* Returns the same for the scaffold, which is at rest. */
+/* Returns the state of the scaffold, which is at rest. */
 uris_state uris_scaffold_of(const uris_valve *valve);
 void uris_state_free(uris_state *state);
 

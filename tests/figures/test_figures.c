@@ -34,7 +34,7 @@ static int run(const char *program, const char *arguments) {
 
 static int run_program(const char *arguments) { return run(RIIS_FIGURES_PROGRAM, arguments); }
 
-/* Does the same with a JSON file whose plots follow the figures. */
+/* Draws the page with a JSON file whose plots follow the figures. Returns the program's exit status. */
 static int run_with_plots(const char *name, const char *json) {
   char arguments[1024];
   scratch_write("plots.json", json, strlen(json));
@@ -187,7 +187,7 @@ static int read_column(const char *kind, const char *name, double *values) {
   return n;
 }
 
-/* Expects that the row's cells are the column's numbers and their changes since the first. */
+/* Expects that the row's cells are the column's numbers, and the changes of these numbers since the first. */
 static void expect_row(const char *kind, int figure, const char *row, const char *column) {
   double values[8];
   const int n = read_column(kind, column, values);
@@ -351,7 +351,7 @@ static void test_given_figures_refused(void **state) {
   }
 }
 
-/* Faults of the tables of states are reported too. */
+/* Faults of the tables of states are also reported. */
 static void test_tables_refused(void **state) {
   (void)state;
   const struct {

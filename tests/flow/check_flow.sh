@@ -39,7 +39,7 @@ refuses() {
 
 "$checks" short || problem "a check fails"
 
-# The state is saved at the step at which the valve moves, so that the valve's state matters. Frames are written at other steps.
+# The state is saved at a step at which the valve moves, so that the valve's state matters. Frames are written at other steps.
 run whole end_time=0.15 frames=5 steps=150 save=140,150 || problem "the solver failed: $(<whole/log)"
 run again end_time=0.15 frames=5 steps=150 save=150 restart="'whole/restart_140.bin'" || problem "no restart: $(<again/log)"
 awk -F , '$1 == 140 { exit !($4 > 0 && $4 < 1) }' whole/beat.csv || problem "the valve does not move at the restart"

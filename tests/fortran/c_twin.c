@@ -264,7 +264,7 @@ static riis_status walk(const riis_adjacency *along, int32_t search, const uint8
   return riis_mesh_set_adjacency(mesh, NULL);
 }
 
-/* Finds leaks along the tetrahedra, marked with a small half thickness. */
+/* Marks with a small half thickness, and finds the edges of the tetrahedra that leak. */
 static riis_status find_leaks(twin_leaks *leaks) {
   riis_surface_options surface_options;
   riis_mark_options options;

@@ -22,7 +22,7 @@ typedef struct twin_leaks {
   riis_leak_list list;
   const int64_t *label; /* number of each node's open region */
   int64_t n_regions;
-  riis_passage passage; /* from the first node to the last one */
+  riis_passage passage; /* the passage from the first node to the last one */
 } twin_leaks;
 
 /* An aortic valve that opens, and the results that use its fields. */
@@ -32,7 +32,7 @@ typedef struct twin_motion {
   const double *coefficient, *momentum; /* (n_nodes), (3, n_nodes) */
   double force[30];
   riis_band_sums sums;
-  twin_surface framed; /* at half the time between two frames of a square */
+  twin_surface framed; /* the surface at half the time between two frames of a square */
 } twin_motion;
 
 /* Results of the laws of opening. */
@@ -50,8 +50,8 @@ typedef struct twin_numbers {
   twin_surface mitral;     /* half open */
   twin_surface opening;    /* the aortic valve, between its two states */
   twin_surface patches;    /* a valve from patches */
-  riis_closest closest;    /* for the first node, on the aortic valve */
-  riis_closest_arrays all; /* for all nodes, on the surface from arrays */
+  riis_closest closest;    /* the first node's closest point on the aortic valve */
+  riis_closest_arrays all; /* all nodes' closest points on the surface from arrays */
   riis_mark_list marked, within_limit;
   const uint8_t *dense_mark;
   const double *dense_distance;
@@ -59,9 +59,9 @@ typedef struct twin_numbers {
   const int32_t *dense_leaflet_id;
   riis_mark_stats stats;
   twin_walk cells, faces, grid; /* marked by RIIS_SEARCH_NEIGHBOR */
-  riis_mark_stats paper;        /* by RIIS_SEARCH_PAPER along the grid */
-  twin_leaks leaks;             /* of a thin aortic valve, along the tetrahedra */
-  riis_crossing_list crossings; /* of an aortic valve with one cusp turned */
+  riis_mark_stats paper;        /* of a marking by RIIS_SEARCH_PAPER along the grid */
+  twin_leaks leaks;             /* the leaks of a thin aortic valve, along the tetrahedra */
+  riis_crossing_list crossings; /* the crossings of an aortic valve with one cusp turned */
   twin_motion motion;
   twin_laws laws;
 } twin_numbers;

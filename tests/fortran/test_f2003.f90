@@ -35,7 +35,7 @@ program test_f2003
   if (size(fields%velocity, 2) /= size(node_num) .or. any(abs(fields%velocity) > 0d0)) stop 2
   if (count(resistance > 0) > size(node_num) .or. .not. any(resistance > 0)) stop 3
 
-  ! The marked nodes, through the result's pointers.
+  ! Reads the marked nodes through the result's pointers.
   distance = -1
   call surface%closest_points(xyz, distance=distance, point_id=node_id)
   if (count(distance >= 0) /= size(node_id)) stop 4

@@ -306,7 +306,7 @@ contains
     call surface%closest_points(xyz, distance=distance, point_id=list(:0))
     call check(all(same(distance, -7d0)), 'a list of none is not a list of all')
 
-    ! The marked nodes, through the result's pointer: nothing is gathered or scattered.
+    ! Reads the marked nodes through the result's pointer. Nothing is gathered or scattered.
     call mesh%create(xyz)
     call riis_mark_nodes(surface, mesh, result, fields=RIIS_FIELD_POINT)
     call result%marked(node_id)

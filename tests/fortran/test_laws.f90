@@ -222,7 +222,7 @@ contains
   end function is_same_angle
 
   ! An aortic and a mitral valve follow laws. A restart file holds only the states of the laws. After the restart, K and K
-  ! u_surface must have the same bits to the end of the cycle as without it.
+  ! u_surface must have the same bits as without the restart, to the end of the cycle.
   subroutine test_restart()
     type(riis_opening_switch_state) :: aortic
     type(riis_opening_angle_state) :: mitral

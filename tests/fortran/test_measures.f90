@@ -72,7 +72,7 @@ contains
     call valve%destroy()
   end subroutine test_orifices
 
-  ! Halves of a disc turn; a triangle translates.
+  ! The halves of a disc turn, and a triangle translates.
   subroutine test_swept_volumes()
     type(riis_valve) :: valve, empty
     type(riis_keyframes) :: keyframes, none

@@ -394,7 +394,7 @@ contains
     call twin%create_from_arrays(square, reshape([1, 2, 3, 4], [4, 1]), half_thickness=0.1d0)
     call check_same_surface(surface, twin, 'a quad')
 
-    ! The sheet is moved up by 1 by updates.
+    ! Updates move the sheet up by 1.
     sheet(6, :) = 1
     call surface%update_from_arrays(sheet(2:6:2, 1::2), faces, leaflets)
     call surface%get_info(info)

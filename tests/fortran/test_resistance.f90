@@ -263,7 +263,7 @@ contains
       'patches, u, v and velocities are the triangles''')
     call check(any(fields%rim == 1) .and. any(fields%rim == 0) .and. all(fields%rim == 0 .or. fields%rim == 1), 'the rim')
 
-    ! The fields of the marked nodes are the same values, without a copy.
+    ! The fields of the marked nodes have the same values, and they are not copied.
     call result%marked(marked_id)
     call result%get_list(RIIS_LIST_MARKED, marked)
     call check(marked%n_nodes == size(marked_id) .and. lbound(marked%velocity, 2) == 1, 'fields of marked nodes count from 1')

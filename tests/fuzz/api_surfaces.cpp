@@ -97,7 +97,7 @@ std::vector<double> picture_of(const riis_surface *surface) {
   return all;
 }
 
-// Calls update(surface) for an existing surface, or create(&surface).
+// Calls update(surface) if there is a surface, and create(&surface) otherwise.
 template <class Create, class Update>
 void make(Input &in, State &state, const Create &create, const Update &update) {
   riis_surface *&slot = slot_of(in, state);

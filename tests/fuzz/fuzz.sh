@@ -95,7 +95,7 @@ run_all() {
     printf '%-13s %11s %6s %6s %6s %7s %9s\n' "$name" "$executions" $((executions / given[$name])) \
       "$(numbers cov "$out/$name/log" | tail -n 1)" "$(numbers ft "$out/$name/log" | tail -n 1)" \
       "$(find "$out/$name/corpus" -type f | wc -l)" "$n_findings"
-    # A harness that did not reach its end found a fault, such as a leak at the end, or did not start.
+    # If a harness did not reach its end, it did not start, or it found a fault such as a leak at the end.
     if ((n_findings > 0)) || ! grep -q "^all of $name done" "$out/$name/log"; then
       status=1
       echo "  $out/$name/log:"

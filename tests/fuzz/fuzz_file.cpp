@@ -50,7 +50,7 @@ void read_mesh() {
   EXPECT(riis_vtk_mesh_get_nodes(read, &n_nodes, &n_cells, &xyz) == RIIS_OK, "%s", riis_last_error());
   EXPECT(n_nodes > 0 && n_cells >= 0, "%lld nodes", static_cast<long long>(n_nodes));
   double sum = 0;
-  // Reads all of it, so that the sanitizer checks the reads.
+  // Reads all numbers, so that the sanitizer checks the reads.
   for (std::int64_t i = 0; i < 3 * n_nodes; ++i) sum += xyz[i];
   riis_mesh *mesh = nullptr;
   if (is_fine(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh), RIIS_INVALID_MESH))

@@ -22,7 +22,7 @@ class ScratchFile {
     folder_ = pattern;
     open_file(pattern + "/" + name);
   }
-  // Makes a file in the folder of `other`, which must live longer.
+  // Makes a file in the folder of `other`. The file `other` must live longer than this one.
   ScratchFile(const ScratchFile &other, const std::string &name) { open_file(other.folder_ + "/" + name); }
   ~ScratchFile() {
     close(file_);

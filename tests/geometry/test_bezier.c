@@ -138,7 +138,7 @@ static void flattening_stays_within_its_bound(void **state) {
       CHECK_SAME(points[c], control[c]);
       CHECK_SAME(points[3 * (n - 1) + c], control[3 * degree + c]);
     }
-    /* Walk along the curve in small steps. */
+    /* Walks along the curve in small steps. */
     enum { n_steps = 100000 };
     const double whole = bezier_arc_length(degree, control, 0, 1);
     double previous[3], next[3], at = 0, largest = 0;

@@ -67,7 +67,7 @@ static void surface_equals_the_coons_formula_everywhere(void **state) {
     }
   }
   double corner[3];
-  coons_evaluate(sizes, sides, 1, 1, corner); /* the paper's index is empty at 1 */
+  coons_evaluate(sizes, sides, 1, 1, corner); /* the paper's rule finds no grid cell at u = v = 1 */
   for (int c = 0; c < 3; ++c) CHECK_NEAR(corner[c], side_v1[9 + c], 0);
 }
 

@@ -19,7 +19,7 @@ static void test_circle(void **state) {
   for (int n = 64; n <= n_lines; n *= 2) {
     const double error = fabs(shim_circle_area(radius, centre, n) / area - 1);
     CHECK_AT_MOST(error, pow(n, -1.5));
-    CHECK_AT_MOST(error, last / 2.5); /* a little less than 2 to the power of 1.5 */
+    CHECK_AT_MOST(error, last / 2.5); /* 2.5 is a little less than 2 to the power of 1.5 */
     last = error;
     CHECK_NEAR(shim_uncovered_circle(radius, centre, 0, NULL, n), shim_circle_area(radius, centre, n), 1e-13);
   }
@@ -117,7 +117,7 @@ static void test_open_lines(void **state) {
     const double flat[3][6] = {{0, 0, 0, x, y, 0}, {x, y, 0, 2 * x, 2 * y, 1}, {2 * x, 2 * y, 1, 0, 0, 0}};
     assert_true(shim_uncovered_inside(3, flat[0], 0, NULL, n_lines) == -1);
   }
-  /* So do lines along x and along y with rounded coordinates. */
+  /* Triangles that are lines along x or y up to rounding also cover nothing. */
   const double near_x[3][6] = {{0, 0, 0, 1, 1e-16, 0}, {1, 1e-16, 0, 2, -1e-16, 1}, {2, -1e-16, 1, 0, 0, 0}};
   const double near_y[3][6] = {{0, 0, 0, 1e-16, 1, 0}, {1e-16, 1, 0, -1e-16, 2, 1}, {-1e-16, 2, 1, 0, 0, 0}};
   assert_true(shim_uncovered_inside(3, near_x[0], 0, NULL, n_lines) == -1);
@@ -150,7 +150,7 @@ static void test_growing(void **state) {
     const double area = is_plate ? pi * (radius * radius - edge * edge) : pi * edge * edge;
     CHECK_NEAR(shim_area_beyond(radius, centre, 2 * m, xy, 2 * m, ids, reach), area, 2e-4 * pi * radius * radius);
     CHECK_NEAR(shim_edge_beyond(radius, centre, 2 * m, xy, 2 * m, ids, reach), 2 * pi * edge,
-               16 * radius / n_edge_lines); /* a spacing where each of eight arcs ends */
+               16 * radius / n_edge_lines); /* one spacing for the end of each of eight arcs */
     CHECK_NEAR(shim_area_beyond(radius, centre, 2 * m, xy, 2 * m, ids, 2 * radius), 0, 0);
     CHECK_NEAR(shim_edge_beyond(radius, centre, 2 * m, xy, 2 * m, ids, 2 * radius), 0, 0);
   }

@@ -147,7 +147,7 @@ check_by_pkg_config() { # arguments: prefix, all|few, more pkg-config options
     done
   fi
   if has Fortran && [ "$2" = all ]; then
-    # Compiled as codes do that use no modules.
+    # Compiles the program as a code without modules does.
     # shellcheck disable=SC2046
     quietly "$FC" -std=legacy "$source/tests/fortran/test_f77.f" "$source/tests/fortran/f77_checks.f" -o "$out/test_f77" \
       $(flags --cflags --libs "${@:3}" riis-fortran)
@@ -252,7 +252,8 @@ while read -r file; do
 done < <(binaries "$prefix")
 
 # A library directory given as an absolute path does not move with the prefix, but everything must still be found. The check
-# configures the build tree again. Only the static test does so, because it has a build tree of its own. Its fixture restores it.
+# configures the build tree again. Only the static test does so, because it has a build tree of its own. The test's fixture
+# restores the build tree.
 is_configured_anew='' examples_of_moved=all
 if [ "$kind" = static ] && [[ $build == "$(dirname "$work")"/* ]]; then
   is_configured_anew=1 examples_of_moved=few

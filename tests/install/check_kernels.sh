@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_kernels.sh NM SET OBJECT...
-# Objects compiled for an instruction set must define their tables of kernels and no other symbol that the linker sees. Other
-# objects may define the same function, such as a weak function from a header. The linker might then take the version whose
-# instructions the processor lacks.
+# Objects compiled for an instruction set must define their tables of kernels and no other symbol that the linker sees. Otherwise
+# such an object might define a function that other objects also define, such as a weak function from a header. The linker could
+# then take the version whose instructions the processor lacks.
 set -euo pipefail
 nm=$1 set=$2
 shift 2

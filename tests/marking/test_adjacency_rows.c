@@ -71,7 +71,7 @@ static void rows_that_are_refused(void **state) {
   good.n_rows = n;
   good.offsets = offsets;
   good.columns = columns;
-  /* Rows are refused whether or not the mesh has an adjacency. An adjacency stays. */
+  /* Wrong rows are refused whether or not the mesh has an adjacency. The adjacency stays. */
   for (int has_one = 0; has_one < 2; ++has_one) {
     if (has_one) CHECK_OK(riis_mesh_set_adjacency(mesh, &good));
 #define REFUSED(status, parts)                                         \

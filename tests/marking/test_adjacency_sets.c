@@ -99,7 +99,7 @@ static void rows_are_those_of_a_set(void **state) {
     else
       cells.offsets = offsets;
     for (int width = 0; width < 3; ++width) {
-      /* First with the library's own limits, then with limits below the mesh's numbers. */
+      /* Tests the library's own limits first, then limits below the mesh's numbers. */
       const int64_t n_entries = width == 1 ? mesh.offsets[mesh.n_cells] - 1 : -1, n_nodes = width == 2 ? 0 : -1;
       const int n_threads = below(20) ? 1 + (int)below(3) : 9;
       wide_rows rows = {0};

@@ -28,7 +28,7 @@ static void nodes_and_valve_move(void **state) {
   riis_mark_options options = mark_options();
   for (int step = 0; step < 8; ++step) {
     check_with(surface, mesh, options, 2, RIIS_SEARCH_CLUSTERS);
-    const double turn = 0.3 * step, grow = step == 5 ? 40 : 1; /* first slowly, then far apart, then shuffled */
+    const double turn = 0.3 * step, grow = step == 5 ? 40 : 1; /* step 5 moves nodes far apart, step 6 at random */
     double *to = step % 2 ? xyz : other;
     for (int i = 0; i < n; ++i) {
       const double *p = (step % 2 ? other : xyz) + 3 * i, x = p[0], y = p[1];

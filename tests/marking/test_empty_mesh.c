@@ -73,7 +73,7 @@ static void meshes_may_be_empty(void **state) {
   CHECK_REFUSED(RIIS_INVALID_MESH, "n_nodes is -9223372036854775808;",
                 riis_mesh_update(mesh, INT64_MIN, NULL, NULL, NULL, 1));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "mesh is NULL", riis_mesh_create(0, NULL, NULL, NULL, 1, NULL));
-  /* A mesh with nodes needs the pointers. */
+  /* Only a mesh without nodes may have NULL as pointers. */
   assert_int_equal(riis_mesh_create(1, NULL, NULL, NULL, 1, &none), RIIS_INVALID_ARGUMENT);
   assert_null(none);
 }

@@ -290,7 +290,7 @@ static void fields_of_valves_are_those_of_single_queries(void **state) {
 static void fields_of_arrays_are_those_of_single_queries(void **state) {
   (void)state;
   enum { side = 9, max_vertices = 6 * side * side };
-  riis_surface *surface = surface_of_kind("mitral", NULL); /* the test checks that its rim is forgotten */
+  riis_surface *surface = surface_of_kind("mitral", NULL); /* the updates must forget its rim */
   for (int trial = 0; trial < 24; ++trial) {
     const int owned_before = n_owned();
     static double height[side + 1][side + 1], xyz[3 * max_vertices];
@@ -393,7 +393,7 @@ static void valves_have_a_rim_all_around_and_none_inside(void **state) {
                    f.uv[2 * k + 1], f.patch_id[k]);
         n_rim += expected;
         const int64_t e = k / 3;
-        /* The closest edge is the edge that the node was put beyond. */
+        /* The node's closest edge is the edge beyond which the node was put. */
         if (t == e / 3 && expected && r.edge[e]) ++n_free;
         if (!r.edge[e]) ++n_inside;
         if (f.uv[2 * k + 1] > 1 - 1e-9 && is_mitral && i == 0) {

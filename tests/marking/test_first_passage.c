@@ -142,7 +142,7 @@ static void slits_open_at_their_width(void **state) {
   riis_first_passage first;
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "valve has only one state|riis_valve_set_open_state",
                 riis_find_first_passage(valve, mesh, &ends, NULL, &first, sizeof first));
-  /* A valve that is open in its one state is refused, too. */
+  /* A valve that is open in its one state is also refused. */
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "valve has only one state",
                 riis_find_first_passage(opened, mesh, &ends, NULL, &first, sizeof first));
   CHECK_OK(riis_valve_set_open_state(valve, opened));

@@ -168,8 +168,8 @@ static void decisions_have_the_bits_of_the_scalar_kernel(void **state) {
               is_more(n_corner, 5000));
 }
 
-/* The triangles are random, needles, with coinciding corners, or on lattices; registers of eight mix these kinds. Some points
- * are at corners and on edges. In some units, squares of coordinates nearly overflow or underflow. */
+/* Triangles are random or needles, have coinciding corners, or lie on lattices. A register of eight mixes these kinds. Some
+ * points are at corners and on edges. In some units, squares of coordinates nearly overflow or underflow. */
 static void located_points_have_the_bits_of_the_scalar_kernel(void **state) {
   (void)state;
   enum { n = 8 };

@@ -180,7 +180,7 @@ static void a_steady_step_allocates_nothing(void **state) {
       options.n_threads = 1;
       if (kind % 2) options.distance_limit = 0.2;
       if (kind / 2) options.fields = 255 - RIIS_FIELD_VELOCITY; /* all fields that the surface has */
-      /* The first step allocates memory. This shows that allocations are counted, those of vectors and aligned ones. */
+      /* The first step allocates memory. This shows that allocations are counted, including those of vectors and aligned ones. */
       assert_true(allocations_of_a_step(surface, mesh, &options, result) > 5);
       allocations_of_a_step(surface, mesh, &options, result);
       for (int step = 3; step <= 5; ++step) assert_int_equal(allocations_of_a_step(surface, mesh, &options, result), 0);

@@ -243,8 +243,8 @@ static void degenerate_meshes(void **state) {
   }
 }
 
-/* The limit is the library's own distance of the first node of a column over a triangle of any size. Up to rounding, all other
- * distances in the search's check equal it. Rounding must not lose the node. */
+/* A column of nodes stands over a triangle of any size. The limit is the distance that the library computes for the first node.
+ * Up to rounding, all other distances in the search's check equal this limit. Rounding must not lose the node. */
 static void nodes_at_the_limit_are_found(void **state) {
   (void)state;
   static const int32_t ids[3] = {0, 1, 2};
@@ -280,8 +280,8 @@ static void nodes_at_the_limit_are_found(void **state) {
   }
 }
 
-/* The triangles are needles of nearly no height, and nodes are as close to them as that height. The limit is the first node's
- * distance. The rounding of distances to needles must not lose a node. */
+/* The triangles are needles whose height is nearly 0, and the nodes are as close to the needles as this height. The limit is the
+ * first node's distance. The rounding of distances to needles must not lose a node. */
 static void needles_lose_no_node(void **state) {
   (void)state;
   static const int32_t ids[3] = {0, 1, 2};
@@ -305,7 +305,7 @@ static void needles_lose_no_node(void **state) {
     riis_surface_arrays arrays = triangle_arrays(3, corners, 1, ids);
     riis_surface_options options = surface_options();
     riis_surface *surface = NULL;
-    /* So thin that it counts as having no area. */
+    /* A triangle this thin may count as having no area. */
     if (riis_surface_create_from_arrays(&arrays, NULL, &surface) != RIIS_OK) continue;
     own(surface);
     options.half_thickness = fmax(closest_to(surface, xyz[0], xyz[1], xyz[2]).distance, 1e-40);

@@ -149,7 +149,7 @@ static void non_finite_coordinates_are_refused(void **state) {
     const found_nodes marked = marked_in(expected);
     const int is_first_search = trial % 4 < 2;
     if (!is_first_search) CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-    /* A node of the band is always queried, so its coordinate is noticed. */
+    /* A node of the band is always queried, so its non-finite coordinate is noticed. */
     const int64_t node = marked.node_id[random_bits(&rng) % (uint64_t)marked.n];
     double *coordinate = nodes.xyz + 3 * node + trial % 3;
     const double good = *coordinate;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Labels of open regions are compared with a serial flood fill on random graphs, on long chains and around valves.
- * RIIS_TEST_LONG=1 tries many more. */
+ * RIIS_TEST_LONG=1 tries many more cases. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * The widest passage is compared with a binary search over half thicknesses, which does a flood fill for each. It is also
- * compared with holes of known position and size. RIIS_TEST_LONG=1 tries many more. */
+ * compared with holes of known position and size. RIIS_TEST_LONG=1 tries many more cases. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -20,7 +20,7 @@ typedef struct near_node {
   int64_t node;
 } near_node;
 
-/* Compares two nodes: the nearer comes first, and at equal distances the one with the higher id. */
+/* Compares two nodes: the nearer comes first. At equal distances the node with the higher id comes first. */
 static int nearer(const void *a, const void *b) {
   const near_node *p = a, *q = b;
   if (p->distance != q->distance) return p->distance < q->distance ? -1 : 1;
@@ -39,7 +39,7 @@ static int are_joined(const test_mesh *rows, const uint8_t *is_open, const ends 
   return 0;
 }
 
-/* Finds, by bisection, the node that separates the two ends when it is closed after all nearer nodes. */
+/* Nodes are closed in the order of their distances. Finds, by bisection, the node whose closing separates the two ends. */
 static riis_passage expected_passage(const test_mesh *rows, const riis_surface *surface, const uint8_t *mask,
                                      const ends *e) {
   const size_t n = (size_t)rows->n;
@@ -169,7 +169,8 @@ static void meshes_have_the_passage_of_the_serial_search(void **state) {
   assert_true(n_of_state[RIIS_PASSAGE_OPEN] > 0 && n_of_state[RIIS_PASSAGE_CLOSED] > 0);
 }
 
-/* If the half thickness is the passage's distance, nothing joins the ends. If it is smaller, a path does. */
+/* If the half thickness is the passage's distance, nothing joins the ends. If the half thickness is smaller, a path joins them.
+ * */
 static void the_distance_is_what_just_closes(void **state) {
   (void)state;
   static const int32_t ids[18] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17};
@@ -242,7 +243,7 @@ static int64_t node_at(const test_mesh *mesh, double x, double y, double z) {
   return nearest;
 }
 
-/* One node is the middle of the hole. Its distance is the distance to the polygon's sides. */
+/* One node is the middle of the hole. The node's distance is the distance to the polygon's sides. */
 static void a_hole_is_found_where_it_is(void **state) {
   (void)state;
   const test_mesh nodes = tube(1.2, -1, 1, 0.05);
@@ -289,7 +290,7 @@ static void the_papers_aortic_valve_leaks_along_its_axis(void **state) {
     assert_true(open.distance > 0.3 && open.distance < 0.33 && hypot(open.point[0], open.point[1]) < 0.2);
     const riis_passage closed = passage_of(new_surface(aortic_with_free_edges_at(0.02), &options), mesh, NULL, &e);
     assert_int_equal(closed.state, RIIS_PASSAGE_CLOSED);
-    /* The distance of a node on the axis from the corners of three free edges. */
+    /* The expected distance is that of a node on the axis from the corners of three free edges. */
     CHECK_NEAR(closed.distance, 0.02 * sqrt(2), 1e-3);
     assert_true(hypot(closed.point[0], closed.point[1]) < 0.01);
   }
@@ -299,8 +300,8 @@ static double distance_of(const double *p, const double *q) {
   return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]);
 }
 
-/* Copies the surface without the triangles that have a vertex in the ball. *reach gets the distance of their farthest corner
- * from the ball's centre. */
+/* Copies the surface without the triangles that have a vertex in the ball. *reach gets the distance of the farthest corner of
+ * these triangles from the ball's centre. */
 static riis_surface *without_ball(const riis_surface *surface, const double *centre, double radius, double *reach) {
   const riis_triangles all = triangles_of(surface);
   int32_t *ids = own(malloc((size_t)all.n_triangles * 3 * sizeof *ids));

@@ -25,7 +25,7 @@ static void distances(const riis_surface *surface, const double *xyz, double lim
   free_owned_after(owned_before);
 }
 
-/* Checks that the distances b equal the distances a times the scale. A node near the limit may be on either side of it. */
+/* Checks that the distances b equal the distances a times the scale. A node near the limit may be on either side of the limit. */
 static void check_scaled(const double *a, const double *b, double scale, double limit, double tolerance) {
   int n_near = 0;
   for (int i = 0; i < n; ++i) {
@@ -126,7 +126,7 @@ static void order_of_triangles_does_not_matter(void **state) {
   for (int i = 0; i < n; ++i) CHECK_SAME(shuffled[i], plain[i]);
 }
 
-/* Each cusp of the valve is its own mirror image, so the distances are symmetric too. */
+/* Each cusp of the valve is its own mirror image, so the distances are also symmetric. */
 static void cusps_are_symmetric(void **state) {
   (void)state;
   static double plain[n], mirrored[n], mirrored_nodes[3 * n];

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The library warns if a mesh, a surface and a half thickness can hardly be in one unit. The warning comes once, and not for a
- * part of a mesh that lies elsewhere. It depends on the nodes' bounding box, which is tested for every layout of the
- * coordinates. */
+ * The library warns if a mesh, a surface and a half thickness can hardly be in one unit. The warning comes once. A part of a mesh
+ * that lies elsewhere gets no warning. The warning depends on the bounding box of the nodes, which is tested for every layout of
+ * the coordinates. */
 #include <pthread.h>
 #include <riis/riis.h>
 
@@ -101,7 +101,7 @@ static void sizes_that_do_not_fit_are_told(void **state) {
               "half thickness is 0.001");
   assert_int_equal(n_warnings(1, RIIS_AUTO, 0, 4e4), 1);
   expect_text("the mesh is more than 50 times as large as the surface", "40000 (mesh", "half thickness is 0.1");
-  /* The half thickness is in centimetres, other sizes are not. */
+  /* The half thickness is in centimetres, and other sizes are not. */
   assert_int_equal(n_warnings(0.01, 0.1, 0, 0.04), 1);
   expect_text("the half thickness is larger than the surface", "0.04 (mesh", "half thickness is 0.1");
   assert_int_equal(n_warnings(0.3, 0.5, 0, 0.4), 1);
@@ -124,8 +124,8 @@ static void one_warning_a_mesh_and_surface(void **state) {
   mark(first, other);
   mark(first, other);
   assert_int_equal(warnings.n, 3);
-  /* Surfaces are created and destroyed. Each counts as new, even at the last one's address. The library's list of warned
-   * surfaces eventually fills up. */
+  /* Surfaces are created and destroyed. Each surface counts as new, even if it has the address of the last one. The library's
+   * list of warned surfaces eventually fills up. */
   for (int i = 0; i < 20; ++i) {
     free_one_owned(second);
     second = aortic_surface(NULL);
@@ -134,7 +134,7 @@ static void one_warning_a_mesh_and_surface(void **state) {
   }
 }
 
-/* If nobody listens, a warning does not count as given. */
+/* If no log function is set, a warning does not count as given. */
 static void a_late_listener_is_told(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -202,8 +202,8 @@ static riis_status create(const layout *lies, int n, riis_mesh **mesh) {
                           lies->stride, mesh);
 }
 
-/* All nodes but one are within a hundredth of the surface, so the warning is absent only if the box contains that node. The
- * test puts it into every lane of the registers, on every axis and in both directions. */
+/* All nodes but one are within a hundredth of the surface, so the warning is absent only if the box contains that node. The test
+ * puts this node into every lane of the registers, on every axis and in both directions. */
 static void the_box_holds_every_node(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);

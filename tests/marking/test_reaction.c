@@ -265,7 +265,7 @@ static riis_valve *valve_of(int kind, double opening) {
     if (kind == 3) CHECK_OK(riis_valve_set_scalar(valve, "ring_height", 0.6));
     return valve;
   }
-  /* Two unit squares, of the leaflets 2 and 6, which open by turning up. */
+  /* Two unit squares, the leaflets 2 and 6, turn up as they open. */
   shape squares = {0}, up;
   add_line(&squares, 0, 0, 0, 1, 0, 0), add_line(&squares, 0, 1, 0, 1, 1, 0);
   add_line(&squares, 0, 0, 0, 0, 1, 0), add_line(&squares, 1, 0, 0, 1, 1, 0);
@@ -379,7 +379,7 @@ static int64_t nearest_edge(int64_t n, const double (*edges)[2][3], const int32_
   for (int64_t k = 0; k < n; ++k) {
     if (leaflet_of && leaflet_of[k] != leaflet) continue;
     const long double here = edge_distance_sq(edges[k], p);
-    if (here == least) continue; /* of two equally near edges the first is the result */
+    if (here == least) continue; /* of two equally near edges, the result is the first */
     if (here < least)
       next = least, least = here, nearest = k;
     else if (here < next)
@@ -470,7 +470,7 @@ static void check_case(int kind, int32_t triangulation, int trial) {
     check_exact(of_edge + i, got->edge_force + 3 * i, got->edge_moment + 3 * i, before->edge_force + 3 * i,
                 before->edge_moment + 3 * i);
 
-  /* The bits of the sums must not depend on the number of threads, and not on the other sums that the call adds. */
+  /* The bits of the sums must not depend on the number of threads, or on the other sums that the call adds. */
   memset(got, 0, sizeof *got);
   CHECK_OK(riis_marks_add_reaction(f.marks, &resistance, &flow, &reaction));
   static const int32_t threads[3] = {2, 3, 8};
@@ -520,7 +520,7 @@ static void check_case(int kind, int32_t triangulation, int trial) {
     if (by_leaflet) CHECK_NEAR(of_first, got->leaflet_force[3 * (f.n_leaflets - 1) + c], tolerance);
   }
 
-  /* Three ranks share the nodes by weights of 0, and add their sums. */
+  /* Three ranks share the nodes, and their sums are added. Each rank gives the weight 0 to the nodes of the other ranks. */
   double *weight = own(malloc((size_t)f.nodes.n * sizeof *weight));
   uint8_t *rank = own(malloc((size_t)f.nodes.n));
   for (int64_t i = 0; i < f.nodes.n; ++i) rank[i] = (uint8_t)any_of(3);

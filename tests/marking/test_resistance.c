@@ -287,7 +287,7 @@ static void lists_and_layouts_have_the_same_bits(void **state) {
           CHECK_SAME(list.K_u_surface[3 * j + c] + 0.0, momentum[3 * list.node_id[j] + c] + 0.0);
       }
     }
-    /* K is in every fifth number. Components are in blocks of their own, with a stride of two. */
+    /* K is every fifth number of its array. Each component of K u has a block of its own, with a stride of two. */
     double *gaps = own(calloc((size_t)n * 11, sizeof *gaps));
     riis_resistance_arrays arrays;
     CHECK_OK(riis_resistance_arrays_init(&arrays, sizeof arrays));
@@ -390,7 +390,7 @@ static void band_sums_are_those_of_a_plain_loop(void **state) {
     const riis_mark_list fields = fields_of(&f);
     for (int i = 0; i < 5; ++i) {
       double inner = i ? between(0, 0.25) : 0, outer = i > 1 ? between(inner, 0.25) : 0.25;
-      /* A band whose ends coincide contains that distance. */
+      /* A band from a distance to the same distance contains the node at this distance. */
       if (i == 4) inner = outer = within.distance[random_bits(&rng) % (uint64_t)within.n];
       riis_band_sums expected = {{0, 0}, {0, 0}, {0, 0}}, sums;
       double scale = 0;
@@ -513,7 +513,7 @@ static void refusals_leave_the_arrays(void **state) {
                 band_sums_of(f.result, 0, 0.1, 0, f.value, f.weight, &sums, sizeof sums));
   UNCHANGED();
 
-  /* Wrong resistances in the options of a marking, whose refusals leave the marks, and wrong layouts. */
+  /* Wrong resistances in the options of a marking are refused, and the marks stay. Wrong layouts are also refused. */
   riis_mark_options with_resistance = mark_options();
   const riis_mark_list list_before = marked_list(f.result);
   with_resistance.resistance = &resistance;
@@ -540,7 +540,7 @@ static void refusals_leave_the_arrays(void **state) {
                 riis_marks_add_resistance(f.result, &resistance, &arrays));
   UNCHANGED();
 
-  /* Calls that need fields which the marks lack. */
+  /* These calls need fields that the marks lack. */
   const char *lacks = "options.fields = 0";
   resistance.rim = RIIS_RIM_CUT;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "RIIS_RIM_CUT needs RIIS_FIELD_RIM|options.fields = 0",

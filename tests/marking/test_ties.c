@@ -296,7 +296,7 @@ static void reaction_takes_the_means(void **state) {
 
 /* --- Nodes without ties ---------------------------------------------------------------------------------------------- */
 
-/* Made from arrays as one leaflet, the same triangles have no ties. Each node has the velocity of its closest triangle. */
+/* If the same triangles are one leaflet from arrays, there are no ties. Each node has the velocity of its closest triangle. */
 static void other_nodes_have_the_closest_triangle_s(void **state) {
   (void)state;
   int64_t n_single = 0, n_other = 0;

@@ -14,8 +14,8 @@ static random_source rng;
 
 /* --- Valves ------------------------------------------------------------------------------------------------------------ */
 
-/* Returns how deep inside the triangle the segment passes, as a fraction of its size. The result is negative if it passes
- * outside. */
+/* Returns how deep inside the triangle the segment passes, as a fraction of the triangle's size. The result is negative if the
+ * segment passes outside. */
 static long double depth_in(const double *a, const double *b, const double *const *corner) {
   long double e1[3], e2[3], along[3], from[3], p[3], q[3], det = 0, t = 0, u = 0, v = 0;
   for (int i = 0; i < 3; ++i) {
@@ -146,7 +146,7 @@ static test_mesh column_of_nodes(int64_t n, double from, double step) {
   return lattice(counts, lower, upper);
 }
 
-/* If the search may have missed nodes, short edges are examined too. */
+/* If the search may have missed nodes, short edges are also examined. */
 static void what_the_papers_search_misses_leaks(void **state) {
   (void)state;
   test_mesh nodes = column_of_nodes(121, -1, 0.1);
@@ -230,7 +230,7 @@ static void what_makes_no_sense_is_refused(void **state) {
   options.n_threads = -1;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.n_threads is -1",
                 find_leaks_in(surface, mesh, result, &options, &leaks));
-  /* A refused call leaves the edges of the last one in the same memory. */
+  /* After a refused call, the edges of the last call are still in the same memory. */
   riis_leaks *found = NULL;
   riis_leak_list before, after;
   CHECK_OK(riis_leaks_create(&found));

@@ -39,7 +39,7 @@ ends 2 "./run openfoam: '1.6' is not a size of edges" openfoam --size 1.6
 ends 2 "./run openfoam: '0.00' is not a size of edges" openfoam --size 0.00
 ends 2 "./run openfoam: '0.1 0.2' is not a size of edges" openfoam --size 0.1 0.2
 
-# A run with bad input must stop with its message, and leave no time folder.
+# A run with bad input must stop with the expected message, and leave no time folder.
 solver_says='' solver_ends=1 solver_leaves=''
 of_run() {
   mkdir -p "$of_cases/$1/0"
@@ -83,7 +83,8 @@ ends 0 "Mesh OK." openfoam_mesh 0.25
 [[ -e $of_work/mesh-0.25/complete ]] || problem "a good mesh is not kept"
 grep -q 'type wall;' "$of_work/mesh-0.25/constant/polyMesh/boundary" || problem "the wall is no wall"
 
-# Tests the check of function objects. First they work with the digest of the plug-in's folder. Then they fail for another reason.
+# Tests the check of function objects. First the function objects work with the digest of the plug-in's folder. Then they fail for
+# another reason.
 function_objects=good
 openfoam_function_object() {
   case $function_objects in
@@ -116,7 +117,7 @@ left=$(cd "$of_cases/beat" && echo processor0/* postProcessing*)
 [[ $left == 'processor0/0 processor0/0.16 processor0/0.2 processor0/1e-05 processor0/constant postProcessing*' ]] ||
   problem "after of_forget_after there is: $left"
 
-# If the leaflet height were missing in the dictionary, the test of a restart would lack its other valve.
+# of_height must add a leaflet height that the dictionary lacks. Otherwise the test of a restart would not get its other valve.
 mkdir -p "$of_cases/tall/system"
 echo 'valve { kind trileaflet; }' >"$of_cases/tall/system/fvOptions"
 ends 0 "" of_height tall 1.123456789012

@@ -71,7 +71,7 @@ static void flush_to_zero_stays(void **state) {
   (void)state;
 #if defined(__SSE2__)
   const unsigned before = _mm_getcsr();
-  _mm_setcsr(before | 0x8040); /* as code compiled with -ffast-math sets it */
+  _mm_setcsr(before | 0x8040); /* the bits that code compiled with -ffast-math sets */
   const uint64_t got = digest_of_a_step(2);
   const unsigned after = _mm_getcsr();
   _mm_setcsr(before);

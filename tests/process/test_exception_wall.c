@@ -121,7 +121,7 @@ static void what_is_too_much_is_not_made(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(
-          /* Must be first, because OpenMP does not survive a fork after it has started threads. */
+          /* This test must be first, because OpenMP does not survive a fork after it has started threads. */
           memory_that_runs_out_changes_nothing),
       cmocka_unit_test(what_is_too_much_is_not_made),
       cmocka_unit_test(every_exception_becomes_a_status),

@@ -70,8 +70,8 @@ static riis_status copy_often(const riis_valve *valve) {
   return status;
 }
 
-/* Returns whether a forked process can copy valves and take the locks, and ends by itself. A lock that stayed locked would block
- * it until its alarm ends it. */
+/* Returns whether a forked process can copy valves, take the locks and end. If a lock stayed locked, the process would wait until
+ * its alarm ends it. */
 static int child_goes_on(const riis_valve *valve) {
   int outcome = 0;
   const pid_t child = fork();
@@ -192,7 +192,7 @@ static int with_status(const scene *s, int32_t n_threads, riis_status expected, 
   return n_as_expected;
 }
 
-/* Copies the parent's marks to arrays, whether or not that marking used several threads. */
+/* Copies the parent's marks to arrays, whether or not the marking used several threads. */
 static riis_status use_result(const scene *s) {
   riis_resistance resistance;
   riis_status status = riis_resistance_init(&resistance, sizeof resistance);

@@ -220,7 +220,7 @@ static void markings(void **state) {
   check_markings(most_side);
 }
 
-/* On a machine with one processor this holds in any case. */
+/* On a machine with one processor, the default never starts a thread. */
 static void little_work_by_default(void **state) {
   (void)state;
   n_threads_asked = 0;

@@ -96,7 +96,7 @@ int main(void) {
       cmocka_unit_test(in_the_callers_arena_of_one),
       cmocka_unit_test(under_the_callers_limit_of_one),
   };
-  /* Nothing may be printed. TBB reports on stderr if it is asked for more threads than it can give. */
+  /* Nothing may be printed. TBB reports on stderr if more threads are requested than it can give. */
   FILE *captured = tmpfile();
   const int terminal = dup(STDERR_FILENO);
   if (!captured || terminal < 0 || dup2(fileno(captured), STDERR_FILENO) < 0) return 1;

@@ -71,7 +71,7 @@ shell() {
       status=1
     fi
   done
-  # Scripts that `run` reads are checked together with it, because they use its variables.
+  # Scripts that `run` reads are checked together with `run`, because they use its variables.
   [[ ! -e run ]] || shellcheck --check-sourced -x -P . run || status=1
   shellcheck -x -P . "${scripts[@]}" || status=1
   found=("${scripts[@]}")

@@ -97,7 +97,7 @@ static inline double least_uprightness(const riis_surface *surface, const double
   return least;
 }
 
-/* Checks 101 openings. Free edges must keep their length at opening 0 up to a fraction of it. The orifice must grow, and cusps
+/* Checks 101 openings. Free edges must keep their length at opening 0, up to a given fraction. The orifice must grow, and cusps
  * must neither cross nor fold. Returns the orifice at opening 1. */
 static inline double check_opening(riis_valve *valve, double radius, const double *turn, const double *half_angle,
                                    double share, const char *name) {

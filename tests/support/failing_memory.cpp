@@ -210,7 +210,7 @@ void *rtcNewDevice(const char *config) {
         device,
         [](void *, ssize_t bytes, bool post) {
           const bool refused = bytes > 0 && failing == MEMORY_OF_EMBREE && is_to_fail();
-          // A report after the allocation counts even if it is refused, because the memory is already allocated.
+          // A report after the allocation counts even if the report is refused, because the memory is already allocated.
           if (!refused || post) live_bytes_of_embree += bytes;
           return !refused;
         },

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Makes allocations fail when a test asks for it. An executable with failing_memory.cpp replaces operator new for all C++ code
- * of the process. The return address distinguishes the library's allocations from others. The executable also replaces
- * rtcNewDevice, in order to give Embree a memory monitor. */
+ * Makes allocations fail when a test requests it. An executable with failing_memory.cpp replaces operator new for all C++ code of
+ * the process. The return address distinguishes the library's allocations from others. The executable also replaces rtcNewDevice,
+ * in order to give Embree a memory monitor. */
 #ifndef RIIS_TEST_FAILING_MEMORY_H
 #define RIIS_TEST_FAILING_MEMORY_H
 
@@ -30,7 +30,8 @@ int memory_of_all_can_fail(void);
 
 /* Returns the number of allocations that the library's own code has made and not yet freed. */
 int64_t memory_live_of_library(void);
-/* Returns the same for Embree: its C++ allocations plus the bytes that its memory monitor counts. */
+/* Returns the memory that Embree has taken and not yet freed: its C++ allocations plus the bytes that its memory monitor counts.
+ * */
 int64_t memory_live_of_embree(void);
 int64_t memory_live_bytes_of_embree(void);
 

@@ -111,7 +111,8 @@ const char *kernels_name(int set);
 void kernels_decide(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
                     const double *corners, double *distance_sq);
 
-/* Does the same for at most 8 pairs, and gives the closest points (3, n) and their barycentric coordinates (3, n). */
+/* Computes squared distances of at most 8 pairs. Also gives the closest points (3, n) and their barycentric coordinates (3, n).
+ * */
 void kernels_locate(int set, int32_t n, const int32_t *point, const int32_t *triangle, const double *points,
                     const double *corners, double *distance_sq, double *closest, double *barycentric);
 
@@ -188,7 +189,7 @@ double powell_minimum(double (*f)(double u, double v), double enough, double ste
  *   "standard"  another standard exception, "boom"
  *   "other"     an int
  *   "worker"    an Error thrown by a worker thread of a parallel loop
- *   "workers"   two such errors, the second block's first
+ *   "workers"   two such errors; the second block's error comes first
  *   "nothing"   no exception */
 riis_status wall_meets(const char *exception);
 

@@ -54,7 +54,7 @@ static void set_nodes(int64_t n) {
   for (int64_t i = 0; i < nodes.n; ++i) mask[i] = i % 7 != 0;
 }
 
-/* Stands in a handle before a call, which may overwrite it only on success. */
+/* This object stands in a handle before a call. The call may overwrite the handle only on success. */
 static char no_object;
 #define MADE(type, handle, create)                                                                    \
   do {                                                                                                \

@@ -122,7 +122,7 @@ DEFINE_OWN(keyframes)
       riis_keyframes *: own_keyframes,     \
       void *: own_memory)(object)
 
-/* In a file that includes this one, every test has the teardown. */
+/* In a file that includes this header, every test has the teardown. */
 #undef cmocka_unit_test
 #define cmocka_unit_test(function) cmocka_unit_test_teardown(function, free_owned)
 

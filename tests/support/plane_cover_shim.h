@@ -22,7 +22,8 @@ double shim_uncovered_circle(double radius, const double centre[2], int64_t n_tr
 double shim_uncovered_inside(int64_t n_segments, const double *points, int64_t n_triangles, const double *corners,
                              int64_t n_lines);
 
-/* Triangles on common vertices, which grow by `reach`: the area that they leave of a circle, and the length of its edge.
+/* The triangles share vertices, and grow by `reach`. Gives the area of a circle that they leave uncovered, and the length of this
+ * area's edge.
  *   xy         (2, n_vertices)
  *   vertex_id  (3, n_triangles) */
 double shim_area_beyond(double radius, const double centre[2], int64_t n_vertices, const double *xy,

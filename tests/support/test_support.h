@@ -73,7 +73,7 @@ static inline random_source random_start(const char *name) {
   return random;
 }
 
-/* Returns whether RIIS_TEST_LONG=1 asks for many more random trials. */
+/* Returns whether RIIS_TEST_LONG=1 requests many more random trials. */
 static inline int is_long_test(void) {
   const char *given = getenv("RIIS_TEST_LONG");
   return given && strcmp(given, "1") == 0;

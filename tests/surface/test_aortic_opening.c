@@ -70,7 +70,7 @@ static riis_valve *state_by_hand(const riis_valve *valve, double radius_ratio, d
   return open;
 }
 
-/* At any opening the surface equals that of a valve to which the same open state was given. */
+/* At any opening the surface equals the surface of a valve that was given the same open state. */
 static void state_is_the_one_of_the_formulas(void **state) {
   (void)state;
   random_source random = random_start("test_aortic_opening");
@@ -196,7 +196,7 @@ static void copies_and_moving_updates(void **state) {
 }
 
 /* With fixed triangles, a vertex's velocity is its displacement divided by the time. It differs slightly only on grid lines
- * that end between two vertices of a side, because they end on chords. */
+ * that end between two vertices of a side, because such a line ends on a chord. */
 static void fixed_triangulations(void **state) {
   (void)state;
   const riis_surface_options options = fixed_options();

@@ -65,7 +65,7 @@ static void cusps_are_mirror_images_and_turned(void **state) {
     const int cusp = set.leaflet_id[image];
     const double turn = angle[cusp] * degree_in_radians;
     double middle[3], end[3];
-    /* The middle of each free edge points along the cusp's rotation, for both halves to the last bit ... */
+    /* The middle of each free edge points along the cusp's rotation. Both halves have the same bits there. */
     patch_image_place(&set, image, control(cusp, leaflet), middle);
     check_point(middle, radius[cusp] * cos(turn), radius[cusp] * sin(turn), 0.02);
     for (int64_t other = 0; other < image; ++other)
@@ -74,7 +74,7 @@ static void cusps_are_mirror_images_and_turned(void **state) {
         patch_image_place(&set, other, control(cusp, leaflet), same);
         for (int c = 0; c < 3; ++c) CHECK_NEAR(same[c], middle[c], 0);
       }
-    /* ... and the edge's ends are at the leaflet's angle on either side of the middle. */
+    /* The ends of the edge are at the leaflet's angle on either side of the middle. */
     static const double leaflet_angle[3] = {61, 58.5, 60.5}, leaflet_radius_out[3] = {1.365, 1.495, 1.38};
     patch_image_place(&set, image, last(cusp, leaflet), end);
     const double to = (angle[cusp] + (set.mirrored[image] ? -1 : 1) * leaflet_angle[cusp]) * degree_in_radians;

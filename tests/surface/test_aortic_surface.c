@@ -115,7 +115,7 @@ static void normals_point_downstream(void **state) {
       assert_int_equal(below.leaflet_id, cusp);
       assert_int_equal(below.side, -downstream);
     }
-    /* The same holds for whole cusps: each cusp's area vector points outwards and upwards. */
+    /* Whole cusps also face downstream: each cusp's area vector points outwards and upwards. */
     double outwards[3] = {0, 0, 0}, upwards[3] = {0, 0, 0};
     const double *xyz = triangles_of(surface).xyz;
     const int64_t n = triangles_of(surface).n_triangles;
@@ -189,8 +189,8 @@ static void three_cusps_are_three_pieces(void **state) {
 static int compare_edges(const void *a, const void *b) { return memcmp(a, b, 6 * sizeof(double)); }
 
 /* The two halves of each cusp meet in its symmetry plane to the last bit, however the cusp is turned and moved. Every edge in
- * that plane (u = 0 at both ends) belongs to exactly two triangles. The sides of points depend on this where the cusp is
- * folded. */
+ * that plane (u = 0 at both ends) belongs to exactly two triangles. Where the cusp is folded, the sides of points depend on this
+ * property. */
 static void halves_meet_to_the_last_bit(void **state) {
   (void)state;
   const double turned[3] = {10, -20, 77}, moved[3] = {0.3, 0.2, -0.1};

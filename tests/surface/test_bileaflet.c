@@ -64,7 +64,7 @@ static void half_discs_have_their_distances(void **state) {
     }
     free_owned_after(owned_before);
   }
-  for (int t = 0; t < 3; ++t) assert_true(largest[t] > 0.1); /* the bound must be reached nearly */
+  for (int t = 0; t < 3; ++t) assert_true(largest[t] > 0.1); /* the bound must not be far too large */
 }
 
 /* Leaflets that are half ellipses, with slits between them, at any opening. */
@@ -141,7 +141,7 @@ static void closed_leaflets_fill_the_housing(void **state) {
   }
 }
 
-/* The patches are four images of one half leaflet. Closed leaflets without a gap meet in the same bits. */
+/* The patches are four images of one half leaflet. Closed leaflets without a gap have the same bits where they meet. */
 static void images_are_images(void **state) {
   (void)state;
   static const double sign[4][2] = {{1, 1}, {1, -1}, {-1, -1}, {-1, 1}};
@@ -258,7 +258,7 @@ static void a_ring_is_the_housing(void **state) {
     assert_int_equal(n_of_ring, c.n_triangles - d.n_triangles);
     const double whole = 2 * 3.14159265358979323846 * of.radius * of.ring_height;
     CHECK_NEAR(area, whole, 7 * bound * of.ring_height);
-    /* The leaflets are the same, to the last bit. */
+    /* With and without the ring, the leaflets are the same to the last bit. */
     assert_memory_equal(c.xyz, d.xyz, (size_t)d.n_vertices * 24);
     for (int i = 0; i < 200; ++i) {
       double p[3];

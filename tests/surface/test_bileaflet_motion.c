@@ -173,8 +173,8 @@ static int leaks(const bileaflet *of, double spacing, double half_thickness) {
   return has_leaked;
 }
 
-/* If an edge of the grid crosses a leaflet, one of its ends is within half its length. So a half thickness of 0.55 spacings
- * seals: half a spacing plus the tolerance. */
+/* If an edge of the grid crosses a leaflet, one end of the edge is within half the edge's length of the leaflet. So a half
+ * thickness of 0.55 spacings seals: half a spacing plus the tolerance. */
 static void a_closed_valve_seals_its_housing(void **state) {
   (void)state;
   static const double angle[4] = {0, 25, 30, 45};

@@ -186,7 +186,7 @@ static void closest_is_consistent(void **state) {
     }
     CHECK_NEAR(c.distance, sqrt(distance_sq), 1e-15);
     CHECK_NEAR(unit, 1, 1e-14);
-    /* If the closest point is inside a triangle, the line to it runs along the normal. */
+    /* If the closest point is inside a triangle, the line from the query point to the closest point runs along the normal. */
     if (c.barycentric[0] > 1e-6 && c.barycentric[1] > 1e-6 && c.barycentric[2] > 1e-6 && c.distance > 1e-6) {
       CHECK_NEAR(fabs(height), c.distance, 1e-9);
       assert_int_equal(c.side, height > 0 ? 1 : -1);

@@ -97,7 +97,7 @@ static void a_shape_is_named_once(void **state) {
   own(copy);
   update(surface, copy);
   assert_int_equal(warnings.n, 2);
-  /* A new surface has not searched yet. */
+  /* A new surface has not searched for crossings yet, so it warns again. */
   new_surface(valve, NULL);
   assert_int_equal(warnings.n, 3);
 }
@@ -119,7 +119,7 @@ static void a_valve_that_begins_open_is_named(void **state) {
 
 static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet"};
 
-/* Default shapes do not cross at any opening. Neither do other sound shapes. Closed mitral leaflets touch. Their fixed
+/* Default shapes do not cross at any opening. Other sound shapes do not cross either. Closed mitral leaflets touch. Their fixed
  * triangles go through each other by less than the depth that counts as a crossing. */
 static void sound_shapes_are_not_named(void **state) {
   (void)state;

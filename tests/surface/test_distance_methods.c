@@ -210,7 +210,7 @@ static void samples_are_as_many_as_the_rule_says(void **state) {
   (void)state;
   riis_valve *valve = rectangle();
   riis_set_log(keep_message, NULL);
-  /* The tolerance is 0.05, so the steps are sqrt(2) 0.05. */
+  /* The tolerance is 0.05, so the steps are sqrt(2) times 0.05. */
   riis_surface *surface = measured(valve, RIIS_MEASURE_SAMPLING, 0.5);
   riis_set_log(NULL, NULL);
   assert_string_equal(last_message, "distances by sampling: 480 samples of 1 patches"); /* (29 + 1) (15 + 1) */

@@ -159,7 +159,7 @@ static void a_restart_has_the_same_bits(void **state) {
 }
 
 /* If the curves have no joints, the grid lines stay, and a vertex's velocity is its displacement divided by the time. It
- * differs slightly only on grid lines that end between two vertices of a side, because they end on chords. */
+ * differs slightly only on grid lines that end between two vertices of a side, because such a line ends on a chord. */
 static void velocity_is_that_of_the_vertices(void **state) {
   (void)state;
   rng = random_start("test_fixed_triangulation");

@@ -121,7 +121,7 @@ static double largest_speed(const riis_surface *surface) {
 /* The results of comparing one surface between two states, at its vertices and at random closest points. */
 typedef struct compared {
   double vertices, points; /* the largest difference from the mean velocity of the oracle */
-  double sides;            /* the same at vertices with v = 0 or 1, on the annulus and on the free edges */
+  double sides;            /* this difference at vertices with v = 0 or 1, on the annulus and on the free edges */
   /* The fraction of vertices that differ only by rounding: all except some on sides of split quads. */
   double exact;
   /* The largest difference from the derivative at the present time, at vertices; -1: not compared. */
@@ -304,8 +304,8 @@ static void no_vertex_is_an_outlier(void **state) {
   CHECK_AT_MOST(0.98 * 2.581, largest);
 }
 
-/* A patch without a bulge is a Coons patch with the same labels. Arcs that are nearly straight have few triangles. Between
- * vertices the velocity is linear, so the bend's rate appears only where the arcs are bent. */
+/* A patch without a bulge is a Coons patch with the same labels. Arcs that are nearly straight have few triangles, and between
+ * vertices the velocity is linear. A change of the bulge therefore appears only where the arcs are bent. */
 static void a_bulge_goes_through_zero(void **state) {
   (void)state;
   static const struct {
@@ -349,7 +349,7 @@ static void any_parameter_moves(void **state) {
     states now = paper_at(random_between(&rng, 0.05, 0.95)), before;
     before = now;
     if (i == n_scalars) before.closed.translation[random_bits(&rng) % 3] += 0.1;
-    for (int k = 0; k < n_scalars; ++k) { /* changes one of them, or all in the last round */
+    for (int k = 0; k < n_scalars; ++k) { /* changes one parameter, or all in the last round */
       if (i != k && i != n_scalars + 1) continue;
       *scalar_of(&before.closed, k) *= random_between(&rng, 0.95, 0.99);
       *scalar_of(&before.open, k) *= random_between(&rng, 0.95, 0.99);

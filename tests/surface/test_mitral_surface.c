@@ -31,7 +31,7 @@ static const struct {
              {"opening", 1}};
 enum { n_scalars = sizeof table / sizeof *table };
 
-/* The valve before its translation, because the expected numbers are given without it. */
+/* Returns the valve without its translation, because the expected numbers are given without it. */
 static riis_valve *mitral_valve(double opening) {
   const double no_shift[3] = {0, 0, 0};
   riis_valve *valve = new_valve("mitral");
@@ -57,7 +57,7 @@ static void parameters_are_the_papers(void **state) {
   double values[3];
   riis_valve *valve = new_valve("mitral");
   CHECK_OK(riis_valve_get_n_parameters(valve, &n));
-  /* 18 parameters, as the paper says: those of its table, its t and the translation. */
+  /* The 18 parameters of the paper are those of its table, its t and the translation. */
   assert_int_equal(n, n_scalars + 1);
   for (int i = 0; i < n_scalars; ++i) {
     riis_parameter parameter;
@@ -265,8 +265,8 @@ static void closed_leaflets_share_their_edge(void **state) {
   assert_true(n_shared >= 6 && 3 * n_shared >= n_of_edge);
 }
 
-/* Returns the least distance between two neighbouring grid lines of a patch, as a fraction of the longer of the sides that
- * they join. */
+/* Two neighbouring grid lines of a patch join the same two sides. Returns the least distance between two such lines, as a
+ * fraction of the longer side. */
 static double least_step(const riis_triangles *c, int32_t patch, double *longer) {
   double length_of[2] = {0, 0}, *u = own(malloc((size_t)c->n_triangles * 2 * sizeof *u));
   size_t n = 0;
@@ -454,7 +454,7 @@ static void refusals(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "open is NULL", riis_valve_set_open_state(aortic, NULL));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'tricuspid'|aortic, bileaflet, mitral, trileaflet",
                 riis_valve_create("tricuspid", &aortic));
-  /* The message names which of the two states is wrong. */
+  /* The message names the state that is wrong. */
   riis_valve *open = mitral_valve(1);
   CHECK_OK(riis_valve_set_scalar(open, "anterior_length", 20));
   CHECK_OK(riis_valve_set_open_state(valve, open));

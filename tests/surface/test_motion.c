@@ -527,7 +527,7 @@ static void refusals_leave_the_surface_as_it_was(void **state) {
   MOVING_REFUSED(RIIS_INVALID_PARAMETER, "in valve_before: in the open state, the left cusp", aortic, bad, 1, NULL,
                  NULL);
 
-  /* Wrong options are refused. The message tells whether they are the earlier placement's. */
+  /* Wrong options are refused. The message tells whether they belong to the earlier placement. */
   riis_surface_options options = surface_options();
 #define BEFORE_REFUSED(change, parts)                                             \
   do {                                                                            \

@@ -336,7 +336,7 @@ static void a_switch_opens_by_pressure_and_closes_by_flow(void **state) {
   CHECK_NEAR(now.opening, where, 1e-6);
 }
 
-/* A solver's steps may not hit the ramp's end exactly: steps of 2 ms that add up to 0.04 s end a rounding error before it. */
+/* A solver's steps may not hit the ramp's end exactly: by rounding, the sum of steps of 2 ms is slightly less than 0.04 s. */
 static void an_opening_rounds_to_at_most_one(void **state) {
   (void)state;
   const riis_opening_switch law = some_switch();
@@ -370,7 +370,7 @@ static void a_filter_and_a_dwell_keep_noise_out(void **state) {
   assert_true(turns >= 5 && turns <= 10);
 }
 
-/* Advances a law to a time. Its pressures and flows are functions of time. */
+/* Advances a law to a time. The law's pressures and flows are functions of time. */
 typedef void driven_step(void *state, double time);
 
 /* A law continues from a copy of its state, made half way, as after a restart. It ends with the same bits. */
@@ -494,7 +494,7 @@ static void the_angle_stays_between_its_stops(void **state) {
   CHECK_NEAR(now.opening, 0, 0);
 }
 
-/* One pressure and flow closes the valve, the other opens it. */
+/* One pressure and flow closes the valve, and the other pair opens it. */
 static void a_first_state_is_closed_whatever_the_law(void **state) {
   (void)state;
   for (int sign = -1; sign <= 1; sign += 2) {

@@ -111,7 +111,7 @@ static void perimeters_are_derivatives_of_areas(void **state) {
     const riis_resistance less = resistance((slit - step) / found.rim_reach, RIIS_RIM_ROUND),
                           more = resistance((slit + step) / found.rim_reach, RIIS_RIM_ROUND);
     const double lost = orifice_of(surface, &less).effective_area - orifice_of(surface, &more).effective_area;
-    /* The mean over the step, because a slit that closes within it takes both of its edges along. */
+    /* Takes the mean perimeter over the step, because a slit that closes within the step loses both of its edges. */
     enum { n_parts = 8 };
     double mean = 0;
     for (int i = 0; i <= n_parts; ++i) {
@@ -217,7 +217,7 @@ static void leaks_are_ideal(void **state) {
                   riis_surface_get_leak(surface, &how, 1, &flow));
     how.R = NAN;
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.R is nan", riis_surface_get_leak(surface, &how, 1, &flow));
-    /* A smaller R would make the flow infinite, and NaN without a drop. */
+    /* With a smaller R the flow would be infinite, or NaN if there is no drop. */
     how.R = 1e-61;
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "resistance.R is 1e-61", riis_surface_get_leak(surface, &how, 0, &flow));
     how.R = 1e-60, how.half_thickness = 1e50;

@@ -96,7 +96,7 @@ static void volumes_are_sums_over_steps(void **state) {
     if (trial >= n_kinds) random_placement(&options);
     options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
     options.flip_normals = trial >= n_kinds;
-    options.tolerance = 0.004; /* the error of these sums grows with it */
+    options.tolerance = 0.004; /* the error of these sums grows with the tolerance */
     const double from = trial < n_kinds ? 0 : between(0, 1), to = trial < n_kinds ? 1 : between(0, 1);
     for (int32_t leaflet_id = -1; leaflet_id < 1; ++leaflet_id) {
       const double whole = fabs(swept(valve, 0, 1, &options, leaflet_id));

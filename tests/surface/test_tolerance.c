@@ -133,14 +133,14 @@ typedef struct {
 static deviation measure_surface(const smooth_valve *smooth, const riis_surface *surface, double bound,
                                  random_source *rng) {
   deviation d = {0, 0, info_of(surface).n_triangles};
-  /* Every smooth point is near a triangle ... */
+  /* Every smooth point is near a triangle. */
   for (int32_t patch = 0; patch < smooth->n_patches; ++patch)
     for (int k = 0; k < 400; ++k) {
       double p[3];
       smooth->point(patch, random_between(rng, 0, 1), random_between(rng, 0, 1), p);
       d.to_triangles = fmax(d.to_triangles, closest_to(surface, p[0], p[1], p[2]).distance / bound);
     }
-  /* ... and every triangle's middle and edges are near the smooth surface. */
+  /* The middle and the edges of every triangle are near the smooth surface. */
   const double *xyz = triangles_of(surface).xyz;
   const double *uv = triangles_of(surface).uv;
   const int64_t *id = triangles_of(surface).vertex_id;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The trileaflet valve has three equal cusps that meet in the same bits, close a vessel, and open (docs/theory.md, section 3). */
+ * The trileaflet valve has three equal cusps. They have the same bits where they meet, close a vessel, and open (docs/theory.md,
+ * section 3). */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -277,14 +278,14 @@ static void opens_by_itself(void **state) {
   (void)state;
   const double orifice = check_opening(new_valve("trileaflet"), root, turn, half_angle, 0.1, "trileaflet");
   assert_true(orifice > 3 && orifice < 4);
-  /* When the valve is closed, only slivers along the wall stay free. */
+  /* When the valve is closed, only slivers along the wall stay uncovered. */
   assert_true(orifice_area(new_surface(new_valve("trileaflet"), NULL), root, 600) < 0.05);
   CHECK_AT_MOST(orifice_area(new_surface(new_valve("trileaflet"), NULL), 1.23, 600), 0);
 }
 
 /* With fixed triangles, a vertex's velocity is its displacement divided by the time. It differs slightly only on grid lines
- * that end between two vertices of a side, because they end on chords. Where closed cusps meet, each vertex has the velocity
- * of its own cusp: outwards. */
+ * that end between two vertices of a side, because such a line ends on a chord. Where closed cusps meet, each vertex has the
+ * velocity of its own cusp: outwards. */
 static void velocity_is_that_of_the_vertices(void **state) {
   (void)state;
   riis_surface_options options = surface_options();

@@ -5,8 +5,9 @@ if(NOT RIIS_SANITIZE MATCHES "thread")
   return()
 endif()
 
-# Archer tells the sanitizer which accesses OpenMP orders. OpenMP's run-time searches for Archer only in the program's paths,
-# where it is not. Suppressions name functions, so the sanitizer needs a symbolizer to find their names.
+# Archer tells the sanitizer in which order OpenMP makes threads access memory. OpenMP's run-time searches for Archer only in the
+# program's paths, but Archer lies elsewhere. Suppressions name functions, so the sanitizer needs a symbolizer to find their
+# names.
 file(REAL_PATH ${CMAKE_CXX_COMPILER} riis_clang)
 cmake_path(GET riis_clang PARENT_PATH riis_clang_dir)
 find_library(RIIS_ARCHER archer HINTS ${riis_clang_dir}/../lib REQUIRED)

@@ -35,7 +35,8 @@ def results_of(tasks, library):
 
 
 def stokes_row(scale_eps=1.0, scale_K=1.0):
-    """Compares c of a hole with a round rim with c of a solid plate."""
+    """Compares c of a hole whose band has a round rim with c of a hole in a solid plate. An edge acts as if it lay c half
+    thicknesses farther out."""
     library, n, cells = marking.Library(PROGRAM, scale_K, scale_eps), 4, (1.5, 2, 3)
     values = [(1 - stokes.effective_radius(library, "hole", 1 / n, c, "round")[0]) * n for c in cells]
     solid = [(1 - stokes.solid_radius(library, "hole", 1 / n, c, "round")[0]) * n for c in cells]
@@ -81,7 +82,7 @@ class Computed(unittest.TestCase):
         self.assertEqual(len(rows.missed(rows.closed_rows(marking.Library(PROGRAM, scale_eps=2.0)))), 1)
 
     def test_jet(self):
-        # On a coarse grid the contraction is 10 to 30 % above the limit, and Borda-Carnot holds within 15 %.
+        # On a coarse grid the contraction is 10 to 30 % above the limit, and the Borda-Carnot formula holds within 15 %.
         library, rho = marking.Library(PROGRAM), marking.RHO
         flow = jets.jet(library, 0.5, jets.B / 3, 2, "cut", reynolds=300.0)
         self.assertAlmostEqual(flow["by_core"] / exact.contraction(0.5), 1.15, delta=0.15)

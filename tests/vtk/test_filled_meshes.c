@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The demo's meshes, made by gmsh, which valves fill. A valve's attachment lies on the wall, so a closed valve separates
- * inflow from outflow. The flow is a flood fill over unmarked nodes. In wider cylinders the flow passes around the valve's
- * outside. */
+ * Tests the demo's meshes, which gmsh makes and which valves fill. A valve's attachment lies on the wall, so a closed valve
+ * separates inflow from outflow. The flow is a flood fill over unmarked nodes. In wider cylinders the flow passes around the
+ * valve's outside. */
 #include <riis/riis_vtk.h>
 
 #include "../support/test_support.h"
@@ -262,8 +262,8 @@ static void closed_mitral_valve_seals_its_tube(void **state) {
   }
 }
 
-/* The paper's cusps end at different radii, 0.13 apart at a commissure. So no wall is within half of the half thickness of all
- * ends. Flow passes through the middle. */
+/* The paper's cusps end at different radii, 0.13 apart at a commissure. So no wall is within 0.05, half of the half thickness, of
+ * all ends. Flow passes through the middle. */
 static void the_papers_valve_leaks_in_its_root(void **state) {
   (void)state;
   const filled_mesh root = mesh_by_gmsh(RIIS_DEMO "/aortic_root.geo", "-setnumber paper 1");

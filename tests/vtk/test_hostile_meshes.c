@@ -30,7 +30,7 @@ static void expect_file_error(const char *name, const char *part_of_text) {
   assert_int_equal(n_printed, 0);
 }
 
-/* Checks that the file is read, if `error` is NULL, or else that it is refused with this message. */
+/* If `error` is NULL, checks that the file is read. Otherwise checks that the file is refused with this message. */
 static void expect_file(const char *name, const char *error) {
   if (error) {
     expect_file_error(name, error);
@@ -224,8 +224,8 @@ static void cut_everywhere(const char *whole, const char *cut, int encoding) {
   assert_true(n_refused > (int)(size / 2));
 }
 
-/* VTK searches for as many keys as INFORMATION announces, and never stops after a word that is not a number. It reads only the
- * beginning of a keyword. */
+/* VTK searches for as many keys as INFORMATION announces. A word that is not a number does not stop this search. VTK reads only
+ * the beginning of a keyword. */
 static void test_endless_information(void **state) {
   (void)state;
   const struct {

@@ -166,7 +166,7 @@ static void test_median_edge(void **state) {
   expect_refused(riis_vtk_mesh_get_median_edge(NULL, &length), RIIS_INVALID_ARGUMENT, "mesh is NULL");
   expect_refused(riis_vtk_mesh_get_median_edge(mesh, NULL), RIIS_INVALID_ARGUMENT, "length is NULL");
   riis_vtk_mesh_destroy(&mesh);
-  /* First a uniform box with more cells than the median uses, then cells without edges. */
+  /* Tests a uniform box with more cells than the median uses, then cells without edges. */
   assert_int_equal(shim_write_box(scratch_path("large.vtu"), SHIM_RAW, 22, lower, upper, 0), 1);
   expect_fine(riis_vtk_mesh_read(scratch_path("large.vtu"), &mesh));
   expect_fine(riis_vtk_mesh_get_median_edge(mesh, &length));

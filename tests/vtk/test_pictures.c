@@ -404,7 +404,7 @@ static void draw_unit(const char *name, const char *unit, const riis_vtk_mesh *d
   expect_fine(riis_vtk_draw(surface, drawn, &options, scratch_path(name)));
 }
 
-/* A unit follows the number at the scale bar unchanged. It replaces the words that stand there otherwise. */
+/* A unit follows the number at the scale bar unchanged. The unit replaces the words that stand there otherwise. */
 static void test_unit(void **state) {
   (void)state;
   for (int with_mesh = 0; with_mesh < 2; ++with_mesh) {

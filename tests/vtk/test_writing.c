@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * A written file is complete or does not exist. A write that fails leaves the old file as it was, and no other file. */
+ * A written file is complete or does not exist. A write that fails leaves the old file as it was, and leaves no other file. */
 #include <errno.h>
 #include <riis/riis_vtk.h>
 #include <signal.h>

@@ -19,8 +19,8 @@ def section(p):
 
 
 def power_of(curve):
-    """Returns the exponent of the power profile with the curve's tangent at its end: the tangent's slope divided by the
-    chord's."""
+    """Returns the exponent with which the power profile has the curve's tangent at its end. It is the tangent's slope divided by
+    the chord's slope."""
     first, _, before, last = curve[0]
     return ((last[0] - before[0]) / (last[1] - before[1])) / ((last[0] - first[0]) / (last[1] - first[1]))
 
@@ -119,7 +119,7 @@ INNER_PLACES = {"xq": (0.64, 0.54), "zq": (0.64, 0.3), "inner": (0.64, 0.1), "mi
 
 
 def first_inner(panel, root, low, inner, places=INNER_PLACES, ha="right"):
-    """Draws xq and zq: the position of the first inner control point, from the middle between root and bending curve. `ha`
+    """Draws xq and zq, the position of the first inner control point relative to the middle between root and bending curve. `ha`
     aligns three of the labels; the middle's label is always on the left."""
     sheet, middle = panel.sheet, along(root, low, 0.5)
     width, height = root[0] - low[0], low[1] - root[1]

@@ -52,7 +52,7 @@ class Drawing:
         return f"{self.sheet.value_text(name)}; here {plain(self.example[name])} cm"
 
     def shown(self, name, p, q, at, **style):
-        """Draws a length that is 0 by default with the value of the example."""
+        """Draws a length whose default is 0. The drawing has the example's value."""
         self.sheet.check(name, 0)
         self.panel.length(name, p, q, at, value=self.value_text(name), example=self.example[name], **style)
 

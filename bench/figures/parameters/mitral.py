@@ -237,7 +237,7 @@ def draw_unrolled(sheet, valve):
     begin = valve.share(valve.commissure)
     for turned in (1, -1):
         outline(panel, valve, whole, turned)
-    # Lines from the annulus, at a fraction of its length, to a point of a free edge.
+    # Each line goes from the annulus, at a fraction of its length, to a point of a free edge.
     scallop, middle = valve.posterior[0], valve.posterior[1]
     anterior, pm = "anterior_length", "posteromedial_commissure_height"
     hanging = (

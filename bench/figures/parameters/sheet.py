@@ -53,7 +53,7 @@ class Sheet:
     # ------------------------------------------------------------------------------------------------------- parameters
 
     def of_cusps(self, name):
-        """Returns the parameters of all cusps for which a name without a cusp stands."""
+        """Returns the parameter of every cusp. `name` is the parameter's name without the cusp."""
         return [each for full, each in self.parameters.items() if full.partition(".")[2] == name]
 
     def value(self, name):
@@ -133,7 +133,8 @@ class Sheet:
             raise Refused("; ".join(self.overlaps()))
 
     def save(self, path):
-        """Writes PATH.png, kept small by few colours, with names and defaults as metadata, and PATH.svg, with lines and texts."""
+        """Writes PATH.svg, with lines and texts, and PATH.png, with few colours to keep the file small. PATH.png has the names
+        and defaults as metadata."""
         self.check_whole()
         drawn, about = io.BytesIO(), PngImagePlugin.PngInfo()
         self.figure.savefig(drawn, dpi=100, format="png")
@@ -184,8 +185,8 @@ class Panel:
     # ----------------------------------------------------------------------------------------------------------- labels
 
     def label(self, name, at, to=None, ha="left", color=DARK, shown=None, value=None):
-        """Adds a name and its value at a position, with a leader to the thing that they describe. `shown` is the name if it is
-        inside a formula."""
+        """Adds a name and its value at a position. If `to` is given, a leader goes from the texts to this point. `shown` is the
+        name if it is inside a formula."""
         self.sheet.mark_named(name)
         if at is None:  # the name is elsewhere in the panel
             return

@@ -222,7 +222,7 @@ void cs_user_head_losses(const cs_zone_t *zone, cs_real_t cku[][6]) {
   const double density = cs_glob_fluid_properties->ro0;
   for (cs_lnum_t i = 0; i < zone->n_elts; ++i) {
     const cs_lnum_t c = zone->elt_ids != NULL ? zone->elt_ids[i] : i;
-    /* The components xx, yy, zz; the force is -rho cku u. */
+    /* Sets the components xx, yy and zz of the head loss. The force is -rho cku u. */
     for (int k = 0; k < 3; ++k) cku[i][k] = coefficient[c] / density;
     for (int k = 3; k < 6; ++k) cku[i][k] = 0;
   }

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! The inlet (faces 1) is in the ventricle, the outlet (faces 2) in the aorta. They get either the pressures of a beat, or a given
-! inflow.
+! The inlet (faces 1) is in the ventricle, the outlet (faces 2) in the aorta. The faces get either the pressures of a beat, or a
+! given inflow.
 subroutine cs_f_user_boundary_conditions(nvar, nscal, icodcl, itrifb, itypfb, izfppp, dt, rcodcl)
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_null_char
   use paramx

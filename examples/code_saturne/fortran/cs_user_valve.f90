@@ -208,7 +208,7 @@ contains
     end do
   end subroutine check_place
 
-  ! Computes K and K u_surface of this time step. The solver may ask for the source term several times in a step.
+  ! Computes K and K u_surface of this time step. The solver may request the source term several times in a step.
   subroutine advance_valve()
     use mesh
     use optcal, only: dtref, ntcabs

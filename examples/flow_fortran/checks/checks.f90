@@ -119,7 +119,7 @@ contains
     call demand(all(abs(order - 2) < 0.2_dp), 'both are of second order')
   end subroutine check_duct
 
-  ! (b) A plate closes a duct with a given flow. The whole drop must be there in the next step, for every time step.
+  ! (b) A plate closes a duct with a given flow. The whole drop must be there in the next step, for every size of the time step.
   subroutine check_drop()
     real(dp), parameter :: h = 1e-3_dp, R = 1e4_dp, eps = 1.5_dp * h, u = 0.1_dp
     type(flow) :: fluid
@@ -245,7 +245,7 @@ contains
         1e6_dp * abs(least(with))
     end do
     call demand(abs(u(1) / w - 1) < 0.01_dp .and. abs(u(2)) < 0.01_dp * w .and. displaced(1) > 10 * abs(displaced(2)), &
-      'with it the fluid moves with the plate, without it the fluid rests; leaflets push the fluid only with it')
+      'with K u_surface the plate and the leaflets move the fluid, without K u_surface the fluid rests')
   end subroutine check_u_surface
 
   ! (f) Prints the effect of R and eps on the drop of a plate at ten places between faces, and on the leak of the closed valve.

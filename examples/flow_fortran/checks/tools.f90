@@ -97,8 +97,8 @@ contains
     call fluid%start(n, h, [0._dp, 0._dp, 0._dp], anywhere)
   end subroutine make_duct
 
-  !> Puts a flat plate across a duct, and computes K and K u_surface with riis. The plate crosses the duct's axis at height z,
-  !! and moves up with w. With a slope along x it moves along its normal. The plate may also slide along x.
+  !> Puts a flat plate across a duct, and computes K and K u_surface with riis. The plate crosses the duct's axis at height z, and
+  !! moves up with the speed w. With a slope along x it moves along its normal. The plate may also slide along x.
   subroutine put_plate(fluid, z, R, eps, w, slope, slide)
     type(flow), intent(inout) :: fluid
     real(dp), intent(in) :: z, R, eps, w

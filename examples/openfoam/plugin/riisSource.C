@@ -86,7 +86,8 @@ void riisNetSource::compute(const fvMesh &mesh, const Valves &valves, bool hasRe
   const scalar dt = mesh.time().deltaTValue();
   const scalarField &volume = mesh.V();
   // strength is K dt / rho. share is the part of K in the diagonal A of the momentum equation. imposed is the velocity of the
-  // leaflets times share, which is its part of H/A. It has the name HbyA, so that the scheme for HbyA interpolates it to faces.
+  // leaflets times share. This product is the leaflets' part of H/A. The field has the name HbyA, so that the scheme for HbyA
+  // interpolates it to faces.
   volScalarField strength(IOobject("riisStrength", mesh.time().timeName(), mesh), mesh,
                           dimensionedScalar(dimless, Zero));
   volScalarField share(IOobject("riisShare", mesh.time().timeName(), mesh), mesh, dimensionedScalar(dimless, Zero));
@@ -141,7 +142,7 @@ void riisNetSource::compute(const fvMesh &mesh, const Valves &valves, bool hasRe
   addOverRanks(ends);
   addOverRanks(out);
   addOverRanks(size);
-  // A closed box has no set with an open end. Its largest set holds most of the blood, so it does not count as sealed.
+  // A closed box has no set with an open end. Its largest set holds most of the blood, so this set does not count as sealed.
   if (!hasReference && max(ends) == 0) ends[findMax(size)] = 1;
 
   label sets = 0, cells = 0;
@@ -159,8 +160,8 @@ void riisNetSource::compute(const fvMesh &mesh, const Valves &valves, bool hasRe
   const scalar net = gSum(volumes_);
   reduce(band, sumOp<scalar>());
   reduce(cells, sumOp<label>());
-  // Without a fixed pressure, inflow equals outflow, so the net source must be 0. The outermost cells of the band take it back.
-  // If the band has no such cells, all sets are sealed, and their sources cancel.
+  // Without a fixed pressure, inflow equals outflow, so the net source must be 0. The outermost cells of the band take the net
+  // source back. If the band has no such cells, all sets are sealed, and their sources cancel.
   if (!hasReference && band > 0) {
     forAll(volume, cell) {
       if (ends[set[cell]] != 0 && strength[cell] > 1) volumes_[cell] -= net / band * volume[cell];

@@ -20,7 +20,7 @@ addToRunTimeSelectionTable(option, riisValve, dictionary);
 
 namespace {
 
-// Prints the library's warnings. One warns of a mesh and a valve in different units, for example.
+// Prints the library's warnings, for example that the mesh and the valve have different units.
 void warn(void *, int32_t level, const char *message) {
   if (level == RIIS_LOG_WARNING) Warning << "riis: " << message << endl;
 }
