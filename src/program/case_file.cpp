@@ -44,7 +44,8 @@ class CaseReader {
   void read_common(const CaseValues &values) {
     MarkOptions &options = all_.options;
     if (options.mesh.empty()) options.mesh = file_of(values, "mesh");
-    if (options.mesh.empty()) values.refuse("mesh", "it is missing, and no MESH is on the command line");
+    if (options.mesh.empty() && options.needs_mesh)
+      values.refuse("mesh", "it is missing, and no MESH is on the command line");
     options.unit = values.unit("unit");
     if (const auto length = values.above_zero("half_thickness")) {
       options.has_half_thickness = true;

@@ -16,6 +16,7 @@ std::string option_name(const std::string &names) { return names.substr(0, names
 
 bool Command::parsed() const { return app_->parsed(); }
 CLI::Option *Command::option(const std::string &name) const { return app_->get_option(name); }
+bool Command::knows(const std::string &name) const { return app_->get_option_no_throw(name) != nullptr; }
 bool Command::has(const std::string &name) const { return option(name)->count() > 0; }
 
 CLI::Option *Command::finished(CLI::Option *option, const char *type) const {

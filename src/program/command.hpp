@@ -21,7 +21,8 @@ class Command {
   explicit Command(CLI::App *app) : app_(app) {}
 
   bool parsed() const;
-  bool has(const std::string &name) const;  // whether the user gave the option
+  bool has(const std::string &name) const;    // whether the user gave the option
+  bool knows(const std::string &name) const;  // whether the command has this option
   CLI::Option *option(const std::string &name) const;
   // Sets the heading in the help for the options declared next.
   void group(const char *title) { group_ = title; }

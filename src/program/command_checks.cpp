@@ -73,7 +73,7 @@ void check_series(const Command &command, const MarkOptions &options) {
   if (!series.case_file.empty()) return;
   if (series.times.empty()) {
     for (const char *name : {"--cycle", "--movie", "--series-table", "--all-cells"})
-      if (command.has(name)) refuse_usage(std::string(name) + " needs --times");
+      if (command.knows(name) && command.has(name)) refuse_usage(std::string(name) + " needs --times");
     return;
   }
   if (!options.surface.empty()) {
@@ -137,6 +137,20 @@ MarkOptions finish_crossings(const Command &command, MarkOptions options) {
 MarkOptions finish_leaks(const Command &command, MarkOptions options) {
   finish_valve(command, options);
   check_open_state_is_met(options, false);
+  return options;
+}
+
+SizeFieldOptions finish_size_field(const Command &command, SizeFieldOptions options) {
+  const bool has_cycle = !options.series.cycle.empty();
+  check_opening(options);
+  check_open_state(options);
+  if (options.series.case_file.empty()) {
+    check_series(command, options);
+    check_motion(command, options, !options.series.times.empty(), has_cycle);
+  }
+  if (command.has("--count") && (sets_opening(options) || !options.surface.empty()))
+    refuse_usage("--count has no effect: there is only one opening");
+  finish_units(options);
   return options;
 }
 

@@ -146,6 +146,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   app.footer(help_of("riis"));
   app.require_subcommand(1);
   MarkOptions mark, surface, crossings, leaks;
+  SizeFieldOptions field;
   StatesOptions states;
   ExportOptions exported;
   ParamsOptions params;
@@ -163,6 +164,8 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   const Command crossing(
       command(*checks, "crossings", "Tell whether leaflets go through each other, at 101 openings", "crossings"));
   const Command leak(command(*checks, "leaks", "Tell whether a mesh lets flow through the marked valve", "leaks"));
+  const Command fields(
+      command(app, "size-field", "Write the edge lengths that a mesh needs near a valve, for gmsh", "size-field"));
   const Command frames(command(app, "export", "Write the motion of leaflets as svMultiPhysics reads it", "export"));
   const Command values(command(app, "params", "Print the parameters of a valve", "params"));
   CLI::App *help = command(app, "help", "Explain a topic, or list the topics", "help");
@@ -172,6 +175,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   declare_states(table, states);
   declare_crossings(crossing, crossings);
   declare_leaks(leak, leaks);
+  declare_size_field(fields, field);
   declare_export(frames, exported);
   declare_params(values, params);
   check_equals_signs(argc, argv);
@@ -198,6 +202,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   if (table.parsed()) return finish_states(table, std::move(states));
   if (crossing.parsed()) return finish_crossings(crossing, std::move(crossings));
   if (leak.parsed()) return finish_leaks(leak, std::move(leaks));
+  if (fields.parsed()) return finish_size_field(fields, std::move(field));
   if (frames.parsed()) return finish_export(frames, std::move(exported));
   return finish_params(values, std::move(params));
 }

@@ -339,6 +339,49 @@ void declare_leaks(Command command, MarkOptions &options) {
   declare_loudness(command, options);
 }
 
+void declare_size_field(Command command, SizeFieldOptions &options) {
+  command
+      .text("OUT", "OUT.dat|-", "The grid of edge lengths, for gmsh's field \"Structured\"; - is stdout", options.field)
+      ->required();
+  const auto length = [&](const char *name, const char *help, std::optional<double> &to) {
+    command.value(name, "L", help, [&to, name](const std::string &text) { to = parse_positive_finite(text, name); });
+  };
+  const auto factor = [&](const char *name, const char *help, double &to) {
+    command.value(name, "F", help, [&to, name](const std::string &text) { to = parse_positive_finite(text, name); });
+  };
+  factor("--band-edge", "Edge length in the band, in half thicknesses (default 0.95)", options.band_edge);
+  factor("--growth", "Growth of the edge length by distance outside the band (default 0.3)", options.growth);
+  length("--largest-edge", "Largest edge length, in the mesh's unit (default 4 half thicknesses)",
+         options.largest_edge);
+  length("--spacing", "Spacing of the grid, in the mesh's unit (default half a half thickness)", options.spacing);
+  command.value("--count", "N", "Number of openings (default 41)", [&options](const std::string &text) {
+    options.n_openings = parse_count(text, "--count", 2, most_states);
+  });
+  declare_threads(command, options);
+  declare_loudness(command, options);
+  declare_valve(command, options);
+  declare_opening(command, options);
+  declare_open_state(command, options);
+  declare_file(command, options);
+  declare_placement(command, options);
+  declare_half_thickness(command, options);
+  SeriesOptions &series = options.series;
+  command.group("Motion in time, and several valves");
+  CLI::Option *const times =
+      command.value("--times", "START:STOP:STEP|T,T,...", "Times of a motion, in place of openings",
+                    [&series](const std::string &text) { series.times = parse_times(text, "--times"); });
+  declare_cycle(command, series.cycle, series.interpolation);
+  CLI::Option *const all_of_it =
+      command.text("--case", "FILE.json", "Valves, placements, cycles and times from a file", series.case_file);
+  for (const char *name :
+       {"--surface", "--leaflets",      "--valve",         "--opening",        "--params",         "--params-open",
+        "--set",     "--tolerance",     "--triangulation", "--skip-zero-area", "--flip-normals",   "--scale",
+        "--unit",    "--surface-unit",  "--rotate",        "--translate",      "--half-thickness", "--cycle",
+        "--period",  "--interpolation", "--time",          "--count"})
+    command.option(name)->excludes(all_of_it);
+  for (const char *name : {"--opening", "--time", "--count"}) command.option(name)->excludes(times);
+}
+
 void declare_states(Command command, StatesOptions &options) {
   command.text("OUT", "OUT.csv|-", "The table: free edges, leaflet areas and the orifice; - is stdout", options.output)
       ->required();

@@ -27,6 +27,10 @@ distances, status.)"},
   riis surface --valve mitral --opening 0.5 --output half_open.vtp --picture half_open.png --view top
   riis surface --surface patient.pvd --time 0.3 --output moved.vtp
 riis help explains: units, parameters, opening, patches, motion.)"},
+    {"size-field", R"(Examples:
+  riis size-field valve.dat --unit mm --valve trileaflet --translate 0,0,40
+  riis size-field valve.dat --case beating_valves.json --largest-edge 0.4
+riis help meshing explains the field.)"},
     {"states", R"(Examples:
   riis states states.csv --valve mitral
   riis states - --valve prosthesis.json --count 11
@@ -198,6 +202,15 @@ least opening to the next key of its largest opening. It closes from the last ke
 its least opening. --opening-span and --closing-span set other times. The solver measures distances to the middles of
 triangles. With a --largest-edge of 0.15 half thicknesses its sum of K is within 1 % of the exact sum. Triangles without area
 in some frame are left out, and a line on stderr says so.
+)"},
+    {"meshing", "the edge lengths of riis size-field",
+     R"(
+A mesh whose edges are at most two half thicknesses long does not leak (riis help leaks). riis size-field writes edge lengths
+that are small near the valve only: --band-edge half thicknesses in the band of every state of the valve, and larger outside
+it. The states are openings from 0 to 1, in number --count, or the times of --times or of a case. The file is a grid, which
+gmsh's field "Structured" reads with TextFormat = 1. The lines for the .geo file go to stdout. gmsh makes some edges longer
+than the field says, so --band-edge should stay below 1. The number of nodes grows with the cube of 1 / --band-edge. A case
+needs no mesh here. Check the mesh by riis check leaks, or by riis mark at several openings.
 )"},
     {"searches", "how nodes are found",
      R"(

@@ -63,7 +63,8 @@ struct LeakCheck {
 struct MarkOptions : ValveOptions {
   MarkOptions() { check(riis_mark_options_init(&mark_options, sizeof mark_options)); }
 
-  std::string mesh;  // "" if there is none
+  std::string mesh;        // "" if there is none
+  bool needs_mesh = true;  // whether a case must name a mesh
   riis_mark_options mark_options;
   double far_distance = RIIS_FAR_DISTANCE;
   std::optional<double> resistance;           // R, for an array of K
@@ -80,6 +81,18 @@ struct MarkOptions : ValveOptions {
   std::optional<double> drop;  // pressure drop, for the ideal leak
   bool measures = false;       // measures what the valve means for the flow, also without --stats
   SeriesOptions series;
+};
+
+// The options of riis size-field. Lengths have the mesh's unit.
+struct SizeFieldOptions : MarkOptions {
+  SizeFieldOptions() { needs_mesh = false; }
+
+  std::string field;                   // the file of the grid; "-" is stdout
+  double band_edge = 0.95;             // edge length in the band, in half thicknesses
+  double growth = 0.3;                 // how much longer an edge is at a point that is one length farther away
+  std::optional<double> largest_edge;  // default 4 half thicknesses
+  std::optional<double> spacing;       // of the grid; default half a half thickness
+  std::int32_t n_openings = 41;        // number of openings of a valve
 };
 
 // The options of riis states.

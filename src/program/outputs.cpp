@@ -217,12 +217,23 @@ OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::str
   return locks_of(outputs);
 }
 
-OutputLocks check_outputs(const StatesOptions &options) {
-  const NamedFiles outputs = {{"OUT", options.output == "-" ? "" : options.output}};
-  check_distinct(known(inputs_of(options)), outputs);
-  if (options.output != "-") check_place(options.output);
+namespace {
+
+// Checks the only output of a command, its positional argument OUT.
+OutputLocks check_out(const std::string &path, const NamedFiles &inputs) {
+  const NamedFiles outputs = {{"OUT", path == "-" ? "" : path}};
+  check_distinct(known(inputs), outputs);
+  if (path != "-") check_place(path);
   return locks_of(outputs);
 }
+
+}  // namespace
+
+OutputLocks check_outputs(const SizeFieldOptions &options, const std::vector<std::string> &more_inputs) {
+  return check_out(options.field, inputs_of(options, more_inputs));
+}
+
+OutputLocks check_outputs(const StatesOptions &options) { return check_out(options.output, inputs_of(options)); }
 
 void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const MarkOptions &options) {
   std::set<std::string> identities;

@@ -57,6 +57,7 @@ class UnbrokenWrite {
 // missing or not writable. Also throws one for a picture without a display, and for an output that another run is writing. The
 // caller must keep the returned locks until everything is written. more_inputs are other files that were read.
 [[nodiscard]] OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::string> &more_inputs = {});
+[[nodiscard]] OutputLocks check_outputs(const SizeFieldOptions &options, const std::vector<std::string> &more_inputs);
 [[nodiscard]] OutputLocks check_outputs(const StatesOptions &options);
 
 // Returns whether the path has this ending, in small letters or capitals.

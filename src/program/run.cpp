@@ -16,6 +16,7 @@
 #include "program/progress.hpp"
 #include "program/refusal.hpp"
 #include "program/report.hpp"
+#include "program/size_field.hpp"
 #include "program/states.hpp"
 #include "program/uris_export.hpp"
 #include "program/valve_source.hpp"
@@ -161,6 +162,8 @@ ExitCode run_command(const MarkOptions &options) {
   Case all = has_case ? read_case(options) : case_of_command_line(options);
   return run_case(all);
 }
+
+ExitCode run_command(const SizeFieldOptions &options) { return run_size_field(options); }
 
 ExitCode run_command(const StatesOptions &options) {
   run_states(options);

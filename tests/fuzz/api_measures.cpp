@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls of riis_surface_get_leaflet, _orifice and _leak, riis_find_first_passage, riis_marks_get_cells_across, and the swept volume
-// of a valve.
+// Calls of riis_surface_get_leaflet, _orifice and _leak, riis_find_first_passage, riis_marks_get_cells_across, and
+// riis_valve_get_swept_volume.
 #include <algorithm>
 #include <cmath>
 

@@ -41,6 +41,12 @@ void check(const MarkOptions &options) {
     EXPECT(options.series.times[i] > options.series.times[i - 1], "time %zu is not above the one before", i);
 }
 
+void check(const SizeFieldOptions &options) {
+  check(static_cast<const MarkOptions &>(options));
+  EXPECT(!options.field.empty() && options.band_edge > 0 && options.growth > 0 && options.n_openings >= 2,
+         "a field of %d openings", options.n_openings);
+}
+
 void check(const StatesOptions &options) {
   check_valve(options);
   EXPECT(!options.output.empty() && options.n_states >= 2 && options.n_states <= 100001, "%d states", options.n_states);

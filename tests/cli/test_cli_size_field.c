@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * `riis size-field`: the grid is read back, and its edge lengths are compared with closest points of separate surfaces. */
+/* clang-format off: test_support.h checks statuses if riis.h came before */
+#include <riis/riis.h>
+
+#include "calls.h"
+#include "test_support.h"
+/* clang-format on */
+
+#include "program.h"
+#include "scratch.h"
+
+/* ---- The grid ---- */
+
+static struct {
+  double origin[3], spacing[3];
+  int n[3];
+  double *length; /* z runs fastest */
+} grid;
+
+static void read_grid(void) {
+  char *text = scratch_read(scratch_path("field.dat"), NULL), *at = text;
+  for (int k = 0; k < 3; ++k) grid.origin[k] = strtod(at, &at);
+  for (int k = 0; k < 3; ++k) grid.spacing[k] = strtod(at, &at);
+  for (int k = 0; k < 3; ++k) grid.n[k] = (int)strtol(at, &at, 10);
+  const int n = grid.n[0] * grid.n[1] * grid.n[2];
+  assert_in_range(n, 1, 5000000);
+  free(grid.length);
+  grid.length = calloc((size_t)n, sizeof *grid.length);
+  for (int i = 0; i < n; ++i) {
+    char *end = NULL;
+    grid.length[i] = strtod(at, &end);
+    assert_ptr_not_equal(at, end);
+    at = end;
+  }
+  assert_string_equal(at, "\n");
+  free(text);
+}
+
+#define RUN_FIELD(...)                                              \
+  do {                                                              \
+    RUN_FINE("size-field", scratch_path("field.dat"), __VA_ARGS__); \
+    read_grid();                                                    \
+  } while (0)
+
+/* ---- Surfaces by C ---- */
+
+enum { most_surfaces = 8 };
+static struct {
+  int n;
+  riis_surface *surface[most_surfaces];
+} states;
+
+static void add_states(const char *kind, int n_openings, const double *openings, const riis_surface_options *how) {
+  riis_valve *valve = NULL;
+  CHECK_OK(riis_valve_create(kind, &valve));
+  for (int i = 0; i < n_openings; ++i) {
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", openings[i]));
+    CHECK_OK(riis_surface_create(valve, how, &states.surface[states.n++]));
+  }
+  riis_valve_destroy(&valve);
+}
+
+static void drop_states(void) {
+  while (states.n > 0) riis_surface_destroy(&states.surface[--states.n]);
+}
+
+static double least_distance(const double *point) {
+  double least = INFINITY;
+  for (int i = 0; i < states.n; ++i) {
+    riis_closest closest;
+    CHECK_OK(riis_closest_point(states.surface[i], point, &closest, sizeof closest));
+    least = fmin(least, closest.distance);
+  }
+  return least;
+}
+
+/* The edge lengths that the help describes. */
+typedef struct {
+  double half_thickness, band, growth, largest;
+} edges;
+
+static double length_at(double distance, edges want) {
+  return fmin(want.largest, want.band + want.growth * fmax(0, distance - want.half_thickness));
+}
+
+/* Compares random points of the grid, and all points of its sides, where the lengths must be the largest. */
+static void check_grid(edges want) {
+  random_source random = random_start("size_field");
+  int n_in_band = 0, n_growing = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    int at[3];
+    double point[3];
+    for (int k = 0; k < 3; ++k) {
+      at[k] = (int)(random_bits(&random) % (uint64_t)grid.n[k]);
+      point[k] = grid.origin[k] + grid.spacing[k] * at[k];
+    }
+    const double length = grid.length[(at[0] * grid.n[1] + at[1]) * grid.n[2] + at[2]];
+    const double distance = least_distance(point), expected = length_at(distance, want);
+    CHECK_NEAR(length, expected, 1e-4 * expected); /* the file has five digits */
+    n_in_band += distance <= want.half_thickness;
+    n_growing += expected > want.band && expected < want.largest;
+  }
+  assert_true(n_in_band > 10 && n_growing > 100);
+  for (int i = 0; i < grid.n[0]; ++i)
+    for (int j = 0; j < grid.n[1]; ++j)
+      for (int k = 0; k < grid.n[2]; ++k)
+        if (i == 0 || j == 0 || k == 0 || i == grid.n[0] - 1 || j == grid.n[1] - 1 || k == grid.n[2] - 1)
+          assert_true(grid.length[(i * grid.n[1] + j) * grid.n[2] + k] >= 0.9999 * want.largest);
+}
+
+static void valves_at_all_openings(void **state) {
+  (void)state;
+  const char *const kinds[] = {"aortic", "mitral", "trileaflet", "bileaflet"};
+  const double openings[] = {0, 0.5, 1};
+  for (int i = 0; i < 4; ++i) {
+    RUN_FIELD("--valve", kinds[i], "--count", "3", "--largest-edge", "0.25", "--growth", "0.5", "--spacing", "0.08");
+    assert_non_null(strstr(program_out, "Field[1] = Structured;"));
+    assert_non_null(strstr(program_out, "3 states, openings from 0 to 1"));
+    add_states(kinds[i], 3, openings, NULL);
+    check_grid((edges){0.1, 0.095, 0.5, 0.25});
+    drop_states();
+  }
+}
+
+static void placed_valve_at_one_opening(void **state) {
+  (void)state;
+  RUN_FIELD("--valve", "trileaflet", "--opening", "0.25", "--unit", "mm", "--rotate", "1,2,3,40", "--translate",
+            "10,-20,30", "--half-thickness", "1.5", "--band-edge", "0.5");
+  riis_surface_options how;
+  CHECK_OK(riis_surface_options_init(&how, sizeof how));
+  how.scale = 10;
+  how.half_thickness = 1.5;
+  for (int k = 0; k < 3; ++k) how.rotation_axis[k] = k + 1;
+  how.rotation_angle = 40;
+  how.translation[0] = 10, how.translation[1] = -20, how.translation[2] = 30;
+  const double opening = 0.25;
+  add_states("trileaflet", 1, &opening, &how);
+  check_grid((edges){1.5, 0.75, 0.3, 6});
+  drop_states();
+}
+
+/* A case without a mesh: a mitral valve that rests half open and an aortic valve that opens. */
+static void case_of_two_valves(void **state) {
+  (void)state;
+  const char text[] =
+      "{\"half_thickness\": 0.1, \"times\": [0, 1, 2], \"valves\": ["
+      "{\"name\": \"m\", \"valve\": \"mitral\", \"opening\": 0.5, \"translate\": [4, 0, 0]},"
+      "{\"name\": \"a\", \"valve\": \"trileaflet\","
+      " \"opening\": {\"times\": [0, 2], \"openings\": [0, 1]}}]}";
+  scratch_write("case.json", text, strlen(text));
+  RUN_FIELD("--case", scratch_path("case.json"), "--largest-edge", "0.25", "--growth", "0.5", "--spacing", "0.08");
+  riis_surface_options how;
+  CHECK_OK(riis_surface_options_init(&how, sizeof how));
+  const double half = 0.5, openings[] = {0, 0.5, 1};
+  add_states("trileaflet", 3, openings, &how);
+  how.translation[0] = 4;
+  add_states("mitral", 1, &half, &how);
+  check_grid((edges){0.1, 0.095, 0.5, 0.25});
+  drop_states();
+}
+
+static void refusals(void **state) {
+  (void)state;
+  RUN_REFUSED(2, "OUT is required", "size-field");
+  RUN_REFUSED(2, "--growth: 0 is not above 0", "size-field", "-", "--growth", "0");
+  RUN_REFUSED(2, "--growth: nan is not above 0", "size-field", "-", "--growth", "nan");
+  RUN_REFUSED(2, "--band-edge: -1 is not above 0", "size-field", "-", "--band-edge", "-1");
+  RUN_REFUSED(2, "--largest-edge: 0.05 is below the edge length in the band, 0.095", "size-field", "-",
+              "--largest-edge", "0.05");
+  RUN_REFUSED(2, "--spacing: the grid would have ", "size-field", "-", "--spacing", "1e-4");
+  RUN_REFUSED(2, "--spacing: inf is not above 0 and finite", "size-field", "-", "--spacing", "inf");
+  RUN_REFUSED(2, "--count: 1 is not from 2 to 100001", "size-field", "-", "--count", "1");
+  RUN_REFUSED(2, "--count has no effect: there is only one opening", "size-field", "-", "--opening", "0.5", "--count",
+              "3");
+  RUN_REFUSED(2, "--times needs --cycle", "size-field", "-", "--times", "0:1:0.5");
+  RUN_REFUSED(1, "no such folder", "size-field", scratch_path("no such folder/field.dat"));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(valves_at_all_openings),
+      cmocka_unit_test(placed_valve_at_one_opening),
+      cmocka_unit_test(case_of_two_valves),
+      cmocka_unit_test(refusals),
+  };
+  const int n_failed = cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
+  free(grid.length);
+  return n_failed;
+}
