@@ -1037,7 +1037,7 @@ RIIS_API riis_status riis_surface_get_leaflet(const riis_surface *surface, int64
 
 /* The outline of an orifice. */
 enum {
-  RIIS_OUTLINE_NONE = 0,      /* none: the free sides v = 0 of a valve from patches enclose no area */
+  RIIS_OUTLINE_NONE = 0,      /* no disc, and the sides v = 0 that only one patch has enclose no area */
   RIIS_OUTLINE_DISC = 1,      /* the disc of root_radius (aortic, trileaflet) or radius (bileaflet) about the axis */
   RIIS_OUTLINE_ATTACHMENT = 2 /* the sides v = 0 that only one patch has: the annulus of the mitral valve */
 };

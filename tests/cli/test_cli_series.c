@@ -51,7 +51,7 @@ static int64_t read_array(const char *path, const char *name, double *values) {
   return n_components * n_tuples;
 }
 
-/* Runs the program once at the opening of a step. */
+/* Runs the program without a series, with the opening that the valve has at this step. */
 static void run_single(int step) {
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--resistance", "7",
            "--opening", opening_texts[step], "--output", scratch_path("single.vtu"), "--quiet");

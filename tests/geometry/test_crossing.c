@@ -42,7 +42,8 @@ static void random_triangle(sample *s, int64_t largest) {
   while (!has_area(s->abc));
 }
 
-/* In the smallest unit, coordinates are barely above the numbers that count as 0. In the largest unit they reach 1e60. */
+/* Returns the exponent of a random unit 2^exponent. With the smallest exponent, coordinates are barely large enough not to count
+ * as 0. With the largest exponent they reach 1e60. */
 static int random_exponent(int bits) { return -298 + (int)(random_bits(&rng) % (uint64_t)(298 + 199 - bits)); }
 
 static void small_numbers_meet_in_every_way(void **state) {

@@ -18,7 +18,7 @@ typedef struct work {
   const riis_surface *surface;
   const riis_mesh *mesh;
   const riis_marks *expected;
-  int32_t n_threads; /* 0: each task uses another number of threads */
+  int32_t n_threads; /* 0: the tasks use 1, 2 and 4 threads in turn */
   int is_wrong[n_tasks];
 } work;
 

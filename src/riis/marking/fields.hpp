@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A field is data about a node's closest point that a solver's force needs besides the distance.
-// In: nodes within the limit with their decided triangles. Out: an array for each requested field.
+// In: nodes within the limit, each with the closest triangle that the search found. Out: an array for each requested field.
 #pragma once
 
 #include <cstdint>

@@ -10,8 +10,8 @@
 
 namespace riis {
 
-// Makes room for n elements, and for half as many more if it has to reserve memory. Otherwise a moving valve would need new
-// memory at every new largest number of nodes.
+// Makes room for n elements. If it has to reserve memory, it reserves half as much again. Without this surplus, a moving valve
+// would need new memory each time its number of nodes reaches a new maximum.
 template <class Array>
 void reserve_amply(Array &array, std::int64_t n) {
   const auto needed = static_cast<std::size_t>(n);

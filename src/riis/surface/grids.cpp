@@ -179,17 +179,19 @@ void check_precision(const PatchSet &set, double max_error) {
   }
   if (largest * std::numeric_limits<double>::epsilon() > 1e-3 * max_error)
     fail(RIIS_LIMIT_EXCEEDED, "control points have coordinates up to ", largest,
-         ", which round by more than a thousandth of tolerance * half_thickness before scaling, ", max_error);
+         "; their rounding exceeds a thousandth of tolerance * half_thickness in the valve's own units, which is ",
+         max_error);
   if (longest * 1e-12 > 1e-2 * max_error)
     fail(RIIS_LIMIT_EXCEEDED, "a curve is ", longest,
-         " long, and its length rounds by more than a hundredth of tolerance * half_thickness before scaling, ",
+         " long; the rounding of its length exceeds a hundredth of tolerance * half_thickness in the valve's own units, "
+         "which is ",
          max_error);
 }
 
 double error_left(const PatchSet &set, double max_error) {
   if (!(set.deviation <= 0.5 * max_error))
     fail(RIIS_LIMIT_EXCEEDED, "the valve's curves are right to ", set.deviation,
-         ", which is more than half of tolerance * half_thickness before scaling, ", max_error);
+         ", which is more than half of tolerance * half_thickness in the valve's own units, ", max_error);
   return max_error - set.deviation;
 }
 
