@@ -287,7 +287,8 @@ static void coordinates_too_large_are_refused(void **state) {
   riis_surface_options options = fixed_options();
   options.half_thickness = options.tolerance = 1e-6;
   riis_surface *surface = NULL;
-  CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "coordinates up to|round by more", riis_surface_create(valve, &options, &surface));
+  CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "coordinates up to|rounding exceeds",
+                riis_surface_create(valve, &options, &surface));
   assert_null(surface);
 }
 

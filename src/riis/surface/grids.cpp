@@ -182,10 +182,11 @@ void check_precision(const PatchSet &set, double max_error) {
          "; their rounding exceeds a thousandth of tolerance * half_thickness in the valve's own units, which is ",
          max_error);
   if (longest * 1e-12 > 1e-2 * max_error)
-    fail(RIIS_LIMIT_EXCEEDED, "a curve is ", longest,
-         " long; the rounding of its length exceeds a hundredth of tolerance * half_thickness in the valve's own units, "
-         "which is ",
-         max_error);
+    fail(
+        RIIS_LIMIT_EXCEEDED, "a curve is ", longest,
+        " long; the rounding of its length exceeds a hundredth of tolerance * half_thickness in the valve's own units, "
+        "which is ",
+        max_error);
 }
 
 double error_left(const PatchSet &set, double max_error) {
