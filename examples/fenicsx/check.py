@@ -164,6 +164,28 @@ def drops():
     require(0 < found < 0.05 * expected, f"the open valve has a drop, and at most 5 % of that of the closed one, not {found}")
 
 
+def forces():
+    """The force on a valve that opens between equal pressures. By symmetry it has no component along x or y."""
+    from mpi4py import MPI
+    import riis
+    import valve_in_duct
+    opens = riis.OpeningTimes(0.0, 0.04, 0.5, 0.08, period=1.0)
+    resistance, term = valve_in_duct.R, valve_in_duct.GRAD_DIV
+    print("Largest force in N on a valve that opens in 0.04 s between equal pressures, in steps of 0.004 s. Edges of 2.5 mm.")
+    print(f"  {'valve':>10} {'R':>6} {'grad-div':>8} {'|Fx|':>7} {'|Fy|':>7} {'|Fz|':>7}")
+    largest = {}
+    for kind, factor in (("bileaflet", 1), ("trileaflet", 1), ("bileaflet", 100)):
+        valve_in_duct.R, valve_in_duct.GRAD_DIV = factor * resistance, factor * term
+        parameters = {"hinge_offset": HINGE} if kind == "bileaflet" else {}
+        states = valve_in_duct.flow(MPI.COMM_WORLD, opens, 0.004, 10, 2.5e-3, EPS, kind, None, **parameters)
+        found = largest[kind, factor] = numpy.abs([state.force for state in states]).max(axis=0)
+        print(f"  {kind:>10} {valve_in_duct.R:>6} {valve_in_duct.GRAD_DIV:>8}" + "".join(f" {one:>7.4f}" for one in found))
+    valve_in_duct.R, valve_in_duct.GRAD_DIV = resistance, term
+    for kind in ("bileaflet", "trileaflet"):
+        require(largest[kind, 1][:2].max() < 0.05, f"{kind}, R = {resistance}: the forces across are below 0.05 N")
+    require(largest["bileaflet", 100][0] > 0.1, "with R a hundred times larger the false force exceeds 0.1 N, as README says")
+
+
 def refusals():
     """Checks that each bad input is refused with the expected error and words."""
     from mpi4py import MPI
@@ -238,7 +260,7 @@ def picture(folder, path):
 
 
 if __name__ == "__main__":
-    commands = {"record": record, "marks": marks, "drops": drops, "refusals": refusals, "picture": picture}
+    commands = {"record": record, "marks": marks, "drops": drops, "forces": forces, "refusals": refusals, "picture": picture}
     if len(sys.argv) < 2 or sys.argv[1] not in commands:
         raise SystemExit(f"usage: check.py {'|'.join(commands)} ARGUMENT...")
     commands[sys.argv[1]](*sys.argv[2:])

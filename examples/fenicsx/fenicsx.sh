@@ -29,8 +29,10 @@ fenicsx() {
   "$python" -B "$here/check.py" marks "$work" 2 | tee "$out/marks.txt"
   step "the drop across the closed valve" fenicsx_in "$work" "$python" -B "$here/check.py" drops
   tee "$out/drops.txt" <"$fenicsx_log"
+  step "the force on a valve that opens" fenicsx_in "$work" "$python" -B "$here/check.py" forces
+  tee "$out/forces.txt" <"$fenicsx_log"
   step "draw" fenicsx_in "$work" "$python" -B "$here/check.py" picture "$work" "$out/velocity.png"
-  say "wrote out/fenicsx/velocity.png, marks.txt and drops.txt; for ParaView out/fenicsx/flow.bp"
+  say "wrote out/fenicsx/velocity.png, marks.txt, drops.txt and forces.txt; for ParaView out/fenicsx/flow.bp"
 }
 
 # Says why nothing runs if the distribution lacks dolfinx, or has another version.

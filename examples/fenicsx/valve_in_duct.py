@@ -35,8 +35,10 @@ def duct(comm, size):
     return mesh, tags
 
 
-def flow(comm, law, dt, n_steps, size=2e-3, eps=2e-3, **parameters):
-    """Yields the state after each time step. The law gives the opening at a time, and the parameters are those of the valve."""
+def flow(comm, law, dt, n_steps, size=2e-3, eps=2e-3, kind="bileaflet", speed=MEAN_SPEED, **parameters):
+    """Yields the state after each time step. The law gives the opening at a time, and the parameters are those of the valve.
+
+    Blood flows in with the mean speed `speed`. If it is None, no stress acts at the inlet, so both pressures are equal."""
     mesh, tags = duct(comm, size)
     P1 = basix.ufl.element("Lagrange", mesh.basix_cell(), 1)
     P2 = basix.ufl.element("Lagrange", mesh.basix_cell(), 2, shape=(3,))
@@ -47,7 +49,7 @@ def flow(comm, law, dt, n_steps, size=2e-3, eps=2e-3, **parameters):
     xyz = V.tabulate_dof_coordinates()
     assert numpy.array_equal(xyz, K.function_space.tabulate_dof_coordinates())
     points, marks = riis.Mesh(xyz), riis.Marks()
-    valve = riis.Valve("bileaflet", **parameters)
+    valve = riis.Valve(kind, **parameters)
     before = valve.copy()
     surface = riis.Surface(valve, scale=0.01, half_thickness=eps)  # the valve's tables are in cm
 
@@ -62,13 +64,14 @@ def flow(comm, law, dt, n_steps, size=2e-3, eps=2e-3, **parameters):
 
     # A parabola flows in, blood rests at the wall, and no stress acts at the outlet.
     still, inflow = fem.Function(V), fem.Function(V)
-    inflow.interpolate(lambda x: numpy.outer([0, 0, 2 * MEAN_SPEED], 1 - (x[0] ** 2 + x[1] ** 2) / RADIUS**2))
+    inflow.interpolate(lambda x: numpy.outer([0, 0, 2 * (speed or 0)], 1 - (x[0] ** 2 + x[1] ** 2) / RADIUS**2))
     bcs = [fem.dirichletbc(value, fem.locate_dofs_topological((W.sub(0), V), 2, tags.find(tag)), W.sub(0))
-           for value, tag in ((inflow, 1), (still, 3))]
+           for value, tag in ((inflow, 1), (still, 3)) if speed is not None or tag == 3]
     lu = {"ksp_type": "preonly", "pc_type": "lu", "pc_factor_mat_solver_type": "mumps"}
     problem = LinearProblem(a, L, bcs, new, petsc_options=lu)
     inlet = Measure("ds", mesh, subdomain_data=tags)(1)
     sums = [fem.form(f * inlet) for f in (1.0, -dot(split(new)[0], FacetNormal(mesh)), split(new)[1])]
+    sums += [fem.form((drag * split(new)[0][axis] - K_u[axis]) * dx) for axis in range(3)]  # the force on the valve
 
     for step in range(1, n_steps + 1):
         before["opening"], valve["opening"] = law((step - 1) * dt), law(step * dt)
@@ -80,9 +83,9 @@ def flow(comm, law, dt, n_steps, size=2e-3, eps=2e-3, **parameters):
         marks.add_resistance(K.x.array, K_u.x.array.reshape(-1, 3), R=R)
         problem.solve()
         u_old.interpolate(new.sub(0))
-        area, rate, force = (comm.allreduce(fem.assemble_scalar(form)) for form in sums)
-        yield SimpleNamespace(time=step * dt, opening=valve["opening"], drop=force / area, rate=rate, velocity=u_old,
-                              K=K, K_u=K_u, marks=marks, surface=surface)
+        area, rate, push, *force = (comm.allreduce(fem.assemble_scalar(form)) for form in sums)
+        yield SimpleNamespace(time=step * dt, opening=valve["opening"], drop=push / area, rate=rate, velocity=u_old,
+                              force=force, K=K, K_u=K_u, marks=marks, surface=surface)
 
 
 if __name__ == "__main__":
