@@ -224,6 +224,14 @@ static void test_named_sizes(void **state) {
   assert_true(in_cusp(program_out, "left", "leaflet_radius_out") == 1.4);
   assert_non_null(strstr(program_out, "\"rotation\": [\n      0.0,\n      0.0,\n      120.5\n"));
 
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "trileaflet", "--set", "annulus=2.4", "--stats", "-");
+  const double area = json_number(program_out, "area");
+  scratch_write_text("case.json",
+                     "{\"mesh\": \"in.vtu\", \"valves\": [{\"name\": \"a\", \"valve\": \"trileaflet\", "
+                     "\"parameters\": {\"annulus\": 2.4}}]}");
+  RUN_FINE("mark", "--case", scratch_path("case.json"), "--output", scratch_path("case.vtu"), "--stats", "-");
+  assert_true(json_number(program_out, "area") == area);
+
   const struct {
     const char *kind, *json, *text;
   } refused[] = {
