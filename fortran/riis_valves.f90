@@ -192,8 +192,8 @@ contains
   end function check_fits
 
   !> Sets a parameter with one value. A cusp's parameter without a cusp's name ('leaflet_angle') sets all three cusps. The names
-  !! 'annulus', 'stj' and 'effective_height' set sizes. Every valve has the parameter 'opening', from 0 to 1. Errors: RIIS_INVALID_PARAMETER naming the parameter and the value; the valve is
-  !! then unchanged.
+  !! 'annulus', 'stj' and 'effective_height' set sizes. Every valve has the parameter 'opening', from 0 to 1. Errors:
+  !! RIIS_INVALID_PARAMETER naming the parameter and the value; the valve is then unchanged.
   subroutine valve_set_scalar(this, name, value, status)
     class(riis_valve), intent(inout) :: this                !< Must be created.
     character(len=*), intent(in) :: name                    !< Trailing blanks do not matter.

@@ -186,9 +186,8 @@ nb::dict parameters(Valve &valve) {
     const riis_parameter found = parameter(valve, id);
     const nb::object value = found.n_values == 1 ? nb::object(nb::float_(found.default_values[0]))
                                                  : array_of(found.default_values, "float64");
-    all[found.name] =
-        make(found.name, found.unit, in_python(found.description), found.n_values, value, found.minimum, found.maximum,
-             found.rule, found.other_name, found.other_factor);
+    all[found.name] = make(found.name, found.unit, in_python(found.description), found.n_values, value, found.minimum,
+                           found.maximum, found.rule, found.other_name, found.other_factor);
   }
   return all;
 }

@@ -224,13 +224,21 @@ static void test_named_sizes(void **state) {
   assert_true(in_cusp(program_out, "left", "leaflet_radius_out") == 1.4);
   assert_non_null(strstr(program_out, "\"rotation\": [\n      0.0,\n      0.0,\n      120.5\n"));
 
-  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "trileaflet", "--set", "annulus=2.4", "--stats", "-");
-  const double area = json_number(program_out, "area");
-  scratch_write_text("case.json",
-                     "{\"mesh\": \"in.vtu\", \"valves\": [{\"name\": \"a\", \"valve\": \"trileaflet\", "
-                     "\"parameters\": {\"annulus\": 2.4}}]}");
-  RUN_FINE("mark", "--case", scratch_path("case.json"), "--output", scratch_path("case.vtu"), "--stats", "-");
-  assert_true(json_number(program_out, "area") == area);
+  /* The same names in a case file. */
+  const char *const parameters[] = {"\"annulus\": 2.4", "\"annulus\": -2.4", "\"annulus\": 2.4, \"root_radius\": 1.2"};
+  const char *const texts[] = {"", "parameter 'annulus' is -2.4; it must be from 2e-09",
+                               "annulus and root_radius are given, but they are names of one size"};
+  for (int i = 0; i < 3; ++i) {
+    char json[256];
+    snprintf(json, sizeof json,
+             "{\"mesh\": \"in.vtu\", \"valves\": [{\"name\": \"a\", \"valve\": \"trileaflet\", \"parameters\": {%s}}]}",
+             parameters[i]);
+    scratch_write_text("case.json", json);
+    if (i == 0)
+      RUN_FINE("mark", "--case", scratch_path("case.json"), "--output", scratch_path("case.vtu"));
+    else
+      RUN_REFUSED(1, texts[i], "mark", "--case", scratch_path("case.json"), "--output", scratch_path("case.vtu"));
+  }
 
   const struct {
     const char *kind, *json, *text;
