@@ -168,10 +168,10 @@ def test_aortic_cusps_turn_until_they_meet():
     assert rotations == [[0, 0, 0], [0, 0, 120], [0, 0, -120]]
     assert valve["left.stj"] == valve["right.stj"] == 2.8 and valve["non_coronary.leaflet_radius_out"] == 1.4
     valve["left.rotation"] = [1.0, 2.0, 3.0]
-    valve["right.leaflet_angle"] = 61.0
-    assert list(valve["left.rotation"]) == [1, 2, 3] and list(valve["non_coronary.rotation"]) == [0, 0, -121]
+    valve["right.leaflet_angle"] = 57.0  # now there are three gaps of 2 degrees
+    assert list(valve["left.rotation"]) == [1, 2, 3] and list(valve["non_coronary.rotation"]) == [0, 0, -119]
     valve.unset("rotation")
-    assert list(valve["left.rotation"]) == [0, 0, 121]
+    assert list(valve["left.rotation"]) == [0, 0, 119]
     assert "stj" not in valve and "right.stj" in valve
 
 

@@ -218,11 +218,13 @@ static void test_named_sizes(void **state) {
   scratch_write_text("p.json", by_options);
   RUN_FINE("params", "--valve", "trileaflet", "--params", scratch_path("p.json"), "--set", "leaflet_height=1.4");
   assert_true(json_number(program_out, "leaflet_height") == 1.4 && json_number(program_out, "bending_height") == 0.5);
-  scratch_write_text("p.json", "{\"stj\": 2.8, \"right\": {\"stj\": 2.6, \"leaflet_angle\": 62}}");
+  scratch_write_text("p.json",
+                     "{\"stj\": 2.8, \"right\": {\"stj\": 2.6, \"leaflet_angle\": 62}, \"left.leaflet_angle\": 57.5}");
   RUN_FINE("params", "--params", scratch_path("p.json"));
   assert_true(in_cusp(program_out, "right", "leaflet_radius_out") == 1.3);
   assert_true(in_cusp(program_out, "left", "leaflet_radius_out") == 1.4);
-  assert_non_null(strstr(program_out, "\"rotation\": [\n      0.0,\n      0.0,\n      120.5\n"));
+  assert_non_null(strstr(program_out, "\"rotation\": [\n      0.0,\n      0.0,\n      119.5\n"));
+  assert_non_null(strstr(program_out, "\"rotation\": [\n      0.0,\n      0.0,\n      -122.5\n"));
 
   /* The same names in a case file. */
   const char *const parameters[] = {"\"annulus\": 2.4", "\"annulus\": -2.4", "\"annulus\": 2.4, \"root_radius\": 1.2"};

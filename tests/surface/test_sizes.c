@@ -86,9 +86,11 @@ static int rule_value(const model *of, const char *name, double *value) {
   if (strcmp(of->kind, "aortic") == 0) {
     const int is_left = strcmp(name, "left.rotation") == 0;
     if (!is_left && strcmp(name, "non_coronary.rotation") != 0) return 0;
-    const double right = first_expected(of, "right.leaflet_angle");
-    value[2] = is_left ? right + first_expected(of, "left.leaflet_angle")
-                       : -right - first_expected(of, "non_coronary.leaflet_angle");
+    /* Round the axis, the cusps and three equal gaps take 360 degrees. */
+    const double right = first_expected(of, "right.leaflet_angle"), left = first_expected(of, "left.leaflet_angle"),
+                 non_coronary = first_expected(of, "non_coronary.leaflet_angle"),
+                 gap = (360 - 2 * right - 2 * left - 2 * non_coronary) / 3;
+    value[2] = is_left ? right + gap + left : -(right + gap + non_coronary);
     return 1;
   }
   if (strcmp(of->kind, "trileaflet") != 0) return 0;
