@@ -474,13 +474,7 @@ static void other_refusals(void **state) {
   (void)state;
   riis_valve *valve = new_valve("trileaflet"), *open = new_valve("trileaflet");
   riis_surface *surface = NULL;
-  int32_t found = 7;
   const double two[2] = {1, 1};
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve", riis_valve_unset(NULL, "opening"));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "name", riis_valve_unset(valve, NULL));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve", riis_valve_is_set(NULL, "opening", &found));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "name", riis_valve_is_set(valve, NULL, &found));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "is_set", riis_valve_is_set(valve, "opening", NULL));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "parameter 'annulus' has 1 value, not 2",
                 riis_valve_set(valve, "annulus", 2, two));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "parameter 'annulus' is nan", riis_valve_set_scalar(valve, "annulus", NAN));
