@@ -58,10 +58,11 @@ void check(const ParameterSpec &spec, std::string_view name, std::int64_t n_valu
 const ValveKind &find_valve_kind(std::string_view name) {
   if (name == "aortic") return aortic_valve_kind();
   if (name == "bileaflet") return bileaflet_valve_kind();
+  if (name == "coapting") return coapting_valve_kind();
   if (name == "mitral") return mitral_valve_kind();
   if (name == "trileaflet") return trileaflet_valve_kind();
   fail(RIIS_INVALID_PARAMETER, "'", shown(name),
-       "' is not a kind of valve; there are: aortic, bileaflet, mitral, trileaflet");
+       "' is not a kind of valve; there are: aortic, bileaflet, coapting, mitral, trileaflet");
 }
 
 Valve::Valve(const ValveKind &kind, PatchSet patches) : kind_(&kind), state_{{}, std::move(patches)} {
