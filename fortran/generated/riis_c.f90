@@ -162,6 +162,9 @@ module riis_c
     real(c_double) :: default_values(3)
     real(c_double) :: minimum
     real(c_double) :: maximum
+    type(c_ptr) :: rule        !< for riis_c_text
+    type(c_ptr) :: other_name  !< for riis_c_text
+    real(c_double) :: other_factor
   end type riis_parameter
 
   type, bind(c) :: riis_surface_options
@@ -742,6 +745,23 @@ module riis_c
       real(c_double), intent(inout) :: values(*)
       integer(riis_status) :: status
     end function riis_valve_get
+
+    function riis_valve_unset(valve, name) result(status) bind(c, name='riis_valve_unset')
+      import :: c_char, c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: valve
+      character(kind=c_char), intent(in) :: name(*)
+      integer(riis_status) :: status
+    end function riis_valve_unset
+
+    function riis_valve_is_set(valve, name, is_set) result(status) bind(c, name='riis_valve_is_set')
+      import :: c_char, c_int32_t, c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: valve
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int32_t), intent(inout) :: is_set
+      integer(riis_status) :: status
+    end function riis_valve_is_set
 
     function riis_valve_set_open_state(valve, open) result(status) bind(c, name='riis_valve_set_open_state')
       import :: c_ptr, riis_status

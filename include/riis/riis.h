@@ -172,6 +172,26 @@ RIIS_API riis_status riis_valve_set_scalar(riis_valve *valve, const char *name, 
 RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_values,
                                     double *values);
 
+/* Sizes by a surgeon's names, and sizes that follow from others (docs/theory.md, section 3). Three names stand for
+ * parameters in riis_valve_set, riis_valve_get and the two functions below. A kind without such a size refuses its
+ * name, and says why:
+ *   annulus           diameter: 2 root_radius (aortic, trileaflet), 2 radius (bileaflet)
+ *   stj               diameter at the commissures: 2 leaflet_radius_out (aortic, trileaflet)
+ *   effective_height  height of the free edges above the annulus: leaflet_height (aortic, trileaflet)
+ * Some parameters have a rule: unless they are set, they follow from other parameters at every time, so the order
+ * of calls does not matter. riis_valve_get gives their present values. A value that is set stays. Copies and open
+ * states keep the difference between set and not set. A valve whose parameters are all set has the same shape. */
+
+/* Returns a parameter to the value of a valve on which it was not set: its rule's value, or its default.
+ *   name  as in riis_valve_set
+ * Errors: RIIS_INVALID_PARAMETER for another name. */
+RIIS_API riis_status riis_valve_unset(riis_valve *valve, const char *name);
+/* Says whether a parameter was set.
+ *   name    as in riis_valve_get
+ *   is_set  1, or 0 if the parameter has its default or follows its rule
+ * Errors: RIIS_INVALID_PARAMETER, also for a name that stands for all cusps. */
+RIIS_API riis_status riis_valve_is_set(const riis_valve *valve, const char *name, int32_t *is_set);
+
 /* Gives the valve a second state: opening 0 is then the valve's own state, opening 1 that of the valve `open`.
  * Between them, control points are blended linearly (docs/theory.md, section 5); of a bileaflet valve, lengths and
  * angles are. A second call replaces the state. No call removes it. A mitral or trileaflet valve takes its closed
@@ -213,6 +233,9 @@ typedef struct riis_parameter {
   double default_values[3];/* entries beyond n_values are 0 */
   double minimum;          /* of every value, inclusive */
   double maximum;          /* of every value, inclusive */
+  const char *rule;        /* value of a parameter that was not set, such as "0.5 leaflet_height"; "": the default */
+  const char *other_name;  /* second name that riis_valve_set takes, such as "annulus"; "": none */
+  double other_factor;     /* the value by that name is this times the parameter's: 1 or 2; 0 without other_name */
 } riis_parameter;
 /* Gives the number of the valve's parameters. */
 RIIS_API riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_t *n_parameters);

@@ -45,7 +45,7 @@ static void test_structs(void **state) {
   FIELD(riis_patches, index_base, 64, 4);
   FIELD(riis_patches, reserved, 68, 4);
 
-  SIZE(riis_parameter, 72);
+  SIZE(riis_parameter, 96);
   FIELD(riis_parameter, name, 0, 8);
   FIELD(riis_parameter, unit, 8, 8);
   FIELD(riis_parameter, description, 16, 8);
@@ -53,6 +53,9 @@ static void test_structs(void **state) {
   FIELD(riis_parameter, default_values, 32, 24);
   FIELD(riis_parameter, minimum, 56, 8);
   FIELD(riis_parameter, maximum, 64, 8);
+  FIELD(riis_parameter, rule, 72, 8);
+  FIELD(riis_parameter, other_name, 80, 8);
+  FIELD(riis_parameter, other_factor, 88, 8);
 
   SIZE(riis_surface_options, 120);
   FIELD(riis_surface_options, struct_size, 0, 8);
@@ -544,6 +547,8 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_valve_set, int32_t, (riis_valve *, const char *, int64_t, const double *));
   SIGNATURE(riis_valve_set_scalar, int32_t, (riis_valve *, const char *, double));
   SIGNATURE(riis_valve_get, int32_t, (const riis_valve *, const char *, int64_t, double *));
+  SIGNATURE(riis_valve_unset, int32_t, (riis_valve *, const char *));
+  SIGNATURE(riis_valve_is_set, int32_t, (const riis_valve *, const char *, int32_t *));
   SIGNATURE(riis_valve_set_open_state, int32_t, (riis_valve *, const riis_valve *));
   SIGNATURE(riis_patches_init, int32_t, (riis_patches *, int64_t));
   SIGNATURE(riis_valve_create_from_patches, int32_t, (const riis_patches *, riis_valve **));

@@ -56,6 +56,22 @@ riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_
   });
 }
 
+riis_status riis_valve_unset(riis_valve *valve, const char *name) {
+  return guarded([&] {
+    require_handle(valve, "valve");
+    valve->valve.unset(require(name, "name"));
+  });
+}
+
+riis_status riis_valve_is_set(const riis_valve *valve, const char *name, int32_t *is_set) {
+  return guarded([&] {
+    require_handle(valve, "valve");
+    require(name, "name");
+    require(is_set, "is_set");
+    *is_set = valve->valve.is_set(name) ? 1 : 0;
+  });
+}
+
 riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open) {
   return guarded([&] { require_handle(valve, "valve")->valve.set_open_state(require_handle(open, "open")->valve); });
 }
@@ -96,7 +112,10 @@ riis_status riis_valve_get_parameter(const riis_valve *valve, int64_t parameter_
                                       spec.n_values,
                                       {defaults[0], defaults[1], defaults[2]},
                                       spec.minimum,
-                                      spec.maximum});
+                                      spec.maximum,
+                                      spec.rule.text ? spec.rule.text : "",
+                                      spec.other.name ? spec.other.name : "",
+                                      spec.other.factor});
   });
 }
 }

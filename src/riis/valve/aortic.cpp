@@ -31,6 +31,24 @@ constexpr std::size_t open_radius_ratio = n_general + n_cusps * n_of_cusp, commi
 // With these values the orifice is 3.9 cm2, and no free edge changes its length by more than 5 % (docs/theory.md, section 3).
 constexpr CuspOpening default_opening{0.75, 0.05};
 
+std::size_t position_of(std::size_t cusp, OfCusp parameter) { return n_general + cusp * n_of_cusp + parameter; }
+
+// The rules of rotations that were not set. The left and the non-coronary cusp turn until they meet the right cusp. They also
+// meet each other if the three leaflet angles have the sum 180.
+double leaflet_angle_of(const ParameterValues &values, std::size_t cusp) {
+  return values[position_of(cusp, leaflet_angle)][0];
+}
+std::array<double, 3> left_rotation(const ParameterValues &values) {
+  return {0, 0, leaflet_angle_of(values, 0) + leaflet_angle_of(values, 1)};
+}
+std::array<double, 3> non_coronary_rotation(const ParameterValues &values) {
+  return {0, 0, -(leaflet_angle_of(values, 0) + leaflet_angle_of(values, 2))};
+}
+const ParameterRule rotation_rules[n_cusps] = {
+    {nullptr, nullptr},
+    {"0, 0, right.leaflet_angle + left.leaflet_angle", left_rotation},
+    {"0, 0, -(right.leaflet_angle + non_coronary.leaflet_angle)", non_coronary_rotation}};
+
 void check_values(const ParameterValues &values);
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
 
@@ -41,8 +59,10 @@ ValveKind make_kind() {
   const char *length = "length", *degree = "degree", *number = "1";
   ValveKind kind{"aortic", {
     {"root_height", length, "height of the root; unused, because the translations place the cusps", 1, {1}, 0, longest},
-    {"root_radius", length, "radius of the root, where the cusps are attached", 1, {1.29}, shortest, longest},
-    {"leaflet_height", length, "height of the free edge above the root", 1, {1.02}, shortest, longest},
+    {"root_radius", length, "radius of the root, where the cusps are attached", 1, {1.29}, shortest, longest,
+     {}, {"annulus", 2}},
+    {"leaflet_height", length, "height of the free edge above the root", 1, {1.02}, shortest, longest,
+     {}, {"effective_height", 1}},
     {"bending_height", length, "height of the bending curve above the root", 1, {0.71}, shortest, longest},
     {"t3_leaflet", length, "end tangent of the free edge: right, left, non-coronary", 3, {0.5, 0.5, 0.65}, 0, longest},
     {"t3_bending", length, "end tangent of the bending curve: right, left, non-coronary", 3, {0.55, 0.23, 0.4}, 0, longest},
@@ -63,7 +83,7 @@ ValveKind make_kind() {
       {of + "leaflet_radius_in", length, "radius of the free edge at the symmetry plane",
        1, {value[leaflet_radius_in]}, 0, longest},
       {of + "leaflet_radius_out", length, "radius of the free edge's end, at the commissure",
-       1, {value[leaflet_radius_out]}, shortest, longest},
+       1, {value[leaflet_radius_out]}, shortest, longest, {}, {"stj", 2}},
       {of + "leaflet_angle", degree, "angle from the symmetry plane to the free edge's end", 1, {value[leaflet_angle]}, 5, 175},
       {of + "leaflet_power", number, "exponent of the free edge's profile", 1, {value[leaflet_power]}, 1, 20},
       {of + "bending_radius_in", length, "radius of the bending curve at the symmetry plane",
@@ -73,7 +93,8 @@ ValveKind make_kind() {
       {of + "bending_angle", degree, "angle from the symmetry plane to the bending curve's end",
        1, {value[bending_angle]}, 5, 175},
       {of + "bending_power", number, "exponent of the bending curve's profile", 1, {value[bending_power]}, 1, 20},
-      {of + "rotation", degree, "turns of the cusp about x, then y, then z", 3, {0, 0, value[rotation]}, -360, 360},
+      {of + "rotation", degree, "turns of the cusp about x, then y, then z", 3, {0, 0, value[rotation]}, -360, 360,
+       rotation_rules[cusp]},
       {of + "translation", length, "shift of the cusp after its rotation", 3, {0, 0, value[translation]}, -longest, longest},
     });
   }
@@ -82,8 +103,6 @@ ValveKind make_kind() {
   return kind;
 }
 // clang-format on
-
-std::size_t position_of(std::size_t cusp, OfCusp parameter) { return n_general + cusp * n_of_cusp + parameter; }
 
 CuspShape shape_of(const ParameterValues &values, std::size_t cusp) {
   const auto general = [&](General parameter, std::size_t i = 0) { return values[parameter][i]; };

@@ -31,7 +31,8 @@ ValveKind make_kind() {
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree";
   ValveKind kind{"bileaflet", {
-    {"radius", length, "inner radius of the housing, which the closed leaflets reach", 1, {1.1}, shortest, longest},
+    {"radius", length, "inner radius of the housing, which the closed leaflets reach", 1, {1.1}, shortest, longest,
+     {}, {"annulus", 2}},
     {"hinge_offset", length, "distance of each hinge line from the housing's axis", 1, {0.22}, 0, longest},
     {"hinge_height", length, "height of the hinge lines above the orifice plane", 1, {0}, -longest, longest},
     {"gap", length, "width of the slit between the closed leaflets", 1, {0}, 0, longest},
@@ -42,6 +43,10 @@ ValveKind make_kind() {
     opening_spec("0: closed, to 1: open; the leaflets turn from closed_angle to open_angle", 0),
   }, opening, true, check_values, make_patches, check_states};
   kind.housing = RIIS_LEAFLET_HOUSING;
+  kind.absent = {
+    {"stj", "its housing has one radius, and no commissures reach a sinotubular junction"},
+    {"effective_height", "only cusps have it; hinge_height and closed_angle say how far the rigid leaflets reach"},
+  };
   return kind;
 }
 // clang-format on

@@ -29,7 +29,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 ValveKind make_kind() {
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree", *number = "1";
-  return {"mitral", {
+  ValveKind kind{"mitral", {
     {"anterior_ratio", number, "share of the annulus that the anterior leaflet and its triangles take", 1, {0.41}, 0.05, 0.95},
     {"AP_diameter", length, "depth of the annulus, from the posterior to the anterior point", 1, {3.0}, shortest, longest},
     {"ALPM_diameter", length, "largest width of the annulus", 1, {4.0}, shortest, longest},
@@ -52,6 +52,12 @@ ValveKind make_kind() {
     opening_spec("0 closed to 1 open", 1),
     {"translation", length, "shift of the valve", 3, {0, 0, 1}, -longest, longest},
   }, opening_, true, check_values, make_patches, nullptr};
+  kind.absent = {
+    {"annulus", "its annulus is not round; set AP_diameter and ALPM_diameter"},
+    {"stj", "it has no sinotubular junction"},
+    {"effective_height", "only cusps have it; anterior_length and posterior_scallop_length1 and 2 say how far the leaflets reach"},
+  };
+  return kind;
 }
 // clang-format on
 

@@ -22,6 +22,15 @@ enum Parameter {
 // Half the angle of a cusp in degrees, from its symmetry plane to the end of its free edge.
 constexpr double half_angle = 60;
 
+// The rules of sizes that were not set. Cusps of other sizes cross unless these sizes follow (docs/theory.md, section 3).
+using Rule = std::array<double, 3>;
+Rule bending_height_rule(const ParameterValues &values) { return {0.5 * values[leaflet_height][0]}; }
+Rule bending_radius_in_rule(const ParameterValues &values) { return {0.32 * values[root_radius][0]}; }
+Rule bending_radius_out_rule(const ParameterValues &values) {
+  return {0.51 * (values[root_radius][0] + values[leaflet_radius_out][0])};
+}
+Rule tangent_rule(const ParameterValues &values) { return {0.2 * values[root_radius][0]}; }
+
 void check_values(const ParameterValues &values);
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
 
@@ -34,16 +43,22 @@ ValveKind make_kind() {
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree", *number = "1";
   ValveKind kind{"trileaflet", {
-    {"root_radius", length, "radius of the root, where the cusps are attached", 1, {1.25}, shortest, longest},
-    {"leaflet_radius_out", length, "radius of the commissures, and half the length of a free edge", 1, {1.25}, shortest, longest},
-    {"leaflet_height", length, "height of the free edges above the root", 1, {1.2}, shortest, longest},
-    {"bending_height", length, "height of the bending curve above the root", 1, {0.6}, shortest, longest},
-    {"bending_radius_in", length, "radius of the bending curve at the symmetry plane", 1, {0.4}, 0, longest},
-    {"bending_radius_out", length, "radius of the bending curve's end, at the sinus", 1, {1.275}, shortest, longest},
+    {"root_radius", length, "radius of the root, where the cusps are attached", 1, {1.25}, shortest, longest,
+     {}, {"annulus", 2}},
+    {"leaflet_radius_out", length, "radius of the commissures, and half the length of a free edge", 1, {1.25}, shortest, longest,
+     {}, {"stj", 2}},
+    {"leaflet_height", length, "height of the free edges above the root", 1, {1.2}, shortest, longest,
+     {}, {"effective_height", 1}},
+    {"bending_height", length, "height of the bending curve above the root", 1, {0.6}, shortest, longest,
+     {"0.5 leaflet_height", bending_height_rule}},
+    {"bending_radius_in", length, "radius of the bending curve at the symmetry plane", 1, {0.4}, 0, longest,
+     {"0.32 root_radius", bending_radius_in_rule}},
+    {"bending_radius_out", length, "radius of the bending curve's end, at the sinus", 1, {1.275}, shortest, longest,
+     {"0.51 (root_radius + leaflet_radius_out)", bending_radius_out_rule}},
     {"bending_angle", degree, "angle from the symmetry plane to the bending curve's end", 1, {35}, 5, half_angle},
     {"bending_power", number, "exponent of the bending curve's profile", 1, {1.8}, 1, 20},
-    {"t0_bending", length, "start tangent of the bending curve", 1, {0.25}, 0, longest},
-    {"t3_bending", length, "end tangent of the bending curve", 1, {0.25}, 0, longest},
+    {"t0_bending", length, "start tangent of the bending curve", 1, {0.25}, 0, longest, {"0.2 root_radius", tangent_rule}},
+    {"t3_bending", length, "end tangent of the bending curve", 1, {0.25}, 0, longest, {"0.2 root_radius", tangent_rule}},
     {"xq", number, "radial place of the symmetry curve's first inner control point", 1, {-0.22}, -10, 10},
     {"zq", number, "vertical place of the symmetry curve's first inner control point", 1, {-0.35}, -10, 10},
     {"translation", length, "shift of the valve", 3, {0, 0, -1.2}, -longest, longest},

@@ -167,15 +167,25 @@ PatchSet patches_from_arrays(const riis_patches &arrays) {
   return set;
 }
 
+namespace {
+
+ValveKind make_kind() {
+  ValveKind kind{"patches",
+                 {opening_spec("0: this state, to 1: the open state; it stays 0 without riis_valve_set_open_state", 0)},
+                 0,
+                 false,
+                 nullptr,
+                 make_patches,
+                 check_states};
+  for (const char *name : {"annulus", "stj", "effective_height"})
+    kind.absent.push_back({name, "the control points of its curves are its sizes"});
+  return kind;
+}
+
+}  // namespace
+
 const ValveKind &patches_valve_kind() {
-  static const ValveKind &kind = *new ValveKind{
-      "patches",
-      {opening_spec("0: this state, to 1: the open state; it stays 0 without riis_valve_set_open_state", 0)},
-      0,
-      false,
-      nullptr,
-      make_patches,
-      check_states};
+  static const ValveKind &kind = *new ValveKind(make_kind());
   return kind;
 }
 

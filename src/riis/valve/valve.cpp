@@ -24,11 +24,15 @@ std::string_view nearest_parameter(const ValveKind &kind, std::string_view name)
   for (const ParameterSpec &spec : kind.parameters) {
     const std::string_view full = spec.name;
     nearest.consider(names_leaflet ? full : full.substr(full.find('.') + 1));
+    if (spec.other.name && !names_leaflet) nearest.consider(spec.other.name);
   }
   return nearest.nearest();
 }
 
 [[noreturn]] void fail_unknown(const ValveKind &kind, std::string_view name) {
+  for (const AbsentName &absent : kind.absent)
+    if (name == absent.name)
+      fail(RIIS_INVALID_PARAMETER, "'", name, "' is not a parameter of the ", kind.name, " valve: ", absent.reason);
   const std::string_view nearest = nearest_parameter(kind, name);
   const bool is_near = !nearest.empty();
   fail(RIIS_INVALID_PARAMETER, "'", shown(name), "' is not a parameter of the ", kind.name, " valve; ",
@@ -36,21 +40,58 @@ std::string_view nearest_parameter(const ValveKind &kind, std::string_view name)
        "riis_valve_get_parameter and riis params list them");
 }
 
-// Returns whether the spec's name consists of a leaflet's name, a dot, and the given name.
-bool is_of_a_leaflet(const ParameterSpec &spec, std::string_view name) {
-  const std::string_view full = spec.name;
-  return full.size() > name.size() + 1 && full.substr(full.size() - name.size()) == name &&
-         full[full.size() - name.size() - 1] == '.';
+// Returns the part of a name behind the leaflet's name.
+std::string_view without_leaflet(std::string_view name) {
+  const std::size_t dot = name.rfind('.');
+  return dot == std::string_view::npos ? name : name.substr(dot + 1);
 }
 
-void check(const ParameterSpec &spec, std::string_view name, std::int64_t n_values, const double *values) {
+bool is_of_a_leaflet(const ParameterSpec &spec) { return spec.name.find('.') != std::string::npos; }
+
+// Says how a name names a parameter, if it does.
+struct Naming {
+  bool names_it = false;
+  bool is_whole = false;  // it names no other parameter
+  double factor = 1;      // from the parameter's value to the value under that name
+};
+
+Naming naming(const ParameterSpec &spec, std::string_view name) {
+  const std::string_view full = spec.name, base = without_leaflet(full);
+  const std::string_view leaflet = full.substr(0, full.size() - base.size());  // with its dot
+  const auto names = [&](std::string_view own, double factor) -> Naming {
+    if (name == own) return {true, leaflet.empty(), factor};
+    const bool is_whole = !leaflet.empty() && name.size() == leaflet.size() + own.size() &&
+                          name.substr(0, leaflet.size()) == leaflet && name.substr(leaflet.size()) == own;
+    return {is_whole, is_whole, factor};
+  };
+  const Naming by_own = names(base, 1);
+  return by_own.names_it || !spec.other.name ? by_own : names(spec.other.name, spec.other.factor);
+}
+
+void check_n_values(const ParameterSpec &spec, std::string_view name, std::int64_t n_values) {
   if (n_values != spec.n_values)
     fail(RIIS_INVALID_PARAMETER, "parameter '", shown(name), "' has ", spec.n_values, " value",
          spec.n_values == 1 ? "" : "s", ", not ", n_values);
-  for (int i = 0; i < spec.n_values; ++i)
-    if (!(values[i] >= spec.minimum && values[i] <= spec.maximum))
-      fail(RIIS_INVALID_PARAMETER, "parameter '", shown(name), "' is ", values[i], "; it must be from ", spec.minimum,
-           " to ", spec.maximum);
+}
+
+void check_range(const ParameterSpec &spec, std::string_view name, double factor, double value) {
+  if (!(value >= factor * spec.minimum && value <= factor * spec.maximum))
+    fail(RIIS_INVALID_PARAMETER, "parameter '", shown(name), "' is ", value, "; it must be from ",
+         factor * spec.minimum, " to ", factor * spec.maximum);
+}
+
+// A rule may give a value outside the parameter's range if the values that it takes are near the ends of theirs.
+void check_derived(const ValveKind &kind, const ValveState &state) {
+  for (std::size_t i = 0; i < kind.parameters.size(); ++i) {
+    const ParameterSpec &spec = kind.parameters[i];
+    if (!spec.rule.text || state.is_set[i]) continue;
+    for (int k = 0; k < spec.n_values; ++k) {
+      const double value = view(state.values[i])[k];
+      if (!(value >= spec.minimum && value <= spec.maximum))
+        fail(RIIS_INVALID_PARAMETER, spec.name, " was not set and is ", spec.rule.text, ", which is ", value,
+             "; it must be from ", spec.minimum, " to ", spec.maximum);
+    }
+  }
 }
 
 }  // namespace
@@ -65,37 +106,74 @@ const ValveKind &find_valve_kind(std::string_view name) {
        "' is not a kind of valve; there are: aortic, bileaflet, coapting, mitral, trileaflet");
 }
 
-Valve::Valve(const ValveKind &kind, PatchSet patches) : kind_(&kind), state_{{}, std::move(patches)} {
+Valve::Valve(const ValveKind &kind, PatchSet patches) : kind_(&kind), state_{{}, std::move(patches), {}} {
   state_.values.reserve(kind.parameters.size());
   for (const ParameterSpec &spec : kind.parameters) state_.values.push_back(spec.default_values);
+  state_.is_set.assign(kind.parameters.size(), 0);
 }
 
 void Valve::set(std::string_view name, std::int64_t n_values, const double *new_values) {
   const auto &specs = kind_->parameters;
-  const auto named = [&](const ParameterSpec &spec) { return spec.name == name || is_of_a_leaflet(spec, name); };
-  if (std::none_of(specs.begin(), specs.end(), named)) fail_unknown(*kind_, name);
-  for (const ParameterSpec &spec : specs)
-    if (named(spec)) check(spec, name, n_values, new_values);
+  bool names_any = false;
+  for (const ParameterSpec &spec : specs) {
+    const Naming named = naming(spec, name);
+    if (!named.names_it) continue;
+    names_any = true;
+    check_n_values(spec, name, n_values);
+    for (int k = 0; k < spec.n_values; ++k) check_range(spec, name, named.factor, new_values[k]);
+  }
+  if (!names_any) fail_unknown(*kind_, name);
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    const Naming named = naming(specs[i], name);
+    if (!named.names_it) continue;
+    for (int k = 0; k < specs[i].n_values; ++k) view(state_.values[i])[k] = new_values[k] / named.factor;
+    state_.is_set[i] = 1;
+  }
+  derive();
+}
+
+void Valve::unset(std::string_view name) {
+  const auto &specs = kind_->parameters;
+  bool names_any = false;
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    if (!naming(specs[i], name).names_it) continue;
+    names_any = true;
+    state_.values[i] = specs[i].default_values;
+    state_.is_set[i] = 0;
+  }
+  if (!names_any) fail_unknown(*kind_, name);
+  derive();
+}
+
+void Valve::derive() {
+  for (std::size_t i = 0; i < kind_->parameters.size(); ++i) {
+    const ParameterRule &rule = kind_->parameters[i].rule;
+    if (rule.value && !state_.is_set[i]) state_.values[i] = rule.value(state_.values);
+  }
+}
+
+std::size_t Valve::position_of(std::string_view name) const {
+  const auto &specs = kind_->parameters;
   for (std::size_t i = 0; i < specs.size(); ++i)
-    if (named(specs[i])) std::copy_n(new_values, n_values, state_.values[i].begin());
+    if (naming(specs[i], name).is_whole) return i;
+  for (const ParameterSpec &spec : specs)
+    if (is_of_a_leaflet(spec) && naming(spec, name).names_it) {
+      const std::string leaflet = spec.name.substr(0, spec.name.size() - without_leaflet(spec.name).size());
+      fail(RIIS_INVALID_PARAMETER, "parameter '", name, "' exists for each leaflet separately: name one, as in '",
+           leaflet, name, "'");
+    }
+  fail_unknown(*kind_, name);
 }
 
 void Valve::get(std::string_view name, std::int64_t n_values, double *out) const {
-  const auto &specs = kind_->parameters;
-  for (std::size_t i = 0; i < specs.size(); ++i) {
-    if (specs[i].name != name) continue;
-    if (n_values != specs[i].n_values)
-      fail(RIIS_INVALID_PARAMETER, "parameter '", specs[i].name, "' has ", specs[i].n_values, " value",
-           specs[i].n_values == 1 ? "" : "s", ", not ", n_values);
-    std::copy_n(state_.values[i].begin(), n_values, out);
-    return;
-  }
-  for (const ParameterSpec &spec : specs)
-    if (is_of_a_leaflet(spec, name))
-      fail(RIIS_INVALID_PARAMETER, "parameter '", spec.name.c_str() + (spec.name.size() - name.size()),
-           "' exists for each leaflet separately: name one, as in '", spec.name, "'");
-  fail_unknown(*kind_, name);
+  const std::size_t position = position_of(name);
+  const ParameterSpec &spec = kind_->parameters[position];
+  check_n_values(spec, name, n_values);
+  const double factor = naming(spec, name).factor;
+  for (int k = 0; k < spec.n_values; ++k) out[k] = factor * view(state_.values[position])[k];
 }
+
+bool Valve::is_set(std::string_view name) const { return state_.is_set[position_of(name)] != 0; }
 
 void Valve::set_open_state(const Valve &open) {
   if (open.kind_ != kind_)
@@ -113,7 +191,7 @@ Valve::Disc Valve::disc() const {
     const std::string_view name = kind_->parameters[i].name;
     const std::array<double, 3> &value = state_.values[i];
     if (name == "root_radius" || name == "radius") disc.radius = value[0];
-    if (name != shift && !is_of_a_leaflet(kind_->parameters[i], shift)) continue;
+    if (without_leaflet(name) != shift) continue;
     ++n_shifts;
     disc.x += (value[0] - disc.x) / n_shifts;
     disc.y += (value[1] - disc.y) / n_shifts;
@@ -211,6 +289,7 @@ PatchSet Valve::make_patches() const {
   if (opening() != 0 && !can_open())
     fail(RIIS_INVALID_PARAMETER, "opening is ", opening(), ", but the ", kind_->name,
          " valve has only one state: set its open state with riis_valve_set_open_state");
+  check_derived(*kind_, state_);
   if (kind_->check_values) {
     kind_->check_values(state_.values);
     if (open_) check_open_values();
@@ -232,6 +311,7 @@ PatchSet Valve::make_patches_before(const Valve &before) const {
 
 void Valve::check_open_values() const {
   try {
+    check_derived(*kind_, *open_);
     kind_->check_values(open_->values);
   } catch (const Error &error) {
     fail(error.status, "in the open state: ", error.message.text());

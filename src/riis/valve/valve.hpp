@@ -15,6 +15,22 @@
 
 namespace riis {
 
+using ParameterValues = Vector<std::array<double, 3>>;  // one entry for each spec
+
+// The value of a parameter that was not set, from other parameters' values. These come earlier in the list of parameters, so
+// they are known already.
+struct ParameterRule {
+  const char *text;  // such as "0.5 leaflet_height"
+  std::array<double, 3> (*value)(const ParameterValues &values);
+};
+
+// A second name for a parameter, under which the value is a multiple of the parameter's. The factor is a power of 2, so no value
+// is rounded.
+struct OtherName {
+  const char *name;
+  double factor;
+};
+
 struct ParameterSpec {
   std::string name;  // "root_radius", or "right.leaflet_angle" for a parameter of one leaflet
   const char *unit;
@@ -22,14 +38,20 @@ struct ParameterSpec {
   int n_values;  // 1 or 3
   std::array<double, 3> default_values;
   double minimum, maximum;
+  ParameterRule rule = {nullptr, nullptr};  // for the default values it gives the default value to the last bit
+  OtherName other = {nullptr, 0};           // without the leaflet's name
 };
 
-using ParameterValues = Vector<std::array<double, 3>>;  // one entry for each spec
+// A name that a user may expect, and why the kind has no parameter of this name.
+struct AbsentName {
+  const char *name, *reason;
+};
 
 // A state of a valve: its parameters or, for valves given by patches, its patches.
 struct ValveState {
   ParameterValues values;
   PatchSet patches;
+  Vector<char> is_set;  // for each value 1 if the caller set it, or 0 if it is the default or follows from a rule
 };
 
 // A kind of valve: its parameters, and the functions that make patches from them.
@@ -51,6 +73,7 @@ struct ValveKind {
   bool has_exact_contacts = false;
   // The leaflet_id of a wall that hinges reach into, or -1.
   std::int32_t housing = -1;
+  Vector<AbsentName> absent = {};
 };
 
 // The kinds of valves that are defined by parameters. Each is in a file of its name.
@@ -74,6 +97,9 @@ class Valve {
   // A name without a leaflet sets the parameter of that name for every leaflet that has one.
   void set(std::string_view name, std::int64_t n_values, const double *new_values);
   void get(std::string_view name, std::int64_t n_values, double *out) const;
+  // Returns a parameter to its default or to its rule.
+  void unset(std::string_view name);
+  bool is_set(std::string_view name) const;
 
   // Uses the other valve's own state as the open state. The other valve must be of the same kind.
   void set_open_state(const Valve &open);
@@ -105,6 +131,9 @@ class Valve {
   PatchSet make_patches_before(const Valve &before) const;
 
  private:
+  // Returns the position of the one parameter of that name.
+  std::size_t position_of(std::string_view name) const;
+  void derive();
   void check_open_values() const;
 
   const ValveKind *kind_;
