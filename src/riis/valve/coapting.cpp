@@ -30,13 +30,28 @@ constexpr double cosine_60 = 0.5;
 // The distance of the inner control points from the ends of a cubic that is like an arc of 60 degrees of a circle, in radii.
 const double arc_reach = 4.0 / 3.0 * (2 - std::sqrt(3.0));  // 4/3 tan 15 degrees
 // The open free edge: how far the inner control point by the commissure hangs, as a share of the middle.
-constexpr double open_sag = 0.55;
+constexpr double open_sag = 1.0 / 3;
 // The open free edge must be shorter than this share of the closed one when it does not hang.
 constexpr double most_of_edge = 0.998;
 // The free edge must stay this high above the root while the valve opens, times root_radius.
 constexpr double least_height = 0.05;
+// The cusps of every set of values are checked for folds at these openings, because folds arise in the second half of the motion.
+constexpr std::array<double, 4> openings_of_folds{0.6, 0.75, 0.9, 1};
+// The leaflet must rise at the root by this share of the rise of a leaflet without sag.
+constexpr double least_rise = 0.05;
 // The rates of the control points are differences over this step of the opening. They only determine where vertices are dense.
 constexpr double rate_step = 1e-4;
+
+// The rules of sizes that were not set.
+using Rule = std::array<double, 3>;
+Rule commissure_radius_rule(const ParameterValues &values) { return {values[root_radius][0]}; }
+Rule commissure_height_rule(const ParameterValues &values) { return {1.4 * values[commissure_radius][0]}; }
+// The line from the middle of a free edge to the commissure rises by 34 degrees, whose tangent is 0.6745.
+Rule effective_height_rule(const ParameterValues &values) {
+  return {values[commissure_height][0] - 0.6745 * values[commissure_radius][0]};
+}
+Rule coaptation_height_rule(const ParameterValues &values) { return {0.3 * values[commissure_radius][0]}; }
+Rule gap_rule(const ParameterValues &values) { return {0.016 * values[commissure_radius][0]}; }
 
 void check_values(const ParameterValues &values);
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
@@ -47,12 +62,17 @@ ValveKind make_kind() {
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree", *number = "1";
   ValveKind kind{"coapting", {
-    {"root_radius", length, "radius of the root, where the cusps begin", 1, {1.25}, shortest, longest},
-    {"commissure_radius", length, "radius of the commissures", 1, {1.25}, shortest, longest},
-    {"commissure_height", length, "height of the commissures above the root", 1, {1.75}, shortest, longest},
-    {"effective_height", length, "height of the middle of the closed free edges above the root", 1, {0.907}, shortest, longest},
-    {"coaptation_height", length, "height of the coaptation zone in the middle of the closed valve", 1, {0.375}, shortest, longest},
-    {"gap", length, "distance between closed cusps in the coaptation zone", 1, {0.02}, shortest, longest},
+    {"root_radius", length, "radius of the root, where the cusps begin", 1, {1.25}, shortest, longest, {}, {"annulus", 2}},
+    {"commissure_radius", length, "radius of the commissures", 1, {1.25}, shortest, longest,
+     {"root_radius", commissure_radius_rule}, {"stj", 2}},
+    {"commissure_height", length, "height of the commissures above the root", 1, {1.75}, shortest, longest,
+     {"1.4 commissure_radius", commissure_height_rule}},
+    {"effective_height", length, "height of the middle of the closed free edges above the root", 1, {1.75 - 0.6745 * 1.25}, shortest,
+     longest, {"commissure_height - 0.6745 commissure_radius", effective_height_rule}},
+    {"coaptation_height", length, "height of the coaptation zone in the middle of the closed valve", 1, {0.3 * 1.25}, shortest, longest,
+     {"0.3 commissure_radius", coaptation_height_rule}},
+    {"gap", length, "distance between closed cusps in the coaptation zone", 1, {0.016 * 1.25}, shortest, longest,
+     {"0.016 commissure_radius", gap_rule}},
     {"bottom_angle", degree, "angle of the closed cusp to the root's plane, at the root", 1, {20}, 0, 80},
     {"belly", number, "start tangent of the closed symmetry curve, at most, times root_radius", 1, {0.5}, 0.05, 0.8},
     {"edge_rise", number, "closed free edge: rise of the inner control point by the commissure, times that of the whole edge",
@@ -87,24 +107,27 @@ struct Frame {
   double band_start;  // height from the second inner control point to the coaptation line, as the same share
 };
 
+// Blends two frames. The leaflet becomes upright at the root, and flatter beside the commissure, early in the motion. Otherwise
+// it would fold beside the attachment.
 Frame blend(const Frame &a, const Frame &b, double opening) {
+  const double early = opening * (2 - opening);
   const auto mixed = [&](double from, double to) { return riis::blend(from, to, opening); };
-  const auto all = [&](const std::array<double, 4> &from, const std::array<double, 4> &to) {
+  const auto all = [](const std::array<double, 4> &from, const std::array<double, 4> &to, double share) {
     std::array<double, 4> made{};
-    for (std::size_t i = 0; i < made.size(); ++i) view(made)[i] = mixed(view(from)[i], view(to)[i]);
+    for (std::size_t i = 0; i < made.size(); ++i) view(made)[i] = riis::blend(view(from)[i], view(to)[i], share);
     return made;
   };
   return {mixed(a.root_radius, b.root_radius),
           riis::blend(a.commissure, b.commissure, opening),
           mixed(a.attachment_width, b.attachment_width),
           mixed(a.attachment_drop, b.attachment_drop),
-          all(a.edge_x, b.edge_x),
-          all(a.edge_y, b.edge_y),
-          all(a.sag, b.sag),
+          all(a.edge_x, b.edge_x, opening),
+          all(a.edge_y, b.edge_y, opening),
+          all(a.sag, b.sag, early),
           mixed(a.edge_length, b.edge_length),
           mixed(a.band, b.band),
           mixed(a.band_lean, b.band_lean),
-          mixed(a.belly_x, b.belly_x),
+          riis::blend(a.belly_x, b.belly_x, early),
           mixed(a.belly_rise, b.belly_rise),
           mixed(a.band_start, b.band_start)};
 }
@@ -180,16 +203,15 @@ Frame closed_frame(const ParameterValues &values) {
   const auto [sine, cosine] = sine_cosine_degrees(value(bottom_angle));
   // The tangent is shorter if it would otherwise reach above half the height of the coaptation line.
   const double tangent = std::min(value(belly) * R, sine > 0 ? 0.5 * z_k / sine : value(belly) * R);
-  // The edge lies beside the plane between two cusps, half the gap away from it, and ends in the commissure.
-  const double across = 0.5 * value(gap);
-  const auto x = [&](double r) { return cosine_60 * r + sine_60 * across; };
-  const auto y = [&](double r) { return sine_60 * r - cosine_60 * across; };
+  // The edge lies in the vertical plane from the commissure to a point that is half the gap away from the plane between two cusps.
+  const double x_in = 0.5 * value(gap) / sine_60;
+  const auto x = [&](double share) { return (1 - share) * x_in + share * cosine_60 * Rc; };
   Frame frame{R,
               {cosine_60 * Rc, sine_60 * Rc, h},
               value(attachment_width) * R,
               value(attachment_drop) * h,
-              {across / sine_60, x(Rc / 3), x(2 * Rc / 3), cosine_60 * Rc},
-              {0, y(Rc / 3), y(2 * Rc / 3), sine_60 * Rc},
+              {x_in, x(1.0 / 3), x(2.0 / 3), cosine_60 * Rc},
+              {0, sine_60 * Rc / 3, sine_60 * Rc * 2 / 3, sine_60 * Rc},
               {1, 1, 1 - value(edge_rise), 0},
               0,
               value(coaptation_height) / h_e,
@@ -269,9 +291,11 @@ HalfCusp half_cusp(const Frame &frame) {
   half.symmetry_below = symmetry_curve(frame, middle, half.leaflet.first() - middle);
   half.symmetry_above = Bezier::line(middle, half.leaflet.first());
   const double R = frame.root_radius;
-  half.sinus_below = Bezier::cubic({R, 0, 0}, {R, frame.attachment_width, 0}, top - Vec3{0, 0, frame.attachment_drop}, top);
+  half.sinus_below =
+      Bezier::cubic({R, 0, 0}, {R, frame.attachment_width, 0}, top - Vec3{0, 0, frame.attachment_drop}, top);
   half.sinus_above = Bezier::point(top);
-  half.bending = coaptation_line(half.leaflet, middle, arc_length(half.symmetry_below), {0, 0, arc_length(half.sinus_below)});
+  half.bending =
+      coaptation_line(half.leaflet, middle, arc_length(half.symmetry_below), {0, 0, arc_length(half.sinus_below)});
   return half;
 }
 
@@ -279,9 +303,25 @@ HalfCusp half_cusp(const Frame &frame) {
 HalfCusp rate_at(const Frame &closed, const Frame &open, double at) {
   const double from = std::max(at - rate_step, 0.0), to = std::min(at + rate_step, 1.0);
   HalfCusp made = rate(half_cusp(blend(closed, open, from)), half_cusp(blend(closed, open, to)));
-  for (Bezier *curve : {&made.leaflet, &made.bending, &made.sinus_below, &made.sinus_above, &made.symmetry_below, &made.symmetry_above})
+  for (Bezier *curve :
+       {&made.leaflet, &made.bending, &made.sinus_below, &made.sinus_above, &made.symmetry_below, &made.symmetry_above})
     for (Vec3 &q : curve->control) q = (1 / (to - from)) * q;
   return made;
+}
+
+// Returns the least rise of the leaflet at the root, as a share of the length of its symmetry curve. At the root the lower patch
+// has the tangent K - c + (1 - u) Y + u A, with the coaptation line K, its chord c, and the tangents Y and A there. The rise is
+// this tangent's height divided by 1 - u. If it is negative somewhere, then the leaflet dips below its attachment and folds.
+double rise_at_root(const HalfCusp &half) {
+  const Bezier &line = half.bending, &symmetry = half.symmetry_below;
+  const Vec3 start = symmetry.control[1] - symmetry.control[0];
+  const double of_symmetry = start.z / length(start), symmetry_length = arc_length(symmetry);
+  double least = of_symmetry;
+  for (const double u : {0.5, 0.6, 0.7, 0.8, 0.9, 0.95}) {
+    const double sag = mix(line.first(), line.last(), u).z - evaluate(line, u).z;
+    least = std::min(least, of_symmetry - sag / ((1 - u) * symmetry_length));
+  }
+  return least;
 }
 
 // Checks both states, because one set of values defines both.
@@ -298,25 +338,28 @@ void check_values(const ParameterValues &values) {
   check(coaptation_height, effective_height, 0.02, 0.9);
   check(gap, commissure_radius, 0.002, 0.2);
   check(translation, root_radius, 0, 100);
-  const Frame open = open_frame(values);
+  const Frame closed = closed_frame(values), open = open_frame(values);
   const double least_length = EdgeLength(open).at(0).length;
   if (!(least_length <= most_of_edge * open.edge_length))
-    fail(RIIS_INVALID_PARAMETER, "half an open free edge is at least ", least_length, " long, but a closed one has ", open.edge_length,
+    fail(RIIS_INVALID_PARAMETER, "half an open free edge is at least ", least_length, " long, but a closed one has ",
+         open.edge_length,
          ", which is too short to open so far: look at effective_height, commissure_height, open_radius_ratio, "
          "commissure_expansion");
   // The edge's middle is at least as far from a commissure as the symmetry plane is. So it never hangs deeper than this.
   const double away = sine_60 * values[commissure_radius][0];
   const double low = values[commissure_height][0] - std::sqrt(open.edge_length * open.edge_length - away * away);
   if (!(low >= least_height * values[root_radius][0]))
-    fail(RIIS_INVALID_PARAMETER, "half a free edge is ", open.edge_length, " long and may hang down to the height ", low,
-         " above the root while the valve opens; it must stay at least ", least_height, " times root_radius, which is ",
-         values[root_radius][0], ", above the root: look at commissure_height, effective_height");
+    fail(RIIS_INVALID_PARAMETER, "half a free edge is ", open.edge_length, " long and may hang down to the height ",
+         low, " above the root while the valve opens; it must stay at least ", least_height,
+         " times root_radius, which is ", values[root_radius][0],
+         ", above the root: look at commissure_height, effective_height");
 }
 
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening) {
   const Frame from = closed_frame(closed.values), to = open_frame(open.values);
   const auto &shift_from = closed.values[translation], &shift_to = open.values[translation];
-  const Vec3 shift = riis::blend(Vec3{shift_from[0], shift_from[1], shift_from[2]}, Vec3{shift_to[0], shift_to[1], shift_to[2]}, opening);
+  const Vec3 shift = riis::blend(Vec3{shift_from[0], shift_from[1], shift_from[2]},
+                                 Vec3{shift_to[0], shift_to[1], shift_to[2]}, opening);
   PatchSet set;
   add_cusps(set, half_cusp(blend(from, to, opening)), rate_at(from, to, opening), equal_places(shift));
   // The cusps meet only at the commissures, where the side u1 of the top patch is one point.

@@ -64,9 +64,7 @@ struct Seam {
   std::size_t patch, image, twin;
   Points points;
 
-  bool has(double u, double v) const {
-    return points == side_v1 ? v == 1 : u == 1 && (points == side_u1 || v == 1);
-  }
+  bool has(double u, double v) const { return points == side_v1 ? v == 1 : u == 1 && (points == side_u1 || v == 1); }
 };
 
 struct PatchSet {
