@@ -353,6 +353,11 @@ void check_values(const ParameterValues &values) {
          low, " above the root while the valve opens; it must stay at least ", least_height,
          " times root_radius, which is ", values[root_radius][0],
          ", above the root: look at commissure_height, effective_height");
+  for (const double opening : openings_of_folds)
+    if (!(rise_at_root(half_cusp(blend(closed, open, opening))) >= least_rise))
+      fail(RIIS_INVALID_PARAMETER, "a cusp would fold beside its attachment at opening ", opening,
+           ", because its free edge hangs deep beside its height: effective_height is ", values[effective_height][0],
+           ", commissure_height ", values[commissure_height][0], ", commissure_radius ", values[commissure_radius][0]);
 }
 
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening) {
