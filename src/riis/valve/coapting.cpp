@@ -316,9 +316,16 @@ double rise_at_root(const HalfCusp &half) {
   const Bezier &line = half.bending, &symmetry = half.symmetry_below;
   const Vec3 start = symmetry.control[1] - symmetry.control[0];
   const double of_symmetry = start.z / length(start), symmetry_length = arc_length(symmetry);
+  static constexpr std::array<double, 5> shares{0.5, 0.6, 0.7, 0.8, 0.9};
+  const double line_length = arc_length(line);
+  Vector<double> behind;
+  for (const double u : shares) behind.push_back(u * line_length);
+  std::array<double, shares.size()> t{};
+  parameters_at_lengths(line, line_length, behind, t.data());
   double least = of_symmetry;
-  for (const double u : {0.5, 0.6, 0.7, 0.8, 0.9, 0.95}) {
-    const double sag = mix(line.first(), line.last(), u).z - evaluate(line, u).z;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double u = view(shares)[i];
+    const double sag = mix(line.first(), line.last(), u).z - evaluate(line, view(t)[i]).z;
     least = std::min(least, of_symmetry - sag / ((1 - u) * symmetry_length));
   }
   return least;
