@@ -133,7 +133,7 @@ def test_cusps_have_parameters_of_their_own():
     assert (valve["right.leaflet_angle"], valve["left.leaflet_angle"]) == (30.0, 20.0)
 
 
-@pytest.mark.parametrize("kind", ["aortic", "mitral", "trileaflet", "bileaflet"])
+@pytest.mark.parametrize("kind", ["aortic", "mitral", "coapting", "trileaflet", "bileaflet"])
 def test_parameters_describe_the_defaults(kind):
     valve = riis.Valve(kind)
     assert len(valve.parameters) == len(valve)

@@ -48,7 +48,8 @@ Rule commissure_radius_rule(const ParameterValues &values) { return {values[root
 Rule commissure_height_rule(const ParameterValues &values) { return {1.4 * values[commissure_radius][0]}; }
 // The line from the middle of a free edge to the commissure rises by 34 degrees, whose tangent is 0.6745.
 Rule effective_height_rule(const ParameterValues &values) {
-  return {values[commissure_height][0] - 0.6745 * values[commissure_radius][0]};
+  const double h = values[commissure_height][0];
+  return {std::max(h - 0.6745 * values[commissure_radius][0], 0.3 * h)};
 }
 Rule coaptation_height_rule(const ParameterValues &values) { return {0.3 * values[commissure_radius][0]}; }
 Rule gap_rule(const ParameterValues &values) { return {0.016 * values[commissure_radius][0]}; }
@@ -68,7 +69,7 @@ ValveKind make_kind() {
     {"commissure_height", length, "height of the commissures above the root", 1, {1.75}, shortest, longest,
      {"1.4 commissure_radius", commissure_height_rule}},
     {"effective_height", length, "height of the middle of the closed free edges above the root", 1, {1.75 - 0.6745 * 1.25}, shortest,
-     longest, {"commissure_height - 0.6745 commissure_radius", effective_height_rule}},
+     longest, {"commissure_height - 0.6745 commissure_radius, at least 0.3 commissure_height", effective_height_rule}},
     {"coaptation_height", length, "height of the coaptation zone in the middle of the closed valve", 1, {0.3 * 1.25}, shortest, longest,
      {"0.3 commissure_radius", coaptation_height_rule}},
     {"gap", length, "distance between closed cusps in the coaptation zone", 1, {0.016 * 1.25}, shortest, longest,
