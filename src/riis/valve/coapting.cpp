@@ -364,8 +364,9 @@ void check_values(const ParameterValues &values) {
   for (const double opening : openings_of_folds)
     if (!(rise_at_root(half_cusp(blend(closed, open, opening))) >= least_rise))
       fail(RIIS_INVALID_PARAMETER, "a cusp would fold beside its attachment at opening ", opening,
-           ", because its free edge hangs deep beside its height: effective_height is ", values[effective_height][0],
-           ", commissure_height ", values[commissure_height][0], ", commissure_radius ", values[commissure_radius][0]);
+           ", because its free edge hangs deep beside its height: edge_rise is ", values[edge_rise][0],
+           ", effective_height ", values[effective_height][0], ", commissure_height ", values[commissure_height][0],
+           "; higher values help");
 }
 
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening) {
