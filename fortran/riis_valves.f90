@@ -17,6 +17,9 @@ module riis_valves
     real(c_double), allocatable :: default_values(:) !< The paper's values, 1 or 3.
     real(c_double) :: minimum = 0                    !< The least allowed value, for each value.
     real(c_double) :: maximum = 0                    !< The greatest allowed value, for each value.
+    character(len=:), allocatable :: rule            !< The value if it is not set, such as '0.5 leaflet_height'. '': the default.
+    character(len=:), allocatable :: other_name      !< A second name for riis_valve%set, such as 'annulus'. '': none.
+    real(c_double) :: other_factor = 0               !< The value by other_name is this times the parameter's: 1, 2, or 0 if none.
   end type riis_parameter_info
 
   !> A parametric valve: its kind and its parameters' values. It is empty before %create or %create_from_patches and after
@@ -30,6 +33,8 @@ module riis_valves
     procedure, non_overridable :: copy => valve_copy                    !< Makes a copy of the valve.
     generic :: set => set_scalar, set_vector                            !< Sets a parameter's value or values.
     generic :: get => get_scalar, get_vector                            !< Gets a parameter's value or values.
+    procedure, non_overridable :: unset => valve_unset                  !< Returns a parameter to its rule or default.
+    procedure, non_overridable :: is_set => valve_is_set                !< Returns whether a parameter was set.
     procedure, non_overridable :: set_open_state => valve_set_open_state !< Gives the valve an open state.
     procedure, non_overridable :: n_parameters => valve_n_parameters    !< Returns the number of parameters.
     generic :: parameter => parameter_int32, parameter_int64            !< Describes a parameter.
@@ -186,9 +191,9 @@ contains
     end do
   end function check_fits
 
-  !> Sets a parameter with one value. A cusp's parameter without a cusp's name ('leaflet_angle') sets all three cusps. Every valve
-  !! has the parameter 'opening', from 0 to 1. Errors: RIIS_INVALID_PARAMETER naming the parameter and the value; the valve is
-  !! then unchanged.
+  !> Sets a parameter with one value. A cusp's parameter without a cusp's name ('leaflet_angle') sets all three cusps. The names
+  !! 'annulus', 'stj' and 'effective_height' set sizes. Every valve has the parameter 'opening', from 0 to 1. Errors:
+  !! RIIS_INVALID_PARAMETER naming the parameter and the value; the valve is then unchanged.
   subroutine valve_set_scalar(this, name, value, status)
     class(riis_valve), intent(inout) :: this                !< Must be created.
     character(len=*), intent(in) :: name                    !< Trailing blanks do not matter.
@@ -248,6 +253,38 @@ contains
     call finish(code, status)
   end subroutine valve_get_vector
 
+  !> Returns a parameter to the value of a valve on which it was not set: its rule's value, or its default. Errors:
+  !! RIIS_INVALID_PARAMETER for another name; the valve is then unchanged.
+  subroutine valve_unset(this, name, status)
+    class(riis_valve), intent(inout) :: this                !< Must be created.
+    character(len=*), intent(in) :: name                    !< As in %set. Trailing blanks do not matter.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    integer(riis_status) :: code
+    character(len=len_trim(name) + 1, kind=c_char) :: c_name
+    call end_for_c(name, c_name)
+    code = check_created(this%handle, 'the valve')
+    if (code == RIIS_OK) code = riis_valve_unset(this%handle, c_name)
+    call finish(code, status)
+  end subroutine valve_unset
+
+  !> Returns whether a parameter was set. .false.: it has its default or follows its rule, or there was an error. A name that
+  !! stands for all three cusps cannot be used.
+  function valve_is_set(this, name, status) result(is_set)
+    class(riis_valve), intent(in) :: this                   !< Must be created.
+    character(len=*), intent(in) :: name                    !< As in %get. Trailing blanks do not matter.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    logical :: is_set                                       !< .true. if it was set.
+    integer(riis_status) :: code
+    integer(int32) :: found
+    character(len=len_trim(name) + 1, kind=c_char) :: c_name
+    found = 0
+    call end_for_c(name, c_name)
+    code = check_created(this%handle, 'the valve')
+    if (code == RIIS_OK) code = riis_valve_is_set(this%handle, c_name, found)
+    is_set = found /= 0
+    call finish(code, status)
+  end function valve_is_set
+
   !> Gives the valve an open state: its own state is at 'opening' 0, and the other valve's state at 'opening' 1. Between them,
   !! control points are interpolated. Errors: RIIS_INVALID_PARAMETER for a valve of another kind or with other patches; the valve
   !! is then unchanged.
@@ -305,6 +342,9 @@ contains
       info%default_values = parameter%default_values(:parameter%n_values)
       info%minimum = parameter%minimum
       info%maximum = parameter%maximum
+      info%rule = riis_c_text(parameter%rule)
+      info%other_name = riis_c_text(parameter%other_name)
+      info%other_factor = parameter%other_factor
     end if
     call finish(code, status)
   end subroutine valve_parameter_int64

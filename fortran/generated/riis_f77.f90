@@ -98,6 +98,37 @@ subroutine riisf_valve_get(valve, name, n_values, values, status)
   status = riis_valve_get(c_handle_of(valve), c_name, int(n_values, int64), values)
 end subroutine riisf_valve_get
 
+!> Returns a parameter to the value of a valve on which it was not set: its rule's value, or its default.
+subroutine riisf_valve_unset(valve, name, status)
+  use, intrinsic :: iso_c_binding, only: c_char
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_status, riis_valve_unset
+  use riis_support, only: c_handle_of, end_for_c
+  implicit none
+  integer(int64), intent(in) :: valve                     !< Must be created.
+  character(len=*), intent(in) :: name                    !< As in riisf_valve_set.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  character(len=len_trim(name) + 1, kind=c_char) :: c_name
+  call end_for_c(name, c_name)
+  status = riis_valve_unset(c_handle_of(valve), c_name)
+end subroutine riisf_valve_unset
+
+!> Says whether a parameter was set.
+subroutine riisf_valve_is_set(valve, name, is_set, status)
+  use, intrinsic :: iso_c_binding, only: c_char
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_status, riis_valve_is_set
+  use riis_support, only: c_handle_of, end_for_c
+  implicit none
+  integer(int64), intent(in) :: valve                     !< Must be created.
+  character(len=*), intent(in) :: name                    !< As in riisf_valve_get.
+  integer(int32), intent(inout) :: is_set                 !< 1, or 0 for a default or a rule. Unchanged on an error.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  character(len=len_trim(name) + 1, kind=c_char) :: c_name
+  call end_for_c(name, c_name)
+  status = riis_valve_is_set(c_handle_of(valve), c_name, is_set)
+end subroutine riisf_valve_is_set
+
 !> Gives the valve an open state at 'opening' 1. Its own state is the closed state. Errors: RIIS_INVALID_PARAMETER for a valve of
 !! another kind.
 subroutine riisf_valve_set_open_state(valve, open, status)

@@ -10,6 +10,8 @@ module riisf
   public :: riisf_valve_copy
   public :: riisf_valve_set
   public :: riisf_valve_get
+  public :: riisf_valve_unset
+  public :: riisf_valve_is_set
   public :: riisf_valve_set_open_state
   public :: riisf_valve_destroy
   public :: riisf_surface_create
@@ -171,6 +173,25 @@ module riisf
       real(c_double), intent(inout) :: values(*)
       integer(riis_status), intent(out) :: status
     end subroutine riisf_valve_get
+
+    subroutine riisf_valve_unset(valve, name, status)
+      use, intrinsic :: iso_fortran_env, only: int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: valve
+      character(len=*), intent(in) :: name
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_valve_unset
+
+    subroutine riisf_valve_is_set(valve, name, is_set, status)
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: valve
+      character(len=*), intent(in) :: name
+      integer(int32), intent(inout) :: is_set
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_valve_is_set
 
     subroutine riisf_valve_set_open_state(valve, open, status)
       use, intrinsic :: iso_fortran_env, only: int64

@@ -23,6 +23,9 @@ class Parameter(NamedTuple):
     default: float | Reals  #: (3,) for three values
     minimum: float  #: of every value, inclusive
     maximum: float  #: of every value, inclusive
+    rule: str = ""  #: value of a parameter that was not set, such as "0.5 leaflet_height"; "": the default
+    other_name: str = ""  #: second name that sets it, such as "annulus"; "": none
+    other_factor: float = 0.0  #: the value by other_name is this times the parameter's
 
 
 class SurfaceInfo(NamedTuple):

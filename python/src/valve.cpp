@@ -17,11 +17,18 @@ riis_parameter parameter(const Valve &valve, std::int64_t id) {
   return found;
 }
 
+// Returns whether a name is the parameter's second name, such as "annulus" or "right.stj".
+bool is_other_name(const riis_parameter &parameter, const std::string &name) {
+  const std::string full = parameter.name, other = parameter.other_name;
+  const std::size_t dot = full.rfind('.');
+  return !other.empty() && name == (dot == std::string::npos ? other : full.substr(0, dot + 1) + other);
+}
+
 // Returns the number of values of a parameter, or 0 if there is no parameter with this name.
 std::int64_t n_values(const Valve &valve, const std::string &name) {
   for (std::int64_t id = 0, n = n_parameters(valve); id < n; ++id) {
     const riis_parameter found = parameter(valve, id);
-    if (name == found.name) return found.n_values;
+    if (name == found.name || is_other_name(found, name)) return found.n_values;
   }
   return 0;
 }
@@ -56,6 +63,18 @@ nb::object get(Valve &valve, nb::handle key) {
   if (n == 0) refuse_unknown(valve, name);
   call_shortly(riis_valve_get(valve.handle, name.c_str(), n, values));
   return n == 1 ? nb::object(nb::float_(values[0])) : array_of(values, "float64");
+}
+
+void unset(Valve &valve, nb::handle key) {
+  const Writing writing(valve.usage, "valve");
+  call_shortly(riis_valve_unset(valve.handle, text(key, "name").c_str()));
+}
+
+bool is_set(Valve &valve, nb::handle key) {
+  const Reading reading(valve.usage, "valve");
+  std::int32_t found = 0;
+  call_shortly(riis_valve_is_set(valve.handle, text(key, "name").c_str(), &found));
+  return found != 0;
 }
 
 void set_all(Valve &valve, const nb::dict &parameters) {
@@ -167,8 +186,8 @@ nb::dict parameters(Valve &valve) {
     const riis_parameter found = parameter(valve, id);
     const nb::object value = found.n_values == 1 ? nb::object(nb::float_(found.default_values[0]))
                                                  : array_of(found.default_values, "float64");
-    all[found.name] =
-        make(found.name, found.unit, in_python(found.description), found.n_values, value, found.minimum, found.maximum);
+    all[found.name] = make(found.name, found.unit, in_python(found.description), found.n_values, value, found.minimum,
+                           found.maximum, found.rule, found.other_name, found.other_factor);
   }
   return all;
 }
@@ -195,8 +214,17 @@ nb::dict values_of(Valve &valve) {
   return all;
 }
 
+nb::dict values_that_were_set(Valve &valve) {
+  nb::dict all;
+  for (const nb::handle name : names_of(valve))
+    if (is_set(valve, name)) all[name] = get(valve, name);
+  return all;
+}
+
 // Returns the values from which pickle makes the valve.
-nb::tuple state_of(Valve &valve) { return nb::make_tuple(valve.kind, values_of(valve), valve.open, valve.patches); }
+nb::tuple state_of(Valve &valve) {
+  return nb::make_tuple(valve.kind, values_that_were_set(valve), valve.open, valve.patches);
+}
 
 void make_from_state(Valve *self, const nb::tuple &state) {
   const nb::object kind = state[0], open = state[2], patches = state[3];
@@ -212,6 +240,7 @@ void make_from_state(Valve *self, const nb::tuple &state) {
     // surfaces check whether values fit together.
     set_all(valve, values_of(object<Valve>(open, "open")));
     set_open_state(valve, open);
+    for (const nb::handle name : names_of(valve)) unset(valve, name);
   }
   set_all(valve, nb::cast<nb::dict>(state[1]));
   new (self) Valve();
@@ -235,12 +264,18 @@ void add_valve(nb::module_ &module) {
                           R"(A parametric valve: its kind and the values of its parameters.
 
 kind is 'aortic' (the paper's three cusps), 'mitral', 'coapting' (three equal cusps with a zone of coaptation),
-'trileaflet' (three equal cusps that close in straight lines) or 'bileaflet' (a mechanical prosthesis). Keywords set parameters: Valve('mitral', opening=0.3).
+'trileaflet' (three equal cusps that close in straight lines) or 'bileaflet' (a mechanical prosthesis).
+Keywords set parameters: Valve('mitral', opening=0.3).
 
 A valve is a mapping from names to values: valve['AP_diameter'] = 3.1 sets a parameter, valve['opening'] reads it,
 dict(valve) has all values. Names cannot be added or removed. A valve can be pickled. Lengths are in centimetres by
 default, angles in degrees. A name such as 'leaflet_angle' of an aortic valve stands for all three cusps and can only
-be set; 'right.leaflet_angle' belongs to one cusp. Rotation, translation, t0_* and t3_* have three values.)");
+be set; 'right.leaflet_angle' belongs to one cusp. Rotation, translation, t0_* and t3_* have three values.
+
+Sizes by a surgeon's names: annulus and stj (diameters) and effective_height, as in
+Valve('trileaflet', annulus=2.4, stj=2.6, effective_height=1.0). Some parameters have a rule: unless they are set, they
+follow from others, and reading them gives their present values (valve.parameters[name].rule). dict(valve) holds these
+values too, so a valve made from it has all parameters set. Copies and pickles keep which parameters were set.)");
   valve
       .def("__init__", &create, nb::arg("kind").none() = "aortic", nb::arg("parameters"),
            nb::sig("def __init__(self, kind: str = 'aortic', **parameters: float | collections.abc.Sequence[float] | "
@@ -294,6 +329,10 @@ The valve's only parameter is 'opening'. Arrays are copied.)")
                    "collections.abc.Sequence[float] | numpy.typing.NDArray[numpy.float64]) -> None"),
            "Sets several parameters, like dict.update: valve.update(opening=0.3), valve.update({'right.leaflet_angle': "
            "20}).")
+      .def("unset", &unset, nb::arg("name").none(), nb::sig("def unset(self, name: str) -> None"),
+           "Returns a parameter to the value of a valve on which it was not set: its rule's value, or its default.")
+      .def("is_set", &is_set, nb::arg("name").none(), nb::sig("def is_set(self, name: str) -> bool"),
+           "Returns whether a parameter was set. False: it has its default or follows its rule.")
       .def("__getstate__", &state_of, nb::sig("def __getstate__(self) -> tuple[typing.Any, ...]"))
       .def("__setstate__", &make_from_state, nb::arg("state"),
            nb::sig("def __setstate__(self, state: tuple[typing.Any, ...]) -> None"))

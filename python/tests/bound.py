@@ -23,6 +23,8 @@ BOUND = {
     "riis_valve_set": "Valve.__setitem__",
     "riis_valve_set_scalar": "Valve.__setitem__",
     "riis_valve_get": "Valve.__getitem__",
+    "riis_valve_unset": "Valve.unset",
+    "riis_valve_is_set": "Valve.is_set",
     "riis_valve_set_open_state": "Valve.set_open_state",
     "riis_valve_create_from_patches": "Valve.from_patches",
     "riis_valve_get_n_parameters": "Valve.parameters",

@@ -121,6 +121,7 @@ def test_bounds_hold_and_are_told():
 def test_what_the_data_do_not_say_is_told():
     """A closed valve is the same for any open radius, so the data do not determine it."""
     valve = riis.Valve("trileaflet", opening=0.0)
+    valve.update(dict(valve))  # all parameters are set, so no other size follows the free one
     points = numpy.array(riis.Surface(valve).vertices[::5])
     free = ["leaflet_height", "open_radius_ratio"]
     found = riis.fit(points, valve, free=free, placement=["translation"], n_starts=1, whole=False)

@@ -3,6 +3,7 @@
 
 import collections.abc
 import copy
+import itertools
 import pickle
 
 import numpy
@@ -84,10 +85,12 @@ def valves_to_pickle():
     degree, curves = numpy.ones(4, "i4"), numpy.array([[1, 2, 3, 4]], "i4")
     patches = riis.Valve.from_patches(degree, square(0.0), curves, leaflet_id=numpy.array([7], "i4"), index_base=1)
     patches.set_open_state(riis.Valve.from_patches(degree, square(0.5), curves, index_base=1))
-    return {"mitral": mitral, "open state": opens, "ring": ring, "patches": patches}
+    follows = riis.Valve("trileaflet", annulus=2.4, bending_height=0.7)
+    follows.set_open_state(riis.Valve("trileaflet", stj=2.6))
+    return {"mitral": mitral, "open state": opens, "ring": ring, "patches": patches, "follows": follows}
 
 
-@pytest.mark.parametrize("name", ["mitral", "open state", "ring", "patches"])
+@pytest.mark.parametrize("name", ["mitral", "open state", "ring", "patches", "follows"])
 def test_valves_are_pickled_with_all_that_they_have(name):
     valve = valves_to_pickle()[name]
     made = [pickle.loads(pickle.dumps(valve, protocol)) for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1)]
@@ -95,7 +98,12 @@ def test_valves_are_pickled_with_all_that_they_have(name):
         assert other.kind == valve.kind and list(other) == list(valve)
         for key in valve:
             assert numpy.array_equal(other[key], valve[key]), key
+            assert other.is_set(key) == valve.is_set(key), key
         assert same_surfaces(other, valve)
+        if name == "follows":
+            other = other.copy()
+            other["annulus"] = 2.2
+            assert other["bending_radius_in"] == 0.32 * 1.1 and other["bending_height"] == 0.7
     made[0]["opening"] = 0.125
     assert valve["opening"] != 0.125
     if name == "patches":
@@ -124,6 +132,69 @@ def test_all_else_is_neither_pickled_nor_copied(surface, mesh, marks):
                 call(thing)
     error = pickle.loads(pickle.dumps(riis.UnknownParameterError("lost")))
     assert type(error) is riis.UnknownParameterError and str(error) == "lost"
+
+
+def test_sizes_by_a_surgeons_names():
+    sizes = {"annulus": 2.3, "stj": 2.6, "effective_height": 1.0}
+    expected = {"root_radius": 1.15, "leaflet_radius_out": 1.3, "leaflet_height": 1.0, "bending_height": 0.5, "t0_bending": 0.23,
+                "bending_radius_in": 0.368, "bending_radius_out": 1.2495, "t3_bending": 0.23, "bending_angle": 35.0}
+    for names in itertools.permutations(sizes):
+        by_keywords = riis.Valve("trileaflet", **{name: sizes[name] for name in names})
+        by_items = riis.Valve("trileaflet")
+        for name in names:
+            by_items[name] = sizes[name]
+        for valve in by_keywords, by_items:
+            assert all(valve[name] == size and name in valve and name not in list(valve) for name, size in sizes.items())
+            assert [valve[name] for name in expected] == pytest.approx(list(expected.values()), rel=1e-15)
+            assert valve.is_set("annulus") and valve.is_set("root_radius") and not valve.is_set("bending_height")
+    valve["bending_height"] = 0.6
+    valve["leaflet_height"] = 1.4
+    assert valve["bending_height"] == 0.6 and valve.is_set("bending_height")
+    valve.unset("bending_height")
+    assert valve["bending_height"] == 0.7 and not valve.is_set("bending_height")
+    assert valve.parameters["bending_height"].rule == "0.5 leaflet_height"
+    assert valve.parameters["bending_height"].other_name == ""
+    assert valve.parameters["root_radius"][-3:] == ("", "annulus", 2.0)
+    valve.unset("stj")
+    assert valve["leaflet_radius_out"] == 1.25
+    everything = riis.Valve("trileaflet", **dict(valve))
+    everything["leaflet_height"] = 1.2
+    assert all(map(everything.is_set, everything)) and everything["bending_height"] == 0.7
+
+
+def test_aortic_cusps_turn_until_they_meet():
+    valve = riis.Valve("aortic", leaflet_angle=60.0, stj=2.8)
+    rotations = [list(valve[f"{cusp}.rotation"]) for cusp in ("right", "left", "non_coronary")]
+    assert rotations == [[0, 0, 0], [0, 0, 120], [0, 0, -120]]
+    assert valve["left.stj"] == valve["right.stj"] == 2.8 and valve["non_coronary.leaflet_radius_out"] == 1.4
+    valve["left.rotation"] = [1.0, 2.0, 3.0]
+    valve["right.leaflet_angle"] = 57.0  # now there are three gaps of 2 degrees
+    assert list(valve["left.rotation"]) == [1, 2, 3] and list(valve["non_coronary.rotation"]) == [0, 0, -119]
+    valve.unset("rotation")
+    assert list(valve["left.rotation"]) == [0, 0, 119]
+    assert "stj" not in valve and "right.stj" in valve
+
+
+@pytest.mark.parametrize("kind, name, text", [
+    ("mitral", "annulus", "its annulus is not round; set AP_diameter and ALPM_diameter"),
+    ("mitral", "stj", "it has no sinotubular junction"),
+    ("mitral", "effective_height", "only cusps have it"),
+    ("bileaflet", "stj", "its housing has one radius"),
+    ("bileaflet", "effective_height", "only cusps have it"),
+])
+def test_names_without_a_meaning_are_refused(kind, name, text):
+    text = f"'{name}' is not a parameter of the {kind} valve: {text}"
+    with pytest.raises(riis.InvalidParameterError, match=text):
+        riis.Valve(kind, **{name: 2.5})
+    valve = riis.Valve(kind)
+    for call in valve.unset, valve.is_set:
+        with pytest.raises(riis.InvalidParameterError, match=text):
+            call(name)
+        with pytest.raises(TypeError, match="name: must be a str, not int"):
+            call(3)
+    with pytest.raises(riis.UnknownParameterError, match=text):
+        valve[name]
+    assert name not in valve and valve.get(name) is None
 
 
 def test_cusps_have_parameters_of_their_own():

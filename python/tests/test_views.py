@@ -133,7 +133,7 @@ def test_pairs_and_edges_outlive_the_next_search(surface, grid):
     marks = riis.mark(surface, grid)
     kept = []
     for half_thickness in 0.02, 0.01:
-        surface.update(riis.Valve("trileaflet", leaflet_height=1.3, opening=0.0), half_thickness=half_thickness)
+        surface.update(riis.Valve("trileaflet", bending_height=0.55, opening=0.0), half_thickness=half_thickness)
         riis.mark(surface, grid, into=marks)
         leaks, crossings = riis.find_leaks(surface, grid, marks), riis.find_crossings(surface)
         assert leaks.n_edges == len(leaks.length) > 100 and crossings.n_pairs == len(crossings.depth) > 0

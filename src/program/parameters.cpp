@@ -38,10 +38,32 @@ bool is_cusp(const riis_valve *valve, const std::string &name) {
   return false;
 }
 
-using Settings = std::map<std::string, std::vector<double>>;
+// Returns the parameter's own name for a name that may be its second name, such as "root_radius" for "annulus".
+std::string own_name(const riis_valve *valve, const std::string &name) {
+  const std::size_t dot = name.rfind('.'), start = dot == std::string::npos ? 0 : dot + 1;
+  int64_t n = 0;
+  check(riis_valve_get_n_parameters(valve, &n));
+  for (int64_t i = 0; i < n; ++i) {
+    riis_parameter parameter{};
+    check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
+    const std::string own = parameter.name;
+    if (name.substr(start) == parameter.other_name) return name.substr(0, start) + own.substr(own.rfind('.') + 1);
+  }
+  return name;
+}
 
-void add(const std::string &path, const std::string &name, const Json &value, Settings &settings) {
-  if (!settings.emplace(name, numbers_of(path, name, value)).second) refuse_file(path, name + " is given twice");
+struct Setting {
+  std::string name;  // as the file has it
+  std::vector<double> values;
+};
+using Settings = std::map<std::string, Setting>;  // by the parameter's own name
+
+void add(const std::string &path, const riis_valve *valve, const std::string &name, const Json &value,
+         Settings &settings) {
+  const auto [place, is_new] = settings.emplace(own_name(valve, name), Setting{name, numbers_of(path, name, value)});
+  if (is_new) return;
+  if (place->second.name == name) refuse_file(path, name + " is given twice");
+  refuse_file(path, place->second.name + " and " + name + " are given, but they are names of one size; give one");
 }
 
 Settings settings_of(const std::string &path, const riis_valve *valve, const Json &root) {
@@ -49,11 +71,11 @@ Settings settings_of(const std::string &path, const riis_valve *valve, const Jso
   Settings settings;
   for (const auto &[name, value] : root.items()) {
     if (!value.is_object()) {
-      add(path, name, value, settings);
+      add(path, valve, name, value, settings);
       continue;
     }
     if (!is_cusp(valve, name)) refuse_file(path, name + " is not a part of the valve with parameters of its own");
-    for (const auto &[inner, inner_value] : value.items()) add(path, name + "." + inner, inner_value, settings);
+    for (const auto &[inner, inner_value] : value.items()) add(path, valve, name + "." + inner, inner_value, settings);
   }
   return settings;
 }
@@ -74,8 +96,8 @@ void set_from_json_file(riis_valve *valve, const std::string &path) {
 void set_from_json(riis_valve *valve, const Json &parameters, const std::string &path) {
   const Settings settings = settings_of(path, valve, parameters);
   for (const bool cusps : {false, true}) {
-    for (const auto &[name, values] : settings) {
-      if (belongs_to_cusp(name) == cusps) set_parameter(valve, name, values, path);
+    for (const auto &[own, setting] : settings) {
+      if (belongs_to_cusp(own) == cusps) set_parameter(valve, setting.name, setting.values, path);
     }
   }
 }
@@ -97,6 +119,16 @@ std::string text_of(double number) {
   return text;
 }
 
+// Returns the description with the parameter's rule and its second name.
+std::string description_of(const riis_parameter &parameter) {
+  std::string text = parameter.description;
+  if (*parameter.rule) text += std::string("; unless set: ") + parameter.rule;
+  if (!*parameter.other_name) return text;
+  const std::string name = parameter.name;
+  const std::string factor = parameter.other_factor == 1 ? "" : text_of(parameter.other_factor) + " ";
+  return text + "; " + name.substr(0, name.rfind('.') + 1) + parameter.other_name + " = " + factor + name;
+}
+
 using Row = std::array<std::string, 5>;
 
 Row row_of(const riis_valve *valve, const riis_parameter &parameter) {
@@ -109,7 +141,7 @@ Row row_of(const riis_valve *valve, const riis_parameter &parameter) {
           unit == "length" ? "cm"
           : unit == "1"    ? "-"
                            : unit,
-          text_of(parameter.minimum) + " to " + text_of(parameter.maximum), parameter.description};
+          text_of(parameter.minimum) + " to " + text_of(parameter.maximum), description_of(parameter)};
 }
 
 }  // namespace

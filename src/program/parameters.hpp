@@ -12,7 +12,8 @@
 namespace riis::program {
 
 // Reads, for example, {"root_radius": 1.29, "right": {"leaflet_angle": 61}, "left.leaflet_angle": 58.5}. Names without a cusp
-// are set first, so the order in the file does not matter. A repeated name is refused.
+// are set first, so the order in the file does not matter. A repeated name is refused, and so are two names of one size, such as
+// "annulus" and "root_radius".
 void set_from_json_file(riis_valve *valve, const std::string &path);
 
 // Does the same for a JSON value. `path`, a file or a position in one, begins refusals.
@@ -21,7 +22,8 @@ void set_from_json(riis_valve *valve, const Json &parameters, const std::string 
 // Sets the parameter of one --set.
 void set_from_text(riis_valve *valve, const std::string &setting);
 
-// Returns all parameters of the valve with their values.
+// Returns all parameters of the valve with their values. If they are read back, all parameters are set, and none follows from
+// others.
 std::string json_template(const riis_valve *valve);
 // Returns the parameters as a table for people. Each line has a parameter's name, value, unit, range and description.
 std::string parameter_table(const riis_valve *valve);

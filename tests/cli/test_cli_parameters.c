@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * Valve parameters from JSON and from --set, checked by `riis params` and by the surface's area. */
+#include <math.h>
 #include <riis/riis.h>
 #include <stdio.h>
 #include <string.h>
@@ -192,6 +193,78 @@ static void test_json_sizes(void **state) {
   }
 }
 
+/* Sizes by a surgeon's names, from options and files. Sizes that are not set follow, and the template has their values. */
+static void test_named_sizes(void **state) {
+  (void)state;
+  static char by_options[longest_output];
+  RUN_FINE("params", "--valve", "trileaflet", "--set", "effective_height=1", "--set", "stj=2.6", "--set",
+           "annulus=2.3");
+  strcpy(by_options, program_out);
+  const struct {
+    const char *name;
+    double value;
+  } sizes[] = {{"root_radius", 1.15},   {"leaflet_radius_out", 1.3},  {"leaflet_height", 1},
+               {"bending_height", 0.5}, {"bending_radius_in", 0.368}, {"bending_angle", 35},
+               {"t0_bending", 0.23},    {"t3_bending", 0.23},         {"bending_radius_out", 1.2495},
+               {"bending_power", 1.8},  {"open_radius_ratio", 0.8}};
+  for (size_t i = 0; i < sizeof sizes / sizeof *sizes; ++i)
+    assert_true(fabs(json_number(program_out, sizes[i].name) - sizes[i].value) <= 1e-15);
+  scratch_write_text("p.json", "{\"annulus\": 2.3, \"effective_height\": 1, \"stj\": 2.6}");
+  RUN_FINE("params", "--valve", "trileaflet", "--params", scratch_path("p.json"));
+  assert_string_equal(program_out, by_options);
+  RUN_FINE("params", "--valve", "trileaflet", "--params", scratch_path("p.json"), "--set", "leaflet_height=1.4");
+  assert_true(json_number(program_out, "bending_height") == 0.7);
+  /* A template has all values, so none follows from others after it was read. */
+  scratch_write_text("p.json", by_options);
+  RUN_FINE("params", "--valve", "trileaflet", "--params", scratch_path("p.json"), "--set", "leaflet_height=1.4");
+  assert_true(json_number(program_out, "leaflet_height") == 1.4 && json_number(program_out, "bending_height") == 0.5);
+  scratch_write_text("p.json",
+                     "{\"stj\": 2.8, \"right\": {\"stj\": 2.6, \"leaflet_angle\": 62}, \"left.leaflet_angle\": 57.5}");
+  RUN_FINE("params", "--params", scratch_path("p.json"));
+  assert_true(in_cusp(program_out, "right", "leaflet_radius_out") == 1.3);
+  assert_true(in_cusp(program_out, "left", "leaflet_radius_out") == 1.4);
+  assert_non_null(strstr(program_out, "\"rotation\": [\n      0.0,\n      0.0,\n      119.5\n"));
+  assert_non_null(strstr(program_out, "\"rotation\": [\n      0.0,\n      0.0,\n      -122.5\n"));
+
+  /* The same names in a case file. */
+  const char *const parameters[] = {"\"annulus\": 2.4", "\"annulus\": -2.4", "\"annulus\": 2.4, \"root_radius\": 1.2"};
+  const char *const texts[] = {"", "parameter 'annulus' is -2.4; it must be from 2e-09",
+                               "annulus and root_radius are given, but they are names of one size"};
+  for (int i = 0; i < 3; ++i) {
+    char json[256];
+    snprintf(json, sizeof json,
+             "{\"mesh\": \"in.vtu\", \"valves\": [{\"name\": \"a\", \"valve\": \"trileaflet\", \"parameters\": {%s}}]}",
+             parameters[i]);
+    scratch_write_text("case.json", json);
+    if (i == 0)
+      RUN_FINE("mark", "--case", scratch_path("case.json"), "--output", scratch_path("case.vtu"));
+    else
+      RUN_REFUSED(1, texts[i], "mark", "--case", scratch_path("case.json"), "--output", scratch_path("case.vtu"));
+  }
+
+  const struct {
+    const char *kind, *json, *text;
+  } refused[] = {
+      {"trileaflet", "{\"annulus\": 2.5, \"root_radius\": 1.25}",
+       "p.json: annulus and root_radius are given, but they are names of one size; give one"},
+      {"aortic", "{\"right\": {\"leaflet_radius_out\": 1.3}, \"right.stj\": 2.6}",
+       "p.json: right.leaflet_radius_out and right.stj are given, but they are names of one size; give one"},
+      {"aortic", "{\"stj\": 2.6, \"leaflet_radius_out\": 1.3}",
+       "p.json: stj and leaflet_radius_out are given, but they are names of one size; give one"},
+      {"mitral", "{\"annulus\": 3.5}",
+       "p.json: 'annulus' is not a parameter of the mitral valve: its annulus is not round; set AP_diameter and "
+       "ALPM_diameter"},
+      {"bileaflet", "{\"stj\": 3.5}",
+       "p.json: 'stj' is not a parameter of the bileaflet valve: its housing has one radius"},
+      {"trileaflet", "{\"stj\": -3.5}", "p.json: parameter 'stj' is -3.5; it must be from 2e-09 to 2e+09"},
+  };
+  for (size_t i = 0; i < sizeof refused / sizeof *refused; ++i) {
+    scratch_write_text("p.json", refused[i].json);
+    RUN_REFUSED(1, refused[i].text, "params", "--valve", refused[i].kind, "--params", scratch_path("p.json"));
+  }
+  RUN_REFUSED(1, "did you mean 'annulus'?", "params", "--set", "anulus=2.5");
+}
+
 /* The table has a line for every parameter, with its current value, unit, range and description. */
 static void expect_table(const char *kind) {
   RUN_FINE("params", "--describe", "--valve", kind);
@@ -215,9 +288,19 @@ static void expect_table(const char *kind) {
     assert_string_equal(unit, strcmp(parameter.unit, "length") == 0 ? "cm"
                               : strcmp(parameter.unit, "1") == 0    ? "-"
                                                                     : "degree");
-    const char *end = strchr(line, '\n'), *description = strstr(line, parameter.description);
+    char description[512];
+    size_t length = (size_t)snprintf(description, sizeof description, "%s", parameter.description);
+    if (*parameter.rule)
+      length += (size_t)snprintf(description + length, sizeof description - length, "; unless set: %s", parameter.rule);
+    if (*parameter.other_name) {
+      const char *dot = strrchr(parameter.name, '.');
+      length += (size_t)snprintf(description + length, sizeof description - length, "; %.*s%s = %s%s",
+                                 dot ? (int)(dot + 1 - parameter.name) : 0, parameter.name, parameter.other_name,
+                                 parameter.other_factor > 1 ? "2 " : "", parameter.name);
+    }
+    const char *end = strchr(line, '\n'), *shown = strstr(line, description);
     assert_non_null(strstr(line, range));
-    assert_true(description && description + strlen(parameter.description) == end);
+    assert_true(shown && shown + length == end);
   }
   riis_valve_destroy(&valve);
 }
@@ -226,6 +309,10 @@ static void test_table(void **state) {
   (void)state;
   expect_table("aortic");
   expect_table("mitral");
+  expect_table("trileaflet");
+  assert_non_null(strstr(program_out, "; unless set: 0.32 root_radius\n"));
+  assert_non_null(strstr(program_out, "; annulus = 2 root_radius\n"));
+  expect_table("bileaflet");
   RUN_FINE("params", "--describe", "--set", "root_radius=1.3", "--set", "translation=1,2,3", "--opening", "0.5");
   assert_non_null(strstr(program_out, "root_radius"));
   assert_non_null(strstr(program_out, " 1.3 "));
@@ -264,7 +351,7 @@ int main(void) {
       cmocka_unit_test(test_template),   cmocka_unit_test(test_json_forms),      cmocka_unit_test(test_json_order),
       cmocka_unit_test(test_set_order),  cmocka_unit_test(test_surface_changes), cmocka_unit_test(test_json_refusals),
       cmocka_unit_test(test_json_sizes), cmocka_unit_test(test_set_refusals),    cmocka_unit_test(test_table),
-      cmocka_unit_test(test_near_names),
+      cmocka_unit_test(test_near_names), cmocka_unit_test(test_named_sizes),
   };
   return cmocka_run_group_tests(tests, make_box, scratch_teardown);
 }

@@ -262,7 +262,7 @@ static void test_parameters_of_all_kinds(void **state) {
   static const char *const all[] = {"aortic", "trileaflet", "coapting", "mitral", "bileaflet"};
   const char *section = strstr(page, "<section id=\"parameters\">");
   assert_non_null(section);
-  for (size_t k = 0; k < 4; ++k) {
+  for (size_t k = 0; k < sizeof all / sizeof *all; ++k) {
     char summary[64];
     snprintf(summary, sizeof summary, "<summary>%s valve: ", all[k]);
     const char *begin = strstr(section, summary);

@@ -125,6 +125,7 @@ contains
     type(riis_parameter), target :: parameter
     type(riis_parameter), pointer :: from_c(:)
     integer(c_int64_t) :: n_parameters, id, n_found
+    integer(c_int32_t) :: is_set
     real(c_double) :: values(3), scalar(1)
     character(len=*), parameter :: rotation = 'non_coronary.rotation'
 
@@ -166,6 +167,17 @@ contains
     call check(all(nint(values) == [0, 0, 120]), 'the vector that was set')
     call check_ok(riis_valve_get(valve, riis_c_string('root_radius'), 1_c_int64_t, scalar), 'get a scalar')
     call check(transfer(scalar(1), 0_c_int64_t) == transfer(1.3d0, 0_c_int64_t), 'the scalar that was set')
+
+    is_set = 7
+    call check_ok(riis_valve_is_set(valve, riis_c_string('annulus'), is_set), 'ask whether a parameter is set')
+    call check(is_set == 1, 'annulus is root_radius, which was set')
+    call check_ok(riis_valve_set_scalar(valve, riis_c_string('right.stj'), 2.5d0), 'set a scalar by its second name')
+    call check_ok(riis_valve_unset(valve, riis_c_string('right.leaflet_radius_out')), 'unset a scalar')
+    call check_ok(riis_valve_is_set(valve, riis_c_string('right.stj'), is_set), 'ask again')
+    call check(is_set == 0, 'a parameter that was unset')
+    call check_refused(riis_valve_unset(valve, riis_c_string('root_radios')), RIIS_INVALID_PARAMETER, 'root_radios')
+    call check_refused(riis_valve_is_set(valve, riis_c_string('stj'), is_set), RIIS_INVALID_PARAMETER, 'right.stj')
+    call check_refused(riis_valve_is_set(c_null_ptr, riis_c_string('stj'), is_set), RIIS_INVALID_ARGUMENT, 'valve')
 
     call check_refused(riis_valve_set_scalar(valve, riis_c_string('root_radios'), 1d0), RIIS_INVALID_PARAMETER, &
       'root_radios')

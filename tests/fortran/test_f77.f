@@ -25,7 +25,7 @@ C     results have to agree.
       INTEGER*8 FACESL(2,3*NN)
       COMMON /CELLSC/ CELLSL, OFFSL, ROWSL, COLSL, FACESL,
      &  CELLS, OFFS, ROWS, COLS, FACES
-      INTEGER NFACES
+      INTEGER NFACES, ISSET
       CHARACTER*512 TEXT
       CHARACTER*24 NAME
 
@@ -64,6 +64,23 @@ C     The valve.
       CALL RIISF_VALVE_GET(VALVE, 'left.leaflet_angle', 1, VALUES, STAT)
       CALL OK(STAT)
       IF (ABS(VALUES(1) - 21.5D0) .GT. 0D0) CALL FAILED('the value')
+      CALL RIISF_VALVE_IS_SET(VALVE, 'left.leaflet_angle', ISSET, STAT)
+      CALL OK(STAT)
+      IF (ISSET .NE. 1) CALL FAILED('a value that was set')
+      VALUES(1) = 2.6D0
+      CALL RIISF_VALVE_SET(VALVE, 'annulus', 1, VALUES, STAT)
+      CALL OK(STAT)
+      CALL RIISF_VALVE_UNSET(VALVE, 'root_radius  ', STAT)
+      CALL OK(STAT)
+      CALL RIISF_VALVE_IS_SET(VALVE, 'annulus  ', ISSET, STAT)
+      CALL OK(STAT)
+      IF (ISSET .NE. 0) CALL FAILED('a value that was unset')
+      CALL RIISF_VALVE_UNSET(VALVE, 'colour', STAT)
+      CALL WANT(STAT, RIIS_INVALID_PARAMETER, 'colour')
+      ISSET = 7
+      CALL RIISF_VALVE_IS_SET(VALVE, 'stj', ISSET, STAT)
+      CALL WANT(STAT, RIIS_INVALID_PARAMETER, 'right.stj')
+      IF (ISSET .NE. 7) CALL FAILED('a refused call writes nothing')
       CALL RIISF_VALVE_SET(VALVE, 'right.rotation', 2, ZERO, STAT)
       CALL WANT(STAT, RIIS_INVALID_PARAMETER, 'right.rotation')
       CALL RIISF_VALVE_CREATE('aortic', OPENED, STAT)

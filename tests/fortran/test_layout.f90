@@ -58,7 +58,7 @@ program test_layout
     at(c_loc(ps2%reversed)), at(c_loc(ps2%leaflet_id)), at(c_loc(ps2%index_base)), at(c_loc(ps2%reserved))])
   call compare('riis_parameter', c_sizeof(ps3), c_loc(ps3), [at(c_loc(ps3%name)), at(c_loc(ps3%unit)), &
     at(c_loc(ps3%description)), at(c_loc(ps3%n_values)), at(c_loc(ps3%default_values)), at(c_loc(ps3%minimum)), &
-    at(c_loc(ps3%maximum))])
+    at(c_loc(ps3%maximum)), at(c_loc(ps3%rule)), at(c_loc(ps3%other_name)), at(c_loc(ps3%other_factor))])
   call compare('riis_surface_options', c_sizeof(sos), c_loc(sos), [at(c_loc(sos%struct_size)), &
     at(c_loc(sos%half_thickness)), at(c_loc(sos%tolerance)), at(c_loc(sos%scale)), at(c_loc(sos%rotation_axis)), &
     at(c_loc(sos%rotation_angle)), at(c_loc(sos%translation)), at(c_loc(sos%measure_tolerance)), &

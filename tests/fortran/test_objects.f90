@@ -137,6 +137,8 @@ contains
     call valve%get('rotation', rotation, status)
     call check_refused(status, RIIS_INVALID_PARAMETER, 'rotation')
 
+    call test_named_sizes()
+
     n = valve%n_parameters(status)
     call check_ok(status, 'the number of parameters')
     found = .false.
@@ -173,6 +175,82 @@ contains
     call check_ok(status, 'a valve that was destroyed can be created again')
     call valve%destroy()
   end subroutine test_valve
+
+  ! Sizes by a surgeon's names, in every order, and sizes that follow from them.
+  subroutine test_named_sizes()
+    character(len=*), parameter :: names(3) = [character(len=16) :: 'annulus', 'stj', 'effective_height']
+    integer, parameter :: orders(3, 6) = reshape([1, 2, 3, 1, 3, 2, 2, 1, 3, 2, 3, 1, 3, 1, 2, 3, 2, 1], [3, 6])
+    real(c_double), parameter :: sizes(3) = [2.3d0, 2.6d0, 1d0]
+    type(riis_valve) :: valve
+    type(riis_parameter_info) :: info
+    real(c_double) :: value, rotation(3)
+    integer :: i, k
+    logical :: is_set
+    do i = 1, 6
+      call valve%create('trileaflet')
+      do k = 1, 3
+        call valve%set(names(orders(k, i)), sizes(orders(k, i)))
+      end do
+      call valve%get('bending_height', value)
+      call check(same(value, 0.5d0), 'half of effective_height')
+      call valve%get('bending_radius_in', value)
+      call check(abs(value - 0.368d0) < 1d-15, 'a share of annulus')
+      call valve%get('bending_radius_out', value)
+      call check(abs(value - 1.2495d0) < 1d-15, 'a share of annulus and stj')
+      call valve%get('stj', value)
+      call check(same(value, 2.6d0), 'stj as it was set')
+      if (i < 6) call valve%destroy()
+    end do
+    call check(valve%is_set('annulus'), 'a size is set')
+    call check(valve%is_set('root_radius  '), 'a size is set by its other name')
+    call check(.not. valve%is_set('bending_height'), 'a size that follows is not set')
+    call valve%set('bending_height', 0.6d0)
+    call check(valve%is_set('bending_height'), 'a size that was set')
+    call valve%unset('bending_height  ', status)
+    call check_ok(status, 'unset')
+    call valve%get('bending_height', value)
+    call check(same(value, 0.5d0), 'a size follows again')
+    call check(.not. valve%is_set('bending_height'), 'a size that was unset')
+    call valve%parameter(1, info)
+    call check(info%rule == '' .and. info%other_name == 'annulus' .and. same(info%other_factor, 2d0), 'a second name')
+    call valve%parameter(4, info)
+    call check(info%rule == '0.5 leaflet_height' .and. info%other_name == '' .and. same(info%other_factor, 0d0), 'a rule')
+    call valve%unset('right.stj', status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, '''right.stj'' is not a parameter of the trileaflet valve')
+    is_set = valve%is_set('stjj', status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'did you mean ''stj''?')
+    call check(.not. is_set, 'a refused call returns .false.')
+    call valve%set('annulus', -1d0, status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'parameter ''annulus'' is -1; it must be from 2e-09 to 2e+09')
+    call valve%destroy()
+    call valve%unset('stj', status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the valve was not created')
+    is_set = valve%is_set('stj', status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the valve was not created')
+    call check(.not. is_set, 'nothing is set on no valve')
+
+    call valve%create('mitral')
+    call valve%set('annulus', 3.5d0, status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, &
+      '''annulus'' is not a parameter of the mitral valve: its annulus is not round')
+    call valve%get('stj', value, status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'it has no sinotubular junction')
+    call valve%destroy()
+    call valve%create('bileaflet')
+    call valve%set('annulus', 2.5d0)
+    call valve%get('radius', value)
+    call check(same(value, 1.25d0), 'the radius of a bileaflet valve is half of annulus')
+    call valve%set('effective_height', 1d0, status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'only cusps have it')
+    call valve%destroy()
+    call valve%create('aortic')
+    call valve%set('leaflet_angle', 60d0)
+    call valve%get('non_coronary.rotation', rotation)
+    call check(all(same(rotation, [0d0, 0d0, -120d0])), 'cusps turn until they meet')
+    is_set = valve%is_set('stj', status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'exists for each leaflet separately: name one, as in ''right.stj''')
+    call valve%destroy()
+  end subroutine test_named_sizes
 
   ! A unit square of one patch.
   subroutine test_patches()

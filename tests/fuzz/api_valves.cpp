@@ -42,9 +42,12 @@ const char *const names[] = {"opening",
                              "open_radius_ratio",
                              "commissure_expansion",
                              "commissure_radius",
-                             "effective_height",
                              "coaptation_height",
                              "gap",
+                             "annulus",
+                             "stj",
+                             "right.stj",
+                             "effective_height",
                              "bogus",
                              "",
                              ".",
@@ -63,7 +66,11 @@ std::vector<double> values_of(const riis_valve *valve) {
     EXPECT_OK(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
     double values[3] = {0, 0, 0};
     EXPECT_OK(riis_valve_get(valve, parameter.name, parameter.n_values, values));
-    for (std::int64_t k = 0; k < parameter.n_values; ++k)
+    std::int32_t is_set = -1;
+    EXPECT_OK(riis_valve_is_set(valve, parameter.name, &is_set));
+    EXPECT(is_set == 0 || is_set == 1, "%s: is_set is %d", parameter.name, is_set);
+    // A value by a rule may be outside the range. Then no surface can be made.
+    for (std::int64_t k = 0; k < parameter.n_values && (is_set || !*parameter.rule); ++k)
       EXPECT(values[k] >= parameter.minimum && values[k] <= parameter.maximum, "%s is %g", parameter.name, values[k]);
     all.insert(all.end(), values, values + 3);
   }
@@ -106,7 +113,9 @@ void set_parameter(Input &in, State &state) {
       values[k] = parameter.default_values[k] * (0.75 + in.byte() / 512.0) + (in.one_in(4) ? values[k] : 0);
   }
   riis_status status;
-  if (n == 1 && in.one_in(2))
+  if (in.one_in(8))
+    status = call(in, [&] { return riis_valve_unset(valve.handle, name); });
+  else if (n == 1 && in.one_in(2))
     status = call(in, [&] { return riis_valve_set_scalar(valve.handle, name, values[0]); });
   else
     status = call(in, [&] { return riis_valve_set(valve.handle, name, n, mostly(in, values.data())); });

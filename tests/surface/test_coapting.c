@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The coapting valve: its coaptation zone, the computed path of its opening, and its sizes (docs/theory.md, "The coapting valve").
+ * The coapting valve: its coaptation zone, the computed path of its opening, and its sizes (docs/theory.md, section 3).
  * An oracle makes the curves from the document's formulas, with bisection and chords instead of the library's numerics. */
 #include <riis/riis.h>
 
@@ -341,7 +341,7 @@ static int64_t wrong_sides(const riis_surface *surface, const sizes *v, random_s
   for (int i = 0; i < n; ++i) {
     const point p = on_patch(&closed, 1, random_between(random, 0, 0.9), random_between(random, 0.05, 0.9));
     const double normal[2] = {sqrt(3) / 2, -0.5};
-    /* From the plane between two cusps into the first cusp: the points in the gap are above (downstream), those behind it below. */
+    /* Points in the gap lie on the side of the ventricle, points behind the zone on that of the aorta. */
     const double away = p.x[0] * normal[0] + p.x[1] * normal[1];
     for (int k = 0; k < 2; ++k) {
       const double off = k ? random_between(random, 0.05, 0.5) * 0.1 : -random_between(random, 0.1, 0.9) * away;

@@ -71,14 +71,14 @@ static void expect_pairs_of(riis_surface *surface) {
 static void a_shape_is_named_once(void **state) {
   (void)state;
   riis_valve *valve = new_valve("trileaflet");
-  set(valve, "leaflet_height", 1.3);
+  set(valve, "bending_height", 0.55);
   riis_surface *surface = new_surface(valve, NULL);
   assert_int_equal(warnings.n, 1);
   assert_ptr_equal(strstr(warnings.last, "leaflets 0 and 2 go through each other at opening 0: "), warnings.last);
   expect_pairs_of(surface);
   for (int i = 0; i < 100; ++i) {
     set(valve, "opening", i % 10 / 10.0);
-    set(valve, "leaflet_height", 1.3);
+    set(valve, "bending_height", 0.55);
     if (i % 2 == 0)
       update(surface, valve);
     else
@@ -87,11 +87,11 @@ static void a_shape_is_named_once(void **state) {
   assert_int_equal(warnings.n, 1);
   /* The shape changes, and then changes back. A copy of the valve has the same shape. */
   set(valve, "opening", 0);
-  set(valve, "leaflet_height", 1.29);
+  set(valve, "bending_height", 0.56);
   update(surface, valve);
   assert_int_equal(warnings.n, 2);
   expect_pairs_of(surface);
-  set(valve, "leaflet_height", 1.3);
+  set(valve, "bending_height", 0.55);
   riis_valve *copy = NULL;
   CHECK_OK(riis_valve_copy(valve, &copy));
   own(copy);
@@ -106,7 +106,7 @@ static void a_shape_is_named_once(void **state) {
 static void a_valve_that_begins_open_is_named(void **state) {
   (void)state;
   riis_valve *valve = new_valve("trileaflet");
-  set(valve, "leaflet_height", 1.3);
+  set(valve, "bending_height", 0.55);
   set(valve, "opening", 1);
   riis_surface *surface = new_surface(valve, NULL);
   assert_int_equal(warnings.n, 0);
@@ -183,10 +183,10 @@ static void patches_are_a_shape_of_the_user(void **state) {
 static void an_open_state_makes_another_shape(void **state) {
   (void)state;
   riis_valve *valve = new_valve("trileaflet"), *open = new_valve("trileaflet");
-  set(valve, "leaflet_height", 1.3);
+  set(valve, "bending_height", 0.55);
   riis_surface *surface = new_surface(valve, NULL);
   assert_int_equal(warnings.n, 1);
-  set(open, "leaflet_height", 1.3);
+  set(open, "bending_height", 0.55);
   CHECK_OK(riis_valve_set_open_state(valve, open));
   update(surface, valve);
   assert_int_equal(warnings.n, 2);
@@ -199,7 +199,7 @@ static int64_t allocations_of_updates(double height) {
   int64_t before = 0;
   for (int i = 0; i < 20; ++i) {
     if (i == 10) before = n_allocations;
-    if (height > 0) set(valve, "leaflet_height", height - 1e-9 * i);
+    if (height > 0) set(valve, "bending_height", height - 1e-9 * i);
     update(surface, valve);
   }
   return n_allocations - before;
@@ -208,11 +208,11 @@ static int64_t allocations_of_updates(double height) {
 static void nobody_searches_in_silence(void **state) {
   (void)state;
   riis_set_log(NULL, NULL);
-  const int64_t of_default = allocations_of_updates(0), in_silence = allocations_of_updates(1.3);
+  const int64_t of_default = allocations_of_updates(0), in_silence = allocations_of_updates(0.55);
   riis_set_log(listen, &warnings);
   const int64_t of_default_heard = allocations_of_updates(0);
   assert_int_equal(warnings.n, 0);
-  const int64_t heard_all = allocations_of_updates(1.3);
+  const int64_t heard_all = allocations_of_updates(0.55);
   assert_int_equal(warnings.n, 20);
   print_message("allocations of 10 updates: default %lld, another shape in silence %lld, heard %lld\n",
                 (long long)of_default, (long long)in_silence, (long long)heard_all);
@@ -223,7 +223,7 @@ static void nobody_searches_in_silence(void **state) {
   /* A log function that is set later gets the warning about an earlier shape. */
   riis_set_log(NULL, NULL);
   riis_valve *valve = new_valve("trileaflet");
-  set(valve, "leaflet_height", 1.3);
+  set(valve, "bending_height", 0.55);
   riis_surface *surface = new_surface(valve, NULL);
   update(surface, valve);
   riis_set_log(listen, &warnings);

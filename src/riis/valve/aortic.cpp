@@ -33,21 +33,25 @@ constexpr CuspOpening default_opening{0.75, 0.05};
 
 std::size_t position_of(std::size_t cusp, OfCusp parameter) { return n_general + cusp * n_of_cusp + parameter; }
 
-// The rules of rotations that were not set. The left and the non-coronary cusp turn until they meet the right cusp. They also
-// meet each other if the three leaflet angles have the sum 180.
+// The rules of rotations that were not set. If the leaflet angles have the sum 180, all neighbours meet at their commissures.
+// Otherwise the three gaps between neighbours, or the three overlaps, are equal.
 double leaflet_angle_of(const ParameterValues &values, std::size_t cusp) {
   return values[position_of(cusp, leaflet_angle)][0];
 }
-std::array<double, 3> left_rotation(const ParameterValues &values) {
-  return {0, 0, leaflet_angle_of(values, 0) + leaflet_angle_of(values, 1)};
+// Returns the angle from the right cusp's symmetry plane to the symmetry plane of its neighbour.
+double turn_from_right(const ParameterValues &values, std::size_t neighbour) {
+  const double sum = leaflet_angle_of(values, 0) + leaflet_angle_of(values, 1) + leaflet_angle_of(values, 2);
+  return leaflet_angle_of(values, 0) + leaflet_angle_of(values, neighbour) + 2 * (180 - sum) / 3;
 }
+std::array<double, 3> left_rotation(const ParameterValues &values) { return {0, 0, turn_from_right(values, 1)}; }
 std::array<double, 3> non_coronary_rotation(const ParameterValues &values) {
-  return {0, 0, -(leaflet_angle_of(values, 0) + leaflet_angle_of(values, 2))};
+  return {0, 0, -turn_from_right(values, 2)};
 }
 const ParameterRule rotation_rules[n_cusps] = {
     {nullptr, nullptr},
-    {"0, 0, right.leaflet_angle + left.leaflet_angle", left_rotation},
-    {"0, 0, -(right.leaflet_angle + non_coronary.leaflet_angle)", non_coronary_rotation}};
+    {"0, 0, right.leaflet_angle + left.leaflet_angle + 2/3 (180 - sum of all leaflet_angle)", left_rotation},
+    {"0, 0, -(right.leaflet_angle + non_coronary.leaflet_angle) - 2/3 (180 - sum of all leaflet_angle)",
+     non_coronary_rotation}};
 
 void check_values(const ParameterValues &values);
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);

@@ -45,7 +45,7 @@ ValveKind make_kind() {
   kind.housing = RIIS_LEAFLET_HOUSING;
   kind.absent = {
     {"stj", "its housing has one radius, and no commissures reach a sinotubular junction"},
-    {"effective_height", "only cusps have it; hinge_height and closed_angle say how far the rigid leaflets reach"},
+    {"effective_height", "only cusps have it; hinge_height and closed_angle give the rigid leaflets' reach"},
   };
   return kind;
 }

@@ -68,10 +68,10 @@ ValveKind make_kind() {
      {"root_radius", commissure_radius_rule}, {"stj", 2}},
     {"commissure_height", length, "height of the commissures above the root", 1, {1.75}, shortest, longest,
      {"1.4 commissure_radius", commissure_height_rule}},
-    {"effective_height", length, "height of the middle of the closed free edges above the root", 1, {1.75 - 0.6745 * 1.25}, shortest,
-     longest, {"commissure_height - 0.6745 commissure_radius, at least 0.3 commissure_height", effective_height_rule}},
-    {"coaptation_height", length, "height of the coaptation zone in the middle of the closed valve", 1, {0.3 * 1.25}, shortest, longest,
-     {"0.3 commissure_radius", coaptation_height_rule}},
+    {"effective_height", length, "height of the middle of the closed free edges above the root", 1, {1.75 - 0.6745 * 1.25},
+     shortest, longest, {"commissure_height - 0.6745 commissure_radius, at least 0.3 commissure_height", effective_height_rule}},
+    {"coaptation_height", length, "height of the coaptation zone in the middle of the closed valve", 1, {0.3 * 1.25}, shortest,
+     longest, {"0.3 commissure_radius", coaptation_height_rule}},
     {"gap", length, "distance between closed cusps in the coaptation zone", 1, {0.016 * 1.25}, shortest, longest,
      {"0.016 commissure_radius", gap_rule}},
     {"bottom_angle", degree, "angle of the closed cusp to the root's plane, at the root", 1, {20}, 0, 80},
@@ -204,7 +204,7 @@ Frame closed_frame(const ParameterValues &values) {
   const auto [sine, cosine] = sine_cosine_degrees(value(bottom_angle));
   // The tangent is shorter if it would otherwise reach above half the height of the coaptation line.
   const double tangent = std::min(value(belly) * R, sine > 0 ? 0.5 * z_k / sine : value(belly) * R);
-  // The edge lies in the vertical plane from the commissure to a point that is half the gap away from the plane between two cusps.
+  // The edge lies in a vertical plane through the commissure. In the middle it is half the gap away from the plane between two cusps.
   const double x_in = 0.5 * value(gap) / sine_60;
   const auto x = [&](double share) { return (1 - share) * x_in + share * cosine_60 * Rc; };
   Frame frame{R,
@@ -230,8 +230,8 @@ Bezier symmetry_curve(const Frame &frame, Vec3 end, Vec3 up) {
                        end - (frame.band_start * end.z / up.z) * up, end);
 }
 
-// The open free edge is round, like an arc of a circle seen along the axis. The symmetry curve is straight, and the coaptation zone
-// keeps its share of it.
+// The open free edge is round, like an arc of a circle seen along the axis. The symmetry curve is straight, and the coaptation
+// zone keeps its share of it.
 Frame open_frame(const ParameterValues &values) {
   const auto value = [&](Parameter parameter) { return values[parameter][0]; };
   const Frame closed = closed_frame(values);
@@ -262,9 +262,9 @@ Bezier cubic_through(Vec3 first, Vec3 at_third, Vec3 at_two_thirds, Vec3 last) {
 }
 
 // Returns the coaptation line below the free edge F, so that the two patches that meet in it have nearly common tangent planes.
-// With K the coaptation line and c its chord, the lower patch has the tangent T = K - c + (1 - u) Y + u A along K. Y and A are the
-// end tangents of the symmetry curve and of the attachment, as long as these curves are. The upper patch has the tangent F - K
-// there. Here F - K is T times a factor that decreases from the middle to 0 at the commissure, at u = 1/3 and 2/3.
+// With K the coaptation line and c its chord, the lower patch has the tangent T = K - c + (1 - u) Y + u A along K. Y and A are
+// the end tangents of the symmetry curve and of the attachment, as long as these curves are. The upper patch has the tangent
+// F - K there. Here F - K is T times a factor that decreases from the middle to 0 at the commissure, at u = 1/3 and 2/3.
 Bezier coaptation_line(const Bezier &free_edge, Vec3 middle, double below_length, Vec3 attachment_tangent) {
   const Vec3 up = free_edge.first() - middle, last = free_edge.last();
   const double factor = length(up) / below_length;

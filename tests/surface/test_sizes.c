@@ -1,0 +1,697 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Sizes by a surgeon's names, and parameters that follow from others unless they are set (docs/theory.md, section 3). Random
+ * calls are compared with a model of the rules. The last tests look for crossings of random valves; RIIS_TEST_LONG=1 tries as
+ * many as docs/theory.md states. */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+
+static random_source rng;
+
+static int64_t random_integer(int64_t low, int64_t high) {
+  return low + (int64_t)(random_bits(&rng) % (uint64_t)(high - low + 1));
+}
+static int one_in(int64_t n) { return random_integer(1, n) == 1; }
+
+static riis_parameter parameter_of(const riis_valve *valve, int64_t id) {
+  riis_parameter parameter;
+  CHECK_OK(riis_valve_get_parameter(valve, id, &parameter, sizeof parameter));
+  return parameter;
+}
+
+static int64_t n_parameters_of(const riis_valve *valve) {
+  int64_t n;
+  CHECK_OK(riis_valve_get_n_parameters(valve, &n));
+  return n;
+}
+
+static double value_of(const riis_valve *valve, const char *name) {
+  double value = 0;
+  CHECK_OK(riis_valve_get(valve, name, 1, &value));
+  return value;
+}
+
+static int is_set(const riis_valve *valve, const char *name) {
+  int32_t found = -1;
+  CHECK_OK(riis_valve_is_set(valve, name, &found));
+  assert_in_range(found, 0, 1);
+  return found;
+}
+
+static riis_valve *copy_of(const riis_valve *valve) {
+  riis_valve *copy = NULL;
+  CHECK_OK(riis_valve_copy(valve, &copy));
+  return own(copy);
+}
+
+/* --- The model ---------------------------------------------------------------------------------------------------------- */
+
+enum { max_parameters = 64 };
+
+/* What a valve should be: the values that were set. */
+typedef struct model {
+  const char *kind;
+  int64_t n;
+  riis_parameter parameters[max_parameters];
+  int is_set[max_parameters];
+  double values[max_parameters][3];
+} model;
+
+static model new_model(const char *kind) {
+  model made = {.kind = kind};
+  riis_valve *valve = new_valve(kind);
+  made.n = n_parameters_of(valve);
+  assert_in_range(made.n, 1, max_parameters);
+  for (int64_t i = 0; i < made.n; ++i) made.parameters[i] = parameter_of(valve, i);
+  free_one_owned(valve);
+  return made;
+}
+
+static int64_t position_in(const model *of, const char *name) {
+  for (int64_t i = 0; i < of->n; ++i)
+    if (strcmp(of->parameters[i].name, name) == 0) return i;
+  fail_msg("%s has no parameter %s", of->kind, name);
+  return -1;
+}
+
+static const double *expected(const model *of, int64_t id);
+
+static double first_expected(const model *of, const char *name) { return expected(of, position_in(of, name))[0]; }
+
+/* Writes the value by the parameter's rule. Returns 0 if it has none. */
+static int rule_value(const model *of, const char *name, double *value) {
+  value[0] = value[1] = value[2] = 0;
+  if (strcmp(of->kind, "aortic") == 0) {
+    const int is_left = strcmp(name, "left.rotation") == 0;
+    if (!is_left && strcmp(name, "non_coronary.rotation") != 0) return 0;
+    /* Round the axis, the cusps and three equal gaps take 360 degrees. */
+    const double right = first_expected(of, "right.leaflet_angle"), left = first_expected(of, "left.leaflet_angle"),
+                 non_coronary = first_expected(of, "non_coronary.leaflet_angle"),
+                 gap = (360 - 2 * right - 2 * left - 2 * non_coronary) / 3;
+    value[2] = is_left ? right + gap + left : -(right + gap + non_coronary);
+    return 1;
+  }
+  if (strcmp(of->kind, "trileaflet") != 0) return 0;
+  const char *const names[] = {"bending_height", "bending_radius_in", "bending_radius_out", "t0_bending", "t3_bending"};
+  for (int k = 0; k < 5; ++k) {
+    if (strcmp(name, names[k]) != 0) continue;
+    const double R = first_expected(of, "root_radius"), Rc = first_expected(of, "leaflet_radius_out");
+    value[0] = k == 0   ? first_expected(of, "leaflet_height") / 2
+               : k == 1 ? 0.32 * R
+               : k == 2 ? 1.02 * (R + Rc) / 2
+                        : 0.2 * R;
+    return 1;
+  }
+  return 0;
+}
+
+static const double *expected(const model *of, int64_t id) {
+  static double values[8][3];
+  static int next;
+  double *value = values[next++ % 8];
+  if (of->is_set[id]) return memcpy(value, of->values[id], 3 * sizeof *value);
+  if (rule_value(of, of->parameters[id].name, value)) return value;
+  return memcpy(value, of->parameters[id].default_values, 3 * sizeof *value);
+}
+
+/* Compares every parameter of the valve. Values by a rule may differ by rounding, because the model's formulas do. */
+static void check_is_as(const riis_valve *valve, const model *of) {
+  for (int64_t i = 0; i < of->n; ++i) {
+    const riis_parameter *parameter = &of->parameters[i];
+    double got[3] = {0, 0, 0}, rule[3];
+    CHECK_OK(riis_valve_get(valve, parameter->name, parameter->n_values, got));
+    assert_int_equal(is_set(valve, parameter->name), of->is_set[i]);
+    const double *value = expected(of, i), error = !of->is_set[i] && rule_value(of, parameter->name, rule) ? 4e-16 : 0;
+    for (int64_t k = 0; k < parameter->n_values; ++k) CHECK_NEAR(got[k], value[k], error * fabs(value[k]));
+  }
+}
+
+/* A call that sets a parameter, by one of its names. */
+typedef struct setting {
+  int64_t id;
+  char name[80];
+  double values[3];
+} setting;
+
+static setting random_setting(const model *of) {
+  setting made = {.id = random_integer(0, of->n - 1)};
+  const riis_parameter *parameter = &of->parameters[made.id];
+  for (int64_t k = 0; k < parameter->n_values; ++k) {
+    const double value = parameter->default_values[k] * random_between(&rng, 0.8, 1.25);
+    made.values[k] =
+        fmin(parameter->maximum, fmax(parameter->minimum, value == 0 ? random_between(&rng, 0, 0.2) : value));
+  }
+  const char *dot = strrchr(parameter->name, '.');
+  if (*parameter->other_name && one_in(2)) {
+    snprintf(made.name, sizeof made.name, "%.*s%s", dot ? (int)(dot + 1 - parameter->name) : 0, parameter->name,
+             parameter->other_name);
+  } else {
+    snprintf(made.name, sizeof made.name, "%s", parameter->name);
+  }
+  return made;
+}
+
+static void set_both(riis_valve *valve, model *of, const setting *call) {
+  const riis_parameter *parameter = &of->parameters[call->id];
+  const double factor = strcmp(call->name, parameter->name) == 0 ? 1 : parameter->other_factor;
+  double values[3];
+  for (int k = 0; k < 3; ++k) values[k] = factor * call->values[k];
+  CHECK_OK(riis_valve_set(valve, call->name, parameter->n_values, values));
+  double got[3];
+  CHECK_OK(riis_valve_get(valve, call->name, parameter->n_values, got));
+  assert_memory_equal(got, values, (size_t)parameter->n_values * sizeof *got);
+  of->is_set[call->id] = 1;
+  memcpy(of->values[call->id], call->values, sizeof call->values);
+}
+
+static const char *const kinds[] = {"trileaflet", "aortic", "mitral", "bileaflet"};
+
+/* --- Rules -------------------------------------------------------------------------------------------------------------- */
+
+/* If nothing is set, or the defaults are set, all values have the bits of the defaults. */
+static void rules_give_the_defaults(void **state) {
+  (void)state;
+  for (int k = 0; k < 4; ++k) {
+    const model of = new_model(kinds[k]);
+    riis_valve *valve = new_valve(kinds[k]);
+    int n_rules = 0;
+    for (int step = 0; step < 2; ++step) {
+      for (int64_t i = 0; i < of.n; ++i) {
+        const riis_parameter *parameter = &of.parameters[i];
+        double value[3] = {0, 0, 0}, rule[3];
+        CHECK_OK(riis_valve_get(valve, parameter->name, parameter->n_values, value));
+        assert_memory_equal(value, parameter->default_values, sizeof value);
+        const int has_rule = rule_value(&of, parameter->name, rule);
+        assert_int_equal(has_rule, *parameter->rule != 0);
+        assert_int_equal(is_set(valve, parameter->name), step == 1 && !has_rule);
+        n_rules += has_rule;
+      }
+      for (int64_t i = 0; i < of.n; ++i)
+        if (!*of.parameters[i].rule)
+          CHECK_OK(
+              riis_valve_set(valve, of.parameters[i].name, of.parameters[i].n_values, of.parameters[i].default_values));
+    }
+    assert_int_equal(n_rules, k == 0 ? 10 : k == 1 ? 4 : 0);
+    assert_true(is_same_content(new_surface(valve, NULL), surface_of_kind(kinds[k], NULL)));
+  }
+}
+
+/* The same settings in any order give the same values, and so the same surface or the same refusal. */
+static void order_does_not_matter(void **state) {
+  (void)state;
+  int n_surfaces = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const int owned_before = n_owned();
+    model of = new_model(kinds[trial % 4]), reordered = of;
+    setting calls[12];
+    int n = 0;
+    for (int tries = 0; tries < 12; ++tries) {
+      const setting call = random_setting(&of);
+      int is_new = 1;
+      for (int i = 0; i < n; ++i) is_new &= calls[i].id != call.id;
+      if (is_new) calls[n++] = call;
+    }
+    riis_valve *valve = new_valve(of.kind), *other = new_valve(of.kind);
+    for (int i = 0; i < n; ++i) set_both(valve, &of, &calls[i]);
+    for (int i = n - 1; i > 0; --i) {
+      const int64_t j = random_integer(0, i);
+      const setting kept = calls[i];
+      calls[i] = calls[j], calls[j] = kept;
+    }
+    for (int i = 0; i < n; ++i) {
+      if (one_in(4)) { /* a value that is overwritten leaves nothing */
+        const setting first = calls[i];
+        for (int64_t k = 0; k < of.parameters[first.id].n_values; ++k)
+          calls[i].values[k] = of.parameters[first.id].maximum;
+        set_both(other, &reordered, &calls[i]);
+        calls[i] = first;
+      }
+      set_both(other, &reordered, &calls[i]);
+    }
+    check_is_as(valve, &of);
+    check_is_as(other, &of);
+    for (int64_t i = 0; i < of.n; ++i) {
+      double a[3] = {0, 0, 0}, b[3] = {0, 0, 0};
+      CHECK_OK(riis_valve_get(valve, of.parameters[i].name, of.parameters[i].n_values, a));
+      CHECK_OK(riis_valve_get(other, of.parameters[i].name, of.parameters[i].n_values, b));
+      assert_memory_equal(a, b, sizeof a);
+    }
+    if (trial % 10 < 4) {
+      riis_surface *one = NULL, *two = NULL;
+      char text[512];
+      const riis_status status = riis_surface_create(valve, NULL, &one);
+      snprintf(text, sizeof text, "%s", riis_last_error());
+      assert_int_equal(riis_surface_create(other, NULL, &two), status);
+      if (status == RIIS_OK) {
+        assert_true(is_same_content(own(one), own(two)));
+        ++n_surfaces;
+      } else {
+        assert_string_equal(riis_last_error(), text);
+      }
+    }
+    free_owned_after(owned_before);
+  }
+  assert_true(n_surfaces > 40);
+}
+
+/* Values are set, unset and set for all cusps. The valve is copied. A failed call changes nothing. */
+static void random_calls_are_as_the_model(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 40; ++trial) {
+    const int owned_before = n_owned();
+    model of = new_model(kinds[trial % 4]);
+    riis_valve *valve = new_valve(of.kind);
+    for (int step = 0; step < 60; ++step) {
+      setting call = random_setting(&of);
+      const riis_parameter *parameter = &of.parameters[call.id];
+      const char *dot = strrchr(parameter->name, '.');
+      if (one_in(3)) {
+        CHECK_OK(riis_valve_unset(valve, call.name));
+        of.is_set[call.id] = 0;
+      } else if (dot && one_in(2)) {
+        const int unsets = one_in(2);
+        if (unsets)
+          CHECK_OK(riis_valve_unset(valve, strrchr(call.name, '.') + 1));
+        else {
+          for (int k = 0; k < 3; ++k)
+            call.values[k] *= strcmp(call.name, parameter->name) == 0 ? 1 : parameter->other_factor;
+          CHECK_OK(riis_valve_set(valve, strrchr(call.name, '.') + 1, parameter->n_values, call.values));
+          for (int k = 0; k < 3; ++k)
+            call.values[k] /= strcmp(call.name, parameter->name) == 0 ? 1 : parameter->other_factor;
+        }
+        for (int64_t i = 0; i < of.n; ++i) {
+          const char *end = strrchr(of.parameters[i].name, '.');
+          if (!end || strcmp(end, dot) != 0) continue;
+          of.is_set[i] = !unsets;
+          memcpy(of.values[i], call.values, sizeof call.values);
+        }
+      } else if (one_in(4)) {
+        double values[3];
+        for (int k = 0; k < 3; ++k) values[k] = 3e9;
+        CHECK_REFUSED(RIIS_INVALID_PARAMETER, call.name, riis_valve_set(valve, call.name, parameter->n_values, values));
+      } else {
+        set_both(valve, &of, &call);
+      }
+      if (one_in(10)) valve = copy_of(valve);
+      check_is_as(valve, &of);
+    }
+    free_owned_after(owned_before);
+  }
+}
+
+/* A valve that was given all values of another valve has its shape, but its parameters no longer follow. */
+static void all_values_are_set_when_read_back(void **state) {
+  (void)state;
+  riis_valve *valve = new_valve("trileaflet"), *back = new_valve("trileaflet");
+  CHECK_OK(riis_valve_set_scalar(valve, "annulus", 2.3));
+  CHECK_OK(riis_valve_set_scalar(valve, "effective_height", 1.1));
+  for (int64_t i = 0; i < n_parameters_of(valve); ++i) {
+    const riis_parameter parameter = parameter_of(valve, i);
+    double values[3];
+    CHECK_OK(riis_valve_get(valve, parameter.name, parameter.n_values, values));
+    CHECK_OK(riis_valve_set(back, parameter.name, parameter.n_values, values));
+  }
+  riis_surface_options options = surface_options();
+  options.triangulation = RIIS_TRIANGULATION_FIXED;
+  riis_surface *surface = new_surface(valve, &options);
+  assert_true(is_same_content(surface, new_surface(back, &options)));
+  /* The fixed triangulation accepts the other valve, because only values count. */
+  CHECK_OK(riis_surface_update(surface, back, NULL));
+  for (int k = 0; k < 2; ++k) CHECK_OK(riis_valve_set_scalar(k ? back : valve, "leaflet_height", 1.3));
+  CHECK_NEAR(value_of(valve, "bending_height"), 0.65, 1e-15);
+  CHECK_NEAR(value_of(back, "bending_height"), 0.55, 1e-15);
+  CHECK_OK(riis_valve_unset(back, "bending_height"));
+  CHECK_SAME(value_of(back, "bending_height"), value_of(valve, "bending_height"));
+}
+
+/* An open state keeps the values that followed when it was given, as if all were set. */
+static void open_states_follow_their_own_rules(void **state) {
+  (void)state;
+  riis_valve *valves[2], *open = new_valve("trileaflet"), *all_set = new_valve("trileaflet");
+  CHECK_OK(riis_valve_set_scalar(open, "annulus", 2.6));
+  for (int64_t i = 0; i < n_parameters_of(open); ++i) {
+    const riis_parameter parameter = parameter_of(open, i);
+    double values[3];
+    CHECK_OK(riis_valve_get(open, parameter.name, parameter.n_values, values));
+    CHECK_OK(riis_valve_set(all_set, parameter.name, parameter.n_values, values));
+  }
+  for (int k = 0; k < 2; ++k) {
+    valves[k] = new_valve("trileaflet");
+    if (k == 1) CHECK_OK(riis_valve_set_scalar(valves[k], "annulus", 2.4));
+    CHECK_OK(riis_valve_set_open_state(valves[k], k ? all_set : open));
+    CHECK_OK(riis_valve_set_scalar(valves[k], "annulus", 2.4));
+    CHECK_OK(riis_valve_set_scalar(valves[k], "opening", 0.6));
+  }
+  CHECK_OK(riis_valve_set_scalar(open, "annulus", 2.2)); /* the valve has a copy */
+  riis_surface *surface = new_surface(valves[1], NULL);
+  assert_true(is_same_content(new_surface(valves[0], NULL), surface));
+  assert_true(is_same_content(new_surface(copy_of(valves[0]), NULL), surface));
+}
+
+/* --- Names -------------------------------------------------------------------------------------------------------------- */
+
+static void names_of_surgeons(void **state) {
+  (void)state;
+  static const struct {
+    const char *kind, *name, *parameter;
+    double factor;
+  } table[] = {{"trileaflet", "annulus", "root_radius", 2},
+               {"trileaflet", "stj", "leaflet_radius_out", 2},
+               {"trileaflet", "effective_height", "leaflet_height", 1},
+               {"aortic", "annulus", "root_radius", 2},
+               {"aortic", "right.stj", "right.leaflet_radius_out", 2},
+               {"aortic", "left.stj", "left.leaflet_radius_out", 2},
+               {"aortic", "non_coronary.stj", "non_coronary.leaflet_radius_out", 2},
+               {"aortic", "effective_height", "leaflet_height", 1},
+               {"bileaflet", "annulus", "radius", 2}};
+  const int n = sizeof table / sizeof *table;
+  int n_named = 0;
+  for (int k = 0; k < 4; ++k) {
+    const model of = new_model(kinds[k]);
+    for (int64_t i = 0; i < of.n; ++i) {
+      const riis_parameter *parameter = &of.parameters[i];
+      int found = -1;
+      for (int row = 0; row < n; ++row)
+        if (strcmp(table[row].kind, of.kind) == 0 && strcmp(table[row].parameter, parameter->name) == 0) found = row;
+      assert_int_equal(found >= 0, *parameter->other_name != 0);
+      CHECK_SAME(parameter->other_factor, found >= 0 ? table[found].factor : 0);
+      if (found < 0) continue;
+      const char *dot = strrchr(table[found].name, '.');
+      assert_string_equal(parameter->other_name, dot ? dot + 1 : table[found].name);
+      ++n_named;
+      riis_valve *valve = new_valve(of.kind);
+      const double size = parameter->default_values[0] * random_between(&rng, 0.5, 2), factor = table[found].factor;
+      CHECK_SAME(value_of(valve, table[found].name), factor * parameter->default_values[0]);
+      CHECK_OK(riis_valve_set_scalar(valve, table[found].name, factor * size));
+      CHECK_SAME(value_of(valve, parameter->name), size);
+      assert_true(is_set(valve, parameter->name) && is_set(valve, table[found].name));
+      CHECK_OK(riis_valve_set_scalar(valve, parameter->name, 1.25 * size)); /* the later call wins, by any name */
+      CHECK_SAME(value_of(valve, table[found].name), factor * (1.25 * size));
+      CHECK_OK(riis_valve_unset(valve, table[found].name));
+      assert_false(is_set(valve, parameter->name));
+      CHECK_SAME(value_of(valve, parameter->name), parameter->default_values[0]);
+      char text[128];
+      snprintf(text, sizeof text, "parameter '%s' is -1; it must be from %g to %g", table[found].name,
+               factor * parameter->minimum, factor * parameter->maximum);
+      CHECK_REFUSED(RIIS_INVALID_PARAMETER, text, riis_valve_set_scalar(valve, table[found].name, -1));
+      CHECK_OK(riis_valve_set_scalar(valve, table[found].name, factor * parameter->minimum));
+      CHECK_OK(riis_valve_set_scalar(valve, table[found].name, factor * parameter->maximum));
+      CHECK_REFUSED(RIIS_INVALID_PARAMETER, table[found].name,
+                    riis_valve_set_scalar(valve, table[found].name, nextafter(factor * parameter->maximum, INFINITY)));
+    }
+  }
+  assert_int_equal(n_named, n);
+}
+
+static void names_of_all_cusps(void **state) {
+  (void)state;
+  riis_valve *valve = new_valve("aortic");
+  double value = 7;
+  int32_t found = 7;
+  CHECK_OK(riis_valve_set_scalar(valve, "stj", 2.8));
+  for (int k = 0; k < 3; ++k) {
+    const char *const names[] = {"right.stj", "left.stj", "non_coronary.leaflet_radius_out"};
+    CHECK_SAME(value_of(valve, names[k]), k < 2 ? 2.8 : 1.4);
+  }
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER,
+                "parameter 'stj' exists for each leaflet separately: name one, as in 'right.stj'",
+                riis_valve_get(valve, "stj", 1, &value));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "parameter 'rotation' exists for each|as in 'right.rotation'",
+                riis_valve_is_set(valve, "rotation", &found));
+  CHECK_SAME(value, 7);
+  assert_int_equal(found, 7);
+  CHECK_OK(riis_valve_unset(valve, "stj"));
+  CHECK_SAME(value_of(valve, "left.leaflet_radius_out"), 1.495);
+}
+
+static void absent_names_are_refused(void **state) {
+  (void)state;
+  static const struct {
+    const char *kind, *name, *text;
+  } table[] = {
+      {"mitral", "annulus",
+       "'annulus' is not a parameter of the mitral valve: its annulus is not round|set AP_diameter and ALPM"},
+      {"mitral", "stj", "'stj' is not a parameter of the mitral valve: it has no sinotubular junction"},
+      {"mitral", "effective_height", "'effective_height' is not a parameter of the mitral valve: only cusps have it"},
+      {"bileaflet", "stj", "'stj' is not a parameter of the bileaflet valve: its housing has one radius"},
+      {"bileaflet", "effective_height",
+       "'effective_height' is not a parameter of the bileaflet valve: only cusps have it"},
+      {"patches", "annulus",
+       "'annulus' is not a parameter of the patches valve: the control points of its curves are its sizes"},
+      {"patches", "stj", "'stj' is not a parameter of the patches valve: the control points"},
+      {"patches", "effective_height", "'effective_height' is not a parameter of the patches valve: the control points"},
+      {"aortic", "right.annulus", "'right.annulus' is not a parameter of the aortic valve"},
+      {"trileaflet", "right.stj", "'right.stj' is not a parameter of the trileaflet valve"},
+      {"trileaflet", "anulus", "'anulus' is not a parameter of the trileaflet valve; did you mean 'annulus'?"},
+  };
+  const int32_t degree[4] = {1, 1, 1, 1}, curve_id[4] = {0, 1, 2, 3};
+  const double control[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0};
+  riis_patches patches;
+  CHECK_OK(riis_patches_init(&patches, sizeof patches));
+  patches.n_curves = 4, patches.n_patches = 1;
+  patches.degree = degree, patches.control = control, patches.curve_id = curve_id;
+  for (size_t i = 0; i < sizeof table / sizeof *table; ++i) {
+    riis_valve *valve = NULL;
+    double value = 7;
+    int32_t found = 7;
+    if (strcmp(table[i].kind, "patches") == 0)
+      CHECK_OK(riis_valve_create_from_patches(&patches, &valve));
+    else
+      CHECK_OK(riis_valve_create(table[i].kind, &valve));
+    own(valve);
+    CHECK_REFUSED(RIIS_INVALID_PARAMETER, table[i].text, riis_valve_set_scalar(valve, table[i].name, 2.5));
+    CHECK_REFUSED(RIIS_INVALID_PARAMETER, table[i].text, riis_valve_get(valve, table[i].name, 1, &value));
+    CHECK_REFUSED(RIIS_INVALID_PARAMETER, table[i].text, riis_valve_unset(valve, table[i].name));
+    CHECK_REFUSED(RIIS_INVALID_PARAMETER, table[i].text, riis_valve_is_set(valve, table[i].name, &found));
+    CHECK_SAME(value, 7);
+    assert_int_equal(found, 7);
+  }
+}
+
+static void other_refusals(void **state) {
+  (void)state;
+  riis_valve *valve = new_valve("trileaflet"), *open = new_valve("trileaflet");
+  riis_surface *surface = NULL;
+  int32_t found = 7;
+  const double two[2] = {1, 1};
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve", riis_valve_unset(NULL, "opening"));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "name", riis_valve_unset(valve, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve", riis_valve_is_set(NULL, "opening", &found));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "name", riis_valve_is_set(valve, NULL, &found));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "is_set", riis_valve_is_set(valve, "opening", NULL));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "parameter 'annulus' has 1 value, not 2",
+                riis_valve_set(valve, "annulus", 2, two));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "parameter 'annulus' is nan", riis_valve_set_scalar(valve, "annulus", NAN));
+  /* A rule may leave the range of its parameter. */
+  for (int k = 0; k < 2; ++k) {
+    riis_valve *large = k ? open : valve;
+    for (int size = 0; size < 3; ++size)
+      CHECK_OK(riis_valve_set_scalar(large,
+                                     size == 0   ? "root_radius"
+                                     : size == 1 ? "leaflet_radius_out"
+                                                 : "leaflet_height",
+                                     1e9));
+    CHECK_REFUSED(
+        RIIS_INVALID_PARAMETER,
+        "bending_radius_out was not set and is 0.51 (root_radius + leaflet_radius_out), which is 1.02e+09; it must",
+        riis_surface_create(large, NULL, &surface));
+  }
+  CHECK_OK(riis_valve_set_open_state(valve, open));
+  for (int size = 0; size < 3; ++size)
+    CHECK_OK(riis_valve_unset(valve, size == 0 ? "root_radius" : size == 1 ? "leaflet_radius_out" : "leaflet_height"));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "in the open state: bending_radius_out was not set and is",
+                riis_surface_create(valve, NULL, &surface));
+  assert_null(surface);
+  /* A caller that was compiled before the fields existed gets none of them. */
+  riis_parameter parameter;
+  memset(&parameter, 0x5a, sizeof parameter);
+  const riis_parameter before = parameter;
+  CHECK_OK(riis_valve_get_parameter(valve, 0, &parameter, offsetof(riis_parameter, rule)));
+  assert_memory_equal(&parameter.rule, &before.rule, sizeof parameter - offsetof(riis_parameter, rule));
+  assert_string_equal(parameter.name, "root_radius");
+}
+
+/* --- Crossings ---------------------------------------------------------------------------------------------------------- */
+
+typedef struct crossing {
+  int64_t n_pairs;
+  double opening, point[3];
+  int32_t patches[2];
+} crossing;
+
+/* Returns the crossings at the opening, from 0 to 1 in tenths, that has the most. */
+static crossing worst_crossing(riis_valve *valve, const riis_surface_options *options) {
+  crossing worst = {0};
+  riis_crossings *crossings = NULL;
+  CHECK_OK(riis_crossings_create(&crossings));
+  own(crossings);
+  for (int tenth = 0; tenth <= 10; ++tenth) {
+    riis_crossing_list list;
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", tenth / 10.0));
+    riis_surface *surface = new_surface(valve, options);
+    CHECK_OK(riis_find_crossings(surface, NULL, crossings));
+    CHECK_OK(riis_crossings_get_list(crossings, &list, sizeof list));
+    if (list.n_pairs > worst.n_pairs) {
+      const riis_triangles all = triangles_of(surface);
+      worst.n_pairs = list.n_pairs;
+      worst.opening = tenth / 10.0;
+      memcpy(worst.point, list.deepest_point, sizeof worst.point);
+      for (int k = 0; k < 2; ++k) worst.patches[k] = all.patch_id[list.deepest_triangle_id[k]];
+    }
+    free_one_owned(surface);
+  }
+  return worst;
+}
+
+/* The ranges contain the sizes of all sources in docs/theory.md. Half of the valves are placed obliquely, in another unit. */
+static void trileaflet_cusps_do_not_cross(void **state) {
+  (void)state;
+  const int n = is_long_test() ? 350 : 10;
+  int n_crossing = 0;
+  for (int trial = 0; trial < n; ++trial) {
+    const int owned_before = n_owned();
+    riis_valve *valve = new_valve("trileaflet");
+    riis_surface_options options = surface_options();
+    options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
+    if (trial % 4 >= 2) {
+      options.scale = random_power_of_ten(&rng, -2, 2);
+      options.rotation_angle = random_between(&rng, -180, 180);
+      for (int c = 0; c < 3; ++c) options.rotation_axis[c] = random_between(&rng, 0.1, 1);
+      for (int c = 0; c < 3; ++c) options.translation[c] = options.scale * random_between(&rng, -1, 1);
+    }
+    CHECK_OK(riis_valve_set_scalar(valve, "annulus", random_between(&rng, 1.8, 3)));
+    CHECK_OK(riis_valve_set_scalar(valve, "stj", random_between(&rng, 1.6, 2.8)));
+    CHECK_OK(riis_valve_set_scalar(valve, "effective_height", random_between(&rng, 1, 2.2)));
+    const crossing found = worst_crossing(valve, &options);
+    if (found.n_pairs > 0)
+      printf("crosses: annulus %.17g, stj %.17g, effective_height %.17g: %d pairs at opening %g\n",
+             value_of(valve, "annulus"), value_of(valve, "stj"), value_of(valve, "effective_height"),
+             (int)found.n_pairs, found.opening);
+    n_crossing += found.n_pairs > 0;
+    free_owned_after(owned_before);
+  }
+  printf("trileaflet: %d of %d valves cross at 11 openings\n", n_crossing, n);
+  assert_int_equal(n_crossing, 0);
+}
+
+/* With sizes that do not follow, as before the rules, a tall valve crosses. So the search finds crossings. */
+static void sizes_that_do_not_follow_cross(void **state) {
+  (void)state;
+  riis_valve *valve = new_valve("trileaflet");
+  CHECK_OK(riis_valve_set_scalar(valve, "leaflet_height", 1.3));
+  assert_int_equal(worst_crossing(valve, NULL).n_pairs, 0);
+  CHECK_OK(riis_valve_set_scalar(valve, "bending_height", 0.6));
+  assert_true(worst_crossing(valve, NULL).n_pairs > 0);
+}
+
+static const char *const cusps[] = {"right", "left", "non_coronary"};
+
+static const char *of_cusp(int cusp, const char *name) {
+  static char full[8][64];
+  static int next;
+  char *made = full[next++ % 8];
+  snprintf(made, sizeof full[0], "%s.%s", cusps[cusp], name);
+  return made;
+}
+
+/* Every size, angle and exponent of an aortic valve varies by that share. The angles keep their sum of 180. If is_bounded, no
+ * free edge turns away from the plane through the axis and its commissure: the profile's slope there is at most that of the
+ * plane. */
+static riis_valve *random_aortic(double share, int is_bounded) {
+  riis_valve *valve = new_valve("aortic");
+  double sum = 0;
+  for (int64_t i = 0; i < n_parameters_of(valve); ++i) {
+    const riis_parameter parameter = parameter_of(valve, i);
+    double values[3];
+    if (*parameter.rule || strcmp(parameter.name, "opening") == 0 || strstr(parameter.name, "rotation") ||
+        strstr(parameter.name, "translation"))
+      continue;
+    for (int k = 0; k < 3; ++k)
+      values[k] = fmin(parameter.maximum, fmax(parameter.minimum, parameter.default_values[k] *
+                                                                      random_between(&rng, 1 - share, 1 + share)));
+    CHECK_OK(riis_valve_set(valve, parameter.name, parameter.n_values, values));
+  }
+  for (int k = 0; k < 3; ++k) sum += value_of(valve, of_cusp(k, "leaflet_angle"));
+  for (int k = 0; k < 3; ++k)
+    CHECK_OK(riis_valve_set_scalar(valve, of_cusp(k, "leaflet_angle"),
+                                   value_of(valve, of_cusp(k, "leaflet_angle")) * 180 / sum));
+  for (int k = 0; is_bounded && k < 3; ++k) {
+    const double x = value_of(valve, of_cusp(k, "leaflet_radius_out")) *
+                     cos(value_of(valve, of_cusp(k, "leaflet_angle")) * acos(-1) / 180);
+    const double most = x / (x - value_of(valve, of_cusp(k, "leaflet_radius_in")));
+    if (value_of(valve, of_cusp(k, "leaflet_power")) > most && most >= 1)
+      CHECK_OK(riis_valve_set_scalar(valve, of_cusp(k, "leaflet_power"), most));
+  }
+  return valve;
+}
+
+/* Returns whether a cusp's attachment turns back behind the cusp's symmetry plane near the root, in the closed or in the open
+ * state. The halves of the cusp then go through each other. The attachment is the parabola through the root, where y is 0, the
+ * bending curve's end at s, and the commissure at 1, so y'(0) is (y(s) - s^2 y(1)) / (s - s^2). */
+static int attachment_turns_back(const riis_valve *valve) {
+  int turns_back = 0;
+  const double s = value_of(valve, "bending_height") / value_of(valve, "leaflet_height"), degree = acos(-1) / 180;
+  for (int k = 0; k < 3; ++k)
+    for (int is_open = 0; is_open < 2; ++is_open) {
+      const double e = is_open * value_of(valve, "commissure_expansion");
+      const double y_s = (1 + s * e) * value_of(valve, of_cusp(k, "bending_radius_out")) *
+                         sin(degree * value_of(valve, of_cusp(k, "bending_angle")));
+      const double y_1 = (1 + e) * value_of(valve, of_cusp(k, "leaflet_radius_out")) *
+                         sin(degree * value_of(valve, of_cusp(k, "leaflet_angle")));
+      turns_back |= y_s < s * s * y_1;
+    }
+  return turns_back;
+}
+
+static void aortic_cusps_rarely_cross(void **state) {
+  (void)state;
+  const int n = is_long_test() ? 300 : 6;
+  for (int is_bounded = 1; is_bounded >= 0; --is_bounded)
+    for (int percent = 10; percent <= (is_long_test() ? 20 : 10); percent += 10) {
+      int n_crossing = 0, n_of_one_cusp = 0, n_refused = 0, n_back = 0, n_crossing_back = 0;
+      for (int trial = 0; trial < n; ++trial) {
+        const int owned_before = n_owned();
+        riis_valve *valve = random_aortic(0.01 * percent, is_bounded);
+        riis_surface *surface = NULL;
+        if (riis_surface_create(valve, NULL, &surface) != RIIS_OK) { /* values that do not fit together */
+          ++n_refused;
+          free_owned_after(owned_before);
+          continue;
+        }
+        riis_surface_destroy(&surface);
+        const crossing found = worst_crossing(valve, NULL);
+        const int crosses = found.n_pairs > 0, turns_back = attachment_turns_back(valve);
+        n_crossing += crosses;
+        n_of_one_cusp += crosses && found.patches[0] / 4 == found.patches[1] / 4;
+        n_back += turns_back;
+        n_crossing_back += crosses && turns_back;
+        free_owned_after(owned_before);
+      }
+      printf(
+          "aortic, +-%d %%, leaflet_power %s: %d of %d valves cross at 11 openings, %d of them in one cusp; "
+          "attachments turn back in %d, of which %d cross\n",
+          percent, is_bounded ? "bounded" : "free", n_crossing, n - n_refused, n_of_one_cusp, n_back, n_crossing_back);
+      if (is_long_test() && is_bounded && percent == 10) assert_true(20 * n_crossing <= n);
+    }
+}
+
+int main(void) {
+  rng = random_start("test_sizes");
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(rules_give_the_defaults),
+      cmocka_unit_test(order_does_not_matter),
+      cmocka_unit_test(random_calls_are_as_the_model),
+      cmocka_unit_test(all_values_are_set_when_read_back),
+      cmocka_unit_test(open_states_follow_their_own_rules),
+      cmocka_unit_test(names_of_surgeons),
+      cmocka_unit_test(names_of_all_cusps),
+      cmocka_unit_test(absent_names_are_refused),
+      cmocka_unit_test(other_refusals),
+      cmocka_unit_test(trileaflet_cusps_do_not_cross),
+      cmocka_unit_test(sizes_that_do_not_follow_cross),
+      cmocka_unit_test(aortic_cusps_rarely_cross),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
