@@ -16,7 +16,8 @@ def beside(p):
 
 
 def draw_plan(sheet, cusp):
-    panel = sheet.panel((0.15, 4.9), (6.2, 4.9), "a   The closed cusp in its own frame, seen from the aorta", (-0.75, -1.25), 0.46)
+    title = "a   The closed cusp in its own frame, seen from the aorta"
+    panel = sheet.panel((0.15, 4.9), (6.2, 4.9), title, (-0.75, -1.25), 0.46)
     for k in (0, 1):
         panel.curve(cusp["sinus"][k], plan, SINUS, 2.4)
         panel.curve(cusp["leaflet"][k], plan, LEAFLET, 2.0)
@@ -42,7 +43,8 @@ def draw_plan(sheet, cusp):
 
 
 def draw_section(sheet, cusp):
-    panel = sheet.panel((6.6, 4.9), (8.3, 4.9), "b   The symmetry plane of the closed cusp, seen from the side", (-1.2, -0.35), 0.46)
+    title = "b   The symmetry plane of the closed cusp, seen from the side"
+    panel = sheet.panel((6.6, 4.9), (8.3, 4.9), title, (-1.2, -0.35), 0.46)
     lower, upper = cusp["symmetry"][0], cusp["symmetry"][-1]
     root, inner, bend, top = section(lower[0]), section(lower[1]), section(upper[0]), section(upper[-1])
     end = section(cusp["leaflet"][0][0][-1])
@@ -82,7 +84,8 @@ def draw_zone(sheet, cusp):
     panel.line(end, near, color=LEAFLET, width=1.1, style=":")
     panel.line(first, (near[0], first[1]), color=LEAFLET, width=0.7, style=":")
     whole = sheet.value("commissure_height") - sheet.value("effective_height")
-    value = f"{sheet.value_text('edge_rise')}, times (commissure_height\n− effective_height): {plain(round(near[1] - first[1], 9))} cm"
+    rise = plain(round(near[1] - first[1], 9))
+    value = f"{sheet.value_text('edge_rise')}, times (commissure_height\n− effective_height): {rise} cm"
     panel.length("edge_rise", (near[0], first[1]), near, (-0.6, 1.55), factor=whole, value=value, color=LEAFLET)
     height = sheet.value("commissure_height")
     value = f"{sheet.value_text('attachment_drop')}, times\ncommissure_height:\n{plain(round(end[1] - drop[1], 9))} cm"

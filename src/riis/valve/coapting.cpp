@@ -204,7 +204,8 @@ Frame closed_frame(const ParameterValues &values) {
   const auto [sine, cosine] = sine_cosine_degrees(value(bottom_angle));
   // The tangent is shorter if it would otherwise reach above half the height of the coaptation line.
   const double tangent = std::min(value(belly) * R, sine > 0 ? 0.5 * z_k / sine : value(belly) * R);
-  // The edge lies in a vertical plane through the commissure. In the middle it is half the gap away from the plane between two cusps.
+  // The edge lies in a vertical plane through the commissure. In the middle it is half the gap away from the plane between the
+  // two cusps.
   const double x_in = 0.5 * value(gap) / sine_60;
   const auto x = [&](double share) { return (1 - share) * x_in + share * cosine_60 * Rc; };
   Frame frame{R,
