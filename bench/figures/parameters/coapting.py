@@ -17,7 +17,7 @@ def beside(p):
 
 def draw_plan(sheet, cusp):
     title = "a   The closed cusp in its own frame, seen from the aorta"
-    panel = sheet.panel((0.15, 4.9), (6.2, 4.9), title, (-0.75, -1.25), 0.46)
+    panel = sheet.panel((0.15, 4.9), (6.2, 4.9), title, (-0.8, -1.2), 0.5)
     for k in (0, 1):
         panel.curve(cusp["sinus"][k], plan, SINUS, 2.4)
         panel.curve(cusp["leaflet"][k], plan, LEAFLET, 2.0)
@@ -35,7 +35,7 @@ def draw_plan(sheet, cusp):
     radius = sheet.value("root_radius")
     value = f"{sheet.value_text('attachment_width')}, times\nroot_radius: {plain(round(distance(root, width), 9))} cm"
     panel.length("attachment_width", root, width, (1.5, 0.45), shift=(0.14, 0), factor=radius, value=value, color=SINUS)
-    panel.note((0.73, 1.08), "commissure", color=LEAFLET)
+    panel.note((0.7, 1.1), "commissure", color=LEAFLET)
     panel.note((-0.08, -0.85), "free edge", color=LEAFLET, ha="right")
     panel.line((-0.06, -0.85), along((0, 0), (end[0], -end[1]), 0.75), color=LEAFLET, width=0.5)
     panel.note((1.05, -1.0), "attachment", color=SINUS)
@@ -66,8 +66,9 @@ def draw_section(sheet, cusp):
     value = f"{sheet.value_text('belly')}, times\nroot_radius: {plain(round(distance(root, inner), 9))} cm"
     panel.length("belly", root, inner, (1.35, 0.5), shift=(0.05, 0.14), factor=radius, value=value, color=SYMMETRY)
     panel.note((end[0] + 0.05, end[1] + 0.04), "commissure", color=LEAFLET, va="bottom")
-    panel.note((0.12, 0.72), "lower\ncoaptation\nline", color=BENDING)
-    panel.note((0.28, 1.28), "free edge", color=LEAFLET, va="bottom", ha="right")
+    panel.note((0.2, 0.42), "lower coaptation line", color=BENDING)
+    panel.line((0.3, 0.46), section(cusp["bending"][0][0][1]), color=BENDING, width=0.5)
+    panel.note((0.04, 1.42), "free edge", color=LEAFLET)
 
 
 def draw_zone(sheet, cusp):
@@ -132,7 +133,7 @@ def draw_opening(sheet, states):
 
 
 def draw_commissures(sheet, states):
-    panel = sheet.panel((10.9, 0.75), (4.0, 3.5), "f   All cusps, closed and open", (-1.5, -1.5), 0.9)
+    panel = sheet.panel((10.9, 0.75), (4.0, 3.5), "f   All cusps, closed and open", (-1.45, -2.0), 1.1)
     closed, opened = states[0]["cusps"], states[-1]["cusps"]
     for cusps, color, width in ((opened, PALE, 1.8), (closed, LEAFLET, 1.4)):
         for cusp in cusps:
@@ -142,10 +143,10 @@ def draw_commissures(sheet, states):
     end, moved = plan(closed[0]["leaflet"][0][0][-1]), plan(opened[0]["leaflet"][0][0][-1])
     radius = sheet.value("commissure_radius")
     value = f"{sheet.value_text('commissure_expansion')}, times\ncommissure_radius:\n{plain(round(distance(end, moved), 9))} cm"
-    panel.length("commissure_expansion", end, moved, (0.9, 1.42), factor=radius, value=value)
+    panel.length("commissure_expansion", end, moved, (0.85, 1.45), factor=radius, value=value)
     inner = plan(opened[0]["leaflet"][0][0][0])
     value = f"{sheet.value_text('open_radius_ratio')}, times\ncommissure_radius:\n{plain(round(inner[0], 9))} cm"
-    panel.length("open_radius_ratio", (0, 0), inner, (1.4, -0.55), shift=(0, -0.16), factor=radius, value=value, share=0.9)
+    panel.length("open_radius_ratio", (0, 0), inner, (0.9, -1.45), shift=(0, -0.16), factor=radius, value=value, share=0.9)
 
 
 def draw(coapting):
