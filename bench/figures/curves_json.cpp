@@ -124,8 +124,8 @@ json mitral() {
 }
 
 // Describes one cusp in its own frame, and all cusps in place: closed, and partly open.
-json trileaflet() {
-  Valve valve(find_valve_kind("trileaflet"));
+json equal_cusps(const char *kind) {
+  Valve valve(find_valve_kind(kind));
   json states = json::array();
   for (const double opening : {0.0, 0.5, 1.0}) {
     valve.set("opening", 1, &opening);
@@ -167,7 +167,11 @@ json bileaflet() {
 
 void write_curves(const std::string &path) {
   std::ofstream out(path, std::ios::binary);
-  out << json{{"aortic", aortic()}, {"trileaflet", trileaflet()}, {"mitral", mitral()}, {"bileaflet", bileaflet()}}
+  out << json{{"aortic", aortic()},
+              {"trileaflet", equal_cusps("trileaflet")},
+              {"coapting", equal_cusps("coapting")},
+              {"mitral", mitral()},
+              {"bileaflet", bileaflet()}}
              .dump(1)
       << "\n";
   out.close();

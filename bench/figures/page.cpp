@@ -119,8 +119,9 @@ void write_page(const std::string &path, const std::vector<Figure> &figures, con
       << " itself: by the code that marks nodes, with the parameters of B. van der Vuurst, J. Kosinka and C. "
          "Bertoglio, "
          "<i>Fast generation of 3D flow obstacles from parametric surface models: application to cardiac valves</i> "
-         "(2025), “the paper”. Only the paper's own times come from there. The trileaflet and the bileaflet valve "
-         "are not the paper's and have parameters of their own. Lengths are centimetres. The <i>tolerance</i> is the "
+         "(2025), “the paper”. Only the paper's own times come from there. The trileaflet, the coapting and the "
+         "bileaflet valve are not the paper's and have parameters of their own. Lengths are centimetres. The "
+         "<i>tolerance</i> is the "
          "share of the half thickness, 0.1 cm, by which distances to the triangles may differ from distances to the "
          "smooth surface: 5 % stands for 0.005 cm."
          "</p>\n<nav><ol>\n";

@@ -56,6 +56,16 @@ const std::vector<Subject> &subjects() {
        "closed. "
        "Only slivers at the wall stay uncovered then.",
        not_in_the_paper},
+      {"coapting",
+       "The coapting valve, from closed to open",
+       "from the aorta",
+       "from the side and slightly above, the aorta up",
+       of_cusps,
+       {"right cusp", "left cusp", "non-coronary cusp"},
+       "the disc of <code>root_radius</code>",
+       "Three equal cusps that lie side by side in a coaptation zone when the valve is closed. Their free edges keep "
+       "their length: the middle of an edge sinks at first, and rises again.",
+       not_in_the_paper},
       {"mitral",
        "The mitral valve, from closed to open",
        "from the atrium",

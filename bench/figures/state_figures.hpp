@@ -12,7 +12,8 @@
 namespace riis::figures {
 
 // The kinds of valve, in the order of the page.
-inline constexpr std::array<const char *, 4> kinds_with_states = {"aortic", "trileaflet", "mitral", "bileaflet"};
+inline constexpr std::array<const char *, 5> kinds_with_states = {"aortic", "trileaflet", "coapting", "mitral",
+                                                                  "bileaflet"};
 
 // Throws std::runtime_error if the table is for another kind, other leaflets or other openings.
 void check_table(const StateTable &table);

@@ -145,9 +145,9 @@ RIIS_API riis_status riis_points_init(riis_points *points, int64_t struct_size);
 typedef struct riis_valve riis_valve;
 
 /* Makes a valve with the default parameter values, which are the paper's for "aortic" and "mitral".
- *   kind  "aortic", the paper's three cusps, "mitral", two leaflets, "trileaflet", three equal cusps that
- *         close without a hole, or "bileaflet", a mechanical prosthesis (docs/theory.md); any other is
- *         RIIS_INVALID_PARAMETER */
+ *   kind  "aortic", the paper's three cusps, "mitral", two leaflets, "coapting", three equal cusps with a zone of
+ *         coaptation, "trileaflet", three equal cusps that close in straight lines, or "bileaflet", a mechanical
+ *         prosthesis (docs/theory.md); any other is RIIS_INVALID_PARAMETER */
 RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
 /* Makes a second valve with the same parameters, patches and states. Destroy both. */
 RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy);
@@ -175,9 +175,11 @@ RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, i
 /* Sizes by a surgeon's names, and sizes that follow from others (docs/theory.md, section 3). Three names stand for
  * parameters in riis_valve_set, riis_valve_get and the two functions below. A kind without such a size refuses its
  * name, and says why:
- *   annulus           diameter: 2 root_radius (aortic, trileaflet), 2 radius (bileaflet)
- *   stj               diameter at the commissures: 2 leaflet_radius_out (aortic, trileaflet)
- *   effective_height  height of the free edges above the annulus: leaflet_height (aortic, trileaflet)
+ *   annulus           diameter: 2 root_radius (aortic, coapting, trileaflet), 2 radius (bileaflet)
+ *   stj               diameter at the commissures: 2 leaflet_radius_out (aortic, trileaflet) or 2 commissure_radius
+ *                     (coapting)
+ *   effective_height  height of the free edges above the annulus: leaflet_height (aortic, trileaflet). It is a
+ *                     parameter of the coapting valve, for the middle of the edges
  * Some parameters have a rule: unless they are set, they follow from other parameters at every time, so the order
  * of calls does not matter. riis_valve_get gives their present values. A value that is set stays. Copies and open
  * states keep the difference between set and not set. A valve whose parameters are all set has the same shape. */
@@ -194,8 +196,9 @@ RIIS_API riis_status riis_valve_is_set(const riis_valve *valve, const char *name
 
 /* Gives the valve a second state: opening 0 is then the valve's own state, opening 1 that of the valve `open`.
  * Between them, control points are blended linearly (docs/theory.md, section 5). A bileaflet valve blends lengths and
- * angles instead. A second call replaces the state. No call removes it. A mitral or trileaflet valve takes its closed
- * curves from its own parameters and its open curves from the parameters of `open`.
+ * angles instead. The middle of a coapting cusp's free edge hangs as deep as the edge's length requires. A second call
+ * replaces the state. No call removes it. A mitral, trileaflet or coapting valve takes its closed shape from its own
+ * parameters and its open shape from the parameters of `open`.
  *   open  a valve of the same kind, which is copied. From patches, it has the same curves, sides and degrees (1 may
  *         stand for 2). Either both bileaflet valves have a ring or neither. Opening, leaflet ids, open state: ignored
  * Errors: RIIS_INVALID_PARAMETER for another kind, or other curves, degrees or sides. */
@@ -252,9 +255,9 @@ typedef struct riis_surface riis_surface;
 /* The leaflets of the parametric valves, as leaflet_id reports them. */
 enum {
   RIIS_LEAFLET_RIGHT = 0,       /* aortic: the right coronary cusp, "right" in names of parameters;
-                                   trileaflet: the cusp on the x axis */
-  RIIS_LEAFLET_LEFT = 1,        /* aortic: the left coronary cusp, "left"; trileaflet: the cusp at 120 degrees */
-  RIIS_LEAFLET_NON_CORONARY = 2,/* aortic: "non_coronary"; trileaflet: the cusp at -120 degrees */
+                                   coapting, trileaflet: on the x axis */
+  RIIS_LEAFLET_LEFT = 1,        /* aortic: the left coronary cusp, "left"; coapting, trileaflet: at 120 degrees */
+  RIIS_LEAFLET_NON_CORONARY = 2,/* aortic: "non_coronary"; coapting, trileaflet: at -120 degrees */
   RIIS_LEAFLET_ANTERIOR = 0,    /* mitral: the anterior leaflet */
   RIIS_LEAFLET_POSTERIOR = 1,   /* mitral: the posterior leaflet, all three scallops */
   RIIS_LEAFLET_POSITIVE = 0,    /* bileaflet: the leaflet at x > 0 */
@@ -456,8 +459,8 @@ typedef struct riis_triangles {
   const int64_t *vertex_id;   /* (3, n_triangles): their vertices */
   const int64_t *triangle_id; /* (n_triangles), ascending: the id that queries report; 0, 1, 2, ... for a valve */
   const int32_t *leaflet_id;  /* (n_triangles): RIIS_LEAFLET_*, or the caller's from patches and arrays */
-  const int32_t *patch_id;    /* (n_triangles). From arrays: 0. From patches: the patch's number, from 0.
-                                 Aortic, trileaflet: 4 * leaflet, plus 0 bottom, 1 top, 2 and 3 mirrored.
+  const int32_t *patch_id;    /* (n_triangles). From arrays: 0. From patches: the patch's number, from 0. Aortic,
+                                 coapting, trileaflet: 4 * leaflet, plus 0 bottom, 1 top, 2 and 3 mirrored.
                                  Mitral, anterior: 0 triangle at the posteromedial commissure, 1 side, 2 middle,
                                  3 mirrored middle, 4 mirrored side, 5 mirrored triangle. Mitral, posterior: 6 side
                                  scallop, 7 half of the middle scallop, 8 mirrored half, 9 mirrored side scallop.
@@ -1061,7 +1064,7 @@ RIIS_API riis_status riis_surface_get_leaflet(const riis_surface *surface, int64
 /* The outline of an orifice. */
 enum {
   RIIS_OUTLINE_NONE = 0,      /* no disc, and the sides v = 0 that only one patch has enclose no area */
-  RIIS_OUTLINE_DISC = 1,      /* the disc of root_radius (aortic, trileaflet) or radius (bileaflet) about the axis */
+  RIIS_OUTLINE_DISC = 1,      /* the disc of root_radius (three cusps) or radius (bileaflet) about the axis */
   RIIS_OUTLINE_ATTACHMENT = 2 /* the sides v = 0 that only one patch has: the annulus of the mitral valve */
 };
 /* The orifice of a valve: the part of an outline that the triangles do not cover, seen along the valve's axis. The

@@ -86,9 +86,9 @@ __version__ = version_string()
 class Leaflet(IntEnum):
     """The leaflets of the parametric valves, as leaflet_id reports them."""
 
-    RIGHT = 0  #: aortic: the right coronary cusp; trileaflet: the cusp on the x axis
-    LEFT = 1  #: aortic: the left coronary cusp; trileaflet: at 120 degrees
-    NON_CORONARY = 2  #: aortic; trileaflet: at -120 degrees
+    RIGHT = 0  #: aortic: the right coronary cusp; coapting, trileaflet: the cusp on the x axis
+    LEFT = 1  #: aortic: the left coronary cusp; coapting, trileaflet: at 120 degrees
+    NON_CORONARY = 2  #: aortic; coapting, trileaflet: at -120 degrees
     ANTERIOR = 0  #: mitral
     POSTERIOR = 1  #: mitral, all three scallops
     POSITIVE = 0  #: bileaflet: the leaflet at x > 0

@@ -263,8 +263,9 @@ void add_valve(nb::module_ &module) {
   nb::class_<Valve> valve(module, "Valve", nb::sig("class Valve(collections.abc.Mapping[str, typing.Any])"),
                           R"(A parametric valve: its kind and the values of its parameters.
 
-kind is 'aortic' (the paper's three cusps), 'mitral', 'trileaflet' (three equal cusps that close) or 'bileaflet'
-(a mechanical prosthesis). Keywords set parameters: Valve('mitral', opening=0.3).
+kind is 'aortic' (the paper's three cusps), 'mitral', 'coapting' (three equal cusps with a zone of coaptation),
+'trileaflet' (three equal cusps that close in straight lines) or 'bileaflet' (a mechanical prosthesis).
+Keywords set parameters: Valve('mitral', opening=0.3).
 
 A valve is a mapping from names to values: valve['AP_diameter'] = 3.1 sets a parameter, valve['opening'] reads it,
 dict(valve) has all values. Names cannot be added or removed. A valve can be pickled. Lengths are in centimetres by

@@ -11,6 +11,7 @@ PLACEMENT = {"rotation_axis": (1.0, 2.0, 3.0), "rotation_angle": 12.0, "translat
 VALVES = {
     "mitral": {"AP_diameter": 3.3, "ALPM_diameter": 3.6, "anterior_length": 2.3, "opening": 0.3},
     "aortic": {"leaflet_height": 1.1, "bending_height": 0.65, "right.leaflet_radius_in": 0.3},
+    "coapting": {"root_radius": 1.2, "effective_height": 0.95, "opening": 0.35},
     "trileaflet": {"root_radius": 1.2, "leaflet_height": 1.25, "opening": 0.35},
     "bileaflet": {"radius": 1.2, "opening": 0.3},
 }

@@ -12,7 +12,7 @@ import riis
 from riis import _errors
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-KINDS = "aortic", "mitral", "trileaflet", "bileaflet"
+KINDS = "aortic", "mitral", "coapting", "trileaflet", "bileaflet"
 
 
 def test_every_function_is_bound_or_left_out():

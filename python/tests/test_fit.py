@@ -20,7 +20,7 @@ pytest.importorskip("scipy", reason="scipy is missing; ./run python installs it"
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
-@pytest.mark.parametrize("kind", ["mitral", "aortic", "trileaflet", "bileaflet"])
+@pytest.mark.parametrize("kind", ["mitral", "aortic", "coapting", "trileaflet", "bileaflet"])
 def test_known_valves_are_found_again(kind):
     true = fit_table.VALVES[kind]
     points = fit_table.cloud(kind, 600, 0.01, outliers=0.02)

@@ -252,6 +252,6 @@ def test_a_prepared_mesh_uses_clusters(surface, xyz):
     assert riis.mark(surface, mesh).stats.search == "clusters"
 
 
-@pytest.mark.parametrize("kind", ["aortic", "mitral", "trileaflet", "bileaflet"])
+@pytest.mark.parametrize("kind", ["aortic", "mitral", "coapting", "trileaflet", "bileaflet"])
 def test_kinds_of_valves_are_marked(kind, mesh):
     assert len(riis.mark(riis.Surface(riis.Valve(kind)), mesh)) > 100

@@ -204,7 +204,7 @@ def test_cusps_have_parameters_of_their_own():
     assert (valve["right.leaflet_angle"], valve["left.leaflet_angle"]) == (30.0, 20.0)
 
 
-@pytest.mark.parametrize("kind", ["aortic", "mitral", "trileaflet", "bileaflet"])
+@pytest.mark.parametrize("kind", ["aortic", "mitral", "coapting", "trileaflet", "bileaflet"])
 def test_parameters_describe_the_defaults(kind):
     valve = riis.Valve(kind)
     assert len(valve.parameters) == len(valve)
@@ -253,3 +253,23 @@ def test_a_valve_comes_from_patches():
     reversals = numpy.array([[1, 0, 0, 0]], "i4")
     again = riis.Surface(riis.Valve.from_patches(degree, points, curves, reversed=reversals))
     assert numpy.isclose(again.info.area, 4.0)
+
+
+def test_a_coapting_valve_has_surgeons_sizes_and_refuses_others():
+    valve = riis.Valve("coapting", annulus=2.4, stj=2.6, effective_height=1.0)
+    assert (valve["root_radius"], valve["commissure_radius"]) == (1.2, 1.3)
+    assert numpy.isclose(valve["commissure_height"], 1.82) and numpy.isclose(valve["coaptation_height"], 0.39)
+    edges = []
+    for opening in (0.0, 0.3, 0.7, 1.0):
+        valve["opening"] = opening
+        edges.append([leaflet.free_edge for leaflet in riis.Surface(valve).leaflets()])
+    assert numpy.allclose(edges, edges[0][0], rtol=1e-3)
+    for sizes, text in (
+        ({"gap": 0.001}, "gap is 0.001; it must be from 0.002 to 0.2 times commissure_radius, which is 1.25"),
+        ({"coaptation_height": 0.9}, "coaptation_height is 0.9; it must be from 0.02 to 0.9 times effective_height"),
+        ({"effective_height": 1.5, "commissure_expansion": 0.3}, "half an open free edge is at least"),
+        ({"commissure_height": 1.4, "effective_height": 0.45, "edge_rise": 0.0}, "a cusp would fold beside its attachment"),
+        ({"commissure_height": 1.0, "effective_height": 0.15, "coaptation_height": 0.1}, "may hang down to the height"),
+    ):
+        with pytest.raises(riis.InvalidParameterError, match=text):
+            riis.Surface(riis.Valve("coapting", **sizes))

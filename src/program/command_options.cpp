@@ -47,8 +47,8 @@ TimeSpan parse_span(const std::string &text, const std::string &subject) {
 
 void declare_valve(Command &command, ValveOptions &options) {
   command.group("Valve");
-  command.text("--valve", "KIND|FILE.json", "aortic (default), mitral, trileaflet, bileaflet, or a file of patches",
-               options.valve);
+  command.text("--valve", "KIND|FILE.json",
+               "aortic (default), mitral, coapting, trileaflet, bileaflet, or a file of patches", options.valve);
   command.text("--params,--params-closed", "FILE.json", "Parameters of the valve, or of its closed state",
                options.params);
   command

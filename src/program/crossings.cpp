@@ -116,7 +116,7 @@ bool has_default_values(const riis_valve *valve) {
 double depth_of_contacts(const ValveOptions &options, const riis_surface *surface) {
   riis_surface_info info;
   check(riis_surface_get_info(surface, &info, sizeof info));
-  const bool has_cusps = options.valve == "aortic" || options.valve == "trileaflet";
+  const bool has_cusps = options.valve == "aortic" || options.valve == "coapting" || options.valve == "trileaflet";
   return has_cusps ? 1e-3 * info.half_thickness : 2 * info.error_bound;
 }
 

@@ -97,7 +97,7 @@ After such a file was read, all parameters are set, and none follows.
 The parameters of a kind of valve make it closed and open. By default the mitral valve has opening 1, and the others have
 opening 0. With --params-open, the other options give the closed state. That file's parameters and the defaults give the open
 state. An opening in that file has no effect. The paper's aortic valve, at opening 0 with the default parameters, is not
-closed. Seen along its axis, 19 % of a disc of radius 1.2 cm stay open. --valve trileaflet closes.
+closed. Seen along its axis, 19 % of a disc of radius 1.2 cm stay open. --valve coapting and --valve trileaflet close.
 )"},
     {"patches", "a file of curves for a valve of your own",
      R"(
@@ -132,7 +132,7 @@ ffmpeg. The check for leaks runs at the time when the valve is least open. For -
 {"mesh": "heart.vtu", "unit": "cm", "half_thickness": 0.1, "distance_limit": 0.2, "resistance": 1e4,
  "times": "0:0.8:0.01",
  "valves": [{"name": "mitral", "valve": "mitral", "opening": {"file": "beat.csv", "period": 0.8}},
-            {"name": "aortic", "valve": "trileaflet",
+            {"name": "aortic", "valve": "coapting",
              "rotate": [1,0,0,-30], "translate": [0,3.8,1], "opening": 0.3, "half_thickness": 0.08}]}
 Paths are relative to the file. A MESH, --times and --distance-limit on the command line replace those in the file.
 A valve has "valve", a kind or a file of patches, or it has "surface", a file. A surface is at rest unless the file is a

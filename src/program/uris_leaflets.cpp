@@ -24,6 +24,7 @@ constexpr std::int64_t most_triangles = 2000000;
 std::string name_of_leaflet(const std::string &valve, std::int32_t id) {
   static const std::map<std::string, std::vector<const char *>> known = {
       {"aortic", {"right", "left", "non_coronary"}},
+      {"coapting", {"right", "left", "non_coronary"}},
       {"trileaflet", {"right", "left", "non_coronary"}},
       {"mitral", {"anterior", "posterior"}},
       {"bileaflet", {"positive", "negative", "housing"}}};

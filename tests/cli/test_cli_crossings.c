@@ -108,8 +108,8 @@ static void a_leaflet_may_cross_itself(void **state) {
 static void the_library_s_valves_do_not_cross(void **state) {
   (void)state;
   static const char all[] = "crossing  none: no triangles go through each other at 101 openings from 0 to 1\n";
-  static const char *const kinds[] = {"aortic", "trileaflet", "bileaflet", "mitral"};
-  for (int kind = 0; kind < 4; ++kind) {
+  static const char *const kinds[] = {"aortic", "trileaflet", "bileaflet", "mitral", "coapting"};
+  for (int kind = 0; kind < 5; ++kind) {
     RUN_FINE("check", "crossings", "--valve", kinds[kind]);
     assert_non_null(strstr(program_out, all));
   }
@@ -209,9 +209,9 @@ static void every_run_looks(void **state) {
 /* Placement and opening do not count as a chosen shape. A bileaflet valve's hinges reach into its housing, which is no fault. */
 static void sound_shapes_are_not_named(void **state) {
   (void)state;
-  static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet"};
+  static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet", "coapting"};
   const char *in = scratch_path("in.vtu");
-  for (int kind = 0; kind < 4; ++kind) {
+  for (int kind = 0; kind < 5; ++kind) {
     RUN_FINE("mark", in, "--valve", kinds[kind], "--opening", "0.4", "--rotate", "1,0,0,10", "--translate", "0,0,0.1",
              "--half-thickness", "0.2", "--stats", "-");
     assert_string_equal(program_crossings, "");

@@ -97,8 +97,8 @@ static void test_bileaflet(void **state) {
 /* Tests the kinds that open without a second file. */
 static void test_own_open_states(void **state) {
   (void)state;
-  static const char *const kinds[2] = {"aortic", "trileaflet"};
-  for (int k = 0; k < 2; ++k) {
+  static const char *const kinds[3] = {"aortic", "trileaflet", "coapting"};
+  for (int k = 0; k < 3; ++k) {
     riis_valve *valve = make_valve(kinds[k]);
     for (int i = 0; i < 3; ++i) {
       mark_at(valve, openings[i]);
@@ -194,9 +194,10 @@ static void test_refusals(void **state) {
               "--params-open", file, "--opening", "0");
   RUN_REFUSED(1, "'left.leaflet_angle' is not a parameter of the mitral valve", "mark", mesh, "--valve", "mitral",
               "--set", "left.leaflet_angle=3");
-  RUN_REFUSED(
-      1, "is not a kind of valve; there are: aortic, bileaflet, mitral, trileaflet, and files of patches, FILE.json",
-      "mark", mesh, "--valve", "tricuspid");
+  RUN_REFUSED(1,
+              "is not a kind of valve; there are: aortic, bileaflet, coapting, mitral, trileaflet, and files of "
+              "patches, FILE.json",
+              "mark", mesh, "--valve", "tricuspid");
   /* An output must not replace an input. */
   RUN_REFUSED(2, "is also the file of --params-open", "mark", mesh, "--params-open", file, "--opening", "0", "--stats",
               file);

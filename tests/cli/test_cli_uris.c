@@ -132,7 +132,8 @@ static void check_normal(const char *kind, const place *where) {
   turned(where->turn, along, flow);
   for (int k = 0; k < 3; ++k) dot += flow[k] * exported.normal[k], length += exported.normal[k] * exported.normal[k];
   CHECK_NEAR(length, 1, 1e-12);
-  const int is_symmetric = strcmp(kind, "trileaflet") == 0 || strcmp(kind, "bileaflet") == 0;
+  const int is_symmetric =
+      strcmp(kind, "trileaflet") == 0 || strcmp(kind, "coapting") == 0 || strcmp(kind, "bileaflet") == 0;
   assert_true(dot > (is_symmetric ? 1 - 1e-12 : cos(5 * 3.14159265358979323846 / 180)));
 }
 
@@ -141,6 +142,7 @@ static const struct {
   int n_leaflets;
 } kinds[] = {{"aortic", {"right", "left", "non_coronary"}, "root_radius=1.4", 3},
              {"trileaflet", {"right", "left", "non_coronary"}, "leaflet_height=1.15", 3},
+             {"coapting", {"right", "left", "non_coronary"}, "effective_height=0.95", 3},
              {"mitral", {"anterior", "posterior"}, "anterior_length=2.2", 2},
              {"bileaflet", {"positive", "negative"}, "ring_height=0.6", 2}};
 enum { n_kinds = sizeof kinds / sizeof kinds[0] };

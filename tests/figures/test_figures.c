@@ -13,12 +13,12 @@
 #include "virtual_display.h"
 #include "vtk_shim.h"
 
-enum { n_of_paper = 11, n_kinds = 3, n_figures = n_of_paper + n_kinds };
+enum { n_of_paper = 11, n_kinds = 4, n_figures = n_of_paper + n_kinds };
 
-/* The kinds with a table of states, and the number of openings in each. For the fourth kind, aortic, the page says that there
+/* The kinds with a table of states, and the number of openings in each. For the fifth kind, aortic, the page says that there
  * is no table. */
-static const char *const kinds[n_kinds] = {"trileaflet", "mitral", "bileaflet"};
-static const int n_openings[n_kinds] = {5, 2, 5};
+static const char *const kinds[n_kinds] = {"trileaflet", "coapting", "mitral", "bileaflet"};
+static const int n_openings[n_kinds] = {5, 2, 2, 5};
 
 static char *page;
 
@@ -219,10 +219,13 @@ static void expect_row(const char *kind, int figure, const char *row, const char
 
 static void test_tables_of_states(void **state) {
   (void)state;
-  const int trileaflet = n_of_paper + 1, mitral = trileaflet + 1, bileaflet = mitral + 1;
+  const int trileaflet = n_of_paper + 1, coapting = trileaflet + 1, mitral = coapting + 1, bileaflet = mitral + 1;
   expect_row("trileaflet", trileaflet, "right cusp: free edge (cm)", "right_edge");
   expect_row("trileaflet", trileaflet, "non-coronary cusp: area (cm²)", "non_coronary_area");
   expect_row("trileaflet", trileaflet, "orifice (cm²)", "orifice_area");
+  expect_row("coapting", coapting, "left cusp: free edge (cm)", "left_edge");
+  expect_row("coapting", coapting, "right cusp: area (cm²)", "right_area");
+  expect_row("coapting", coapting, "orifice (cm²)", "orifice_area");
   expect_row("mitral", mitral, "anterior leaflet: free edge (cm)", "anterior_edge");
   expect_row("mitral", mitral, "posterior leaflet: free edge (cm)", "posterior_edge");
   expect_row("mitral", mitral, "posterior leaflet: area (cm²)", "posterior_area");
@@ -256,10 +259,10 @@ static void test_pictures_of_states(void **state) {
 /* The table of parameters has every parameter of every kind, with its description. */
 static void test_parameters_of_all_kinds(void **state) {
   (void)state;
-  static const char *const all[] = {"aortic", "trileaflet", "mitral", "bileaflet"};
+  static const char *const all[] = {"aortic", "trileaflet", "coapting", "mitral", "bileaflet"};
   const char *section = strstr(page, "<section id=\"parameters\">");
   assert_non_null(section);
-  for (size_t k = 0; k < 4; ++k) {
+  for (size_t k = 0; k < sizeof all / sizeof *all; ++k) {
     char summary[64];
     snprintf(summary, sizeof summary, "<summary>%s valve: ", all[k]);
     const char *begin = strstr(section, summary);

@@ -11,8 +11,8 @@
 #include "expect.h"
 #include "scratch.h"
 
-enum { n_valves = 4 };
-static const char *const valves[n_valves] = {"aortic", "trileaflet", "mitral", "bileaflet"};
+enum { n_valves = 5 };
+static const char *const valves[n_valves] = {"aortic", "trileaflet", "coapting", "mitral", "bileaflet"};
 
 /* Returns the exit status of a program. Its output goes to a file in the scratch folder. */
 static int run(const char *command, const char *word, const char *other_word, const char *kind) {
@@ -211,9 +211,18 @@ static void test_new_kinds_are_compared(void **state) {
                                            "zq",
                                            "open_radius_ratio",
                                            "commissure_expansion"};
+  static const char *const coapting[] = {"root_radius",         "commissure_radius",
+                                         "commissure_height",   "effective_height",
+                                         "coaptation_height",   "gap",
+                                         "bottom_angle",        "belly",
+                                         "edge_rise",           "attachment_width",
+                                         "attachment_drop",     "open_radius_ratio",
+                                         "commissure_expansion"};
   static const char *const bileaflet[] = {"radius", "hinge_offset", "closed_angle", "open_angle"};
   for (size_t i = 0; i < sizeof trileaflet / sizeof *trileaflet; ++i)
     expect_compared("trileaflet", "\"trileaflet\"", trileaflet[i]);
+  for (size_t i = 0; i < sizeof coapting / sizeof *coapting; ++i)
+    expect_compared("coapting", "\"coapting\"", coapting[i]);
   for (size_t i = 0; i < sizeof bileaflet / sizeof *bileaflet; ++i)
     expect_compared("bileaflet", "\"bileaflet\"", bileaflet[i]);
   expect_refused_drawing("bileaflet", "\"bileaflet\"", "\"gap\": 0.1", "\"gap\": 0.2",

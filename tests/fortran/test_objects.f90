@@ -138,6 +138,7 @@ contains
     call check_refused(status, RIIS_INVALID_PARAMETER, 'rotation')
 
     call test_named_sizes()
+  call test_coapting()
 
     n = valve%n_parameters(status)
     call check_ok(status, 'the number of parameters')
@@ -251,6 +252,38 @@ contains
     call check_refused(status, RIIS_INVALID_PARAMETER, 'exists for each leaflet separately: name one, as in ''right.stj''')
     call valve%destroy()
   end subroutine test_named_sizes
+
+  ! The sizes of the coapting valve, its refusals, and the length of its free edges at two openings.
+  subroutine test_coapting()
+    type(riis_valve) :: valve
+    type(riis_surface) :: surface
+    type(riis_leaflet) :: closed, half_open
+    real(c_double) :: value
+    call valve%create('coapting')
+    call valve%set('annulus', 2.2d0)
+    call valve%set('stj', 2d0)
+    call valve%get('commissure_height', value)
+    call check(abs(value - 1.4d0) < 1d-15, 'the commissures are 1.4 radii high')
+    call valve%get('effective_height', value)
+    call check(abs(value - 0.7255d0) < 1d-15, 'the free edge rises by 34 degrees')
+    call surface%create(valve)
+    call riis_get_leaflet(surface, 3, closed)
+    call valve%set('opening', 0.5d0)
+    call surface%update(valve)
+    call riis_get_leaflet(surface, 3, half_open)
+    call check(abs(half_open%free_edge / closed%free_edge - 1) < 1d-3, 'a free edge keeps its length')
+    call valve%set('gap', 1d-3)
+    call surface%update(valve, status=status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'gap is 0.001; it must be from 0.002 to 0.2 times commissure_radius')
+    call valve%unset('gap')
+    call valve%set('effective_height', 1.38d0)
+    call surface%update(valve, status=status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'effective_height is 1.38')
+    call valve%set('bottom_angle', 81d0, status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, '''bottom_angle'' is 81; it must be from 0 to 80')
+    call valve%destroy()
+    call surface%destroy()
+  end subroutine test_coapting
 
   ! A unit square of one patch.
   subroutine test_patches()

@@ -41,6 +41,9 @@ const char *const names[] = {"opening",
                              "posteromedial_commissure_height",
                              "open_radius_ratio",
                              "commissure_expansion",
+                             "commissure_radius",
+                             "coaptation_height",
+                             "gap",
                              "annulus",
                              "stj",
                              "right.stj",
@@ -85,8 +88,8 @@ void put(ValveSlot &slot, riis_valve *valve, double size) {
 }  // namespace
 
 void make_valve(Input &in, State &state) {
-  static const char *const kinds[] = {"aortic",     "mitral", "trileaflet", "aortic", "mitral",
-                                      "trileaflet", "mitral", "tricuspid",  "",       nullptr};
+  static const char *const kinds[] = {"aortic",   "mitral", "trileaflet", "coapting", "mitral",
+                                      "coapting", "aortic", "tricuspid",  "",         nullptr};
   ValveSlot &slot = slot_of(in, state);
   const char *kind = in.one_of(kinds);
   put(slot, made_by<riis_valve>(in, [&](riis_valve **valve) { return riis_valve_create(kind, valve); }), 1);

@@ -84,7 +84,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t siz
   file().hold(bytes, size);
   read_valve();
   read_opening();
-  for (const char *kind : {"aortic", "mitral", "trileaflet"}) {
+  for (const char *kind : {"aortic", "mitral", "trileaflet", "coapting"}) {
     file().hold(bytes, size);
     read_parameters(kind);
   }

@@ -71,8 +71,8 @@ static void graphs_have_the_edges_of_a_serial_search(void **state) {
 
 static void a_lattice_has_its_spacing(void **state) {
   (void)state;
-  static const char *const kinds[4] = {"aortic", "mitral", "trileaflet", "bileaflet"};
-  for (int trial = 0; trial < 4; ++trial) {
+  static const char *const kinds[5] = {"aortic", "mitral", "trileaflet", "bileaflet", "coapting"};
+  for (int trial = 0; trial < 5; ++trial) {
     riis_surface_options options = surface_options();
     options.half_thickness = random_between(&rng, 0.1, 0.2);
     const riis_surface *surface = surface_of_kind(kinds[trial], &options);

@@ -66,11 +66,11 @@ static int64_t node_at(const test_mesh *mesh, double x, double y, double z) {
 /* The valve fills a tube, so that a path can only lead through the valve. */
 static void valves_first_open_where_a_ladder_says(void **state) {
   (void)state;
-  static const char *const kinds[3] = {"trileaflet", "bileaflet", "mitral"};
-  for (int trial = 0; trial < 6; ++trial) {
-    const int owned_before = n_owned(), kind = trial % 3;
+  static const char *const kinds[4] = {"trileaflet", "bileaflet", "mitral", "coapting"};
+  for (int trial = 0; trial < 8; ++trial) {
+    const int owned_before = n_owned(), kind = trial % 4;
     riis_valve *valve = new_valve(kinds[kind]);
-    const double radius = kind == 0 ? 1.2 : kind == 1 ? 1.05 : 1.6;
+    const double radius = kind % 3 == 0 ? 1.2 : kind == 1 ? 1.05 : 1.6;
     const test_mesh nodes = tube(radius, -2.4, 3, random_between(&rng, 0.1, 0.14));
     riis_mesh *mesh = mesh_from(&nodes);
     const two_ends e = {node_at(&nodes, 0, 0, -2.4), node_at(&nodes, 0, 0, 3)};

@@ -196,8 +196,8 @@ static void a_steady_step_allocates_nothing(void **state) {
 static void a_steady_moving_step_allocates_nothing(void **state) {
   (void)state;
 #if defined(COUNTS_ALLOCATIONS)
-  static const char *const kinds[5] = {"aortic", "trileaflet", "mitral", "bileaflet", "aortic"};
-  for (int kind = 0; kind < 5; ++kind)
+  static const char *const kinds[6] = {"aortic", "trileaflet", "mitral", "bileaflet", "aortic", "coapting"};
+  for (int kind = 0; kind < 6; ++kind)
     for (int32_t triangulation = RIIS_TRIANGULATION_ADAPTED; triangulation <= RIIS_TRIANGULATION_FIXED; ++triangulation)
       for (int has_velocity = 0; has_velocity < 2; ++has_velocity) {
         const int owned_before = n_owned();

@@ -255,11 +255,12 @@ static void the_first_of_equally_near_edges_gets_the_share(void **state) {
 
 /* --- Any surface, any nodes ------------------------------------------------------------------------------------------ */
 
-enum { n_kinds = 6 };
-static const char *const kinds[n_kinds] = {"aortic", "trileaflet", "mitral", "bileaflet", "patches", "arrays"};
+enum { n_kinds = 7 };
+static const char *const kinds[n_kinds] = {"aortic",   "trileaflet", "mitral", "bileaflet",
+                                           "coapting", "patches",    "arrays"};
 
 static riis_valve *valve_of(int kind, double opening) {
-  if (kind < 4) {
+  if (kind < 5) {
     riis_valve *valve = new_valve(kinds[kind]);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
     if (kind == 3) CHECK_OK(riis_valve_set_scalar(valve, "ring_height", 0.6));
@@ -288,7 +289,7 @@ static riis_surface *moving_surface(int kind, int32_t triangulation) {
   options.triangulation = triangulation;
   options.rotation_angle = between(-180, 180);
   for (int c = 0; c < 3; ++c) options.rotation_axis[c] = between(0.1, 1), options.translation[c] = between(-5, 5);
-  if (kind < 5) {
+  if (kind < 6) {
     riis_valve *before = valve_of(kind, between(0.2, 0.5)), *now = valve_of(kind, between(0.5, 0.9));
     riis_surface *surface = new_surface(before, &options);
     CHECK_OK(riis_surface_update_moving(surface, now, before, between(0.01, 1), NULL, NULL));
@@ -560,6 +561,7 @@ static void leaflets_of_symmetric_valves_share_alike(void **state) {
     double opening, tolerance;
   } valves[] = {{"trileaflet", 3, 0, 0.04},
                 {"trileaflet", 3, 0.6, 0.003},
+                {"coapting", 3, 0, 0.04},
                 {"bileaflet", 2, 0, 0.03},
                 {"bileaflet", 2, 0.5, 0.0005}};
   for (int i = 0; i < (int)(sizeof valves / sizeof *valves); ++i)

@@ -24,8 +24,8 @@ static riis_mark_list fields_in(const riis_marks *result) {
   return fields;
 }
 
-enum { n_kinds = 4 };
-static const char *const kinds[n_kinds] = {"trileaflet", "mitral", "bileaflet", "aortic"};
+enum { n_kinds = 5 };
+static const char *const kinds[n_kinds] = {"trileaflet", "mitral", "bileaflet", "aortic", "coapting"};
 
 /* Makes a valve that moves from one opening to another. */
 static riis_surface *moving_surface(const char *kind, double now, double before, const riis_surface_options *options) {

@@ -74,12 +74,12 @@ static riis_surface_options options_with(int32_t n_threads, int32_t triangulatio
 }
 
 static void check_surfaces(int32_t triangulation, double tolerance) {
-  static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet"};
+  static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet", "coapting"};
   const riis_surface_options options = options_with(n_threads_asked, triangulation, tolerance);
   riis_crossing_options of_crossings;
   CHECK_OK(riis_crossing_options_init(&of_crossings, sizeof of_crossings));
   of_crossings.n_threads = n_threads_asked;
-  for (int k = 0; k < 4; ++k) {
+  for (int k = 0; k < 5; ++k) {
     riis_valve *valve = new_valve(kinds[k]), *before = new_valve(kinds[k]);
     riis_surface *surface = NULL;
     riis_crossing_list crossings;

@@ -130,4 +130,53 @@ static inline double check_opening(riis_valve *valve, double radius, const doubl
   return orifice;
 }
 
+/* The nodes of a grid in a cylinder around the axis. */
+enum { n_across = 67, n_up = 76, n_nodes = n_across * n_across * n_up };
+
+/* Marks the nodes near the surface in a cylinder of height 3, then fills from below over all 26 neighbours. Returns whether the
+ * fill reaches the top. */
+static inline int leaks_through(riis_valve *valve, double radius, double bottom, double half_thickness) {
+  double *nodes = own(malloc(3 * n_nodes * sizeof *nodes));
+  uint8_t *is_closed = own(malloc(n_nodes * sizeof *is_closed));
+  int32_t *queue = own(malloc(n_nodes * sizeof *queue));
+  riis_surface_options options = surface_options();
+  options.half_thickness = half_thickness;
+  riis_surface *surface = new_surface(valve, &options);
+  for (int64_t i = 0; i < n_nodes; ++i) {
+    nodes[3 * i] = radius * (2.0 * (double)(i % n_across) / (n_across - 1) - 1);
+    nodes[3 * i + 1] = radius * (2.0 * (double)(i / n_across % n_across) / (n_across - 1) - 1);
+    nodes[3 * i + 2] = bottom + 3.0 * (double)(i / n_across / n_across) / (n_up - 1);
+  }
+  riis_mesh *mesh = mesh_of(n_nodes, nodes);
+  riis_marks *result = NULL;
+  CHECK_OK(riis_marks_create(&result));
+  own(result);
+  CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
+  CHECK_OK(dense_of(result, n_nodes, 1e30, is_closed, NULL, NULL, NULL));
+  free_one_owned(result);
+  free_one_owned(mesh);
+  free_one_owned(surface);
+  for (int64_t i = 0; i < n_nodes; ++i)
+    if (hypot(nodes[3 * i], nodes[3 * i + 1]) > radius) is_closed[i] = 1;
+  int64_t n = 0;
+  for (int32_t i = 0; i < n_across * n_across; ++i)
+    if (!is_closed[i]) is_closed[i] = 1, queue[n++] = i;
+  assert_true(n > 1000);
+  int leaks = 0;
+  for (int64_t done = 0; done < n && !leaks; ++done) {
+    const int at[3] = {queue[done] % n_across, queue[done] / n_across % n_across, queue[done] / n_across / n_across};
+    leaks = at[2] == n_up - 1;
+    for (int k = 0; k < 27; ++k) {
+      const int x = at[0] + k % 3 - 1, y = at[1] + k / 3 % 3 - 1, z = at[2] + k / 9 - 1;
+      if (x < 0 || x >= n_across || y < 0 || y >= n_across || z < 0 || z >= n_up) continue;
+      const int32_t next = (z * n_across + y) * n_across + x;
+      if (!is_closed[next]) is_closed[next] = 1, queue[n++] = next;
+    }
+  }
+  free_one_owned(queue);
+  free_one_owned(is_closed);
+  free_one_owned(nodes);
+  return leaks;
+}
+
 #endif

@@ -68,12 +68,12 @@ static int is_held(const char *kind, int32_t patch_id, const double *uv) {
 
 static void edges_are_those_of_one_triangle_on_the_side(void **state) {
   (void)state;
-  static const char *const kinds[3] = {"aortic", "trileaflet", "mitral"};
+  static const char *const kinds[4] = {"aortic", "trileaflet", "mitral", "coapting"};
   for (int trial = 0; trial < 24; ++trial) {
     const int owned_before = n_owned();
-    const char *kind = kinds[trial / 2 % 3];
+    const char *kind = kinds[trial / 2 % 4];
     const riis_surface_options options = placed(trial % 2, between(0.5, 2));
-    riis_surface *surface = new_surface(valve_of(kind, trial < 6 ? 0 : between(0, 1)), &options);
+    riis_surface *surface = new_surface(valve_of(kind, trial < 8 ? 0 : between(0, 1)), &options);
     const riis_triangles all = triangles_of(surface);
     placed_edge *edges = own(malloc((size_t)all.n_triangles * 3 * sizeof *edges));
     int64_t n = 0, n_expected = 0;
@@ -91,7 +91,7 @@ static void edges_are_those_of_one_triangle_on_the_side(void **state) {
     }
     const riis_attachment got = attachment_of(surface);
     assert_int_equal(got.n_edges, n_expected);
-    assert_true(got.n_edges >= (trial / 2 % 3 == 2 ? 20 : 12));
+    assert_true(got.n_edges >= (trial / 2 % 4 == 2 ? 20 : 12));
     for (int64_t i = 0; i < got.n_edges; ++i) {
       const double *ends = got.edges + 6 * i;
       const placed_edge here = edge_between(ends, ends + 3, got.leaflet_id[i], got.patch_id[i]);
@@ -119,7 +119,11 @@ static void attachments_are_closed_lines(void **state) {
     const int owned_before = n_owned();
     const int is_mitral = trial % 3 == 2;
     const riis_surface_options options = placed(trial % 2, between(0.5, 2));
-    riis_surface *surface = new_surface(valve_of(is_mitral ? "mitral" : "trileaflet", between(0, 1)), &options);
+    riis_surface *surface = new_surface(valve_of(is_mitral   ? "mitral"
+                                                 : trial % 3 ? "coapting"
+                                                             : "trileaflet",
+                                                 between(0, 1)),
+                                        &options);
     const riis_attachment got = attachment_of(surface);
     double of_patch[12] = {0}, total = 0;
     for (int64_t i = 0; i < 2 * got.n_edges; ++i) {
@@ -205,8 +209,8 @@ static void refusals_name_the_argument(void **state) {
   static const struct {
     const char *kind;
     int largest_id;
-  } kinds[4] = {{"aortic", 2}, {"trileaflet", 2}, {"mitral", 1}, {"bileaflet", 2}};
-  for (int i = 0; i < 4; ++i)
+  } kinds[5] = {{"aortic", 2}, {"trileaflet", 2}, {"mitral", 1}, {"bileaflet", 2}, {"coapting", 2}};
+  for (int i = 0; i < 5; ++i)
     assert_int_equal(info_of(new_surface(valve_of(kinds[i].kind, 0.5), NULL)).largest_leaflet_id, kinds[i].largest_id);
   shape square = unit_square();
   square.leaflet_id[0] = 5;

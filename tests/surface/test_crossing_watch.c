@@ -117,13 +117,13 @@ static void a_valve_that_begins_open_is_named(void **state) {
   assert_int_equal(warnings.n, 1);
 }
 
-static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet"};
+static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet", "coapting"};
 
 /* Default shapes do not cross at any opening. Other sound shapes do not cross either. Closed mitral leaflets touch. Their fixed
  * triangles go through each other by less than the depth that counts as a crossing. */
 static void sound_shapes_are_not_named(void **state) {
   (void)state;
-  for (int kind = 0; kind < 4; ++kind)
+  for (int kind = 0; kind < 5; ++kind)
     for (int32_t triangulation = 0; triangulation < 2; ++triangulation) {
       riis_surface_options options = surface_options();
       options.triangulation = triangulation;

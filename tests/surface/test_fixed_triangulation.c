@@ -114,6 +114,7 @@ static void triangles_stay_at_every_opening(void **state) {
   check_triangles_stay(opening_aortic(), "aortic");
   check_triangles_stay(new_valve("aortic"), "aortic, its own open state");
   check_triangles_stay(new_valve("trileaflet"), "trileaflet");
+  check_triangles_stay(new_valve("coapting"), "coapting");
 }
 
 /* Distances to both triangulations differ by at most the sum of their bounds. */

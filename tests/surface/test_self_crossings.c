@@ -455,8 +455,8 @@ static void bad_arguments_are_refused_by_name(void **state) {
 /* The library's default states do not cross at any opening, for any kind of valve. */
 static void valves_do_not_cross(void **state) {
   (void)state;
-  static const char *const kinds[] = {"aortic", "trileaflet", "bileaflet", "mitral"};
-  for (int kind = 0; kind < 4; ++kind) {
+  static const char *const kinds[] = {"aortic", "trileaflet", "bileaflet", "mitral", "coapting"};
+  for (int kind = 0; kind < 5; ++kind) {
     riis_valve *valve = new_valve(kinds[kind]);
     riis_surface *surface = new_surface(valve, NULL);
     for (int i = 0; i <= 100; ++i) {

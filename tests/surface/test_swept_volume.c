@@ -26,8 +26,8 @@ static void set(riis_valve *valve, const char *name, double value) {
   CHECK_OK(riis_valve_set_scalar(valve, name, value));
 }
 
-enum { n_kinds = 4 };
-static const char *const kinds[n_kinds] = {"aortic", "mitral", "trileaflet", "bileaflet"};
+enum { n_kinds = 5 };
+static const char *const kinds[n_kinds] = {"aortic", "mitral", "trileaflet", "bileaflet", "coapting"};
 
 /* A valve of a kind with some parameters of its own. */
 static riis_valve *random_valve(int kind) {
@@ -36,6 +36,7 @@ static riis_valve *random_valve(int kind) {
   if (kind == 1) set(valve, "surface_angle", between(-20, 20));
   if (kind == 2) set(valve, "leaflet_height", between(1.3, 1.6));
   if (kind == 3) set(valve, "closed_angle", between(20, 40));
+  if (kind == 4) set(valve, "effective_height", between(0.85, 1));
   return valve;
 }
 
@@ -162,7 +163,7 @@ static void squares_sweep_boxes(void **state) {
 
 static void volumes_are_conserved(void **state) {
   (void)state;
-  for (int trial = 0; trial < 3 * n_kinds; ++trial) {
+  for (int trial = 0; trial < 2 * n_kinds + 2; ++trial) {
     riis_valve *valve = random_valve(trial % n_kinds);
     const double a = between(0, 1), b = between(0, 1), c = between(0, 1);
     riis_surface_options options = surface_options(), placed = surface_options();

@@ -14,8 +14,8 @@ static random_source rng;
 static double between(double low, double high) { return random_between(&rng, low, high); }
 static double distance(const double *p, const double *q) { return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]); }
 
-static const char *kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet"};
-enum { n_kinds = 4 };
+static const char *kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet", "coapting"};
+enum { n_kinds = 5 };
 
 static double largest_speed(const riis_surface *surface) {
   static const double zero[3] = {0, 0, 0};
@@ -113,10 +113,18 @@ static const value trileaflet_values[] = {
     {"zq", -0.4, -0.2}, {"open_radius_ratio", 0.7, 0.9}};
 static const value mitral_values[] = {{"opening", 0, 1}, {"surface_angle", -30, 30}, {"anterior_ratio", 0.36, 0.45}};
 static const value bileaflet_values[] = {{"opening", 0, 1}, {"closed_angle", 20, 35}};
+static const value coapting_values[] = {{"opening", 0, 1},
+                                        {"root_radius", 1.15, 1.35},
+                                        {"commissure_height", 1.7, 1.9},
+                                        {"effective_height", 0.85, 1},
+                                        {"coaptation_height", 0.3, 0.5},
+                                        {"belly", 0.4, 0.6},
+                                        {"open_radius_ratio", 0.7, 0.85}};
 static const struct {
   const value *values;
   int n;
-} values_of[n_kinds] = {{aortic_values, 6}, {trileaflet_values, 6}, {mitral_values, 3}, {bileaflet_values, 2}};
+} values_of[n_kinds] = {
+    {aortic_values, 6}, {trileaflet_values, 6}, {mitral_values, 3}, {bileaflet_values, 2}, {coapting_values, 7}};
 
 /* Changes the value at position `only` at random, or about half of all values if `only` is negative. */
 static void move(riis_valve *valve, int kind, int only) {

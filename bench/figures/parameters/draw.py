@@ -12,22 +12,25 @@ import sys
 
 import aortic
 import bileaflet
+import coapting
 import mitral
 import sheet
 import trileaflet
 
-MODULES = {"aortic": aortic, "trileaflet": trileaflet, "mitral": mitral, "bileaflet": bileaflet}
+MODULES = {"aortic": aortic, "trileaflet": trileaflet, "coapting": coapting, "mitral": mitral, "bileaflet": bileaflet}
 
 CAPTIONS = {
     "aortic": "Every parameter of the aortic valve, with its default. Lines, angles and points are the library's own: each is "
     "compared with the parameter that it is named by.",
     "trileaflet": "Every parameter of the trileaflet valve, with its default, likewise.",
+    "coapting": "Every parameter of the coapting valve, with its default, likewise.",
     "mitral": "Every parameter of the mitral valve, with its default, likewise.",
     "bileaflet": "Every parameter of the bileaflet valve, with its default, likewise.",
 }
 PAPER = {
     "aortic": "table “Aortic valve parameters” (section 2.1), which has no picture of them.",
     "trileaflet": "none: the paper has no such valve.",
+    "coapting": "none: the paper has no such valve.",
     "mitral": "appendix, table of the mitral valve's parameters.",
     "bileaflet": "none: the paper has no such valve.",
 }

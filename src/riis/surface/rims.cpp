@@ -60,7 +60,7 @@ Vector<std::uint8_t> rim_sides(const PatchSet &set) {
   for (const Seam &seam : set.seams) {
     const auto &images = set.patches[seam.patch].images;
     for (const std::size_t i : {seam.image, seam.twin})
-      if (seam.is_whole_side) {
+      if (seam.points == Seam::side_v1) {
         std::uint8_t &of_patch = view(sides)[images[i].patch_id];
         of_patch = static_cast<std::uint8_t>(of_patch & ~rim_v1);
       }

@@ -151,4 +151,21 @@ void add_cusps(PatchSet &set, const HalfCusp &half, const HalfCusp &rate, const 
   set.patches.push_back({bending, leaflet, symmetry_above, sinus_above, images(1), 0, AttachedSide::u1});
 }
 
+Vector<CuspPlace> equal_places(Vec3 shift) {
+  // This is the order of the cusps round the axis.
+  constexpr double turns[3] = {0, 120, -120};
+  Vector<CuspPlace> places;
+  for (std::int32_t cusp = 0; cusp < 3; ++cusp)
+    // Adding 0 turns -0 into 0, so that the cusps have the same bits where they meet on the axis.
+    places.push_back({rotation_xyz({0, 0, view(turns)[cusp]}), shift + Vec3{0, 0, 0}, cusp});
+  return places;
+}
+
+void sew_equal_cusps(PatchSet &set, std::size_t patch, Seam::Points points) {
+  constexpr std::size_t right = 0, left = 1, non_coronary = 2;
+  for (const auto &[cusp, before] :
+       {std::pair(right, non_coronary), std::pair(left, right), std::pair(non_coronary, left)})
+    set.seams.push_back({patch, 2 * cusp + 1, 2 * before, points});
+}
+
 }  // namespace riis

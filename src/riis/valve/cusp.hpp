@@ -59,5 +59,11 @@ struct CuspPlace {
 // Adds the lower and the upper patch of half a cusp. At each place, both patches get images for both halves of the cusp, first
 // for y >= 0. The upper patch becomes the last of the set. Its side v1 is the free edge, which ends at the commissure, u = 1.
 void add_cusps(PatchSet &set, const HalfCusp &half, const HalfCusp &rate, const Vector<CuspPlace> &places);
+inline std::size_t top_patch(const PatchSet &set) { return set.patches.size() - 1; }
+
+// Returns the places of three equal cusps: right, left and non-coronary, turned by 0, 120 and -120 degrees and then shifted.
+Vector<CuspPlace> equal_places(Vec3 shift);
+// Sews the images of a patch of three equal cusps together. The half y < 0 of a cusp meets the half y >= 0 of the cusp before it.
+void sew_equal_cusps(PatchSet &set, std::size_t patch, Seam::Points points);
 
 }  // namespace riis

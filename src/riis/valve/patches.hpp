@@ -53,13 +53,18 @@ struct Patch {
   AttachedSide attached = AttachedSide::none;
 };
 
-// Two images of one patch that have points of the side v1 in common: the whole side, or only its end at u1. The image `image`
-// takes these points from the image `twin`, because turning both separately would round differently.
+// Two images of one patch that have points in common. The image `image` takes these points from the image `twin`, because turning
+// both separately would round differently.
 struct Seam {
+  enum Points : std::uint8_t {
+    side_v1,  // the whole side v1
+    end_v1,   // only the end of the side v1 at u1
+    side_u1,  // the side u1, which is one point
+  };
   std::size_t patch, image, twin;
-  bool is_whole_side;
+  Points points;
 
-  bool has(double u, double v) const { return v == 1 && (is_whole_side || u == 1); }
+  bool has(double u, double v) const { return points == side_v1 ? v == 1 : u == 1 && (points == side_u1 || v == 1); }
 };
 
 struct PatchSet {

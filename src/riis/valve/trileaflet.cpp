@@ -21,8 +21,6 @@ enum Parameter {
 
 // Half the angle of a cusp in degrees, from its symmetry plane to the end of its free edge.
 constexpr double half_angle = 60;
-// The angles of the right, the left and the non-coronary cusp about the axis, in degrees. This is their order round the axis.
-constexpr double turns[3] = {0, 120, -120};
 
 // The rules of sizes that were not set. Cusps of other sizes cross unless these sizes follow (docs/theory.md, section 3).
 using Rule = std::array<double, 3>;
@@ -105,27 +103,14 @@ void check_values(const ParameterValues &values) {
   check_reach(half_cusp(open), open, "in the open state, ", "a cusp", ", open_radius_ratio, commissure_expansion");
 }
 
-// Sews the cusps together. The half y < 0 of a cusp meets the half y >= 0 of the cusp before it. At opening 0 they meet along
-// the free edge, otherwise only at the commissure.
-void sew(PatchSet &set, bool is_closed) {
-  const std::size_t top = set.patches.size() - 1;
-  constexpr std::size_t right = 0, left = 1, non_coronary = 2;
-  for (const auto &[cusp, before] :
-       {std::pair(right, non_coronary), std::pair(left, right), std::pair(non_coronary, left)})
-    set.seams.push_back({top, 2 * cusp + 1, 2 * before, is_closed});
-}
-
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening) {
   const HalfCusp closed_half = half_cusp(closed_shape(closed.values)), open_half = half_cusp(open_shape(open.values));
   const auto &from = closed.values[translation], &to = open.values[translation];
   const Vec3 shift = riis::blend(Vec3{from[0], from[1], from[2]}, Vec3{to[0], to[1], to[2]}, opening);
-  Vector<CuspPlace> places;
-  for (std::int32_t cusp = 0; cusp < 3; ++cusp)
-    // Adding 0 turns -0 into 0, so that the cusps have the same bits where they meet on the axis.
-    places.push_back({rotation_xyz({0, 0, view(turns)[cusp]}), shift + Vec3{0, 0, 0}, cusp});
   PatchSet set;
-  add_cusps(set, blend(closed_half, open_half, opening), rate(closed_half, open_half), places);
-  sew(set, opening == 0);
+  add_cusps(set, blend(closed_half, open_half, opening), rate(closed_half, open_half), equal_places(shift));
+  // At opening 0 the cusps meet along their free edges, otherwise only at the commissures.
+  sew_equal_cusps(set, top_patch(set), opening == 0 ? Seam::side_v1 : Seam::end_v1);
   return set;
 }
 

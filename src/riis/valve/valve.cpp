@@ -99,10 +99,11 @@ void check_derived(const ValveKind &kind, const ValveState &state) {
 const ValveKind &find_valve_kind(std::string_view name) {
   if (name == "aortic") return aortic_valve_kind();
   if (name == "bileaflet") return bileaflet_valve_kind();
+  if (name == "coapting") return coapting_valve_kind();
   if (name == "mitral") return mitral_valve_kind();
   if (name == "trileaflet") return trileaflet_valve_kind();
   fail(RIIS_INVALID_PARAMETER, "'", shown(name),
-       "' is not a kind of valve; there are: aortic, bileaflet, mitral, trileaflet");
+       "' is not a kind of valve; there are: aortic, bileaflet, coapting, mitral, trileaflet");
 }
 
 Valve::Valve(const ValveKind &kind, PatchSet patches) : kind_(&kind), state_{{}, std::move(patches), {}} {
@@ -146,8 +147,14 @@ void Valve::unset(std::string_view name) {
 
 void Valve::derive() {
   for (std::size_t i = 0; i < kind_->parameters.size(); ++i) {
-    const ParameterRule &rule = kind_->parameters[i].rule;
-    if (rule.value && !state_.is_set[i]) state_.values[i] = rule.value(state_.values);
+    const ParameterSpec &spec = kind_->parameters[i];
+    if (!spec.rule.value || state_.is_set[i]) continue;
+    state_.values[i] = spec.rule.value(state_.values);
+    // Sizes at the ends of their ranges would have others outside of theirs.
+    for (int k = 0; k < spec.n_values; ++k) {
+      double &value = view(state_.values[i])[k];
+      value = std::clamp(value, spec.minimum, spec.maximum);
+    }
   }
 }
 

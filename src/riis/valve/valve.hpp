@@ -79,6 +79,7 @@ struct ValveKind {
 // The kinds of valves that are defined by parameters. Each is in a file of its name.
 const ValveKind &aortic_valve_kind();
 const ValveKind &bileaflet_valve_kind();
+const ValveKind &coapting_valve_kind();
 const ValveKind &mitral_valve_kind();
 const ValveKind &trileaflet_valve_kind();
 
