@@ -149,6 +149,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   StatesOptions states;
   ExportOptions exported;
   ParamsOptions params;
+  PlaceOptions placed;
   std::string topic;
   const auto command = [](CLI::App &in, const char *name, const char *what, const char *help) {
     CLI::App *made = in.add_subcommand(name, what);
@@ -165,6 +166,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   const Command leak(command(*checks, "leaks", "Tell whether a mesh lets flow through the marked valve", "leaks"));
   const Command frames(command(app, "export", "Write the motion of leaflets as svMultiPhysics reads it", "export"));
   const Command values(command(app, "params", "Print the parameters of a valve", "params"));
+  const Command places(command(app, "place", "Find a valve's sizes and placement from a patient's landmarks", "place"));
   CLI::App *help = command(app, "help", "Explain a topic, or list the topics", "help");
   help->add_option("TOPIC", topic, "One of the topics that riis help lists");
   declare_mark(marks, mark);
@@ -174,6 +176,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   declare_leaks(leak, leaks);
   declare_export(frames, exported);
   declare_params(values, params);
+  declare_place(places, placed);
   check_equals_signs(argc, argv);
   check_commands(app, argc, argv);
   try {
@@ -199,6 +202,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   if (crossing.parsed()) return finish_crossings(crossing, std::move(crossings));
   if (leak.parsed()) return finish_leaks(leak, std::move(leaks));
   if (frames.parsed()) return finish_export(frames, std::move(exported));
+  if (places.parsed()) return finish_place(places, std::move(placed));
   return finish_params(values, std::move(params));
 }
 

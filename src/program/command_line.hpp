@@ -10,7 +10,7 @@
 namespace riis::program {
 
 // The command that the user requested, with its options. The commands riis surface and riis check also use MarkOptions.
-using Request = std::variant<MarkOptions, StatesOptions, ExportOptions, ParamsOptions>;
+using Request = std::variant<MarkOptions, StatesOptions, ExportOptions, ParamsOptions, PlaceOptions>;
 
 // Parses the command line. If it requests only help or the version, prints that and returns nothing. Throws a Refusal for wrong
 // usage.
