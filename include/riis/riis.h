@@ -1194,8 +1194,8 @@ RIIS_API riis_status riis_landmarks_init(riis_landmarks *landmarks, int64_t stru
 /* Where a parameter's value comes from. */
 enum {
   RIIS_SIZE_KEPT = 0,        /* it is the valve's own */
-  RIIS_SIZE_DETERMINED = 1,  /* the landmarks determine it: its standard error moves the valve by at most a tenth of
-                                its radius, even if no size were expected */
+  RIIS_SIZE_DETERMINED = 1,  /* the landmarks determine it: its standard error at the landmarks' noise moves the
+                                valve by at most a fifteenth of its radius */
   RIIS_SIZE_TIED = 2,        /* no landmark bears on it; it follows from other sizes, by the valve's proportions */
   RIIS_SIZE_UNDETERMINED = 3 /* landmarks bear on it but do not determine it; it is drawn to the valve's proportions */
 };
@@ -1219,7 +1219,7 @@ typedef struct riis_placement {
  * the template: lengths that no landmark bears on keep their proportions. translation and opening stay.
  * Of an aortic valve, rotations and leaflet angles follow from the landmarks, and a leaflet_power that would make
  * cusps overlap is lowered. The valve may be a kind with any parameters; a valve from patches has no landmarks.
- *   held            names of parameters of one value that keep the valve's values, separated by blanks; "": none
+ *   held            names of parameters that keep the valve's values, separated by blanks or commas; "": none
  *   residual        (n_landmarks): distances from the landmarks to their places, mesh units; NULL: not wanted
  *   standard_error  (number of parameters, in the order of riis_valve_get_parameter), in the parameter's unit; infinite
  *                   for RIIS_SIZE_TIED, 0 for RIIS_SIZE_KEPT; NULL: not wanted

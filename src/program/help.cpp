@@ -120,8 +120,8 @@ In 3D Slicer, labels are the names, as in annulus-1. A CSV has lines NAME,X,Y,Z,
 LPS and RAS differ by half a turn about z, which landmarks cannot show; "mesh" stands for the mesh's own axes. With --mesh,
 landmarks that are not at the mesh are refused, and the message says if they would be with other axes or another unit.
 Sizes from "proportion" have no landmark: they keep the proportions of --params or of the defaults. A size is NOT DETERMINED if
-its standard error moves the valve by more than a tenth of its radius. It is then drawn to its proportion. Landmarks are
-those of the closed valve. The report's residuals are distances from landmarks to the valve.
+its standard error at the noise moves the valve by more than a fifteenth of its radius. It is then drawn to its proportion.
+Landmarks are those of the closed valve. The report's residuals are distances from landmarks to the valve.
 )"},
     {"series", "many times: .pvd, movies, tables",
      R"(

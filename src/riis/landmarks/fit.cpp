@@ -13,8 +13,9 @@
 namespace riis {
 namespace {
 
-// A size is determined if its standard error moves the valve by at most this share of its radius.
-constexpr double determined_share = 0.1;
+// A size is determined if its standard error at the stated noise moves the valve by at most this share of its radius. Residuals do
+// not count here: a patient who differs from the model has large ones, but the sizes that fit best are still well defined.
+constexpr double determined_share = 1.0 / 15;
 
 // Solves for the sizes that are not held, then a rotation vector and a shift. All unknowns are in centimetres.
 class Problem {
@@ -155,13 +156,11 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   // Then only those sizes are drawn to it that the landmarks do not determine.
   Problem problem(model, landmarks, best);
   const std::size_t n = problem.n_unknowns();
-  std::vector<double> x = problem.start(), r(problem.n_residuals()), unused(n_landmarks);
-  problem.residuals(x, r);
-  const double noise = shown_noise(model, landmarks, sum_of_squares(problem, unused), n);
+  std::vector<double> x = problem.start(), r(problem.n_residuals());
   const std::vector<double> alone = covariance(problem.normals(x), n);
   for (std::size_t k = 0; k < problem.free_sizes().size(); ++k) {
     FittedSize &size = model.sizes[problem.free_sizes()[k]];
-    size.determined = noise * std::sqrt(alone[k * n + k]) <= determined_share * model.radius;
+    size.determined = landmarks.noise * std::sqrt(alone[k * n + k]) <= determined_share * model.radius;
     problem.with_prior[k] = !size.determined;
   }
   const Minimum minimum = problem.minimize(x);

@@ -50,13 +50,11 @@ std::vector<bool> held_parameters(const Valve &valve, std::string_view held) {
     const auto named = [&](const ParameterSpec &spec) { return spec.name == name; };
     const auto found = std::find_if(specs.begin(), specs.end(), named);
     if (found == specs.end()) {
-      Valve(valve).set(name, 0, nullptr);  // the message is that of an unknown or ambiguous name
+      double unused[3];
+      valve.get(name, 1, unused);  // the message is that of an unknown or ambiguous name
       fail(RIIS_INVALID_PARAMETER, "held names '", name, "', which is not a parameter of the ", valve.kind().name,
            " valve");
     }
-    if (found->n_values != 1)
-      fail(RIIS_INVALID_PARAMETER, "held names '", name, "', which has ", found->n_values,
-           " values; only sizes of one value can be held");
     is_held[static_cast<std::size_t>(found - specs.begin())] = true;
   }
   return is_held;
@@ -127,8 +125,7 @@ PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::str
   placed.standard_error.assign(specs.size(), 0);
   for (std::size_t i = 0; i < specs.size(); ++i) {
     if (is_held[i]) {
-      const double own = value_of(valve, specs[i].name);
-      placed.valve.set(specs[i].name, 1, &own);
+      placed.valve.set(specs[i].name, specs[i].n_values, valve.values()[i].data());
     } else if (grows(specs[i]) || valve.values()[i] != placed.valve.values()[i]) {
       placed.size_state[i] = RIIS_SIZE_TIED;
       placed.standard_error[i] = std::numeric_limits<double>::infinity();
