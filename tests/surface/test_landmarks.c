@@ -644,8 +644,8 @@ static void test_refused_annuli(void **state) {
   } while (0)
   REFUSED(
       "the annulus crosses itself: the line from landmark|order around it", for (int k = 0; k < 3; ++k) {
-        const double x = p.xyz[5][k];
-        p.xyz[5][k] = p.xyz[8][k], p.xyz[8][k] = x;
+        const double x = p.xyz[2][k];
+        p.xyz[2][k] = p.xyz[10][k], p.xyz[10][k] = x;
       });
   REFUSED("landmark 3 (annulus) and landmark 4 (annulus) are in one place",
           memcpy(p.xyz[4], p.xyz[3], sizeof p.xyz[3]));

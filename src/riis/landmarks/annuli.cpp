@@ -227,8 +227,8 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   const double position = value_of(valve, "ALPM_position_ratio");
   model->sizes.push_back(
       {"ALPM_position_ratio", std::clamp((widest_y - lower.y) / depth, 0.3, 0.8), depth, 0.06, 0.94, position, 0.1});
-  add("IT_distance", grown * value_of(valve, "IT_distance"), 0.1 * depth, largest, 0.15);
-  add("indent_depth", grown * value_of(valve, "indent_depth"), 0, 0.9 * depth, 0.15);
+  add("IT_distance", grown * value_of(valve, "IT_distance"), 0.1 * depth, largest, 0.3);
+  add("indent_depth", grown * value_of(valve, "indent_depth"), 0, 0.9 * depth, 0.3);
   add("anterior_horn_height", horn_there.z - low_z, -2 * depth, 2 * depth, 0.2);
   add("posterior_horn_height", posterior_z - low_z, -2 * depth, 2 * depth, 0.2);
   const bool has_commissures =

@@ -48,9 +48,14 @@ class Problem {
     return x;
   }
 
-  void clamp(std::vector<double> &x) const {
-    for (std::size_t k = 0; k < free_.size(); ++k)
-      x[k] = std::clamp(x[k], size(k).minimum * size(k).reach, size(k).maximum * size(k).reach);
+  Bounded bounds() const {
+    const double any = std::numeric_limits<double>::infinity();
+    Bounded made{std::vector<double>(n_unknowns(), -any), std::vector<double>(n_unknowns(), any)};
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      made.lower[k] = size(k).minimum * size(k).reach;
+      made.upper[k] = size(k).maximum * size(k).reach;
+    }
+    return made;
   }
 
   void residuals(const std::vector<double> &x, std::vector<double> &r) {
@@ -66,8 +71,8 @@ class Problem {
   }
 
   Minimum minimize(std::vector<double> &x) {
-    return riis::minimize([this](const auto &at, auto &r) { residuals(at, r); }, n_residuals(), model_.radius,
-                          [this](auto &at) { clamp(at); }, x);
+    return riis::minimize([this](const auto &at, auto &r) { residuals(at, r); }, n_residuals(), model_.radius, bounds(),
+                          x);
   }
   std::vector<double> normals(const std::vector<double> &x) {
     return normal_matrix([this](const auto &at, auto &r) { residuals(at, r); }, n_residuals(), model_.radius, x);
@@ -163,7 +168,21 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
     size.determined = landmarks.noise * std::sqrt(alone[k * n + k]) <= determined_share * model.radius;
     problem.with_prior[k] = !size.determined;
   }
-  const Minimum minimum = problem.minimize(x);
+  const std::vector<double> start = x;
+  Minimum minimum = problem.minimize(x);
+  // Sizes along which the sum of squares hardly changes keep the fit from ending. The landmarks do not determine them either.
+  while (!minimum.converged) {
+    std::size_t weakest = problem.free_sizes().size();
+    for (std::size_t k = 0; k < problem.free_sizes().size(); ++k)
+      if (!problem.with_prior[k] &&
+          (weakest == problem.free_sizes().size() || alone[k * n + k] > alone[weakest * n + weakest]))
+        weakest = k;
+    if (weakest == problem.free_sizes().size()) break;
+    problem.with_prior[weakest] = true;
+    model.sizes[problem.free_sizes()[weakest]].determined = false;
+    x = start;
+    minimum = problem.minimize(x);
+  }
   r.resize(problem.n_residuals());
   problem.residuals(x, r);
 

@@ -13,9 +13,10 @@ namespace {
 constexpr double difference_step = 1e-5;
 // The iteration ends if a step is shorter than this, in sizes.
 constexpr double negligible_step = 1e-13;
-// It also ends if the sum of squares falls by less than this share of itself.
-constexpr double negligible_decrease = 1e-14;
-constexpr int most_iterations = 200;
+// It also ends if the sum of squares falls by less than this share of itself. The unknowns are then a thousandth of their standard
+// errors from their ends. Residuals that can vanish fall much faster until only rounding is left.
+constexpr double negligible_decrease = 1e-9;
+constexpr int most_iterations = 400;
 
 double sum_of_squares(const std::vector<double> &r) { return std::inner_product(r.begin(), r.end(), r.begin(), 0.0); }
 
@@ -79,21 +80,33 @@ std::vector<double> normal_matrix(const Residuals &residuals, std::size_t n_resi
   return normal_matrix(jacobian(residuals, n_residuals, size, x));
 }
 
-Minimum minimize(const Residuals &residuals, std::size_t n_residuals, double size,
-                 const std::function<void(std::vector<double> &)> &clamp, std::vector<double> &x) {
+Minimum minimize(const Residuals &residuals, std::size_t n_residuals, double size, const Bounded &bounds,
+                 std::vector<double> &x) {
   const std::size_t n = x.size();
   std::vector<double> r(n_residuals), r_tried(n_residuals);
-  clamp(x);
+  const auto clamped = [&](std::vector<double> at) {
+    for (std::size_t i = 0; i < n; ++i) at[i] = std::clamp(at[i], bounds.lower[i], bounds.upper[i]);
+    return at;
+  };
+  x = clamped(x);
   residuals(x, r);
   double cost = sum_of_squares(r), damping = 1e-3;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const auto columns = jacobian(residuals, n_residuals, size, x);
-    const std::vector<double> matrix = normal_matrix(columns);
+    std::vector<double> matrix = normal_matrix(columns);
     std::vector<double> gradient(n);
     double largest = 0;
     for (std::size_t i = 0; i < n; ++i) {
       gradient[i] = std::inner_product(columns[i].begin(), columns[i].end(), r.begin(), 0.0);
       largest = std::max(largest, matrix[i * n + i]);
+    }
+    // An unknown that would leave its bounds rests in this step, so that it does not bend the step of the others.
+    for (std::size_t i = 0; i < n; ++i) {
+      const bool rests = gradient[i] > 0 ? x[i] <= bounds.lower[i] : x[i] >= bounds.upper[i];
+      if (!rests) continue;
+      for (std::size_t j = 0; j < n; ++j) matrix[i * n + j] = matrix[j * n + i] = 0;
+      matrix[i * n + i] = largest;
+      gradient[i] = 0;
     }
     for (bool accepted = false; !accepted; damping *= 8) {
       std::vector<double> damped = matrix, step(n);
@@ -103,7 +116,7 @@ Minimum minimize(const Residuals &residuals, std::size_t n_residuals, double siz
       if (solve(std::move(damped), step)) {
         std::vector<double> tried(n);
         for (std::size_t i = 0; i < n; ++i) tried[i] = x[i] + step[i];
-        clamp(tried);
+        tried = clamped(tried);
         double moved = 0;
         for (std::size_t i = 0; i < n; ++i) moved = std::max(moved, std::abs(tried[i] - x[i]));
         residuals(tried, r_tried);

@@ -18,9 +18,12 @@ struct Minimum {
 };
 
 // Changes x until the sum of squares is least. Unknowns have one unit, and `size` is a length in this unit over which the residuals
-// are smooth. Derivatives are central differences. `clamp` moves unknowns into their bounds after a step.
-Minimum minimize(const Residuals &residuals, std::size_t n_residuals, double size,
-                 const std::function<void(std::vector<double> &)> &clamp, std::vector<double> &x);
+// are smooth. Derivatives are central differences. The unknowns stay between their bounds.
+struct Bounded {
+  std::vector<double> lower, upper;
+};
+Minimum minimize(const Residuals &residuals, std::size_t n_residuals, double size, const Bounded &bounds,
+                 std::vector<double> &x);
 
 // Returns J^T J, row after row, for the Jacobian J of the residuals at x.
 std::vector<double> normal_matrix(const Residuals &residuals, std::size_t n_residuals, double size,
