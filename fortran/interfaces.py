@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """interfaces.py FOLDER: writes FOLDER/riisf.f90. It has explicit interfaces for the subroutines in FOLDER/riis_f77*.f90 and in
-riis_f77_laws.f90 beside this script. expand_templates.sh starts it."""
+riis_f77_laws.f90 and riis_f77_placing.f90 beside this script. expand_templates.sh starts it."""
 
 import re
 import sys
@@ -78,7 +78,7 @@ def module(texts):
 
 def main(folder):
     here = Path(__file__).resolve().parent
-    sources = sorted(Path(folder).glob("riis_f77*.f90")) + [here / "riis_f77_laws.f90"]
+    sources = sorted(Path(folder).glob("riis_f77*.f90")) + [here / "riis_f77_laws.f90", here / "riis_f77_placing.f90"]
     (Path(folder) / "riisf.f90").write_text(module(path.read_text() for path in sources if path.exists()))
 
 

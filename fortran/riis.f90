@@ -68,6 +68,10 @@ module riis
     RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED, RIIS_PASSAGE_CLOSED, RIIS_PASSAGE_OPEN, RIIS_PASSAGE_NONE, &
     RIIS_OUTLINE_NONE, RIIS_OUTLINE_DISC, RIIS_OUTLINE_ATTACHMENT, RIIS_FIRST_PASSAGE_FOUND, RIIS_FIRST_PASSAGE_ALWAYS, &
     RIIS_FIRST_PASSAGE_NEVER, RIIS_FIRST_PASSAGE_NONE, RIIS_ALL_LEAFLETS, &
+    RIIS_LANDMARK_COMMISSURE, RIIS_LANDMARK_NADIR, RIIS_LANDMARK_COAPTATION, RIIS_LANDMARK_ANNULUS, &
+    RIIS_LANDMARK_ANTERIOR_HORN, RIIS_LANDMARK_POSTERIOR_HORN, RIIS_LANDMARK_TRIGONE, RIIS_LANDMARK_POSTEROMEDIAL, &
+    RIIS_LANDMARK_ANTEROLATERAL, RIIS_LANDMARK_HINGE, RIIS_SIZE_KEPT, RIIS_SIZE_DETERMINED, RIIS_SIZE_TIED, &
+    RIIS_SIZE_UNDETERMINED, riis_placement, &
     c_set_log => riis_set_log, c_status_name => riis_status_name, c_version => riis_get_version, &
     c_version_string => riis_version_string
   use riis_valves, only: riis_valve, riis_parameter_info
@@ -81,6 +85,7 @@ module riis
   use riis_passages, only: riis_label_open_regions, riis_find_passage
   use riis_measures, only: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_leak, riis_get_cells_across, &
     riis_get_swept_volume, riis_find_first_passage
+  use riis_placing, only: riis_place
   use riis_laws, only: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, &
     riis_opening_angle_state, riis_opening_from_table, riis_opening_from_times, riis_opening_advance
   implicit none
@@ -91,6 +96,11 @@ module riis
     riis_crossing_list, riis_attachment, riis_triangles, riis_leaflet, riis_orifice, riis_first_passage, riis_cells_across
   public :: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_leak, riis_get_cells_across, &
     riis_get_swept_volume, riis_find_first_passage
+  public :: riis_place, riis_placement, &
+    RIIS_LANDMARK_COMMISSURE, RIIS_LANDMARK_NADIR, RIIS_LANDMARK_COAPTATION, RIIS_LANDMARK_ANNULUS, &
+    RIIS_LANDMARK_ANTERIOR_HORN, RIIS_LANDMARK_POSTERIOR_HORN, RIIS_LANDMARK_TRIGONE, RIIS_LANDMARK_POSTEROMEDIAL, &
+    RIIS_LANDMARK_ANTEROLATERAL, RIIS_LANDMARK_HINGE, RIIS_SIZE_KEPT, RIIS_SIZE_DETERMINED, RIIS_SIZE_TIED, &
+    RIIS_SIZE_UNDETERMINED
   public :: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, riis_opening_angle_state, &
     riis_opening_from_table, riis_opening_from_times, riis_opening_advance
   public :: riis_error_message, riis_status_name, riis_get_version, riis_version_string, riis_set_log, riis_log_procedure

@@ -121,6 +121,22 @@ module riis_c
 
   integer(c_int32_t), parameter :: RIIS_ALL_LEAFLETS = -1
 
+  integer(c_int32_t), parameter :: RIIS_LANDMARK_COMMISSURE = 0
+  integer(c_int32_t), parameter :: RIIS_LANDMARK_NADIR = 1
+  integer(c_int32_t), parameter :: RIIS_LANDMARK_COAPTATION = 2
+  integer(c_int32_t), parameter :: RIIS_LANDMARK_ANNULUS = 3
+  integer(c_int32_t), parameter :: RIIS_LANDMARK_ANTERIOR_HORN = 4
+  integer(c_int32_t), parameter :: RIIS_LANDMARK_POSTERIOR_HORN = 5
+  integer(c_int32_t), parameter :: RIIS_LANDMARK_TRIGONE = 6
+  integer(c_int32_t), parameter :: RIIS_LANDMARK_POSTEROMEDIAL = 7
+  integer(c_int32_t), parameter :: RIIS_LANDMARK_ANTEROLATERAL = 8
+  integer(c_int32_t), parameter :: RIIS_LANDMARK_HINGE = 9
+
+  integer(c_int32_t), parameter :: RIIS_SIZE_KEPT = 0
+  integer(c_int32_t), parameter :: RIIS_SIZE_DETERMINED = 1
+  integer(c_int32_t), parameter :: RIIS_SIZE_TIED = 2
+  integer(c_int32_t), parameter :: RIIS_SIZE_UNDETERMINED = 3
+
   integer(c_int32_t), parameter :: RIIS_PHASE_CLOSING = 0
   integer(c_int32_t), parameter :: RIIS_PHASE_OPENING = 1
 
@@ -561,6 +577,38 @@ module riis_c
     integer(c_int64_t) :: n_edges             !< edges with at least one marked node. If it is 0, only half_thickness
                                               !! differs from 0
   end type riis_cells_across
+
+  type, bind(c) :: riis_landmarks
+    integer(c_int64_t) :: struct_size
+    integer(c_int64_t) :: n_landmarks
+    type(c_ptr) :: x, y, z          !< real(c_double) or (c_float), (n_landmarks), or xyz(3, n_landmarks): c_loc(xyz(1,
+                                    !! 1)), c_loc(xyz(2, 1)), ...
+    integer(c_int64_t) :: stride    !< 3 for xyz(3, n_landmarks)
+    type(c_ptr) :: role             !< integer(c_int32_t), (n_landmarks), RIIS_LANDMARK_*
+    type(c_ptr) :: leaflet_id       !< integer(c_int32_t), (2, n_landmarks), or c_null_ptr
+    real(c_double) :: scale
+    real(c_double) :: noise
+    real(c_double) :: flow(3)
+    integer(c_int32_t) :: real_bits !< storage_size(xyz)
+    integer(c_int32_t) :: reserved
+  end type riis_landmarks
+
+  !> The placement that riis_place finds, for the fields of riis_surface_options with these names.
+  type, bind(c) :: riis_placement
+    real(c_double) :: scale                 !< that of the landmarks; it also gives the default half thickness of 0.1 cm
+    real(c_double) :: rotation_axis(3)      !< unit vector
+    real(c_double) :: rotation_angle        !< degrees, 0 to 180
+    real(c_double) :: translation(3)        !< mesh units
+    real(c_double) :: rms                   !< root mean square of the residuals, mesh units
+    real(c_double) :: worst                 !< the largest residual, mesh units
+    real(c_double) :: noise                 !< on which standard errors rest: that of the landmarks, or more if the
+                                            !! residuals show it
+    real(c_double) :: rotation_error        !< standard error of the rotation, degrees
+    real(c_double) :: position_error        !< standard error of the place of the valve's origin, mesh units
+    integer(c_int64_t) :: worst_landmark_id !< the landmark with the largest residual
+    integer(c_int32_t) :: n_undetermined    !< the number of parameters with RIIS_SIZE_UNDETERMINED
+    integer(c_int32_t) :: reserved          !< 0
+  end type riis_placement
 
   type, bind(c) :: riis_opening_table
     integer(c_int64_t) :: struct_size
@@ -1566,6 +1614,38 @@ module riis_c
       real(c_double), intent(inout) :: volume
       integer(riis_status) :: status
     end function riis_keyframes_get_swept_volume
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Landmarks
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    !>   struct_size  c_sizeof(landmarks)
+    function riis_landmarks_init(landmarks, struct_size) result(status) bind(c, name='riis_landmarks_init')
+      import :: c_int64_t, riis_landmarks, riis_status
+      implicit none
+      type(riis_landmarks), intent(inout) :: landmarks
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_landmarks_init
+
+    !>   held            riis_c_string('') for none
+    !!   residual        (n_landmarks)
+    !!   standard_error  (number of parameters)
+    !!   size_state      (number of parameters)
+    !!   struct_size     c_sizeof(placement)
+    function riis_place(valve, landmarks, held, residual, standard_error, size_state, placement, struct_size) &
+        result(status) bind(c, name='riis_place')
+      import :: c_char, c_double, c_int32_t, c_int64_t, c_ptr, riis_landmarks, riis_placement, riis_status
+      implicit none
+      type(c_ptr), value :: valve
+      type(riis_landmarks), intent(in) :: landmarks
+      character(kind=c_char), intent(in) :: held(*)
+      real(c_double), intent(inout), optional :: residual(*), standard_error(*)
+      integer(c_int32_t), intent(inout), optional :: size_state(*)
+      type(riis_placement), intent(inout) :: placement
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_place
 
     ! -----------------------------------------------------------------------------------------------------------------
     ! Laws of opening

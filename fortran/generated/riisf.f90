@@ -129,6 +129,7 @@ module riisf
   public :: riisf_opening_switch_advance
   public :: riisf_opening_angle_init
   public :: riisf_opening_angle_advance
+  public :: riisf_place
 
   interface
 
@@ -1876,5 +1877,28 @@ module riisf
       real(c_double), intent(inout) :: state(7)
       integer(riis_status), intent(out) :: status
     end subroutine riisf_opening_angle_advance
+
+    subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, flow, held, rotation_axis, &
+      rotation_angle, translation, residual, size_state, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: valve
+      integer(int32), intent(in) :: n_landmarks
+      real(c_double), intent(in) :: xyz(3, *)
+      integer(int32), intent(in) :: role(*)
+      integer(int32), intent(in) :: leaflet_id(2, *)
+      real(c_double), intent(in) :: scale
+      real(c_double), intent(in) :: noise
+      real(c_double), intent(in) :: flow(3)
+      character(len=*), intent(in) :: held
+      real(c_double), intent(inout) :: rotation_axis(3)
+      real(c_double), intent(inout) :: rotation_angle
+      real(c_double), intent(inout) :: translation(3)
+      real(c_double), intent(inout) :: residual(*)
+      integer(int32), intent(inout) :: size_state(*)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_place
   end interface
 end module riisf

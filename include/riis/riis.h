@@ -1182,6 +1182,84 @@ RIIS_API riis_status riis_keyframes_get_swept_volume(const riis_keyframes *keyfr
                                                      double time_to, const riis_surface_options *options,
                                                      int32_t leaflet_id, double *volume);
 
+/* ---- Landmarks: a valve's sizes and placement from points that a person marks in an image ----------------- */
+
+/* What a landmark marks. Landmarks are those of the closed valve. */
+enum {
+  RIIS_LANDMARK_COMMISSURE = 0,     /* aortic, trileaflet: the top of the attachment between two cusps; 3 of them */
+  RIIS_LANDMARK_NADIR = 1,          /* aortic, trileaflet: the lowest point of a cusp's attachment; 3 of them */
+  RIIS_LANDMARK_COAPTATION = 2,     /* aortic, trileaflet: where the closed cusps meet; at most 1. The valve's axis
+                                       passes it; its height is not used */
+  RIIS_LANDMARK_ANNULUS = 3,        /* mitral: a point of the annulus; 4 or more, in their order around it.
+                                       bileaflet: a point of the housing's circle at mid-height; 3 or more */
+  RIIS_LANDMARK_ANTERIOR_HORN = 4,  /* mitral: the annulus at the middle of the anterior leaflet; exactly 1 */
+  RIIS_LANDMARK_POSTERIOR_HORN = 5, /* mitral: the annulus at the middle of the posterior leaflet; at most 1 */
+  RIIS_LANDMARK_TRIGONE = 6,        /* mitral: the annulus at an end of IT_distance; at most 2 */
+  RIIS_LANDMARK_POSTEROMEDIAL = 7,  /* mitral: the annulus at the posteromedial commissure; at most 1 */
+  RIIS_LANDMARK_ANTEROLATERAL = 8,  /* mitral: the annulus at the anterolateral commissure; at most 1 */
+  RIIS_LANDMARK_HINGE = 9           /* bileaflet: an end of a leaflet's hinge line; 2 of one leaflet, or 4 */
+};
+/* Landmarks of a patient, in the caller's arrays. */
+typedef struct riis_landmarks {
+  int64_t struct_size;       /* set by the init function */
+  int64_t n_landmarks;       /* 1 to 10,000 */
+  const void *x, *y, *z;     /* (n_landmarks) by stride, in mesh units */
+  int64_t stride;            /* of x, y and z. Default 1 */
+  const int32_t *role;       /* (n_landmarks): RIIS_LANDMARK_* */
+  const int32_t *leaflet_id; /* (2, n_landmarks): of a nadir, its cusp and -1; of a commissure, its two cusps, in any
+                                order. -1 and -1: not known. NULL: all -1. Enough of an aortic valve's must be known
+                                to name all. Without names, cusp 0 of a trileaflet valve is at the first nadir */
+  double scale;              /* mesh units in a centimetre: 10 for millimetres, 1, or 0.01 for metres. Must be set */
+  double noise;              /* the scatter of the landmarks, each coordinate's standard deviation, mesh units, >= 0.
+                                Default RIIS_AUTO: 0.03 * scale */
+  double flow[3];            /* the direction of flow, of any length; default 0: not known. bileaflet: must be set.
+                                mitral: needed if neither both commissures nor the horns show the atrium's side */
+  int32_t real_bits;         /* of x, y and z */
+  int32_t reserved;          /* 0 */
+} riis_landmarks;
+RIIS_API riis_status riis_landmarks_init(riis_landmarks *landmarks, int64_t struct_size); /* the defaults */
+
+/* Where a parameter's value comes from. */
+enum {
+  RIIS_SIZE_KEPT = 0,        /* it is the valve's own */
+  RIIS_SIZE_DETERMINED = 1,  /* the landmarks determine it: its standard error at the landmarks' noise moves the
+                                valve by at most a fifteenth of its radius */
+  RIIS_SIZE_TIED = 2,        /* no landmark bears on it; it follows from other sizes, by the valve's proportions */
+  RIIS_SIZE_UNDETERMINED = 3 /* landmarks bear on it but do not determine it; it is drawn to the valve's proportions */
+};
+/* The placement that riis_place finds, for the fields of riis_surface_options with these names. */
+typedef struct riis_placement {
+  double scale;              /* that of the landmarks; it also gives the default half thickness of 0.1 cm */
+  double rotation_axis[3];   /* unit vector */
+  double rotation_angle;     /* degrees, 0 to 180 */
+  double translation[3];     /* mesh units */
+  double rms;                /* root mean square of the residuals, mesh units */
+  double worst;              /* the largest residual, mesh units */
+  double noise;              /* on which standard errors rest: that of the landmarks, or more if the residuals show it */
+  double rotation_error;     /* standard error of the rotation, degrees */
+  double position_error;     /* standard error of the place of the valve's origin, mesh units */
+  int64_t worst_landmark_id; /* the landmark with the largest residual */
+  int32_t n_undetermined;    /* the number of parameters with RIIS_SIZE_UNDETERMINED */
+  int32_t reserved;          /* 0 */
+} riis_placement;
+/* Sets a valve's sizes, in centimetres, to those of a patient, and finds its placement: least squares of the distances
+ * between the landmarks and their places on the closed valve (docs/theory.md, section 17). The valve's own values are
+ * the template: lengths that no landmark bears on keep their proportions. translation and opening stay.
+ * Of an aortic valve, rotations and leaflet angles follow from the landmarks, and a leaflet_power that would make
+ * cusps overlap is lowered. The valve may be a kind with any parameters; a valve from patches has no landmarks.
+ *   held            names of parameters that keep the valve's values, separated by blanks or commas; "": none
+ *   residual        (n_landmarks): distances from the landmarks to their places, mesh units; NULL: not wanted
+ *   standard_error  (number of parameters, in the order of riis_valve_get_parameter), in the parameter's unit; infinite
+ *                   for RIIS_SIZE_TIED, 0 for RIIS_SIZE_KEPT; NULL: not wanted
+ *   size_state      (number of parameters): RIIS_SIZE_*; NULL: not wanted
+ * The open state of riis_valve_set_open_state stays as it is.
+ * Errors: RIIS_INVALID_ARGUMENT for landmarks that are missing, too many, in one place, collinear, mirrored, not those
+ * of a heart valve at this scale, or that do not show the flow; the message names them. RIIS_INVALID_PARAMETER for a
+ * valve from patches, an unknown name in held, and sizes that do not fit together. */
+RIIS_API riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const char *held,
+                                double *residual, double *standard_error, int32_t *size_state,
+                                riis_placement *placement, int64_t struct_size);
+
 /* ---- Laws of opening: a valve's opening from the time, the pressure difference and the flow ------------ */
 
 /* These are pure functions: the same arguments give the same bits, and the library keeps nothing. Times, pressures

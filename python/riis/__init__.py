@@ -31,6 +31,7 @@ from riis._errors import (
     UnknownParameterError,
 )
 from riis._fit import FitResult, fit
+from riis._place import PlaceResult, place
 from riis._plot import animate, plot
 from riis._records import (
     BandSums,
@@ -133,6 +134,7 @@ __all__ = [
     "OutOfMemoryError",
     "Parameter",
     "Passage",
+    "PlaceResult",
     "Surface",
     "SurfaceInfo",
     "Triangles",
@@ -149,6 +151,7 @@ __all__ = [
     "label_open_regions",
     "laws",
     "mark",
+    "place",
     "plot",
     "set_log",
     "status_name",

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "program/placed_valve.hpp"
 #include "program/valve_file.hpp"
 #include "program/valve_source.hpp"
 
@@ -62,6 +63,7 @@ void check_open_state_is_met(const ValveOptions &options, bool has_cycle) {
 }
 
 void finish_valve(const Command &command, ValveOptions &options) {
+  use_placed_valve(options);
   check_opening(options);
   check_open_state(options);
   check_motion(command, options, false, false);
@@ -107,6 +109,7 @@ void check_folder_name(const std::string &folder) {
 
 MarkOptions finish_mark(const Command &command, MarkOptions options) {
   const bool has_case = !options.series.case_file.empty(), has_cycle = !options.series.cycle.empty();
+  use_placed_valve(options);
   check_opening(options);
   check_open_state(options);
   check_series(command, options);
@@ -155,6 +158,7 @@ SizeFieldOptions finish_size_field(const Command &command, SizeFieldOptions opti
 }
 
 StatesOptions finish_states(const Command &, StatesOptions options) {
+  use_placed_valve(options);
   check_set_opening(options, "has no effect: the table has all openings");
   check_open_state(options);
   finish_units(options);
@@ -162,6 +166,7 @@ StatesOptions finish_states(const Command &, StatesOptions options) {
 }
 
 ExportOptions finish_export(const Command &, ExportOptions options) {
+  use_placed_valve(options);
   check_folder_name(options.folder);
   check_set_opening(options, "has no effect: the valve opens and closes in an export");
   check_open_state(options);
@@ -172,7 +177,18 @@ ExportOptions finish_export(const Command &, ExportOptions options) {
 }
 
 ParamsOptions finish_params(const Command &, ParamsOptions options) {
+  use_placed_valve(options);
   check_opening(options);
+  return options;
+}
+
+PlaceOptions finish_place(const Command &command, PlaceOptions options) {
+  options.has_valve = command.has("--valve");
+  if (options.has_valve && is_valve_file(options.valve))
+    refuse_usage("--valve: " + options.valve + " is a file; landmarks place a kind of valve");
+  if (options.output != "-" && !options.output.empty() && !is_valve_file(options.output))
+    refuse_usage("--output: " + options.output + " must end in .json, so that other commands take it");
+  check_set_opening(options, "has no effect: landmarks are those of the closed valve");
   return options;
 }
 

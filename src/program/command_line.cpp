@@ -150,6 +150,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   StatesOptions states;
   ExportOptions exported;
   ParamsOptions params;
+  PlaceOptions placed;
   std::string topic;
   const auto command = [](CLI::App &in, const char *name, const char *what, const char *help) {
     CLI::App *made = in.add_subcommand(name, what);
@@ -168,6 +169,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
       command(app, "size-field", "Write the edge lengths that a mesh needs near a valve, for gmsh", "size-field"));
   const Command frames(command(app, "export", "Write the motion of leaflets as svMultiPhysics reads it", "export"));
   const Command values(command(app, "params", "Print the parameters of a valve", "params"));
+  const Command places(command(app, "place", "Find a valve's sizes and placement from a patient's landmarks", "place"));
   CLI::App *help = command(app, "help", "Explain a topic, or list the topics", "help");
   help->add_option("TOPIC", topic, "One of the topics that riis help lists");
   declare_mark(marks, mark);
@@ -178,6 +180,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   declare_size_field(fields, field);
   declare_export(frames, exported);
   declare_params(values, params);
+  declare_place(places, placed);
   check_equals_signs(argc, argv);
   check_commands(app, argc, argv);
   try {
@@ -204,6 +207,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   if (leak.parsed()) return finish_leaks(leak, std::move(leaks));
   if (fields.parsed()) return finish_size_field(fields, std::move(field));
   if (frames.parsed()) return finish_export(frames, std::move(exported));
+  if (places.parsed()) return finish_place(places, std::move(placed));
   return finish_params(values, std::move(params));
 }
 

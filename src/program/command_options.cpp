@@ -435,6 +435,39 @@ void declare_export(Command command, ExportOptions &options) {
   declare_half_thickness(command, options);
 }
 
+void declare_place(Command command, PlaceOptions &options) {
+  command.text("LANDMARKS", "FILE.json|.csv", "The landmarks: JSON, 3D Slicer's .mrk.json, or CSV", options.landmarks)
+      ->required();
+  command.text("--output", "OUT.json", "The placed valve, for --valve of the other commands; - is stdout",
+               options.output);
+  command.text("--foam", "OUT", "The valve and its placement as OpenFOAM reads them, in metres", options.foam_output);
+  command.text("--c", "OUT", "The same as lines of C", options.c_output);
+  command.text("--fortran", "OUT", "The same as lines of Fortran", options.fortran_output);
+  declare_loudness(command, options);
+  command.group("Landmarks");
+  command.text("--mesh", "MESH", "Refuse landmarks that are not at this mesh", options.mesh);
+  command
+      .value("--unit", "m|cm|mm", "Unit of the mesh (default that of the landmarks)",
+             [&options](const std::string &text) { options.unit = unit_of(text); })
+      ->check(CLI::IsMember(unit_names()));
+  command.text("--axes", "LPS|RAS", "Axes of the mesh (default those of the landmarks)", options.axes)
+      ->check(CLI::IsMember(std::vector<std::string>{"LPS", "RAS"}));
+  command.value("--noise", "L", "Standard deviation of each coordinate (default 0.3 mm)",
+                [&options](const std::string &text) {
+                  options.noise = parse_number(text, "--noise");
+                  if (!(*options.noise >= 0)) refuse_usage("--noise: " + text + " is below 0");
+                });
+  command.value("--flow", "X,Y,Z", "Direction of flow through the valve, in the mesh's axes",
+                [&options](const std::string &text) { options.flow = parse_list(text, "--flow", 3, "X,Y,Z"); });
+  command.group("Valve");
+  command.text("--valve", "KIND", "aortic, mitral, trileaflet or bileaflet (default that of the file)", options.valve);
+  command.text("--params", "FILE.json", "Parameters whose proportions the valve has", options.params);
+  command
+      .values("--set", "NAME=VALUE", "Set and keep one parameter, in cm; may be repeated",
+              [&options](const std::vector<std::string> &settings) { options.settings = settings; })
+      ->allow_extra_args(false);
+}
+
 void declare_params(Command command, ParamsOptions &options) {
   command.flag("--describe", "Print a table with units, ranges and descriptions, not JSON", options.describe);
   declare_loudness(command, options);

@@ -20,6 +20,7 @@ void declare_size_field(Command command, SizeFieldOptions &options);
 void declare_states(Command command, StatesOptions &options);
 void declare_export(Command command, ExportOptions &options);
 void declare_params(Command command, ParamsOptions &options);
+void declare_place(Command command, PlaceOptions &options);
 
 // These functions refuse options that contradict each other or have no effect. They also derive the remaining values.
 MarkOptions finish_mark(const Command &command, MarkOptions options);
@@ -30,5 +31,6 @@ SizeFieldOptions finish_size_field(const Command &command, SizeFieldOptions opti
 StatesOptions finish_states(const Command &command, StatesOptions options);
 ExportOptions finish_export(const Command &command, ExportOptions options);
 ParamsOptions finish_params(const Command &command, ParamsOptions options);
+PlaceOptions finish_place(const Command &command, PlaceOptions options);
 
 }  // namespace riis::program

@@ -51,6 +51,12 @@ riis help export explains the files.)"},
   riis params > valve.json
   riis params --describe --valve mitral
 riis help parameters explains the names.)"},
+    {"place", R"(Examples:
+  riis place landmarks.json --valve trileaflet
+  riis place root.mrk.json --valve aortic --mesh root.vtu --axes RAS --output placed.json
+  riis mark root.vtu --valve placed.json --opening 0.3 --output marked.vtu
+  riis place annulus.csv --valve mitral --flow 0,0,-1 --set anterior_length=2.4 --c lines.c
+riis help landmarks explains the files and the report.)"},
     {"help", R"(Examples:
   riis help units)"},
     {"riis", R"(Examples:
@@ -109,6 +115,24 @@ closed. Seen along its axis, 19 % of a disc of radius 1.2 cm stay open. --valve 
 a curve. v0 and v1 run from u0 to u1; u0 and u1 run from v0 to v1. The default of "leaflet" is 0. "open": {"curves": {...}}
 beside "patches" holds all curves at --opening 1. Without it the valve stays at opening 0. The valve's only parameter is
 opening.
+)"},
+    {"landmarks", "files of riis place, and its report",
+     R"(
+{"valve": "aortic", "unit": "mm", "axes": "LPS",
+ "landmarks": {"nadir_right": [1,2,3], "nadir_left": [...], "nadir_non_coronary": [...],
+               "commissure_left_right": [...], "commissure_left_non": [...], "commissure_right_non": [...]}}
+trileaflet  3 commissures and 3 nadirs, with names as above or as lists: "nadir": [[1,2,3], ...]; perhaps coaptation
+aortic      the same; the names must say which cusp is which
+mitral      "annulus": 4 points or more in their order around it, anterior_horn; perhaps posterior_horn, 2 trigone,
+            posteromedial_commissure and anterolateral_commissure. 16 annulus points determine the sizes, 8 do not
+bileaflet   "annulus": 3 points or more of the housing's circle, 2 or 4 "hinge" ends, and the flow
+Other keys: "flow": [x,y,z], or the points flow_from and flow_to; "noise"; "parameters", sizes in cm that are known.
+In 3D Slicer, labels are the names, as in annulus-1. A CSV has lines NAME,X,Y,Z, and must state # unit = mm and # axes = LPS.
+LPS and RAS differ by half a turn about z, which landmarks cannot show; "mesh" stands for the mesh's own axes. With --mesh,
+landmarks that are not at the mesh are refused, and the message says if they would be with other axes or another unit.
+Sizes from "proportion" have no landmark: they keep the proportions of --params or of the defaults. A size is NOT DETERMINED if
+its standard error at the noise moves the valve by more than a fifteenth of its radius. It is then drawn to its proportion.
+Landmarks are those of the closed valve. The report's residuals are distances from landmarks to the valve.
 )"},
     {"series", "many times: .pvd, movies, tables",
      R"(

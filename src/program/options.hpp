@@ -19,6 +19,7 @@ struct ValveOptions {
   ValveOptions() { check(riis_surface_options_init(&surface_options, sizeof surface_options)); }
 
   std::string valve = "aortic";  // a kind, or a .json file; unused if there is a surface
+  std::string placed;            // the file of a placed valve, whose kind is then `valve`; "": none
   std::string surface;           // a file, or "" for the valve
   std::string leaflets;          // leaflets of that file: "connected", the name of a cell array, or "" for riis_leaflet
   std::optional<double> time;    // for a surface that moves
@@ -114,6 +115,16 @@ struct ExportOptions : ValveOptions {
   std::int32_t interpolation = RIIS_INTERPOLATION_LINEAR;
   std::optional<TimeSpan> opening_span, closing_span;  // in the time of the cycle
   double largest_edge = 0;                             // 0: the library's own triangles
+};
+
+// The options of riis place.
+struct PlaceOptions : ValveOptions {
+  std::string landmarks, mesh;                                // files; the mesh may be ""
+  bool has_valve = false;                                     // whether the user named the kind
+  std::string axes;                                           // of the mesh, or "" for those of the landmarks
+  std::optional<double> noise;                                // in the unit of --unit or of the landmarks
+  std::optional<std::vector<double>> flow;                    // in the mesh's axes
+  std::string output, foam_output, c_output, fortran_output;  // "" if not wanted, "-" for stdout
 };
 
 // The options of riis params.

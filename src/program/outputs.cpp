@@ -69,7 +69,7 @@ NamedFiles inputs_of(const ValveOptions &options) {
   return {{"--surface", options.surface},
           {"--params", options.params},
           {"--params-open", options.params_open},
-          {"--valve", is_valve_file(options.valve) ? options.valve : ""}};
+          {"--valve", is_valve_file(options.valve) ? options.valve : options.placed}};
 }
 
 NamedFiles inputs_of(const MarkOptions &options, const std::vector<std::string> &more_inputs) {
@@ -234,6 +234,29 @@ OutputLocks check_outputs(const SizeFieldOptions &options, const std::vector<std
 }
 
 OutputLocks check_outputs(const StatesOptions &options) { return check_out(options.output, inputs_of(options)); }
+
+OutputLocks check_outputs(const PlaceOptions &options) {
+  NamedFiles inputs = inputs_of(options), outputs;
+  inputs.push_back({"LANDMARKS", options.landmarks});
+  inputs.push_back({"--mesh", options.mesh});
+  const NamedFile named[] = {{"--output", options.output},
+                             {"--foam", options.foam_output},
+                             {"--c", options.c_output},
+                             {"--fortran", options.fortran_output}};
+  std::string on_stdout;
+  for (const NamedFile &output : named) {
+    if (output.path.empty()) continue;
+    if (output.path != "-") {
+      check_place(output.path);
+      outputs.push_back(output);
+      continue;
+    }
+    if (!on_stdout.empty()) refuse_usage(output.option + " and " + on_stdout + " cannot both be on standard output");
+    on_stdout = output.option;
+  }
+  check_distinct(known(inputs), outputs);
+  return locks_of(outputs);
+}
 
 void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const MarkOptions &options) {
   std::set<std::string> identities;

@@ -59,6 +59,7 @@ class UnbrokenWrite {
 [[nodiscard]] OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::string> &more_inputs = {});
 [[nodiscard]] OutputLocks check_outputs(const SizeFieldOptions &options, const std::vector<std::string> &more_inputs);
 [[nodiscard]] OutputLocks check_outputs(const StatesOptions &options);
+[[nodiscard]] OutputLocks check_outputs(const PlaceOptions &options);
 
 // Returns whether the path has this ending, in small letters or capitals.
 bool has_ending(const std::string &path, const std::string &ending);

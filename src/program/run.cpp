@@ -13,6 +13,7 @@
 #include "program/outputs.hpp"
 #include "program/parameters.hpp"
 #include "program/pictures.hpp"
+#include "program/place.hpp"
 #include "program/progress.hpp"
 #include "program/refusal.hpp"
 #include "program/report.hpp"
@@ -172,6 +173,11 @@ ExitCode run_command(const StatesOptions &options) {
 
 ExitCode run_command(const ExportOptions &options) {
   export_uris(options);
+  return exit_fine;
+}
+
+ExitCode run_command(const PlaceOptions &options) {
+  run_place(options);
   return exit_fine;
 }
 

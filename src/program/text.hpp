@@ -23,6 +23,8 @@ std::vector<double> parse_list(const std::string &text, const std::string &subje
 // Returns the shortest text that reads back as the same number, in any locale.
 std::string shortest(double number);
 
+inline std::string quoted(const std::string &text) { return "\"" + text + "\""; }
+
 // In: a path. Out: the text of the file, or a refusal that names the file.
 
 // Refuses the file. The reason may contain pieces of the file of any length.

@@ -13,13 +13,12 @@
 #include "common/array_view.hpp"
 #include "program/json.hpp"
 #include "program/refusal.hpp"
+#include "program/text.hpp"
 
 namespace riis::program {
 namespace {
 
 constexpr std::array<const char *, 4> side_keys = {"v0", "v1", "u0", "u1"};
-
-std::string quoted(const std::string &text) { return "\"" + text + "\""; }
 
 // Returns a value as text, as it is in the file. refuse_file shortens long values.
 std::string json_text(const Json &value) { return value.dump(); }

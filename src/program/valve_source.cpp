@@ -8,6 +8,7 @@
 
 #include "program/outputs.hpp"
 #include "program/parameters.hpp"
+#include "program/placed_valve.hpp"
 #include "program/progress.hpp"
 #include "program/refusal.hpp"
 #include "program/text.hpp"
@@ -18,6 +19,7 @@ namespace riis::program {
 namespace {
 
 void set_parameters(const ValveOptions &options, riis_valve *valve) {
+  set_placed_parameters(options, valve);
   if (!options.params.empty()) set_from_json_file(valve, options.params);
   for (const std::string &setting : options.settings) set_from_text(valve, setting);
   if (options.opening) check(riis_valve_set_scalar(valve, "opening", *options.opening), "--opening");

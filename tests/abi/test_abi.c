@@ -385,6 +385,35 @@ static void test_structs(void **state) {
   FIELD(riis_cells_across, half_thickness, 48, 8);
   FIELD(riis_cells_across, n_edges, 56, 8);
 
+  SIZE(riis_landmarks, 112);
+  FIELD(riis_landmarks, struct_size, 0, 8);
+  FIELD(riis_landmarks, n_landmarks, 8, 8);
+  FIELD(riis_landmarks, x, 16, 8);
+  FIELD(riis_landmarks, y, 24, 8);
+  FIELD(riis_landmarks, z, 32, 8);
+  FIELD(riis_landmarks, stride, 40, 8);
+  FIELD(riis_landmarks, role, 48, 8);
+  FIELD(riis_landmarks, leaflet_id, 56, 8);
+  FIELD(riis_landmarks, scale, 64, 8);
+  FIELD(riis_landmarks, noise, 72, 8);
+  FIELD(riis_landmarks, flow, 80, 24);
+  FIELD(riis_landmarks, real_bits, 104, 4);
+  FIELD(riis_landmarks, reserved, 108, 4);
+
+  SIZE(riis_placement, 120);
+  FIELD(riis_placement, scale, 0, 8);
+  FIELD(riis_placement, rotation_axis, 8, 24);
+  FIELD(riis_placement, rotation_angle, 32, 8);
+  FIELD(riis_placement, translation, 40, 24);
+  FIELD(riis_placement, rms, 64, 8);
+  FIELD(riis_placement, worst, 72, 8);
+  FIELD(riis_placement, noise, 80, 8);
+  FIELD(riis_placement, rotation_error, 88, 8);
+  FIELD(riis_placement, position_error, 96, 8);
+  FIELD(riis_placement, worst_landmark_id, 104, 8);
+  FIELD(riis_placement, n_undetermined, 112, 4);
+  FIELD(riis_placement, reserved, 116, 4);
+
   SIZE(riis_opening_table, 48);
   FIELD(riis_opening_table, struct_size, 0, 8);
   FIELD(riis_opening_table, n_keys, 8, 8);
@@ -514,6 +543,20 @@ static void test_constants(void **state) {
   assert_int_equal(RIIS_PASSAGE_CLOSED, 0);
   assert_int_equal(RIIS_PASSAGE_OPEN, 1);
   assert_int_equal(RIIS_PASSAGE_NONE, 2);
+  assert_int_equal(RIIS_LANDMARK_COMMISSURE, 0);
+  assert_int_equal(RIIS_LANDMARK_NADIR, 1);
+  assert_int_equal(RIIS_LANDMARK_COAPTATION, 2);
+  assert_int_equal(RIIS_LANDMARK_ANNULUS, 3);
+  assert_int_equal(RIIS_LANDMARK_ANTERIOR_HORN, 4);
+  assert_int_equal(RIIS_LANDMARK_POSTERIOR_HORN, 5);
+  assert_int_equal(RIIS_LANDMARK_TRIGONE, 6);
+  assert_int_equal(RIIS_LANDMARK_POSTEROMEDIAL, 7);
+  assert_int_equal(RIIS_LANDMARK_ANTEROLATERAL, 8);
+  assert_int_equal(RIIS_LANDMARK_HINGE, 9);
+  assert_int_equal(RIIS_SIZE_KEPT, 0);
+  assert_int_equal(RIIS_SIZE_DETERMINED, 1);
+  assert_int_equal(RIIS_SIZE_TIED, 2);
+  assert_int_equal(RIIS_SIZE_UNDETERMINED, 3);
   assert_int_equal(RIIS_OUTLINE_NONE, 0);
   assert_int_equal(RIIS_OUTLINE_DISC, 1);
   assert_int_equal(RIIS_OUTLINE_ATTACHMENT, 2);
@@ -649,6 +692,9 @@ static void test_signatures(void **state) {
             (const riis_valve *, double, double, const riis_surface_options *, int32_t, double *));
   SIGNATURE(riis_keyframes_get_swept_volume, int32_t,
             (const riis_keyframes *, double, double, const riis_surface_options *, int32_t, double *));
+  SIGNATURE(riis_landmarks_init, int32_t, (riis_landmarks *, int64_t));
+  SIGNATURE(riis_place, int32_t,
+            (riis_valve *, const riis_landmarks *, const char *, double *, double *, int32_t *, riis_placement *, int64_t));
   SIGNATURE(riis_opening_table_init, int32_t, (riis_opening_table *, int64_t));
   SIGNATURE(riis_opening_from_table, int32_t, (const riis_opening_table *, double, double *, double *));
   SIGNATURE(riis_opening_times_init, int32_t, (riis_opening_times *, int64_t));

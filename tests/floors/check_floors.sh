@@ -5,7 +5,7 @@
 # src/program use the library only by its public headers. The headers in src/common include no product's headers.
 set -euo pipefail
 cd "$1"
-floors=(base laws parallel geometry kernels valve surface distance marking pipeline api)
+floors=(base laws parallel geometry kernels valve landmarks surface distance marking pipeline api)
 failed=0 n=0
 
 complain() {

@@ -62,6 +62,7 @@ program test_calls
   call test_motion()
   call test_keyframes()
   call test_crossings()
+  call test_landmarks()
   call test_laws()
   call test_mixed_cells()
   call test_adjacency()
@@ -745,6 +746,39 @@ contains
     call check(n == 4 .and. all(abs(velocities(3, :) - [2d0, 2d0, 2.5d0, 2d0]) < 1d-14), 'lifted by 1 in half a unit of time')
     call riis_surface_destroy(framed)
   end subroutine test_keyframes
+
+  subroutine test_landmarks()
+    real(c_double), target :: xyz(3, 6)
+    integer(c_int32_t), target :: role(6)
+    real(c_double) :: residual(6), radius(1)
+    type(c_ptr) :: valve
+    type(riis_landmarks) :: landmarks
+    type(riis_placement) :: placement
+    integer :: i
+    do i = 1, 6
+      xyz(:, i) = [cos(i * acos(-1d0) / 3), sin(i * acos(-1d0) / 3), merge(1.2d0, 0d0, mod(i, 2) == 0)]
+      role(i) = merge(RIIS_LANDMARK_COMMISSURE, RIIS_LANDMARK_NADIR, mod(i, 2) == 0)
+    end do
+    call check_ok(riis_landmarks_init(landmarks, c_sizeof(landmarks)), 'the default landmarks')
+    landmarks%n_landmarks = 6
+    landmarks%x = c_loc(xyz(1, 1))
+    landmarks%y = c_loc(xyz(2, 1))
+    landmarks%z = c_loc(xyz(3, 1))
+    landmarks%stride = 3
+    landmarks%role = c_loc(role)
+    landmarks%scale = 1
+    valve = c_null_ptr
+    call check_ok(riis_valve_create(riis_c_string('trileaflet'), valve), 'a valve to place')
+    call check_ok(riis_place(valve, landmarks, riis_c_string(''), residual, placement=placement, &
+      struct_size=c_sizeof(placement)), 'place a valve')
+    call check_ok(riis_valve_get(valve, riis_c_string('root_radius'), 1_c_int64_t, radius), 'the radius')
+    call check(abs(radius(1) - 1) < 1d-12 .and. all(residual < 1d-12) &
+      .and. abs(placement%scale - 1) < 1d-15, 'a placed valve')
+    role(2) = 77
+    call check_refused(riis_place(valve, landmarks, riis_c_string(''), placement=placement, &
+      struct_size=c_sizeof(placement)), RIIS_INVALID_ARGUMENT, 'landmarks.role of landmark 1 is 77')
+    call riis_valve_destroy(valve)
+  end subroutine test_landmarks
 
   subroutine test_laws()
     real(c_double), target :: time(3), openings(3)

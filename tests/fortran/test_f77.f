@@ -469,6 +469,7 @@ C     A thin valve, and edges that cross it between unmarked nodes.
      &    CALL FAILED('the same edges')
    10 CONTINUE
       CALL REGION(SURF, MESH, RES)
+      CALL PLACES
       CALL MEANS(MESH, RES)
       CALL RIISF_MESH_CLEAR_ADJACENCY(MESH, STAT)
       CALL OK(STAT)
@@ -516,6 +517,44 @@ C     node to the last one.
       CALL OK(STAT)
       IF (NODE3 .NE. NODE .OR. DIST3 .NE. DIST .OR.
      &  POINT3(1) .NE. POINT(1)) CALL FAILED('the same passage')
+      END
+
+C     Places a valve by landmarks in millimetres.
+      SUBROUTINE PLACES
+      INTEGER*8 VALVE
+      INTEGER STAT, I, ROLE(6), LEAF(2, 6), STATES(16)
+      DOUBLE PRECISION XYZ(3, 6), FLOW(3), AXIS(3), ANGLE, MOVE(3)
+      DOUBLE PRECISION RESID(6), RADIUS(1), TURN
+      DATA FLOW /3*0D0/, LEAF /12*-1/
+      INCLUDE 'riisf.h'
+      VALVE = 0
+      TURN = ACOS(-1D0) / 3
+      DO 20 I = 1, 6
+        XYZ(1, I) = 12.5D0 * COS(I * TURN) + 3D0
+        XYZ(2, I) = 12.5D0 * SIN(I * TURN) + 4D0
+        XYZ(3, I) = 5D0
+        ROLE(I) = RIIS_LANDMARK_NADIR
+        IF (MOD(I, 2) .EQ. 0) THEN
+          XYZ(3, I) = 17D0
+          ROLE(I) = RIIS_LANDMARK_COMMISSURE
+        END IF
+20    CONTINUE
+      CALL RIISF_VALVE_CREATE('trileaflet', VALVE, STAT)
+      CALL OK(STAT)
+      CALL RIISF_PLACE(VALVE, 6, XYZ, ROLE, LEAF, 10D0, RIIS_AUTO,
+     &  FLOW, ' ', AXIS, ANGLE, MOVE, RESID, STATES, STAT)
+      CALL OK(STAT)
+      CALL RIISF_VALVE_GET(VALVE, 'root_radius', 1, RADIUS, STAT)
+      CALL OK(STAT)
+      IF (ABS(RADIUS(1) - 1.25D0) .GT. 1D-12 .OR.
+     &  RESID(6) .GT. 1D-10 .OR. ABS(AXIS(3) - 1D0) .GT. 1D-9 .OR.
+     &  ABS(ANGLE - 60D0) .GT. 1D-9 .OR. ABS(MOVE(1) - 3D0) .GT. 1D-9
+     &  .OR. ABS(MOVE(3) - 17D0) .GT. 1D-9 .OR.
+     &  STATES(1) .NE. RIIS_SIZE_DETERMINED) CALL FAILED('a placement')
+      CALL RIISF_PLACE(VALVE, 0, XYZ, ROLE, LEAF, 10D0, RIIS_AUTO,
+     &  FLOW, ' ', AXIS, ANGLE, MOVE, RESID, STATES, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'n_landmarks is 0')
+      CALL RIISF_VALVE_DESTROY(VALVE)
       END
 
 C     Measures of the valve for the flow. The box is wider than the

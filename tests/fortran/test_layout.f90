@@ -42,6 +42,8 @@ program test_layout
   type(riis_first_passage_options), target :: fpo
   type(riis_first_passage), target :: fp
   type(riis_cells_across), target :: ca
+  type(riis_landmarks), target :: lms
+  type(riis_placement), target :: plm
   type(riis_opening_table), target :: ots
   type(riis_opening_times), target :: ots2
   type(riis_opening_switch), target :: oss
@@ -154,6 +156,14 @@ program test_layout
   call compare('riis_cells_across', c_sizeof(ca), c_loc(ca), [at(c_loc(ca%least)), at(c_loc(ca%mean)), &
     at(c_loc(ca%most)), at(c_loc(ca%shortest_edge)), at(c_loc(ca%mean_edge)), at(c_loc(ca%longest_edge)), &
     at(c_loc(ca%half_thickness)), at(c_loc(ca%n_edges))])
+  call compare('riis_landmarks', c_sizeof(lms), c_loc(lms), [at(c_loc(lms%struct_size)), at(c_loc(lms%n_landmarks)), &
+    at(c_loc(lms%x)), at(c_loc(lms%y)), at(c_loc(lms%z)), at(c_loc(lms%stride)), at(c_loc(lms%role)), &
+    at(c_loc(lms%leaflet_id)), at(c_loc(lms%scale)), at(c_loc(lms%noise)), at(c_loc(lms%flow)), &
+    at(c_loc(lms%real_bits)), at(c_loc(lms%reserved))])
+  call compare('riis_placement', c_sizeof(plm), c_loc(plm), [at(c_loc(plm%scale)), at(c_loc(plm%rotation_axis)), &
+    at(c_loc(plm%rotation_angle)), at(c_loc(plm%translation)), at(c_loc(plm%rms)), at(c_loc(plm%worst)), &
+    at(c_loc(plm%noise)), at(c_loc(plm%rotation_error)), at(c_loc(plm%position_error)), &
+    at(c_loc(plm%worst_landmark_id)), at(c_loc(plm%n_undetermined)), at(c_loc(plm%reserved))])
   call compare('riis_opening_table', c_sizeof(ots), c_loc(ots), [at(c_loc(ots%struct_size)), at(c_loc(ots%n_keys)), &
     at(c_loc(ots%time)), at(c_loc(ots%opening)), at(c_loc(ots%period)), at(c_loc(ots%interpolation)), &
     at(c_loc(ots%reserved))])

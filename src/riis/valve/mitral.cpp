@@ -8,6 +8,7 @@
 #include "base/errors.hpp"
 #include "geometry/bulge.hpp"
 #include "geometry/placement.hpp"
+#include "valve/mitral_annulus.hpp"
 #include "valve/patches.hpp"
 #include "valve/valve.hpp"
 
@@ -76,20 +77,12 @@ struct HalfValve {
 
 Vec3 mirrored(Vec3 p) { return {-p.x, p.y, p.z}; }
 
-// The annulus has six points and tangents, and the half has points 0 to 3. The paper prints IT_distance for the widest point's x
-// on one side, but the annulus is symmetric only with ALPM_diameter / 2.
+// The open annulus is flat.
 std::array<Bezier, 3> half_annulus(const ParameterValues &values, bool flat) {
   const auto value = [&](Parameter parameter) { return values[parameter][0]; };
-  const double ap = value(AP_diameter), alpm = value(ALPM_diameter), position = value(ALPM_position_ratio),
-               it = value(IT_distance), indent = value(indent_depth),
-               anterior_height = flat ? 0 : value(anterior_horn_height),
-               posterior_height = flat ? 0 : value(posterior_horn_height);
-  const Vec3 P0{0, -0.5 * ap, posterior_height}, P1{0.5 * alpm, ap * (position - 0.5), 0},
-      P2{0.5 * it, 0.5 * (ap + indent), 0.75 * anterior_height}, P3{0, 0.5 * ap, anterior_height};
-  const Vec3 T0{0.5 * 0.55 * (ap * position + 0.5 * alpm), 0, 0}, T1{0, 0.55 * (0.5 * indent + ap * (1 - position)), 0},
-      T2{-0.25 * it, 0, 0}, T3 = T2;
-  return {Bezier::cubic(P0, P0 + T0, P1 - T1, P1), Bezier::cubic(P1, P1 + T1, P2 - T2, P2),
-          Bezier::cubic(P2, P2 + T2, P3 - T3, P3)};
+  return riis::half_annulus({value(AP_diameter), value(ALPM_diameter), value(ALPM_position_ratio), value(IT_distance),
+                             value(indent_depth), flat ? 0 : value(anterior_horn_height),
+                             flat ? 0 : value(posterior_horn_height)});
 }
 
 // The annulus, from which the leaflets hang. A(u) is its point, and N(u) is its tangent turned inwards by 90 degrees in the
@@ -311,6 +304,20 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 }
 
 }  // namespace
+
+// The annulus has six points and tangents, and the half has points 0 to 3. The paper prints IT_distance for the widest point's x
+// on one side, but the annulus is symmetric only with ALPM_diameter / 2.
+std::array<Bezier, 3> half_annulus(const MitralAnnulus &annulus) {
+  const double ap = annulus.AP_diameter, alpm = annulus.ALPM_diameter, position = annulus.ALPM_position_ratio,
+               it = annulus.IT_distance, indent = annulus.indent_depth, anterior_height = annulus.anterior_horn_height,
+               posterior_height = annulus.posterior_horn_height;
+  const Vec3 P0{0, -0.5 * ap, posterior_height}, P1{0.5 * alpm, ap * (position - 0.5), 0},
+      P2{0.5 * it, 0.5 * (ap + indent), 0.75 * anterior_height}, P3{0, 0.5 * ap, anterior_height};
+  const Vec3 T0{0.5 * 0.55 * (ap * position + 0.5 * alpm), 0, 0}, T1{0, 0.55 * (0.5 * indent + ap * (1 - position)), 0},
+      T2{-0.25 * it, 0, 0}, T3 = T2;
+  return {Bezier::cubic(P0, P0 + T0, P1 - T1, P1), Bezier::cubic(P1, P1 + T1, P2 - T2, P2),
+          Bezier::cubic(P2, P2 + T2, P3 - T3, P3)};
+}
 
 const ValveKind &mitral_valve_kind() {
   // The kind is made when it is first used, and it is never destroyed. So it can be used during the whole life of the process.

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/placed_valve.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "program/parameters.hpp"
+#include "program/refusal.hpp"
+#include "program/valve_file.hpp"
+
+namespace riis::program {
+namespace {
+
+// Returns whether the file is JSON with a kind of valve. Files that cannot be read are refused later, by their own reader.
+bool names_kind(const std::string &path) {
+  std::ifstream file(path);
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (text.find("\"valve\"") == std::string::npos) return false;
+  const Json root = Json::parse(text, nullptr, false);
+  return root.is_object() && root.contains("valve");
+}
+
+}  // namespace
+
+void use_placed_valve(ValveOptions &options) {
+  if (!is_valve_file(options.valve) || !names_kind(options.valve)) return;
+  const std::string path = options.valve;
+  const Json root = parse_json_file(path, "a placed valve");
+  const CaseValues values(path, "", root,
+                          {"valve", "unit", "axes", "rotate", "translate", "parameters", "landmarks", "fit"});
+  riis_surface_options &surface = options.surface_options;
+  if (options.surface_unit) refuse_usage("--surface-unit has no effect with --valve " + path + ", which has a unit");
+  if (options.has_scale) refuse_usage("--scale has no effect with --valve " + path + ": --unit says the mesh's unit");
+  const bool is_moved =
+      surface.rotation_angle != 0 ||
+      std::any_of(std::begin(surface.translation), std::end(surface.translation), [](double x) { return x != 0; });
+  if (is_moved) refuse_usage("--rotate and --translate have no effect with --valve " + path + ", which is placed");
+  options.valve = values.text("valve");
+  if (options.valve.empty() || is_valve_file(options.valve)) values.refuse("valve", "it must be a kind of valve");
+  options.placed = path;
+  const auto unit = values.unit("unit");
+  if (!unit) values.refuse("unit", "it is missing");
+  if (!options.unit) options.unit = *unit;
+  const std::vector<double> turn = values.numbers("rotate", 4), shift = values.numbers("translate", 3);
+  std::copy_n(turn.begin(), 3, surface.rotation_axis);
+  surface.rotation_angle = turn[3];
+  const double factor = factor_between(*unit, *options.unit);
+  for (std::size_t k = 0; k < 3; ++k) surface.translation[k] = factor * shift[k];
+  values.needed("parameters");
+}
+
+void set_placed_parameters(const ValveOptions &options, riis_valve *valve) {
+  if (options.placed.empty()) return;
+  const Json root = parse_json_file(options.placed, "a placed valve");
+  set_from_json(valve, root.at("parameters"), options.placed + ": parameters");
+}
+
+}  // namespace riis::program

@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: Apache-2.0
+// Landmarks of the mitral and the bileaflet valve: points along an annulus, and what shows the directions in its plane.
+#include <riis/riis.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/constants.hpp"
+#include "base/errors.hpp"
+#include "geometry/curve.hpp"
+#include "landmarks/models.hpp"
+#include "valve/mitral_annulus.hpp"
+
+namespace riis {
+namespace {
+
+constexpr double one_place = 1e-3;
+
+Vec3 mirrored(Vec3 p) { return {-p.x, p.y, p.z}; }
+
+// ---- Mitral ----
+
+// Returns the point of the curve that is nearest to p.
+Vec3 nearest_on(const std::array<Bezier, 3> &curve, Vec3 p) {
+  constexpr int n_samples = 12;
+  double least = -1;
+  const Bezier *piece = nullptr;
+  double t = 0;
+  for (const Bezier &tried : curve)
+    for (int i = 0; i <= n_samples; ++i) {
+      const double at = static_cast<double>(i) / n_samples;
+      const Vec3 d = evaluate(tried, at) - p;
+      if (least >= 0 && dot(d, d) >= least) continue;
+      least = dot(d, d), piece = &tried, t = at;
+    }
+  // Newton's method on the derivative of the squared distance, kept within the piece. Pieces meet smoothly, so a minimum that moves
+  // beyond an end is at most a rounding away from the end in the next piece.
+  const auto index = static_cast<std::size_t>(piece - curve.data());
+  const auto refined = [&](const Bezier &on, double from, double &squared) {
+    double at = from;
+    for (int i = 0; i < 30; ++i) {
+      const auto [first, second, third] = derivatives(on, at);
+      (void)third;
+      const Vec3 d = evaluate(on, at) - p;
+      const double slope = dot(d, first), bend = dot(first, first) + dot(d, second);
+      const double step = bend > 0 ? -slope / bend : (slope > 0 ? -0.05 : 0.05);
+      const double moved = std::clamp(at + std::clamp(step, -0.1, 0.1), 0.0, 1.0);
+      if (std::abs(moved - at) < 1e-15) break;
+      at = moved;
+    }
+    const Vec3 on_curve = evaluate(on, at);
+    squared = dot(on_curve - p, on_curve - p);
+    return on_curve;
+  };
+  double squared = 0;
+  Vec3 best = refined(*piece, t, squared);
+  // The nearest sample may be the joint of two pieces.
+  for (const std::size_t other : {index - 1, index + 1}) {
+    if (other >= curve.size()) continue;
+    double other_squared = 0;
+    const Vec3 there = refined(curve[other], other < index ? 1 : 0, other_squared);
+    if (other_squared < squared) squared = other_squared, best = there;
+  }
+  return best;
+}
+
+class MitralModel : public LandmarkModel {
+ public:
+  enum Size { ap, alpm, position, it, indent, anterior, posterior, share };
+  MitralModel(const Landmarks &landmarks, Vec3 shift) : shift_(shift) {
+    for (const Landmark &landmark : landmarks.list) roles_.push_back(landmark.role);
+  }
+
+  std::size_t n_equations() const override {
+    std::size_t n = 0;
+    for (const std::int32_t role : roles_) n += role == RIIS_LANDMARK_ANNULUS ? 2 : 3;
+    return n;
+  }
+
+  void offsets(const std::vector<double> &values, const std::vector<Vec3> &local,
+               std::vector<Offset> &out) const override {
+    const std::array<Bezier, 3> half = half_annulus(
+        {values[ap], values[alpm], values[position], values[it], values[indent], values[anterior], values[posterior]});
+    const bool has_commissures = std::any_of(roles_.begin(), roles_.end(), [](std::int32_t role) {
+      return role == RIIS_LANDMARK_POSTEROMEDIAL || role == RIIS_LANDMARK_ANTEROLATERAL;
+    });
+    const Vec3 commissure = has_commissures ? Curve({half.begin(), half.end()}).at(1 - values[share]) : Vec3{0, 0, 0};
+    out.clear();
+    for (std::size_t i = 0; i < roles_.size(); ++i) {
+      const Vec3 p = local[i] - shift_, right{std::abs(p.x), p.y, p.z};
+      const auto side = [&](Vec3 place) { return p.x < 0 ? mirrored(place) : place; };
+      const auto place = [&]() -> Vec3 {
+        switch (roles_[i]) {
+          case RIIS_LANDMARK_ANTERIOR_HORN:
+            return half[2].last();
+          case RIIS_LANDMARK_POSTERIOR_HORN:
+            return half[0].first();
+          case RIIS_LANDMARK_TRIGONE:
+            return side(half[1].last());
+          case RIIS_LANDMARK_POSTEROMEDIAL:
+            return commissure;
+          case RIIS_LANDMARK_ANTEROLATERAL:
+            return mirrored(commissure);
+          default:
+            return side(nearest_on(half, right));
+        }
+      };
+      out.push_back({i, p - place()});
+    }
+  }
+
+ private:
+  Vec3 shift_;
+  std::vector<std::int32_t> roles_;
+};
+
+// Refuses an outline that crosses itself, seen along the normal. Its edges join the points in their order.
+void check_outline(const Landmarks &landmarks, const std::vector<std::size_t> &ring, Vec3 x, Vec3 y) {
+  struct Flat {
+    double x, y;
+  };
+  std::vector<Flat> flat;
+  for (const std::size_t i : ring) flat.push_back({dot(landmarks.at(i), x), dot(landmarks.at(i), y)});
+  const auto turn = [](Flat a, Flat b, Flat c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); };
+  const std::size_t n = flat.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 2; j < n; ++j) {
+      if (i == 0 && j == n - 1) continue;  // they have a point in common
+      const Flat &a = flat[i], &b = flat[i + 1], &c = flat[j], &d = flat[(j + 1) % n];
+      if (turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0)
+        fail(RIIS_INVALID_ARGUMENT, "the annulus crosses itself: the line from landmark ", ring[i], " to ", ring[i + 1],
+             " crosses the line from ", ring[j], " to ", ring[(j + 1) % n],
+             "; give the annulus points in their order around it");
+    }
+}
+
+// Twice the area vector of a closed polygon.
+Vec3 area_of(const Landmarks &landmarks, const std::vector<std::size_t> &ring) {
+  const Vec3 middle = landmarks.mean_of(ring);
+  Vec3 area{0, 0, 0};
+  for (std::size_t k = 0; k < ring.size(); ++k)
+    area = area + cross(landmarks.at(ring[k]) - middle, landmarks.at(ring[(k + 1) % ring.size()]) - middle);
+  return area;
+}
+
+// The direction towards the atrium that the landmarks show: by the flow, by the commissures, or 0 if they do not.
+Vec3 atrial_side(const Landmarks &landmarks, Vec3 normal, Vec3 forward) {
+  const auto medial = landmarks.with_role(RIIS_LANDMARK_POSTEROMEDIAL),
+             lateral = landmarks.with_role(RIIS_LANDMARK_ANTEROLATERAL);
+  Vec3 found{0, 0, 0};
+  if (landmarks.has_flow()) {
+    const double along = dot(landmarks.flow, normal);
+    constexpr double most_degrees = 75;
+    if (std::abs(along) < std::cos(most_degrees * pi / 180))
+      fail(RIIS_INVALID_ARGUMENT, "landmarks.flow is at ", rounded(std::acos(std::abs(along)) * 180 / pi, 3),
+           " degrees to the annulus' normal; it must be at most ", most_degrees);
+    found = along > 0 ? -normal : normal;
+  }
+  if (medial.empty() || lateral.empty()) return found;
+  const double side = dot(cross(landmarks.at(medial[0]) - landmarks.at(lateral[0]), forward), normal);
+  const Vec3 by_commissures = side > 0 ? normal : -normal;
+  if (landmarks.has_flow() && dot(found, by_commissures) < 0)
+    fail(RIIS_INVALID_ARGUMENT,
+         "landmarks.flow points to the atrium, by the commissures: seen along the flow with the anterior horn above, "
+         "the "
+         "posteromedial commissure must be on the right: the landmarks or their names are mirrored");
+  return by_commissures;
+}
+
+}  // namespace
+
+KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks) {
+  const char *kind = valve.kind().name;
+  check_roles(landmarks, kind,
+              {RIIS_LANDMARK_ANNULUS, RIIS_LANDMARK_ANTERIOR_HORN, RIIS_LANDMARK_POSTERIOR_HORN, RIIS_LANDMARK_TRIGONE,
+               RIIS_LANDMARK_POSTEROMEDIAL, RIIS_LANDMARK_ANTEROLATERAL});
+  check_count(landmarks, kind, RIIS_LANDMARK_ANNULUS, 4, 0);
+  check_count(landmarks, kind, RIIS_LANDMARK_ANTERIOR_HORN, 1, 1);
+  check_count(landmarks, kind, RIIS_LANDMARK_POSTERIOR_HORN, 0, 1);
+  check_count(landmarks, kind, RIIS_LANDMARK_TRIGONE, 0, 2);
+  check_count(landmarks, kind, RIIS_LANDMARK_POSTEROMEDIAL, 0, 1);
+  check_count(landmarks, kind, RIIS_LANDMARK_ANTEROLATERAL, 0, 1);
+  const auto ring = landmarks.with_role(RIIS_LANDMARK_ANNULUS);
+  check_spread(landmarks, ring, one_place);
+  const Spread spread = spread_of(landmarks, ring);
+  check_outline(landmarks, ring, spread.direction[0], spread.direction[1]);
+
+  const std::size_t horn = landmarks.with_role(RIIS_LANDMARK_ANTERIOR_HORN)[0];
+  const Vec3 middle = landmarks.mean_of(ring), normal = unit(area_of(landmarks, ring));
+  const Vec3 to_horn = landmarks.at(horn) - middle, forward = to_horn - dot(to_horn, normal) * normal;
+  if (!(length(forward) > 0.3 * spread.deviation[0]))
+    fail(RIIS_INVALID_ARGUMENT, words_for(landmarks, horn), " is ", rounded(landmarks.scale * length(forward), 3),
+         " from the annulus' middle, seen along its normal; it must be on the annulus");
+  const Vec3 known = atrial_side(landmarks, normal, forward);
+  const Vec3 up = known == Vec3{0, 0, 0} ? normal : known;
+  const Rotation rotation = rotation_to(cross(forward, up), up), back = transposed(rotation);
+  Vec3 lower{0, 0, 0}, upper{0, 0, 0};
+  double widest_y = 0, widest = 0;
+  std::vector<Vec3> flat;
+  for (const std::size_t i : ring) {
+    const Vec3 p = back * (landmarks.at(i) - middle);
+    flat.push_back(p);
+    lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), 0};
+    upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), 0};
+    if (std::abs(p.x) > widest) widest = std::abs(p.x), widest_y = p.y;
+  }
+  double low_z = 0, posterior_z = 0;
+  const auto nearest_to_side = std::max_element(
+      flat.begin(), flat.end(), [](const Vec3 &a, const Vec3 &b) { return std::abs(a.x) < std::abs(b.x); });
+  low_z = nearest_to_side->z;
+  posterior_z = std::min_element(flat.begin(), flat.end(), [](const Vec3 &a, const Vec3 &b) { return a.y < b.y; })->z;
+  const Vec3 horn_there = back * to_horn;
+  const double depth = horn_there.y - lower.y, width = upper.x - lower.x;
+
+  auto shift = std::array<double, 3>{};
+  valve.get("translation", 3, shift.data());
+  const Vec3 by{shift[0], shift[1], shift[2]};
+  auto model = std::make_unique<MitralModel>(landmarks, by);
+  const double grown = depth / value_of(valve, "AP_diameter"), largest = 5 * depth;
+  const auto add = [&](const char *name, double start, double least, double most, double spread_share) {
+    const double expected = grown * value_of(valve, name);
+    model->sizes.push_back({name, start, 1, least, most, expected, spread_share * depth});
+  };
+  add("AP_diameter", depth, 0.3 * depth, 3 * depth, 0.5);
+  add("ALPM_diameter", width, 0.3 * depth, largest, 0.3);
+  const double position = value_of(valve, "ALPM_position_ratio");
+  model->sizes.push_back(
+      {"ALPM_position_ratio", std::clamp((widest_y - lower.y) / depth, 0.3, 0.8), depth, 0.06, 0.94, position, 0.1});
+  add("IT_distance", grown * value_of(valve, "IT_distance"), 0.1 * depth, largest, 0.3);
+  add("indent_depth", grown * value_of(valve, "indent_depth"), 0, 0.9 * depth, 0.3);
+  add("anterior_horn_height", horn_there.z - low_z, -2 * depth, 2 * depth, 0.2);
+  add("posterior_horn_height", posterior_z - low_z, -2 * depth, 2 * depth, 0.2);
+  const bool has_commissures =
+      landmarks.count(RIIS_LANDMARK_POSTEROMEDIAL) + landmarks.count(RIIS_LANDMARK_ANTEROLATERAL) > 0;
+  const double share = value_of(valve, "anterior_ratio");
+  model->sizes.push_back({"anterior_ratio", share, 1.5 * depth, 0.05, 0.95, share, 0.1});
+  model->sizes.back().held = !has_commissures;
+  model->radius = 0.5 * depth;
+
+  const Vec3 origin_there{0.5 * (lower.x + upper.x), lower.y + 0.5 * depth, low_z};
+  KindOfLandmarks made{std::move(model), {}, "AP_diameter", nullptr};
+  made.starts.push_back({rotation, middle + rotation * (origin_there - by)});
+  if (known == Vec3{0, 0, 0}) {
+    // The annulus alone does not show its two faces. In health its horns are nearer to the atrium than its sides.
+    const bool is_turned = horn_there.z + posterior_z < 2 * low_z;
+    if (is_turned) {
+      const Rotation other = rotation * rotation_about({0, 1, 0}, 180);
+      const Vec3 there{-origin_there.x, origin_there.y, -low_z};
+      made.starts[0] = {other, middle + other * (there - by)};
+      for (const std::size_t horn_size : {MitralModel::anterior, MitralModel::posterior})
+        made.model->sizes[horn_size].value *= -1;
+    }
+    made.check = [](const LandmarkModel &fitted, const Landmarks &given) {
+      const FittedSize &anterior = fitted.sizes[MitralModel::anterior],
+                       &posterior = fitted.sizes[MitralModel::posterior];
+      const double height = 0.5 * (anterior.value + posterior.value),
+                   error = 0.5 * (anterior.standard_error + posterior.standard_error);
+      constexpr double sure = 3;
+      if (height > sure * error) return;
+      fail(RIIS_INVALID_ARGUMENT,
+           "landmarks.flow is needed: without it the annulus shows the atrium's side only by its horns, and "
+           "they are ",
+           rounded(given.scale * height, 3), " nearer to the atrium than its sides, with a standard error of ",
+           rounded(given.scale * error, 3), "; it must be ", sure, " errors or more");
+    };
+  }
+  return made;
+}
+
+// ---- Bileaflet ----
+
+namespace {
+
+class HousingModel : public LandmarkModel {
+ public:
+  enum Size { radius_, offset, height };
+  explicit HousingModel(const Landmarks &landmarks) {
+    for (const Landmark &landmark : landmarks.list) roles_.push_back(landmark.role);
+  }
+  std::size_t n_equations() const override { return 2 * roles_.size(); }
+  void offsets(const std::vector<double> &values, const std::vector<Vec3> &local,
+               std::vector<Offset> &out) const override {
+    out.clear();
+    for (std::size_t i = 0; i < roles_.size(); ++i) {
+      const Vec3 &p = local[i];
+      const double r = std::hypot(p.x, p.y), beyond = r > 0 ? 1 - values[radius_] / r : 0;
+      if (roles_[i] == RIIS_LANDMARK_HINGE)
+        out.push_back({i, {p.x - std::copysign(values[offset], p.x), 0, p.z - values[height]}});
+      else
+        out.push_back({i, {beyond * p.x, beyond * p.y, p.z}});
+    }
+  }
+
+ private:
+  std::vector<std::int32_t> roles_;
+};
+
+}  // namespace
+
+KindOfLandmarks bileaflet_landmarks(const Valve &valve, const Landmarks &landmarks) {
+  const char *kind = valve.kind().name;
+  check_roles(landmarks, kind, {RIIS_LANDMARK_ANNULUS, RIIS_LANDMARK_HINGE});
+  check_count(landmarks, kind, RIIS_LANDMARK_ANNULUS, 3, 0);
+  check_count(landmarks, kind, RIIS_LANDMARK_HINGE, 2, 4);
+  if (!landmarks.has_flow())
+    fail(RIIS_INVALID_ARGUMENT,
+         "landmarks.flow is 0 0 0: the ring and the hinges of the bileaflet valve do not show the direction of flow");
+  const auto ring = landmarks.with_role(RIIS_LANDMARK_ANNULUS), hinges = landmarks.with_role(RIIS_LANDMARK_HINGE);
+  check_spread(landmarks, ring, one_place);
+  const Spread spread = spread_of(landmarks, ring), hinge_spread = spread_of(landmarks, hinges);
+  const double along = dot(landmarks.flow, spread.direction[2]);
+  const Vec3 up = along < 0 ? -spread.direction[2] : spread.direction[2], middle = landmarks.mean_of(ring);
+  constexpr double most_degrees = 75;
+  if (std::abs(along) < std::cos(most_degrees * pi / 180))
+    fail(RIIS_INVALID_ARGUMENT, "landmarks.flow is at ", rounded(std::acos(std::abs(along)) * 180 / pi, 3),
+         " degrees to the ring's normal; it must be at most ", most_degrees);
+  double radius = 0;
+  for (const std::size_t i : ring) {
+    const Vec3 p = landmarks.at(i) - middle;
+    radius += length(p - dot(p, up) * up) / static_cast<double>(ring.size());
+  }
+  // The hinge lines are the longest extent of their ends.
+  const Vec3 y = hinge_spread.direction[0];
+  if (!(hinge_spread.deviation[0] > 0.2 * radius))
+    fail(RIIS_INVALID_ARGUMENT, "the ends of the hinges are ", rounded(landmarks.scale * hinge_spread.deviation[0], 3),
+         " from their middle, which does not show their direction; they must be more than ",
+         rounded(landmarks.scale * 0.2 * radius, 3), " from it");
+  if (std::abs(dot(y, up)) > 0.5)
+    fail(RIIS_INVALID_ARGUMENT, "the hinges are at ", rounded(std::acos(std::abs(dot(y, up))) * 180 / pi, 3),
+         " degrees to the ring's normal; they must be across it");
+  // One hinge is that of the leaflet at x > 0.
+  const Vec3 hinge_middle = landmarks.mean_of(hinges) - middle;
+  Vec3 x = cross(y, up);
+  if (dot(x, hinge_middle) < 0) x = -x;
+  const Rotation rotation = rotation_to(x, up), back = transposed(rotation);
+
+  auto model = std::make_unique<HousingModel>(landmarks);
+  const double grown = radius / value_of(valve, "radius");
+  const double own_offset = grown * value_of(valve, "hinge_offset"),
+               own_height = grown * value_of(valve, "hinge_height");
+  double offset = 0, height = 0;
+  for (const std::size_t i : hinges) {
+    const Vec3 p = back * (landmarks.at(i) - middle);
+    offset += std::abs(p.x) / static_cast<double>(hinges.size());
+    height += p.z / static_cast<double>(hinges.size());
+  }
+  model->sizes = {{"radius", radius, 1, 0.3 * radius, 3 * radius, radius, 0.5 * radius},
+                  {"hinge_offset", offset, 1, 0, 0.9 * radius, own_offset, 0.2 * radius},
+                  {"hinge_height", height, 1, -3 * radius, 3 * radius, own_height, 0.3 * radius}};
+  model->radius = radius;
+  KindOfLandmarks made{std::move(model), {}, "radius", nullptr};
+  made.starts = {{rotation, middle}};
+  return made;
+}
+
+}  // namespace riis

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "landmarks/fit.hpp"
+
+#include <riis/riis.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/constants.hpp"
+#include "base/errors.hpp"
+
+namespace riis {
+namespace {
+
+// A size is determined if its standard error at the stated noise moves the valve by at most this share of its radius. Residuals do
+// not count here: a patient who differs from the model has large ones, but the sizes that fit best are still well defined.
+constexpr double determined_share = 1.0 / 15;
+
+// Solves for the sizes that are not held, then a rotation vector and a shift. All unknowns are in centimetres.
+class Problem {
+ public:
+  Problem(const LandmarkModel &model, const Landmarks &landmarks, const Pose &base)
+      : model_(model), landmarks_(landmarks), base_(base), local_(landmarks.list.size()) {
+    for (std::size_t i = 0; i < model.sizes.size(); ++i) {
+      values_.push_back(model.sizes[i].value);
+      if (!model.sizes[i].held) free_.push_back(i);
+    }
+    with_prior.assign(free_.size(), false);
+    std::vector<double> x(n_unknowns());
+    place(x);
+    model_.offsets(values_, local_, offsets_);
+    std::vector<double> shares(landmarks.list.size());
+    for (const auto &offset : offsets_) shares[offset.landmark] += 1;
+    for (const auto &offset : offsets_) weights_.push_back(std::sqrt(1 / shares[offset.landmark]));
+  }
+
+  std::vector<bool> with_prior;  // for each free size: whether it is drawn to its expected value
+  const std::vector<std::size_t> &free_sizes() const { return free_; }
+  std::size_t n_unknowns() const { return free_.size() + 6; }
+  std::size_t n_residuals() const {
+    return 3 * offsets_.size() + static_cast<std::size_t>(std::count(with_prior.begin(), with_prior.end(), true));
+  }
+
+  std::vector<double> start() const {
+    std::vector<double> x(n_unknowns());
+    for (std::size_t k = 0; k < free_.size(); ++k) x[k] = size(k).value * size(k).reach;
+    return x;
+  }
+
+  Bounded bounds() const {
+    const double any = std::numeric_limits<double>::infinity();
+    Bounded made{std::vector<double>(n_unknowns(), -any), std::vector<double>(n_unknowns(), any)};
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      made.lower[k] = size(k).minimum * size(k).reach;
+      made.upper[k] = size(k).maximum * size(k).reach;
+    }
+    return made;
+  }
+
+  void residuals(const std::vector<double> &x, std::vector<double> &r) {
+    place(x);
+    model_.offsets(values_, local_, offsets_);
+    for (std::size_t i = 0; i < offsets_.size(); ++i) {
+      const Vec3 v = weights_[i] * offsets_[i].vector;
+      r[3 * i] = v.x, r[3 * i + 1] = v.y, r[3 * i + 2] = v.z;
+    }
+    std::size_t row = 3 * offsets_.size();
+    for (std::size_t k = 0; k < free_.size(); ++k)
+      if (with_prior[k]) r[row++] = landmarks_.noise * (value_of(k, x) - size(k).expected) / size(k).spread;
+  }
+
+  Minimum minimize(std::vector<double> &x) {
+    return riis::minimize([this](const auto &at, auto &r) { residuals(at, r); }, n_residuals(), model_.radius, bounds(),
+                          x);
+  }
+  std::vector<double> normals(const std::vector<double> &x) {
+    return normal_matrix([this](const auto &at, auto &r) { residuals(at, r); }, n_residuals(), model_.radius, x);
+  }
+
+  double value_of(std::size_t k, const std::vector<double> &x) const { return x[k] / size(k).reach; }
+  Pose pose_at(const std::vector<double> &x) const {
+    const std::size_t at = free_.size();
+    const Vec3 turn = (1 / model_.radius) * Vec3{x[at], x[at + 1], x[at + 2]};
+    const double angle = length(turn);
+    Pose pose = base_;
+    if (angle > 0) pose.rotation = rotation_about(turn, angle * (180 / pi)) * base_.rotation;
+    pose.translation = base_.translation + Vec3{x[at + 3], x[at + 4], x[at + 5]};
+    return pose;
+  }
+  const std::vector<LandmarkModel::Offset> &offsets() const { return offsets_; }
+
+ private:
+  const FittedSize &size(std::size_t k) const { return model_.sizes[free_[k]]; }
+
+  void place(const std::vector<double> &x) {
+    for (std::size_t k = 0; k < free_.size(); ++k) values_[free_[k]] = value_of(k, x);
+    const Pose pose = pose_at(x);
+    const Rotation back = transposed(pose.rotation);
+    for (std::size_t i = 0; i < local_.size(); ++i) local_[i] = back * (landmarks_.at(i) - pose.translation);
+  }
+
+  const LandmarkModel &model_;
+  const Landmarks &landmarks_;
+  Pose base_;
+  std::vector<double> values_;
+  std::vector<std::size_t> free_;
+  std::vector<Vec3> local_;
+  std::vector<LandmarkModel::Offset> offsets_;
+  std::vector<double> weights_;
+};
+
+double sum_of_squares(const Problem &problem, std::vector<double> &longest) {
+  double sum = 0;
+  std::vector<double> squares(longest.size()), counts(longest.size());
+  for (const auto &[landmark, vector] : problem.offsets()) {
+    squares[landmark] += dot(vector, vector);
+    counts[landmark] += 1;
+    longest[landmark] = std::max(longest[landmark], length(vector));
+  }
+  for (std::size_t i = 0; i < longest.size(); ++i)
+    if (counts[i] > 0) sum += squares[i] / counts[i];
+  return sum;
+}
+
+// The noise on which standard errors rest: that which was stated, or more if the residuals show more.
+double shown_noise(const LandmarkModel &model, const Landmarks &landmarks, double squares, std::size_t n_unknowns) {
+  const std::size_t n = model.n_equations();
+  const double seen = n > n_unknowns ? std::sqrt(squares / static_cast<double>(n - n_unknowns)) : 0;
+  return std::max(landmarks.noise, seen);
+}
+
+void refuse_unconverged(const std::vector<double> &residuals, const Landmarks &landmarks) {
+  const double worst = residuals.empty() ? 0 : *std::max_element(residuals.begin(), residuals.end());
+  fail(RIIS_INVALID_ARGUMENT, "the fit to the landmarks does not end; the worst residual is ",
+       rounded(landmarks.scale * worst, 3), ": look for a landmark that is not at its place");
+}
+
+}  // namespace
+
+LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vector<Pose> &starts) {
+  const std::size_t n_landmarks = landmarks.list.size();
+  // First, every size is drawn to its expected value. So the fit ends near a real valve, also if the landmarks say little.
+  Pose best{};
+  std::vector<FittedSize> best_sizes;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Pose &start : starts) {
+    Problem problem(model, landmarks, start);
+    problem.with_prior.assign(problem.with_prior.size(), true);
+    std::vector<double> x = problem.start();
+    const double cost = problem.minimize(x).cost;
+    if (!(cost < least)) continue;
+    least = cost;
+    best = problem.pose_at(x);
+    best_sizes = model.sizes;
+    for (std::size_t k = 0; k < problem.free_sizes().size(); ++k)
+      best_sizes[problem.free_sizes()[k]].value = problem.value_of(k, x);
+  }
+  model.sizes = best_sizes;
+
+  // Then only those sizes are drawn to it that the landmarks do not determine.
+  Problem problem(model, landmarks, best);
+  const std::size_t n = problem.n_unknowns();
+  std::vector<double> x = problem.start(), r(problem.n_residuals());
+  const std::vector<double> alone = covariance(problem.normals(x), n);
+  for (std::size_t k = 0; k < problem.free_sizes().size(); ++k) {
+    FittedSize &size = model.sizes[problem.free_sizes()[k]];
+    size.determined = landmarks.noise * std::sqrt(alone[k * n + k]) <= determined_share * model.radius;
+    problem.with_prior[k] = !size.determined;
+  }
+  const std::vector<double> start = x;
+  Minimum minimum = problem.minimize(x);
+  // Sizes along which the sum of squares hardly changes keep the fit from ending. The landmarks do not determine them either.
+  while (!minimum.converged) {
+    std::size_t weakest = problem.free_sizes().size();
+    for (std::size_t k = 0; k < problem.free_sizes().size(); ++k)
+      if (!problem.with_prior[k] &&
+          (weakest == problem.free_sizes().size() || alone[k * n + k] > alone[weakest * n + weakest]))
+        weakest = k;
+    if (weakest == problem.free_sizes().size()) break;
+    problem.with_prior[weakest] = true;
+    model.sizes[problem.free_sizes()[weakest]].determined = false;
+    x = start;
+    minimum = problem.minimize(x);
+  }
+  r.resize(problem.n_residuals());
+  problem.residuals(x, r);
+
+  LandmarkFit made{problem.pose_at(x), std::vector<double>(n_landmarks), 0, 0, 0};
+  const double squares = sum_of_squares(problem, made.residuals);
+  if (!minimum.converged) refuse_unconverged(made.residuals, landmarks);
+  made.noise = shown_noise(model, landmarks, squares, n);
+  const std::vector<double> errors = covariance(problem.normals(x), n);
+  for (std::size_t k = 0; k < problem.free_sizes().size(); ++k) {
+    FittedSize &size = model.sizes[problem.free_sizes()[k]];
+    size.value = problem.value_of(k, x);
+    size.standard_error = made.noise * std::sqrt(errors[k * n + k]) / size.reach;
+  }
+  const auto error_of_three = [&](std::size_t first) {
+    double sum = 0;
+    for (std::size_t i = first; i < first + 3; ++i) sum += errors[i * n + i];
+    return made.noise * std::sqrt(sum);
+  };
+  made.rotation_error = error_of_three(n - 6) / model.radius * (180 / pi);
+  made.position_error = error_of_three(n - 3);
+  return made;
+}
+
+Rotation transposed(const Rotation &a) {
+  return {{a.row_x.x, a.row_y.x, a.row_z.x}, {a.row_x.y, a.row_y.y, a.row_z.y}, {a.row_x.z, a.row_y.z, a.row_z.z}};
+}
+
+Rotation operator*(const Rotation &a, const Rotation &b) {
+  const Rotation columns = transposed(b);
+  return transposed({a * columns.row_x, a * columns.row_y, a * columns.row_z});
+}
+
+Rotation rotation_to(Vec3 x, Vec3 z) {
+  const Vec3 up = unit(z), along = unit(x - dot(x, up) * up);
+  return transposed({along, cross(up, along), up});
+}
+
+}  // namespace riis

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fits a valve's sizes and its pose to landmarks by least squares.
+// In: a model, which says where each landmark of the valve is. Out: sizes, pose, offsets, and what the landmarks determine.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "geometry/placement.hpp"
+#include "landmarks/landmarks.hpp"
+#include "landmarks/least_squares.hpp"
+
+namespace riis {
+
+// A parameter that the landmarks bear on.
+struct FittedSize {
+  std::string name;
+  double value;             // where the fit begins, and its result
+  double reach;             // centimetres by which the valve moves if the parameter grows by 1
+  double minimum, maximum;  // of the value
+  double expected, spread;  // the value by the valve's own proportions, and how much it differs between people
+  bool held = false;        // keeps its value
+  // Results:
+  bool determined = false;
+  double standard_error = 0;
+};
+
+// A valve in its own frame. Lengths are in centimetres.
+class LandmarkModel {
+ public:
+  virtual ~LandmarkModel() = default;
+  std::vector<FittedSize> sizes;
+  double radius = 0;  // of the valve, for steps and thresholds
+
+  // An offset of a landmark from its place on the valve. Several offsets of one landmark share its weight.
+  struct Offset {
+    std::size_t landmark;
+    Vec3 vector;
+  };
+  // Writes the offsets of landmarks whose coordinates in the valve's frame are `local`. Each call writes the same number, in the same
+  // order. `values` are those of the sizes.
+  virtual void offsets(const std::vector<double> &values, const std::vector<Vec3> &local,
+                       std::vector<Offset> &out) const = 0;
+  // Returns the number of independent equations that the landmarks give.
+  virtual std::size_t n_equations() const = 0;
+};
+
+// x -> rotation * x + translation, from the valve's frame to the landmarks.
+struct Pose {
+  Rotation rotation;
+  Vec3 translation;
+};
+
+struct LandmarkFit {
+  Pose pose;
+  std::vector<double> residuals;  // one for each landmark: the length of its longest offset, in centimetres
+  double noise;                   // on which standard errors rest, in centimetres
+  double rotation_error;          // degrees
+  double position_error;          // of the landmarks' mean, in centimetres
+};
+
+// Changes the model's sizes. Begins at each of the poses, with the model's values, and keeps the better end.
+LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vector<Pose> &starts);
+
+// Returns the rotation whose columns are unit vectors along x, y and z. `x` is first made perpendicular to z.
+Rotation rotation_to(Vec3 x, Vec3 z);
+Rotation transposed(const Rotation &rotation);
+Rotation operator*(const Rotation &a, const Rotation &b);
+inline Vec3 unit(Vec3 a) { return (1 / length(a)) * a; }
+
+}  // namespace riis

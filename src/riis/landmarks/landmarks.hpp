@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Landmarks of a patient, and the checks that every kind of valve makes of them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geometry/vec3.hpp"
+
+namespace riis {
+
+struct Landmark {
+  Vec3 point;                               // in centimetres, relative to the mean of all landmarks
+  std::int32_t role;                        // RIIS_LANDMARK_*
+  std::array<std::int32_t, 2> leaflet_ids;  // -1: not given
+};
+
+struct Landmarks {
+  std::vector<Landmark> list;
+  Vec3 mean;       // of all landmarks, in mesh units
+  double scale;    // mesh units in a centimetre
+  double noise;    // centimetres
+  bool has_noise;  // whether the caller stated it
+  Vec3 flow;       // unit vector, or 0 if unknown
+
+  bool has_flow() const { return !(flow == Vec3{0, 0, 0}); }
+  // Returns the numbers of the landmarks with a role, in ascending order.
+  std::vector<std::size_t> with_role(std::int32_t role) const;
+  std::size_t count(std::int32_t role) const { return with_role(role).size(); }
+  Vec3 at(std::size_t i) const { return list[i].point; }
+  Vec3 mean_of(const std::vector<std::size_t> &numbers) const;
+};
+
+// Returns the name of a role, such as "nadir".
+const char *role_name(std::int32_t role);
+constexpr std::int32_t n_roles = 10;
+// Returns the words for a landmark in messages, such as "landmark 3 (nadir)".
+std::string words_for(const Landmarks &landmarks, std::size_t i);
+
+// These fail with RIIS_INVALID_ARGUMENT and name the landmarks.
+
+// Refuses landmarks whose distance from their mean is not that of a heart valve. The message has the size in the other units.
+void check_unit(const Landmarks &landmarks);
+// Refuses roles other than these, for a kind of valve.
+void check_roles(const Landmarks &landmarks, const char *kind, const std::vector<std::int32_t> &roles);
+// Refuses another number of landmarks with this role. `most` is 0 for any number.
+void check_count(const Landmarks &landmarks, const char *kind, std::int32_t role, std::size_t least, std::size_t most);
+// Refuses two landmarks of the list whose distance is less than a share of their spread, and landmarks along one line.
+void check_spread(const Landmarks &landmarks, const std::vector<std::size_t> &numbers, double share);
+
+// The principal directions of points about their mean, the longest extent first, and their standard deviations.
+struct Spread {
+  std::array<Vec3, 3> direction;
+  std::array<double, 3> deviation;
+};
+Spread spread_of(const Landmarks &landmarks, const std::vector<std::size_t> &numbers);
+
+}  // namespace riis

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The annulus of the mitral valve, from its sizes (docs/theory.md, section 4).
+#pragma once
+
+#include <array>
+
+#include "geometry/bezier.hpp"
+
+namespace riis {
+
+// Lengths, and the position as a share. The names are those of the parameters.
+struct MitralAnnulus {
+  double AP_diameter, ALPM_diameter, ALPM_position_ratio, IT_distance, indent_depth, anterior_horn_height,
+      posterior_horn_height;
+};
+
+// Returns the half on the posteromedial side, x >= 0, from the posterior point to the anterior point. The joints of the pieces are
+// the widest point and the trigone. The other half is the mirror image in x.
+std::array<Bezier, 3> half_annulus(const MitralAnnulus &annulus);
+
+}  // namespace riis

@@ -1,0 +1,735 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Tests riis_place. Landmarks are made from known sizes by closed forms, or by the oracle of the mitral valve, then placed and
+ * disturbed at random. The sizes must come back, and the errors must be those that the noise explains. The same landmarks lie on the
+ * surface of the placed valve. Prints the table of accuracy of docs/theory.md, section 17. */
+#include <riis/riis.h>
+
+#include <stdbool.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+#include "mitral_oracle.h"
+
+static random_source rng;
+
+static double between(double low, double high) { return random_between(&rng, low, high); }
+static double sine(double degrees) { return sin(degrees * acos(-1.0) / 180); }
+static double cosine(double degrees) { return cos(degrees * acos(-1.0) / 180); }
+
+/* A number from the normal distribution, by Box and Muller. */
+static double normal(void) { return sqrt(-2 * log(1 - between(0, 1))) * cosine(360 * between(0, 1)); }
+
+enum { most = 64, most_parameters = 64 };
+
+/* Landmarks, first in the valve's frame in centimetres, then as riis_place takes them. */
+typedef struct patient {
+  int n;
+  double xyz[most][3];
+  int32_t role[most], leaflet_id[most][2];
+  double scale, noise, flow[3];
+  double rotation[3][3], shift[3]; /* rows of the rotation; the shift is in mesh units */
+} patient;
+
+typedef struct answer {
+  riis_placement placement;
+  double residual[most], standard_error[most_parameters];
+  int32_t state[most_parameters];
+} answer;
+
+static void add(patient *p, int32_t role, double x, double y, double z) {
+  p->role[p->n] = role;
+  p->leaflet_id[p->n][0] = p->leaflet_id[p->n][1] = -1;
+  p->xyz[p->n][0] = x, p->xyz[p->n][1] = y, p->xyz[p->n][2] = z;
+  ++p->n;
+}
+static void add_around(patient *p, int32_t role, double radius, double degrees, double z) {
+  add(p, role, radius * cosine(degrees), radius * sine(degrees), z);
+}
+
+static patient empty_patient(void) {
+  const patient none = {0, {{0}}, {0}, {{0}}, 1, RIIS_AUTO, {0, 0, 0}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};
+  return none;
+}
+
+/* Turns, scales and moves the landmarks at random. */
+static void place_patient(patient *p, double scale) {
+  double q[4], norm = 0;
+  for (int i = 0; i < 4; ++i) q[i] = normal();
+  for (int i = 0; i < 4; ++i) norm += q[i] * q[i];
+  const double s = 2 / norm, w = q[0], x = q[1], y = q[2], z = q[3];
+  const double turn[3][3] = {{1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)},
+                             {s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)},
+                             {s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)}};
+  memcpy(p->rotation, turn, sizeof turn);
+  p->scale = scale;
+  for (int k = 0; k < 3; ++k) p->shift[k] = scale * between(-20, 20);
+  for (int i = 0; i < p->n; ++i) {
+    double at[3];
+    for (int k = 0; k < 3; ++k) {
+      at[k] = p->shift[k];
+      for (int j = 0; j < 3; ++j) at[k] += scale * turn[k][j] * p->xyz[i][j];
+    }
+    memcpy(p->xyz[i], at, sizeof at);
+  }
+  for (int k = 0; k < 3; ++k) p->flow[k] *= scale;
+  double flow[3] = {0, 0, 0};
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < 3; ++j) flow[k] += turn[k][j] * p->flow[j];
+  memcpy(p->flow, flow, sizeof flow);
+}
+
+static void disturb(patient *p, double noise) {
+  for (int i = 0; i < p->n; ++i)
+    for (int k = 0; k < 3; ++k) p->xyz[i][k] += noise * normal();
+}
+
+/* Puts the landmarks into a random order. */
+static void shuffle(patient *p) {
+  for (int i = p->n - 1; i > 0; --i) {
+    const int j = (int)(random_bits(&rng) % (uint64_t)(i + 1));
+    double point[3];
+    int32_t ids[2];
+    memcpy(point, p->xyz[i], sizeof point), memcpy(p->xyz[i], p->xyz[j], sizeof point),
+        memcpy(p->xyz[j], point, sizeof point);
+    memcpy(ids, p->leaflet_id[i], sizeof ids), memcpy(p->leaflet_id[i], p->leaflet_id[j], sizeof ids);
+    memcpy(p->leaflet_id[j], ids, sizeof ids);
+    const int32_t role = p->role[i];
+    p->role[i] = p->role[j], p->role[j] = role;
+  }
+}
+
+static riis_landmarks landmarks_of(const patient *p) {
+  riis_landmarks made;
+  CHECK_OK(riis_landmarks_init(&made, sizeof made));
+  made.n_landmarks = p->n;
+  made.x = p->xyz[0], made.y = p->xyz[0] + 1, made.z = p->xyz[0] + 2;
+  made.stride = 3;
+  made.role = p->role;
+  made.leaflet_id = p->leaflet_id[0];
+  made.scale = p->scale;
+  made.noise = p->noise;
+  memcpy(made.flow, p->flow, sizeof made.flow);
+  return made;
+}
+
+static riis_status try_to_place(riis_valve *valve, const patient *p, const char *held, answer *to) {
+  const riis_landmarks landmarks = landmarks_of(p);
+  memset(to, 0x5a, sizeof *to);
+  return riis_place(valve, &landmarks, held, to->residual, to->standard_error, to->state, &to->placement,
+                    sizeof to->placement);
+}
+static answer place(riis_valve *valve, const patient *p) {
+  answer made;
+  CHECK_OK(try_to_place(valve, p, "", &made));
+  assert_int_equal(made.placement.reserved, 0);
+  return made;
+}
+
+static double value(const riis_valve *valve, const char *name) {
+  double found;
+  CHECK_OK(riis_valve_get(valve, name, 1, &found));
+  return found;
+}
+static int position(const riis_valve *valve, const char *name) {
+  int64_t n;
+  CHECK_OK(riis_valve_get_n_parameters(valve, &n));
+  for (int i = 0; i < n; ++i) {
+    riis_parameter parameter;
+    CHECK_OK(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
+    if (strcmp(parameter.name, name) == 0) return i;
+  }
+  fail_msg("no parameter %s", name);
+  return 0;
+}
+
+static riis_surface *placed_surface(const riis_valve *valve, const riis_placement *at) {
+  riis_surface_options options = surface_options();
+  options.scale = at->scale;
+  memcpy(options.rotation_axis, at->rotation_axis, sizeof options.rotation_axis);
+  options.rotation_angle = at->rotation_angle;
+  memcpy(options.translation, at->translation, sizeof options.translation);
+  return new_surface(valve, &options);
+}
+
+/* Checks that exact landmarks lie on the surface of the placed valve. */
+static void check_on_surface(const riis_valve *valve, const patient *p, const answer *found, double tolerance) {
+  const riis_surface *surface = placed_surface(valve, &found->placement);
+  for (int i = 0; i < p->n; ++i) {
+    riis_closest closest;
+    CHECK_OK(riis_closest_point(surface, p->xyz[i], &closest, sizeof closest));
+    CHECK_AT_MOST(closest.distance, tolerance * p->scale);
+  }
+}
+
+static const double scales[3] = {0.01, 1, 10};
+
+/* ---- Trileaflet ---- */
+
+static patient trileaflet(double R, double Rc, double h) {
+  patient p = empty_patient();
+  for (int cusp = 0; cusp < 3; ++cusp) {
+    add_around(&p, RIIS_LANDMARK_NADIR, R, 120 * cusp, 0);
+    add_around(&p, RIIS_LANDMARK_COMMISSURE, Rc, 120 * cusp + 60, h);
+  }
+  return p;
+}
+
+static void test_exact_trileaflet(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 60; ++trial) {
+    const double R = between(0.7, 1.6), Rc = between(0.7, 1.5), h = between(0.8, 2.2);
+    patient p = trileaflet(R, Rc, h);
+    if (trial % 3 == 0) add(&p, RIIS_LANDMARK_COAPTATION, 0, 0, between(0.2, 0.8) * h);
+    const bool has_names = trial % 2 == 0;
+    for (int i = 0; has_names && i < 6; ++i) {
+      p.leaflet_id[i][0] = i / 2;
+      if (i % 2 == 1) p.leaflet_id[i][1] = (i / 2 + 1) % 3;
+    }
+    place_patient(&p, scales[trial % 3]);
+    shuffle(&p);
+    riis_valve *valve = new_valve("trileaflet");
+    const answer found = place(valve, &p);
+    CHECK_NEAR(value(valve, "root_radius"), R, 1e-9);
+    CHECK_NEAR(value(valve, "leaflet_radius_out"), Rc, 1e-9);
+    CHECK_NEAR(value(valve, "leaflet_height"), h, 1e-9);
+    CHECK_AT_MOST(found.placement.worst, 1e-9 * p.scale);
+    assert_int_equal(found.placement.n_undetermined, 0);
+    /* The tied sizes keep the proportions of the default valve, whose cusps do not cross. */
+    CHECK_NEAR(value(valve, "bending_height"), 0.5 * h, 1e-9);
+    CHECK_NEAR(value(valve, "bending_radius_in"), 0.32 * R, 1e-9);
+    CHECK_NEAR(value(valve, "bending_radius_out"), 1.02 * (R + Rc) / 2, 1e-9);
+    CHECK_NEAR(value(valve, "t0_bending"), 0.2 * R, 1e-9);
+    CHECK_NEAR(value(valve, "t3_bending"), 0.2 * R, 1e-9);
+    CHECK_NEAR(value(valve, "bending_angle"), 35, 0);
+    assert_int_equal(found.state[position(valve, "root_radius")], RIIS_SIZE_DETERMINED);
+    assert_int_equal(found.state[position(valve, "bending_height")], RIIS_SIZE_TIED);
+    assert_true(isinf(found.standard_error[position(valve, "bending_height")]));
+    assert_int_equal(found.state[position(valve, "xq")], RIIS_SIZE_KEPT);
+    CHECK_NEAR(found.standard_error[position(valve, "xq")], 0, 0);
+    /* Each radius is the mean of three distances, the height the difference of two means. */
+    const double noise = 0.03;
+    CHECK_NEAR(found.placement.noise, noise * p.scale, 1e-12 * p.scale);
+    CHECK_NEAR(found.standard_error[position(valve, "root_radius")], noise / sqrt(3), 1e-6);
+    CHECK_NEAR(found.standard_error[position(valve, "leaflet_height")], noise * sqrt(2.0 / 3), 1e-6);
+    if (trial % 3 != 0) check_on_surface(valve, &p, &found, 0.01);
+    /* The cusp of the first nadir, or of the name "right", is leaflet 0. */
+    int first = 0;
+    while (p.role[first] != RIIS_LANDMARK_NADIR || (has_names && p.leaflet_id[first][0] != 0)) ++first;
+    riis_closest closest;
+    double raised[3];
+    const riis_surface *surface = placed_surface(valve, &found.placement);
+    for (int k = 0; k < 3; ++k) raised[k] = p.xyz[first][k] + 0.05 * p.scale * p.rotation[k][2];
+    CHECK_OK(riis_closest_point(surface, raised, &closest, sizeof closest));
+    assert_int_equal(closest.leaflet_id, 0);
+  }
+}
+
+/* The accuracy for a population of patients. Errors are in millimetres. */
+typedef struct accuracy {
+  double size[3], rms, worst, axis, covered;
+} accuracy;
+
+static accuracy accuracy_of(double noise, bool is_asymmetric, int n) {
+  static const char *const names[3] = {"root_radius", "leaflet_radius_out", "leaflet_height"};
+  static const double angles[3][3] = {{60, 160, 290}, {60, 190, 320}, {60, 190, 290}};
+  accuracy sum = {{0, 0, 0}, 0, 0, 0, 0};
+  for (int trial = 0; trial < n; ++trial) {
+    const double truth[3] = {between(0.9, 1.5), between(0.8, 1.4), between(1.0, 2.2)};
+    patient p = trileaflet(truth[0], truth[1], truth[2]);
+    if (is_asymmetric) {
+      /* The commissures are 100, 130 and 130 degrees apart, the nadirs between them, and heights differ by 1.5 mm. */
+      const double *at = angles[trial % 3];
+      p.n = 0;
+      for (int i = 0; i < 3; ++i) {
+        const double before = i == 0 ? at[2] - 360 : at[i - 1];
+        add_around(&p, RIIS_LANDMARK_NADIR, truth[0], (before + at[i]) / 2, 0);
+        add_around(&p, RIIS_LANDMARK_COMMISSURE, truth[1], at[i], truth[2] + 0.15 * (i - 1));
+      }
+    }
+    place_patient(&p, 10);
+    disturb(&p, noise);
+    riis_valve *valve = new_valve("trileaflet");
+    const answer found = place(valve, &p);
+    for (int k = 0; k < 3; ++k) {
+      const double error = value(valve, names[k]) - truth[k];
+      sum.size[k] += 100 * error * error / n;
+      sum.covered += (fabs(error) <= 3 * found.standard_error[position(valve, names[k])]) / (3.0 * n);
+    }
+    sum.rms += found.placement.rms * found.placement.rms / n;
+    if (found.placement.worst > sum.worst) sum.worst = found.placement.worst;
+    /* The axis is the z column of the rotation, by Rodrigues' formula. */
+    const double *a = found.placement.rotation_axis, s = sine(found.placement.rotation_angle),
+                 c = cosine(found.placement.rotation_angle);
+    const double z[3] = {s * a[1] + (1 - c) * a[0] * a[2], -s * a[0] + (1 - c) * a[1] * a[2],
+                         c + (1 - c) * a[2] * a[2]};
+    double along = 0;
+    for (int k = 0; k < 3; ++k) along += z[k] * p.rotation[k][2];
+    sum.axis += acos(fmin(1, along)) * 180 / acos(-1.0) / n;
+    free_owned_after(0);
+  }
+  for (int k = 0; k < 3; ++k) sum.size[k] = sqrt(sum.size[k]);
+  sum.rms = sqrt(sum.rms);
+  return sum;
+}
+
+/* The measured table of accuracies; each entry must come back within 20 %. */
+static void test_noisy_trileaflet(void **state) {
+  (void)state;
+  const struct {
+    double noise;
+    bool is_asymmetric;
+    double size[3], rms, axis;
+  } rows[] = {{0.3, false, {0.17, 0.17, 0.25}, 0.37, 0.8},
+              {1.0, false, {0.58, 0.57, 0.82}, 1.2, 2.6},
+              {0.5, true, {0.28, 0.27, 0.40}, 1.4, 2.5}};
+  const int n = is_long_test() ? 4000 : 400;
+  print_message("%d patients a row, errors in mm: R, Rc, h; residual rms, worst; axis in degrees; within 3 errors\n",
+                n);
+  for (int row = 0; row < 3; ++row) {
+    const accuracy found = accuracy_of(rows[row].noise, rows[row].is_asymmetric, n);
+    print_message("noise %.1f%s: %.2f %.2f %.2f; %.2f %.2f; %.2f; %.3f\n", rows[row].noise,
+                  rows[row].is_asymmetric ? ", asymmetric" : "", found.size[0], found.size[1], found.size[2], found.rms,
+                  found.worst, found.axis, found.covered);
+    /* 20 %, and three times the scatter of a root mean square of n errors. */
+    const double share = 0.2 + 3 / sqrt(2.0 * n);
+    for (int k = 0; k < 3; ++k) CHECK_NEAR(found.size[k], rows[row].size[k], share * rows[row].size[k]);
+    CHECK_NEAR(found.rms, rows[row].rms, share * rows[row].rms);
+    CHECK_NEAR(found.axis, rows[row].axis, share * rows[row].axis);
+    CHECK_AT_MOST(0.95, found.covered);
+  }
+}
+
+/* ---- Aortic ---- */
+
+static patient aortic(double R, const double *Rc, double h, const double *angle) {
+  const double at[3] = {0, angle[0] + angle[1], -angle[0] - angle[2]};
+  patient p = empty_patient();
+  for (int32_t cusp = 0; cusp < 3; ++cusp) {
+    add_around(&p, RIIS_LANDMARK_NADIR, R, at[cusp], 0);
+    p.leaflet_id[p.n - 1][0] = cusp;
+    add_around(&p, RIIS_LANDMARK_COMMISSURE, Rc[cusp], at[cusp] + angle[cusp], h);
+  }
+  return p;
+}
+
+static void test_exact_aortic(void **state) {
+  (void)state;
+  static const char *const cusps[3] = {"right", "left", "non_coronary"};
+  for (int trial = 0; trial < 40; ++trial) {
+    const double R = between(0.9, 1.6), end = between(1.0, 1.6), h = between(0.9, 1.5), Rc[3] = {end, end, end};
+    double angle[3] = {between(54, 66), between(54, 66), 0};
+    angle[2] = 180 - angle[0] - angle[1];
+    patient p = aortic(R, Rc, h, angle);
+    /* It is enough to name two nadirs, or one commissure. */
+    if (trial % 4 == 1) p.leaflet_id[2][0] = -1;
+    if (trial % 4 == 2) {
+      for (int i = 0; i < p.n; ++i) p.leaflet_id[i][0] = -1;
+      p.leaflet_id[3][0] = 2, p.leaflet_id[3][1] = 1;
+    }
+    place_patient(&p, scales[trial % 3]);
+    shuffle(&p);
+    riis_valve *valve = new_valve("aortic");
+    const answer found = place(valve, &p);
+    CHECK_AT_MOST(found.placement.worst, 1e-9 * p.scale);
+    CHECK_NEAR(value(valve, "root_radius"), R, 1e-9);
+    CHECK_NEAR(value(valve, "leaflet_height"), h, 1e-9);
+    for (int cusp = 0; cusp < 3; ++cusp) {
+      char name[64];
+      double turn[3];
+      snprintf(name, sizeof name, "%s.leaflet_angle", cusps[cusp]);
+      CHECK_NEAR(value(valve, name), angle[cusp], 1e-7);
+      snprintf(name, sizeof name, "%s.leaflet_radius_out", cusps[cusp]);
+      CHECK_NEAR(value(valve, name), end, 1e-9);
+      /* Cusps that end at one radius and meet in angle close at the commissures. */
+      snprintf(name, sizeof name, "%s.rotation", cusps[cusp]);
+      CHECK_OK(riis_valve_get(valve, name, 3, turn));
+      CHECK_NEAR(turn[2], cusp == 0 ? 0 : cusp == 1 ? angle[0] + angle[1] : -angle[0] - angle[2], 1e-7);
+      /* No free edge bulges beyond the plane of its commissure. */
+      snprintf(name, sizeof name, "%s.leaflet_radius_in", cusps[cusp]);
+      const double x = end * cosine(angle[cusp]), in = value(valve, name);
+      snprintf(name, sizeof name, "%s.leaflet_power", cusps[cusp]);
+      if (x > in) CHECK_AT_MOST(value(valve, name), x / (x - in) * (1 + 1e-12));
+    }
+    check_on_surface(valve, &p, &found, 0.01);
+  }
+}
+
+/* ---- Mitral ---- */
+
+enum { n_sizes = 7 };
+static const char *const mitral_names[n_sizes] = {"AP_diameter",          "ALPM_diameter", "ALPM_position_ratio",
+                                                  "IT_distance",          "indent_depth",  "anterior_horn_height",
+                                                  "posterior_horn_height"};
+
+/* Makes landmarks of a random mitral valve. sizes gets the true values in centimetres. */
+static patient mitral(int n, bool is_reversed, double *sizes, double *anterior_ratio) {
+  mitral_parameters m = mitral_defaults();
+  double *const to[n_sizes] = {&m.AP_diameter,  &m.ALPM_diameter,        &m.ALPM_position_ratio,  &m.IT_distance,
+                               &m.indent_depth, &m.anterior_horn_height, &m.posterior_horn_height};
+  const double grown = between(0.8, 1.2);
+  for (int k = 0; k < n_sizes; ++k) *to[k] *= (k == 2 ? 1 : grown) * between(0.88, 1.12);
+  for (int k = 0; k < n_sizes; ++k) sizes[k] = *to[k];
+  *anterior_ratio = m.anterior_ratio = between(0.36, 0.46);
+  m.opening = 0;
+  mitral_oracle *oracle = mitral_oracle_create(&m, &m);
+  assert_non_null(oracle);
+  patient p = empty_patient();
+  const double phase = between(0, 1);
+  for (int i = 0; i < n; ++i) {
+    double u = phase + (double)(is_reversed ? n - i : i) / n, point[3];
+    u -= floor(u);
+    mitral_oracle_annulus(oracle, u, point);
+    add(&p, RIIS_LANDMARK_ANNULUS, point[0], point[1], point[2]);
+  }
+  double horn[3];
+  mitral_oracle_annulus(oracle, 0.5, horn);
+  add(&p, RIIS_LANDMARK_ANTERIOR_HORN, horn[0], horn[1], horn[2]);
+  mitral_oracle_destroy(oracle);
+  p.flow[2] = -1;
+  return p;
+}
+
+static void add_commissures(patient *p, double anterior_ratio, const double *sizes) {
+  mitral_parameters m = mitral_defaults();
+  m.AP_diameter = sizes[0], m.ALPM_diameter = sizes[1], m.ALPM_position_ratio = sizes[2], m.IT_distance = sizes[3];
+  m.indent_depth = sizes[4], m.anterior_horn_height = sizes[5], m.posterior_horn_height = sizes[6];
+  m.opening = 0;
+  mitral_oracle *oracle = mitral_oracle_create(&m, &m);
+  double point[3];
+  mitral_oracle_annulus(oracle, 0.5 - 0.5 * anterior_ratio, point);
+  add(p, RIIS_LANDMARK_POSTEROMEDIAL, point[0], point[1], point[2]);
+  add(p, RIIS_LANDMARK_ANTEROLATERAL, -point[0], point[1], point[2]);
+  add(p, RIIS_LANDMARK_TRIGONE, 0.5 * sizes[3], 0.5 * (sizes[0] + sizes[4]), 0.75 * sizes[5]);
+  mitral_oracle_annulus(oracle, 0, point);
+  add(p, RIIS_LANDMARK_POSTERIOR_HORN, point[0], point[1], point[2]);
+  mitral_oracle_destroy(oracle);
+}
+
+static void test_exact_mitral(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 9; ++trial) {
+    double sizes[n_sizes], ratio;
+    patient p = mitral(16, trial % 2 == 1, sizes, &ratio);
+    const bool has_more = trial % 3 != 0;
+    if (has_more) add_commissures(&p, ratio, sizes);
+    if (trial % 3 == 1) memset(p.flow, 0, sizeof p.flow); /* the commissures show the atrium's side */
+    place_patient(&p, scales[trial % 3]);
+    riis_valve *valve = new_valve("mitral");
+    const answer found = place(valve, &p);
+    for (int k = 0; k < n_sizes; ++k) CHECK_NEAR(value(valve, mitral_names[k]), sizes[k], 0.005); /* 0.05 mm */
+    CHECK_NEAR(value(valve, "anterior_ratio"), has_more ? ratio : 0.41, 0.001);
+    assert_int_equal(found.state[position(valve, "anterior_ratio")], has_more ? RIIS_SIZE_DETERMINED : RIIS_SIZE_KEPT);
+    assert_int_equal(found.placement.n_undetermined, 0);
+    CHECK_AT_MOST(found.placement.worst, 0.001 * p.scale);
+    CHECK_NEAR(value(valve, "anterior_length"), 2.12 * sizes[0] / 3, 0.01);
+    assert_int_equal(found.state[position(valve, "anterior_length")], RIIS_SIZE_TIED);
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
+    check_on_surface(valve, &p, &found, 0.01);
+  }
+}
+
+/* Without flow and commissures, the horns show the atrium's side if the annulus is a saddle. */
+static void test_saddle(void **state) {
+  (void)state;
+  double sizes[n_sizes], ratio;
+  patient p = mitral(16, true, sizes, &ratio);
+  memset(p.flow, 0, sizeof p.flow);
+  place_patient(&p, 10);
+  riis_valve *valve = new_valve("mitral");
+  place(valve, &p);
+  CHECK_NEAR(value(valve, "anterior_horn_height"), sizes[5], 0.005);
+  disturb(&p, 1.5);
+  p.noise = 6;
+  answer found;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "landmarks.flow is needed|horns|standard error",
+                try_to_place(valve, &p, "", &found));
+}
+
+static void test_noisy_mitral(void **state) {
+  (void)state;
+  const int n = is_long_test() ? 400 : 24;
+  for (int points = 8; points <= 16; points += 8) {
+    double squares[n_sizes] = {0}, residual = 0;
+    int n_undetermined = 0, n_covered = 0;
+    for (int trial = 0; trial < n; ++trial) {
+      double sizes[n_sizes], ratio;
+      patient p = mitral(points, trial % 2 == 1, sizes, &ratio);
+      place_patient(&p, 10);
+      disturb(&p, 0.3);
+      riis_valve *valve = new_valve("mitral");
+      const answer found = place(valve, &p);
+      n_undetermined += found.placement.n_undetermined > 0;
+      residual += found.placement.rms * found.placement.rms / n;
+      for (int k = 0; k < n_sizes; ++k) {
+        const double error = value(valve, mitral_names[k]) - sizes[k];
+        squares[k] += 100 * error * error / n;
+        n_covered += fabs(error) <= 3 * found.standard_error[position(valve, mitral_names[k])];
+      }
+      free_owned_after(0);
+    }
+    print_message(
+        "mitral, %d points, noise 0.3, %d patients: AP %.2f, ALPM %.2f, horns %.2f %.2f, IT %.2f mm; residual "
+        "%.2f; %d with undetermined sizes; within 3 errors %.3f\n",
+        points, n, sqrt(squares[0]), sqrt(squares[1]), sqrt(squares[5]), sqrt(squares[6]), sqrt(squares[3]),
+        sqrt(residual), n_undetermined, (double)n_covered / (n_sizes * n));
+    CHECK_AT_MOST(0.95 * n_sizes * n, n_covered);
+    if (points == 16) {
+      const double most_times = 1.2 + 3 / sqrt(2.0 * n); /* the measured errors, 20 %, and three times their scatter */
+      CHECK_AT_MOST(sqrt(squares[0]), most_times * 0.4);
+      CHECK_AT_MOST(sqrt(squares[1]), most_times * 0.5);
+      CHECK_AT_MOST(sqrt(squares[5]), most_times * 0.7);
+      CHECK_AT_MOST(sqrt(squares[6]), most_times * 0.7);
+      CHECK_NEAR(sqrt(residual), 0.33, 0.2 * 0.33);
+      CHECK_AT_MOST(n_undetermined, 0.4 * n);
+    } else {
+      CHECK_AT_MOST(0.5 * n, n_undetermined);
+    }
+  }
+}
+
+/* ---- Bileaflet ---- */
+
+static void test_exact_bileaflet(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 20; ++trial) {
+    const double R = between(0.8, 1.4), offset = between(0.1, 0.4), height = between(-0.1, 0.2);
+    patient p = empty_patient();
+    for (int i = 0; i < 5; ++i) add_around(&p, RIIS_LANDMARK_ANNULUS, R, 72 * i + between(-20, 20), 0);
+    const int n_hinges = trial % 2 == 0 ? 2 : 4;
+    for (int i = 0; i < n_hinges; ++i)
+      add(&p, RIIS_LANDMARK_HINGE, i < 2 ? offset : -offset, (i % 2 == 0 ? 0.9 : -0.9) * R, height);
+    p.flow[2] = between(0.1, 10);
+    place_patient(&p, scales[trial % 3]);
+    shuffle(&p);
+    riis_valve *valve = new_valve("bileaflet");
+    const answer found = place(valve, &p);
+    CHECK_NEAR(value(valve, "radius"), R, 1e-9);
+    CHECK_NEAR(value(valve, "hinge_offset"), offset, 1e-9);
+    CHECK_NEAR(value(valve, "hinge_height"), height, 1e-9);
+    CHECK_AT_MOST(found.placement.worst, 1e-9 * p.scale);
+    for (int k = 0; k < 3; ++k) CHECK_NEAR(found.placement.translation[k], p.shift[k], 1e-8 * p.scale);
+  }
+}
+
+/* ---- Held sizes, forms of input ---- */
+
+static void test_held_sizes(void **state) {
+  (void)state;
+  patient p = trileaflet(1.2, 1.1, 1.5);
+  place_patient(&p, 10);
+  riis_valve *valve = new_valve("trileaflet");
+  CHECK_OK(riis_valve_set_scalar(valve, "leaflet_height", 1.6));
+  CHECK_OK(riis_valve_set_scalar(valve, "bending_height", 0.7));
+  answer found;
+  CHECK_OK(try_to_place(valve, &p, " leaflet_height,bending_height ", &found));
+  CHECK_NEAR(value(valve, "leaflet_height"), 1.6, 0);
+  CHECK_NEAR(value(valve, "bending_height"), 0.7, 0);
+  CHECK_NEAR(value(valve, "root_radius"), 1.2, 1e-9);
+  assert_int_equal(found.state[position(valve, "leaflet_height")], RIIS_SIZE_KEPT);
+  assert_int_equal(found.state[position(valve, "bending_height")], RIIS_SIZE_KEPT);
+  /* The millimetre that is missing is shared by both ends. */
+  CHECK_NEAR(found.placement.rms, 0.5, 1e-6);
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'leaflet_hight'|did you mean 'leaflet_height'",
+                try_to_place(valve, &p, "leaflet_hight", &found));
+  patient aortic_patient = p;
+  for (int i = 0; i < 6; i += 2) aortic_patient.leaflet_id[i][0] = i / 2;
+  riis_valve *aortic_valve = new_valve("aortic");
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'leaflet_power'|each leaflet",
+                try_to_place(aortic_valve, &aortic_patient, "leaflet_power", &found));
+  CHECK_OK(try_to_place(aortic_valve, &aortic_patient, "right.leaflet_power t3_leaflet", &found));
+  CHECK_NEAR(value(aortic_valve, "right.leaflet_power"), 1.58, 0);
+}
+
+static void test_forms_of_input(void **state) {
+  (void)state;
+  patient p = trileaflet(1.25, 1.3, 1.5);
+  place_patient(&p, 10);
+  riis_valve *one = new_valve("trileaflet"), *other = new_valve("trileaflet");
+  const answer found = place(one, &p);
+  float x[6], y[6], z[6];
+  for (int i = 0; i < 6; ++i) x[i] = (float)p.xyz[i][0], y[i] = (float)p.xyz[i][1], z[i] = (float)p.xyz[i][2];
+  riis_landmarks single = landmarks_of(&p);
+  single.x = x, single.y = y, single.z = z;
+  single.stride = 1;
+  single.real_bits = 32;
+  single.leaflet_id = NULL;
+  riis_placement placement;
+  CHECK_OK(riis_place(other, &single, "", NULL, NULL, NULL, &placement, sizeof placement));
+  CHECK_NEAR(value(other, "root_radius"), value(one, "root_radius"), 1e-5);
+  CHECK_NEAR(placement.rotation_angle, found.placement.rotation_angle, 1e-3);
+  /* Once more from the result: the valve's values are the template, and the same sizes come back. */
+  const answer again = place(one, &p);
+  CHECK_NEAR(value(one, "leaflet_height"), 1.5, 1e-9);
+  for (int k = 0; k < 3; ++k) CHECK_NEAR(again.placement.translation[k], found.placement.translation[k], 1e-7);
+}
+
+/* ---- Refusals ---- */
+
+static void check_place_refused(const char *kind, const patient *p, const char *parts, const char *what) {
+  riis_valve *valve = new_valve(kind);
+  const char *size = strcmp(kind, "mitral") == 0      ? "AP_diameter"
+                     : strcmp(kind, "bileaflet") == 0 ? "radius"
+                                                      : "root_radius";
+  CHECK_OK(riis_valve_set_scalar(valve, size, 1.7));
+  answer found, untouched;
+  memset(&untouched, 0x5a, sizeof untouched);
+  check_refused(RIIS_INVALID_ARGUMENT, try_to_place(valve, p, "", &found), parts, what);
+  CHECK_NEAR(value(valve, size), 1.7, 0);
+  assert_memory_equal(&found, &untouched, sizeof found);
+  free_owned_after(0);
+}
+
+static void test_refused_cusps(void **state) {
+  (void)state;
+  const patient good = trileaflet(1.2, 1.1, 1.5);
+#define REFUSED(kind, parts, ...)                       \
+  do {                                                  \
+    patient p = good;                                   \
+    __VA_ARGS__;                                        \
+    check_place_refused(kind, &p, parts, #__VA_ARGS__); \
+  } while (0)
+  REFUSED("trileaflet", "landmark 0 (nadir) and landmark 2 (nadir) are in one place: 0.001 apart",
+          (memcpy(p.xyz[2], p.xyz[0], sizeof p.xyz[0]), p.xyz[2][2] = 0.001));
+  REFUSED("trileaflet", "lie along a line|collinear", for (int i = 0; i < 6; ++i) p.xyz[i][0] = i,
+          p.xyz[i][1] = p.xyz[i][2] = 0);
+  REFUSED("trileaflet", "landmarks.scale is 10 (millimetres)|cm|in centimetres, scale 1, this would be 1.",
+          p.scale = 10);
+  REFUSED("trileaflet", "landmarks.scale is 1 (centimetres)|in millimetres, scale 10, this would be 1.",
+          for (int i = 0; i < 6; ++i) for (int k = 0; k < 3; ++k) p.xyz[i][k] *= 10);
+  REFUSED("trileaflet", "landmarks.scale is not set|10 for landmarks in millimetres", p.scale = RIIS_AUTO);
+  REFUSED("trileaflet", "landmarks.scale is 0", p.scale = 0);
+  REFUSED("trileaflet", "landmarks.noise is -2", p.noise = -2);
+  REFUSED("trileaflet", "z of landmark 3 is nan", p.xyz[3][2] = NAN);
+  REFUSED("trileaflet", "x of landmark 5 is inf", p.xyz[5][0] = INFINITY);
+  REFUSED("trileaflet", "landmarks.flow is nan", p.flow[0] = NAN);
+  REFUSED("trileaflet", "landmarks.role of landmark 2 is 10|0 to 9", p.role[2] = 10);
+  REFUSED("trileaflet", "landmark 2 (hinge) has a role that the trileaflet valve lacks|commissure, nadir",
+          p.role[2] = RIIS_LANDMARK_HINGE);
+  REFUSED("trileaflet", "has the commissure 2 times|needs 3", p.n = 4);
+  REFUSED("trileaflet", "has the commissure 4 times|needs 3", p.role[0] = RIIS_LANDMARK_COMMISSURE);
+  REFUSED("trileaflet", "landmarks.n_landmarks is 0", p.n = 0);
+  REFUSED("trileaflet", "landmarks.flow is at 180 degrees|must point downstream", p.flow[2] = -3);
+  REFUSED("trileaflet", "follow each other around the valve",
+          (p.role[0] = RIIS_LANDMARK_COMMISSURE, p.role[1] = RIIS_LANDMARK_NADIR));
+  REFUSED("trileaflet", "does not show the direction of flow", for (int i = 0; i < 6; ++i) p.xyz[i][2] = 0);
+  REFUSED("trileaflet", "leaflet_id of landmark 0 (nadir) is 7", p.leaflet_id[0][0] = 7);
+  REFUSED("trileaflet", "leaflet_id of landmark 0 (nadir) is 0 and 1",
+          (p.leaflet_id[0][0] = 0, p.leaflet_id[0][1] = 1));
+  REFUSED("trileaflet", "leaflet_id of landmark 1 (commissure) is 0 and -1", p.leaflet_id[1][0] = 0);
+  REFUSED("trileaflet", "seen along the flow|clockwise|mirrored",
+          for (int i = 0; i < 6; i += 2) p.leaflet_id[i][0] = (6 - i) / 2 % 3);
+  REFUSED("aortic", "does not say which nadir", p.noise = 0);
+  REFUSED("aortic", "mirrored", for (int i = 0; i < 6; i += 2) p.leaflet_id[i][0] = (6 - i) / 2 % 3);
+  /* A mirror image of a named patient. */
+  REFUSED("aortic", "mirrored", for (int i = 0; i < 6; ++i) p.xyz[i][1] *= -1,
+          p.leaflet_id[i][0] = i % 2 == 0 ? i / 2 : -1);
+  REFUSED("aortic", "landmark 2 (nadir) says right|left cusp",
+          for (int i = 0; i < 6; i += 2) p.leaflet_id[i][0] = i == 4 ? 2 : 0);
+  REFUSED("aortic", "landmark 1 (commissure) says left and non_coronary|between right and left",
+          (p.leaflet_id[0][0] = 0, p.leaflet_id[2][0] = 1, p.leaflet_id[4][0] = 2, p.leaflet_id[1][0] = 1,
+           p.leaflet_id[1][1] = 2));
+#undef REFUSED
+}
+
+static void test_refused_annuli(void **state) {
+  (void)state;
+  double sizes[n_sizes], ratio;
+  const patient good = mitral(16, false, sizes, &ratio);
+#define REFUSED(parts, ...)                                 \
+  do {                                                      \
+    patient p = good;                                       \
+    __VA_ARGS__;                                            \
+    check_place_refused("mitral", &p, parts, #__VA_ARGS__); \
+  } while (0)
+  REFUSED(
+      "the annulus crosses itself: the line from landmark|order around it", for (int k = 0; k < 3; ++k) {
+        const double x = p.xyz[2][k];
+        p.xyz[2][k] = p.xyz[10][k], p.xyz[10][k] = x;
+      });
+  REFUSED("landmark 3 (annulus) and landmark 4 (annulus) are in one place",
+          memcpy(p.xyz[4], p.xyz[3], sizeof p.xyz[3]));
+  REFUSED("has the anterior_horn 0 times|needs 1", p.n = 16);
+  REFUSED("landmark 16 (anterior_horn)|must be on the annulus", memset(p.xyz[16], 0, sizeof p.xyz[16]));
+  REFUSED("landmarks.flow is at 90 degrees", (p.flow[2] = 0, p.flow[0] = 1));
+  patient mirrored = good;
+  add_commissures(&mirrored, ratio, sizes);
+  mirrored.flow[2] = 1;
+  check_place_refused("mitral", &mirrored, "landmarks.flow points to the atrium|mirrored",
+                      "flow against the commissures");
+#undef REFUSED
+  patient ring = empty_patient();
+  for (int i = 0; i < 5; ++i) add_around(&ring, RIIS_LANDMARK_ANNULUS, 1.1, 72 * i, 0);
+  ring.flow[2] = 1;
+  patient p = ring;
+  check_place_refused("bileaflet", &p, "has the hinge 0 times|needs 2 to 4", "no hinges");
+  add(&ring, RIIS_LANDMARK_HINGE, 0.2, 1, 0), add(&ring, RIIS_LANDMARK_HINGE, 0.2, -1, 0);
+  p = ring, p.flow[2] = 0;
+  check_place_refused("bileaflet", &p, "landmarks.flow is 0 0 0", "no flow");
+  p = ring, p.xyz[5][1] = -0.95;
+  check_place_refused("bileaflet", &p, "hinges are|direction", "hinges in one place");
+  p = ring, p.xyz[5][1] = p.xyz[6][1] = 0, p.xyz[5][2] = 1, p.xyz[6][2] = -1;
+  check_place_refused("bileaflet", &p, "hinges are at|normal", "hinges along the axis");
+}
+
+static void test_refused_arguments(void **state) {
+  (void)state;
+  const patient p = trileaflet(1.2, 1.1, 1.5);
+  riis_landmarks landmarks = landmarks_of(&p);
+  riis_placement placement;
+  riis_valve *valve = new_valve("trileaflet"), *none = NULL;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "landmarks is NULL", riis_landmarks_init(NULL, sizeof landmarks));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "landmarks is 16", riis_landmarks_init(&landmarks, 16));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve is NULL",
+                riis_place(none, &landmarks, "", NULL, NULL, NULL, &placement, sizeof placement));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "landmarks is NULL",
+                riis_place(valve, NULL, "", NULL, NULL, NULL, &placement, sizeof placement));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "held is NULL",
+                riis_place(valve, &landmarks, NULL, NULL, NULL, NULL, &placement, sizeof placement));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "placement is NULL",
+                riis_place(valve, &landmarks, "", NULL, NULL, NULL, NULL, sizeof placement));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "placement is 8",
+                riis_place(valve, &landmarks, "", NULL, NULL, NULL, &placement, 8));
+  landmarks.role = NULL;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "landmarks.role is NULL",
+                riis_place(valve, &landmarks, "", NULL, NULL, NULL, &placement, sizeof placement));
+  landmarks = landmarks_of(&p);
+  landmarks.real_bits = 16;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "landmarks.real_bits is 16",
+                riis_place(valve, &landmarks, "", NULL, NULL, NULL, &placement, sizeof placement));
+  landmarks = landmarks_of(&p);
+  landmarks.reserved = 1;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "landmarks.reserved",
+                riis_place(valve, &landmarks, "", NULL, NULL, NULL, &placement, sizeof placement));
+  landmarks = landmarks_of(&p);
+  landmarks.stride = 0;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "stride is 0",
+                riis_place(valve, &landmarks, "", NULL, NULL, NULL, &placement, sizeof placement));
+  landmarks = landmarks_of(&p);
+  landmarks.y = NULL;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "landmarks.y is NULL",
+                riis_place(valve, &landmarks, "", NULL, NULL, NULL, &placement, sizeof placement));
+  landmarks = landmarks_of(&p);
+  const double square[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0};
+  const int32_t degree[4] = {1, 1, 1, 1}, curves[4] = {0, 1, 2, 3};
+  riis_patches patches;
+  riis_valve *patch_valve = NULL;
+  CHECK_OK(riis_patches_init(&patches, sizeof patches));
+  patches.n_curves = 4, patches.degree = degree, patches.control = square, patches.n_patches = 1,
+  patches.curve_id = curves;
+  CHECK_OK(riis_valve_create_from_patches(&patches, &patch_valve));
+  own(patch_valve);
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "patches|no landmarks",
+                riis_place(patch_valve, &landmarks, "", NULL, NULL, NULL, &placement, sizeof placement));
+}
+
+int main(void) {
+  rng = random_start("test_landmarks");
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_exact_trileaflet), cmocka_unit_test(test_noisy_trileaflet),
+                                     cmocka_unit_test(test_exact_aortic),     cmocka_unit_test(test_exact_mitral),
+                                     cmocka_unit_test(test_saddle),           cmocka_unit_test(test_noisy_mitral),
+                                     cmocka_unit_test(test_exact_bileaflet),  cmocka_unit_test(test_held_sizes),
+                                     cmocka_unit_test(test_forms_of_input),   cmocka_unit_test(test_refused_cusps),
+                                     cmocka_unit_test(test_refused_annuli),   cmocka_unit_test(test_refused_arguments)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
