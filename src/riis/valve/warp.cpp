@@ -9,11 +9,13 @@
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 namespace riis {
 namespace {
 
-// Sources and weights are summed in this many interleaved sums. The order of additions depends on the number of landmarks only.
-constexpr std::size_t n_lanes = 4;
 // Sources count as planar if their rms distance from the plane is below this share of the largest rms extent, ...
 constexpr double thinnest_share = 0.05;
 // ... or if noise would change the stretch across the plane by more than this.
@@ -23,13 +25,40 @@ constexpr double largest_stretch_error = 0.1;
 constexpr double residual_share = 0.6;
 constexpr double line_share = 1e-6, same_place_share = 1e-6;
 
-struct LaneSums {
-  double x[n_lanes] = {}, y[n_lanes] = {}, z[n_lanes] = {};
+// Two doubles, which the processor handles together.
+#if defined(__SSE2__)
+struct Pair {
+  __m128d both;
 
-  Vec3 total() const {
-    return {(x[0] + x[1]) + (x[2] + x[3]), (y[0] + y[1]) + (y[2] + y[3]), (z[0] + z[1]) + (z[2] + z[3])};
-  }
+  static Pair of(double x) { return {_mm_set1_pd(x)}; }
+  static Pair at(const double *x) { return {_mm_loadu_pd(x)}; }
+  friend Pair operator+(Pair a, Pair b) { return {_mm_add_pd(a.both, b.both)}; }
+  friend Pair operator-(Pair a, Pair b) { return {_mm_sub_pd(a.both, b.both)}; }
+  friend Pair operator*(Pair a, Pair b) { return {_mm_mul_pd(a.both, b.both)}; }
+  friend Pair root(Pair a) { return {_mm_sqrt_pd(a.both)}; }
+  double sum() const { return _mm_cvtsd_f64(both) + _mm_cvtsd_f64(_mm_unpackhi_pd(both, both)); }
 };
+#else
+struct Pair {
+  double x, y;
+
+  static Pair of(double x) { return {x, x}; }
+  static Pair at(const double *x) { return {x[0], x[1]}; }
+  friend Pair operator+(Pair a, Pair b) { return {a.x + b.x, a.y + b.y}; }
+  friend Pair operator-(Pair a, Pair b) { return {a.x - b.x, a.y - b.y}; }
+  friend Pair operator*(Pair a, Pair b) { return {a.x * b.x, a.y * b.y}; }
+  friend Pair root(Pair a) { return {std::sqrt(a.x), std::sqrt(a.y)}; }
+  double sum() const { return x + y; }
+};
+#endif
+
+struct PairOfVectors {
+  Pair x = Pair::of(0), y = Pair::of(0), z = Pair::of(0);
+
+  Vec3 sum() const { return {x.sum(), y.sum(), z.sum()}; }
+};
+PairOfVectors operator+(const PairOfVectors &a, const PairOfVectors &b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+PairOfVectors operator*(Pair s, const PairOfVectors &a) { return {s * a.x, s * a.y, s * a.z}; }
 
 struct SymmetricThree {
   double xx, yy, zz, xy, xz, yz;
@@ -79,41 +108,32 @@ double cubed_distance(Vec3 a, Vec3 b) {
 
 Vec3 WarpMap::value(Vec3 x) const {
   const Vec3 y = (1 / size) * (x - centre);
-  LaneSums sum;
-  const std::size_t n = source_x.size();
-  const auto add = [&](std::size_t lane, std::size_t i) {
-    const double dx = y.x - source_x[i], dy = y.y - source_y[i], dz = y.z - source_z[i];
-    const double square = dx * dx + dy * dy + dz * dz, cube = square * std::sqrt(square);
-    sum.x[lane] += weight_x[i] * cube, sum.y[lane] += weight_y[i] * cube, sum.z[lane] += weight_z[i] * cube;
-  };
-  std::size_t i = 0;
-  for (; i + n_lanes <= n; i += n_lanes)
-    for (std::size_t lane = 0; lane < n_lanes; ++lane) add(lane, i + lane);
-  for (std::size_t lane = 0; i < n; ++i, ++lane) add(lane, i);
-  return x + size * (shift + y.x * linear_x + y.y * linear_y + y.z * linear_z + sum.total());
+  const Pair px = Pair::of(y.x), py = Pair::of(y.y), pz = Pair::of(y.z);
+  PairOfVectors sum;
+  for (std::size_t i = 0; i < source_x.size(); i += 2) {
+    const Pair dx = px - Pair::at(&source_x[i]), dy = py - Pair::at(&source_y[i]), dz = pz - Pair::at(&source_z[i]);
+    const Pair square = dx * dx + dy * dy + dz * dz;
+    sum = sum +
+          square * root(square) * PairOfVectors{Pair::at(&weight_x[i]), Pair::at(&weight_y[i]), Pair::at(&weight_z[i])};
+  }
+  return x + size * (shift + y.x * linear_x + y.y * linear_y + y.z * linear_z + sum.sum());
 }
 
 MapAt WarpMap::at(Vec3 x) const {
   const Vec3 y = (1 / size) * (x - centre);
-  LaneSums sum, by_x, by_y, by_z;
-  const std::size_t n = source_x.size();
-  const auto add = [&](std::size_t lane, std::size_t i) {
-    const double dx = y.x - source_x[i], dy = y.y - source_y[i], dz = y.z - source_z[i];
-    const double square = dx * dx + dy * dy + dz * dz, r = std::sqrt(square), cube = square * r, slope = 3 * r;
-    const double wx = weight_x[i], wy = weight_y[i], wz = weight_z[i];
-    sum.x[lane] += wx * cube, sum.y[lane] += wy * cube, sum.z[lane] += wz * cube;
-    const double sx = slope * dx, sy = slope * dy, sz = slope * dz;
-    by_x.x[lane] += wx * sx, by_x.y[lane] += wy * sx, by_x.z[lane] += wz * sx;
-    by_y.x[lane] += wx * sy, by_y.y[lane] += wy * sy, by_y.z[lane] += wz * sy;
-    by_z.x[lane] += wx * sz, by_z.y[lane] += wy * sz, by_z.z[lane] += wz * sz;
-  };
-  std::size_t i = 0;
-  for (; i + n_lanes <= n; i += n_lanes)
-    for (std::size_t lane = 0; lane < n_lanes; ++lane) add(lane, i + lane);
-  for (std::size_t lane = 0; i < n; ++i, ++lane) add(lane, i);
-  return {x + size * (shift + y.x * linear_x + y.y * linear_y + y.z * linear_z + sum.total()),
-          Vec3{1, 0, 0} + linear_x + by_x.total(), Vec3{0, 1, 0} + linear_y + by_y.total(),
-          Vec3{0, 0, 1} + linear_z + by_z.total()};
+  const Pair px = Pair::of(y.x), py = Pair::of(y.y), pz = Pair::of(y.z);
+  PairOfVectors sum, by_x, by_y, by_z;
+  for (std::size_t i = 0; i < source_x.size(); i += 2) {
+    const Pair dx = px - Pair::at(&source_x[i]), dy = py - Pair::at(&source_y[i]), dz = pz - Pair::at(&source_z[i]);
+    const Pair square = dx * dx + dy * dy + dz * dz, r = root(square);
+    const PairOfVectors of_r =
+        r * PairOfVectors{Pair::at(&weight_x[i]), Pair::at(&weight_y[i]), Pair::at(&weight_z[i])};
+    sum = sum + square * of_r;
+    by_x = by_x + dx * of_r, by_y = by_y + dy * of_r, by_z = by_z + dz * of_r;
+  }
+  return {x + size * (shift + y.x * linear_x + y.y * linear_y + y.z * linear_z + sum.sum()),
+          Vec3{1, 0, 0} + linear_x + 3 * by_x.sum(), Vec3{0, 1, 0} + linear_y + 3 * by_y.sum(),
+          Vec3{0, 0, 1} + linear_z + 3 * by_z.sum()};
 }
 
 Vec3 BlendedWarp::value(Vec3 x) const {
@@ -347,7 +367,7 @@ void WarpLandmarks::fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &
   map.centre = centre_, map.size = size_;
   for (Vector<double> *list :
        {&map.source_x, &map.source_y, &map.source_z, &map.weight_x, &map.weight_y, &map.weight_z})
-    list->resize(n);
+    list->assign(n + n % 2, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
     Vec3 weight{0, 0, 0};
     for (std::size_t k = 0; k < n_free_; ++k) weight = weight + basis_[k * n + i] * solution_[k];

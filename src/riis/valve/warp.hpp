@@ -30,7 +30,8 @@ class WarpMap {
   double size = 1;
   Vec3 shift{0, 0, 0};
   Vec3 linear_x{0, 0, 0}, linear_y{0, 0, 0}, linear_z{0, 0, 0};  // the columns of `linear`
-  // The coordinates of sources and weights lie in arrays of their own, so that the processor handles several at a time.
+  // The coordinates of sources and weights lie in arrays of their own, so that the processor handles two at a time. If their
+  // number is odd, a source with the weight 0 follows.
   Vector<double> source_x, source_y, source_z, weight_x, weight_y, weight_z;
 };
 

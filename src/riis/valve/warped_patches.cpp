@@ -173,11 +173,10 @@ double within_limits(double factor, double own) {
   return own == 0 ? std::clamp(factor, 0.0, most_of_missing) : std::clamp(factor, least_factor, most_factor);
 }
 
-// Returns the cubic with the warped ends and end tangents whose lengths fit the warped points best.
-Bezier warped_piece(const Bezier &given, const BlendedWarp &warp) {
-  if (is_point(given)) return Bezier::point(warp.value(given.first()));
+// Returns the cubic with the warped ends and end tangents whose lengths fit the warped points best. The map is known at both ends.
+Bezier warped_piece(const Bezier &given, const MapAt &first, const MapAt &last, const BlendedWarp &warp) {
+  if (is_point(given)) return Bezier::point(first.value);
   const Bezier cubic = raised_to_cubic(given);
-  const MapAt first = warp.at(cubic.first()), last = warp.at(cubic.last());
   const EndTangent a = end_tangent(cubic.control, first), b = end_tangent(cubic.reversed().control, last);
   double aa = 0, ab = 0, bb = 0, ar = 0, br = 0;
   for (int k = 1; k < n_curve_steps; ++k) {
@@ -197,15 +196,15 @@ Bezier warped_piece(const Bezier &given, const BlendedWarp &warp) {
   return Bezier::cubic(first.value, first.value + of_a * a.warped, last.value + of_b * b.warped, last.value);
 }
 
-// Returns the cubic through the rates of the warped points at 0, 1/3, 2/3 and 1.
-Bezier warped_rate(const Bezier &curve, const Bezier &rate, const BlendedWarp &warp) {
-  const bool is_at_rest = is_point(rate) && rate.control[0] == Vec3{0, 0, 0};
-  if (is_at_rest && !warp.changes_with_opening()) return Bezier::point({0, 0, 0});
+// Returns the cubic through the rates of the warped points at 0, 1/3, 2/3 and 1. The map is known at both ends.
+Bezier warped_rate(const Bezier &curve, const Bezier &rate, const MapAt &first, const MapAt &last,
+                   const BlendedWarp &warp) {
+  if (is_point(rate) && rate.control[0] == Vec3{0, 0, 0} && !warp.changes_with_opening()) return rate;
   std::array<Vec3, 4> q{};
   for (int i = 0; i < 4; ++i) {
     const double t = i / 3.0;
-    const Vec3 x = evaluate(curve, t);
-    view(q)[i] = warp.at(x).along(evaluate(rate, t)) + warp.rate(x);
+    const Vec3 x = evaluate(curve, t), of_x = evaluate(rate, t);
+    view(q)[i] = (i == 0 ? first : i == 3 ? last : warp.at(x)).along(of_x) + warp.rate(x);
   }
   return Bezier::cubic(q[0], (1.0 / 6) * (18 * q[1] - 5 * q[0] - 9 * q[2] + 2 * q[3]),
                        (1.0 / 6) * (18 * q[2] - 5 * q[3] - 9 * q[1] + 2 * q[0]), q[3]);
@@ -273,12 +272,18 @@ void check_folds(const LabelGrid &before, const PatchImage &image, const LabelGr
   for (std::size_t j = 0; j <= n_fold_cells; ++j)
     for (std::size_t i = 0; i <= n_fold_cells; ++i) {
       const Vec3 p = place(image, before.at(i, j));
+      const std::size_t k = j * (n_fold_cells + 1) + i;
+      // Neighbouring patches share the nodes at their sides. So the determinant is computed inside only.
+      if (i == 0 || j == 0 || i == n_fold_cells || j == n_fold_cells) {
+        mapped[k] = warp.value(p);
+        continue;
+      }
       const MapAt at = warp.at(p);
       if (!(at.determinant() > 0))
         fail(RIIS_INVALID_PARAMETER, "the warp folds at patch ", image.patch_id, " of leaflet ", image.leaflet_id,
              ": its determinant is ", at.determinant(), " at (", p.x, ", ", p.y, ", ", p.z,
              "), in the valve's coordinates; it must be above 0");
-      view(mapped)[static_cast<std::ptrdiff_t>(j * (n_fold_cells + 1) + i)] = at.value;
+      mapped[k] = at.value;
     }
   for (std::size_t j = 0; j < n_fold_cells; ++j)
     for (std::size_t i = 0; i < n_fold_cells; ++i) {
@@ -317,8 +322,13 @@ PatchSet without_images(const PatchSet &set) {
 PatchSet warped(const PatchSet &set, const BlendedWarp &warp) {
   Unfolding unfolding(set);
   for (CurveCopy &copy : unfolding.copies()) {
-    if (!set.rates.empty()) copy.rate = warped_rate(copy.pieces.front(), copy.rate, warp);
-    for (Bezier &piece : copy.pieces) piece = warped_piece(piece, warp);
+    MapAt first = warp.at(copy.pieces.front().first());
+    for (Bezier &piece : copy.pieces) {
+      const MapAt last = piece.last() == piece.first() ? first : warp.at(piece.last());
+      if (!set.rates.empty()) copy.rate = warped_rate(piece, copy.rate, first, last, warp);
+      piece = warped_piece(piece, first, last, warp);
+      first = last;
+    }
   }
   PatchSet made = made_of(unfolding, set);
   bend_arcs(made);
