@@ -264,8 +264,7 @@ module riis_c
     real(c_double) :: largest_residual        !< the largest of these distances
     integer(c_int64_t) :: largest_landmark_id !< its landmark
     real(c_double) :: smoothing               !< lambda of the smoothing, 0 without noise; infinite if the map is affine
-    real(c_double) :: least_determinant       !< the least determinant at the landmarks and half way from each to its
-                                              !! nearest
+    real(c_double) :: least_determinant       !< the least determinant half way from each landmark to its nearest
     real(c_double) :: least_point(3)          !< where the determinant is least, among the sources
     integer(c_int32_t) :: is_planar           !< 1 if the landmarks lie nearly in a plane, else 0
     integer(c_int32_t) :: reserved            !< 0

@@ -491,7 +491,7 @@ RIIS_API void riis_warp_destroy(riis_warp **warp);
 /* Takes the landmarks to these places. The same targets give the same bits, whatever the targets before them.
  *   targets  as many points as the sources, in their order
  * Errors: RIIS_INVALID_ARGUMENT naming the point; RIIS_INVALID_PARAMETER for a warp that folds: its determinant is not
- * above 0 at a landmark, or half way from a landmark to the nearest. */
+ * above 0 half way from a landmark to the nearest. */
 RIIS_API riis_status riis_warp_set_targets(riis_warp *warp, const riis_points *targets);
 /* Takes the landmarks to their places at a time, from a table of keys in time.
  *   frames  n_vertices is the number of landmarks. The keys are read during the call only
@@ -506,7 +506,7 @@ typedef struct riis_warp_info {
   double largest_residual;     /* the largest of these distances */
   int64_t largest_landmark_id; /* its landmark */
   double smoothing;            /* lambda of the smoothing, 0 without noise; infinite if the map is affine */
-  double least_determinant;    /* the least determinant at the landmarks and half way from each to its nearest */
+  double least_determinant;    /* the least determinant half way from each landmark to its nearest */
   double least_point[3];       /* where the determinant is least, among the sources */
   int32_t is_planar;           /* 1 if the landmarks lie nearly in a plane, else 0 */
   int32_t reserved;            /* 0 */

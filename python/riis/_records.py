@@ -83,7 +83,7 @@ class WarpInfo(NamedTuple):
     largest_residual: float  #: the largest of these distances
     largest_landmark_id: int  #: its landmark
     smoothing: float  #: lambda of the smoothing; 0 without noise, infinite if the map is affine
-    least_determinant: float  #: at the landmarks, and half way from each to its nearest
+    least_determinant: float  #: half way from each landmark to its nearest
     least_point: Reals  #: (3,): where the determinant is least, among the sources
     is_planar: bool  #: the landmarks lie nearly in a plane
 

@@ -240,7 +240,9 @@ std::uint64_t Valve::shape_digest() const {
   return digest.value();
 }
 
-PatchSet Valve::make_patches() const {
+PatchSet Valve::make_patches() const { return make_patches(FoldCheck::yes); }
+
+PatchSet Valve::make_patches(FoldCheck check) const {
   if (opening() != 0 && !can_open())
     fail(RIIS_INVALID_PARAMETER, "opening is ", opening(), ", but the ", kind_->name,
          " valve has only one state: set its open state with riis_valve_set_open_state");
@@ -250,7 +252,7 @@ PatchSet Valve::make_patches() const {
   }
   PatchSet made = kind_->make_patches(state_, open_ ? *open_ : state_, opening());
   if (!warp_) return made;
-  return warped(made, {warp_->closed, warp_->open ? *warp_->open : warp_->closed, opening()});
+  return warped(made, {warp_->closed, warp_->open ? *warp_->open : warp_->closed, opening()}, check);
 }
 
 PatchSet Valve::make_patches_before(const Valve &before) const {
@@ -262,7 +264,8 @@ PatchSet Valve::make_patches_before(const Valve &before) const {
     fail(RIIS_INVALID_PARAMETER, "valve_before has ", before.warp_ ? "a" : "no", " warp, but valve has ",
          warp_ ? "one" : "none", ": for a valve at rest, set a warp whose targets are its landmarks");
   try {
-    return before.make_patches();
+    // The earlier state was the valve's own state once, so its folds were searched for then.
+    return before.make_patches(FoldCheck::no);
   } catch (const Error &error) {
     fail(error.status, "in valve_before: ", error.message.text());
   }

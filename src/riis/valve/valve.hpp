@@ -13,6 +13,7 @@
 #include "base/recycled.hpp"
 #include "valve/patches.hpp"
 #include "valve/warp.hpp"
+#include "valve/warped_patches.hpp"
 
 namespace riis {
 
@@ -113,6 +114,7 @@ class Valve {
   PatchSet make_patches_before(const Valve &before) const;
 
  private:
+  PatchSet make_patches(FoldCheck check) const;
   void check_open_values() const;
 
   struct Warp {

@@ -171,6 +171,7 @@ WarpLandmarks::WarpLandmarks(const Vector<Vec3> &sources, double noise, const ch
   const double widest = std::sqrt(values[0]) / root_n, middle = std::sqrt(values[1]) / root_n,
                thinnest = std::sqrt(values[2]) / root_n;
   // The nearest pair is found first, because landmarks in one place also lie on a line.
+  Vector<std::size_t> nearest_to;
   for (std::size_t i = 0; i < n; ++i) {
     double least = std::numeric_limits<double>::infinity();
     std::size_t nearest = 0;
@@ -181,7 +182,10 @@ WarpLandmarks::WarpLandmarks(const Vector<Vec3> &sources, double noise, const ch
     if (!(least > same_place_share * widest))
       fail(RIIS_INVALID_ARGUMENT, name, ": landmarks ", std::min(i, nearest), " and ", std::max(i, nearest),
            " are in one place, (", sources_[i].x, ", ", sources_[i].y, ", ", sources_[i].z, ")");
-    probes_.push_back(0.5 * (sources_[i] + sources_[nearest]));
+    nearest_to.push_back(nearest);
+    // Two landmarks that are nearest to each other have one place between them.
+    if (nearest > i || nearest_to[nearest] != i)
+      probes_.push_back({0.5 * (sources_[i] + sources_[nearest]), static_cast<std::int64_t>(i)});
   }
   if (!(middle > line_share * widest))
     fail(RIIS_INVALID_ARGUMENT, name, ": all ", n, " landmarks lie on a line, so they do not determine a warp");
@@ -382,19 +386,22 @@ void WarpLandmarks::fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &
   map.linear_y = axis_[0].y * terms[1] + axis_[1].y * terms[2] + axis_[2].y * terms[3];
   map.linear_z = axis_[0].z * terms[1] + axis_[1].z * terms[2] + axis_[2].z * terms[3];
 
+  // A target is missed by lambda times the weight of its landmark. Without weights, the map is affine.
   quality.rms_residual = quality.largest_residual = 0, quality.largest_landmark = 0;
-  quality.least_determinant = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < n; ++i) {
-    const double residual = distance(map.value(sources_[i]), targets[i]);
+    const Vec3 weight{map.weight_x[i], map.weight_y[i], map.weight_z[i]};
+    const double residual = std::isinf(quality.smoothing) ? distance(map.value(sources_[i]), targets[i])
+                                                          : size_ * quality.smoothing * length(weight);
     quality.rms_residual += residual * residual / static_cast<double>(n);
     if (residual > quality.largest_residual)
       quality.largest_residual = residual, quality.largest_landmark = static_cast<std::int64_t>(i);
-    for (const Vec3 &place : {sources_[i], probes_[i]}) {
-      const double determinant = map.at(place).determinant();
-      if (determinant < quality.least_determinant)
-        quality.least_determinant = determinant, quality.least_point = place,
-        quality.least_landmark = static_cast<std::int64_t>(i);
-    }
+  }
+  quality.least_determinant = std::numeric_limits<double>::infinity();
+  for (const Probe &probe : probes_) {
+    const double determinant = map.at(probe.place).determinant();
+    if (determinant < quality.least_determinant)
+      quality.least_determinant = determinant, quality.least_point = probe.place,
+      quality.least_landmark = probe.landmark;
   }
   quality.rms_residual = std::sqrt(quality.rms_residual);
 }

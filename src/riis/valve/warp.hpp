@@ -57,7 +57,7 @@ struct WarpQuality {
   double rms_residual, largest_residual;  // distances of mapped sources from their targets
   std::int64_t largest_landmark;
   double smoothing;          // lambda; infinite if the map is affine
-  double least_determinant;  // at the landmarks, and half way from each landmark to its nearest
+  double least_determinant;  // half way from each landmark to its nearest
   Vec3 least_point;          // where the determinant is least
   std::int64_t least_landmark;
 };
@@ -98,7 +98,12 @@ class WarpLandmarks {
   Vector<double> least_squares_;      // (n_terms_, n): gives the polynomial nearest to values
   Vector<double> of_kernel_;          // (n_terms_, n): the same for values of sums of |r|^3, by their weights
   Vector<double> diagonal_, beside_;  // of the tridiagonal matrix U^T |r|^3 U
-  Vector<Vec3> probes_;               // half way to the nearest landmark
+  // Places half way from a landmark to the nearest. A map that folds between landmarks is steepest there.
+  struct Probe {
+    Vec3 place;
+    std::int64_t landmark;
+  };
+  Vector<Probe> probes_;
   // Memory of fit().
   Vector<Vec3> displacement_, reduced_, solution_;
   Vector<double> pivot_;

@@ -196,7 +196,8 @@ Bezier warped_piece(const Bezier &given, const MapAt &first, const MapAt &last, 
   return Bezier::cubic(first.value, first.value + of_a * a.warped, last.value + of_b * b.warped, last.value);
 }
 
-// Returns the cubic through the rates of the warped points at 0, 1/3, 2/3 and 1. The map is known at both ends.
+// Returns the cubic through the rates of the warped points at 0, 1/3, 2/3 and 1. The map's derivative is taken as linear between
+// the ends, where it is known. Rates only decide where a curve needs further vertices.
 Bezier warped_rate(const Bezier &curve, const Bezier &rate, const MapAt &first, const MapAt &last,
                    const BlendedWarp &warp) {
   if (is_point(rate) && rate.control[0] == Vec3{0, 0, 0} && !warp.changes_with_opening()) return rate;
@@ -204,7 +205,7 @@ Bezier warped_rate(const Bezier &curve, const Bezier &rate, const MapAt &first, 
   for (int i = 0; i < 4; ++i) {
     const double t = i / 3.0;
     const Vec3 x = evaluate(curve, t), of_x = evaluate(rate, t);
-    view(q)[i] = (i == 0 ? first : i == 3 ? last : warp.at(x)).along(of_x) + warp.rate(x);
+    view(q)[i] = mix(first.along(of_x), last.along(of_x), t) + warp.rate(x);
   }
   return Bezier::cubic(q[0], (1.0 / 6) * (18 * q[1] - 5 * q[0] - 9 * q[2] + 2 * q[3]),
                        (1.0 / 6) * (18 * q[2] - 5 * q[3] - 9 * q[1] + 2 * q[0]), q[3]);
@@ -319,7 +320,7 @@ PatchSet without_images(const PatchSet &set) {
   return made_of(unfolding, set);
 }
 
-PatchSet warped(const PatchSet &set, const BlendedWarp &warp) {
+PatchSet warped(const PatchSet &set, const BlendedWarp &warp, FoldCheck check) {
   Unfolding unfolding(set);
   for (CurveCopy &copy : unfolding.copies()) {
     MapAt first = warp.at(copy.pieces.front().first());
@@ -332,6 +333,7 @@ PatchSet warped(const PatchSet &set, const BlendedWarp &warp) {
   }
   PatchSet made = made_of(unfolding, set);
   bend_arcs(made);
+  if (check == FoldCheck::no) return made;
   std::size_t number = 0;
   for (const Patch &patch : set.patches) {
     const LabelGrid before(set, patch);
