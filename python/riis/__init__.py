@@ -49,6 +49,8 @@ from riis._records import (
     Passage,
     SurfaceInfo,
     Triangles,
+    ValvePatches,
+    WarpInfo,
 )
 from riis._riis import (
     FAR_DISTANCE,
@@ -60,6 +62,7 @@ from riis._riis import (
     Mesh,
     Surface,
     Valve,
+    Warp,
     WithinLimit,
     find_crossings,
     find_first_passage,
@@ -141,6 +144,9 @@ __all__ = [
     "UnavailableError",
     "UnknownParameterError",
     "Valve",
+    "ValvePatches",
+    "Warp",
+    "WarpInfo",
     "WithinLimit",
     "animate",
     "find_crossings",

@@ -111,6 +111,7 @@ Valve *copy(Valve &valve) {
   made->kind = valve.kind;
   made->patches = valve.patches;
   made->open = valve.open;
+  made->warp = valve.warp;
   call_shortly(riis_valve_copy(valve.handle, &made->handle));
   return made.release();
 }
@@ -223,7 +224,7 @@ nb::dict values_that_were_set(Valve &valve) {
 
 // Returns the values from which pickle makes the valve.
 nb::tuple state_of(Valve &valve) {
-  return nb::make_tuple(valve.kind, values_that_were_set(valve), valve.open, valve.patches);
+  return nb::make_tuple(valve.kind, values_that_were_set(valve), valve.open, valve.patches, valve.warp);
 }
 
 void make_from_state(Valve *self, const nb::tuple &state) {
@@ -243,10 +244,12 @@ void make_from_state(Valve *self, const nb::tuple &state) {
     for (const nb::handle name : names_of(valve)) unset(valve, name);
   }
   set_all(valve, nb::cast<nb::dict>(state[1]));
+  warp_as_pickled(made, nb::object(state[4]));
   new (self) Valve();
   self->kind = valve.kind;
   self->patches = valve.patches;
   self->open = valve.open;
+  self->warp = valve.warp;
   self->take(valve);
 }
 

@@ -47,6 +47,7 @@ ValveKind make_kind() {
     {"stj", "its housing has one radius, and no commissures reach a sinotubular junction"},
     {"effective_height", "only cusps have it; hinge_height and closed_angle give the rigid leaflets' reach"},
   };
+  kind.is_rigid = true;
   return kind;
 }
 // clang-format on
