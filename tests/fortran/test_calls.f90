@@ -780,6 +780,7 @@ contains
       struct_size=c_sizeof(placement)), RIIS_INVALID_ARGUMENT, 'landmarks.role of landmark 1 is 77')
     call riis_valve_destroy(valve)
   end subroutine test_landmarks
+
   ! A valve is widened, read out, and made again.
   subroutine test_warp()
     type(riis_points) :: points
