@@ -13,9 +13,11 @@
 #include "common/array_view.hpp"
 #include "program/case.hpp"
 #include "program/case_file.hpp"
+#include "program/mesh_marking.hpp"
 #include "program/moving_valve.hpp"
 #include "program/outputs.hpp"
 #include "program/progress.hpp"
+#include "program/series.hpp"
 #include "program/text.hpp"
 #include "program/valve_source.hpp"
 

@@ -107,7 +107,7 @@ riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const
     if (residual) std::copy(placed.residuals.begin(), placed.residuals.end(), residual);
     if (standard_error) std::copy(placed.standard_error.begin(), placed.standard_error.end(), standard_error);
     if (size_state) std::copy(placed.size_state.begin(), placed.size_state.end(), size_state);
-    std::swap(valve->valve, placed.valve);
+    valve->valve = std::move(placed.valve);
   });
 }
 }
