@@ -17,9 +17,9 @@
 #include "program/moving_valve.hpp"
 #include "program/outputs.hpp"
 #include "program/progress.hpp"
-#include "program/series.hpp"
 #include "program/text.hpp"
 #include "program/valve_source.hpp"
+#include "program/warnings.hpp"
 
 namespace riis::program {
 namespace {
