@@ -48,6 +48,7 @@ static void null_arguments_are_named(void **state) {
   riis_mark_list list;
   double values[3] = {0, 0, 0};
   int64_t n;
+  int32_t is_set;
   CHECK_OK(riis_valve_create("aortic", &valve));
   CHECK_OK(riis_surface_create(valve, NULL, &surface));
   CHECK_OK(riis_mesh_create(4, xyz, xyz + 1, xyz + 2, 3, &mesh));
@@ -63,6 +64,11 @@ static void null_arguments_are_named(void **state) {
   NULL_IS_NAMED("valve", riis_valve_get(NULL, "xq", 1, values));
   NULL_IS_NAMED("name", riis_valve_get(valve, NULL, 1, values));
   NULL_IS_NAMED("values", riis_valve_get(valve, "xq", 1, NULL));
+  NULL_IS_NAMED("valve", riis_valve_unset(NULL, "xq"));
+  NULL_IS_NAMED("name", riis_valve_unset(valve, NULL));
+  NULL_IS_NAMED("valve", riis_valve_is_set(NULL, "xq", &is_set));
+  NULL_IS_NAMED("name", riis_valve_is_set(valve, NULL, &is_set));
+  NULL_IS_NAMED("is_set", riis_valve_is_set(valve, "xq", NULL));
   NULL_IS_NAMED("valve", riis_valve_get_n_parameters(NULL, &n));
   NULL_IS_NAMED("n_parameters", riis_valve_get_n_parameters(valve, NULL));
   NULL_IS_NAMED("valve", riis_valve_get_parameter(NULL, 0, NULL, 72));
