@@ -12,12 +12,14 @@ build_demo() {
     cmake --build --preset test --parallel "$n_jobs" --target riis_program
 }
 
-# demo_mesh NAME: makes the mesh of examples/demo/NAME.geo, unless it exists. examples/demo/fill.geo explains why the surface is
-# written to a file first. gmsh runs with one thread, because several threads sometimes left stray cells in the mesh.
+# demo_mesh NAME [OPTION...]: makes the mesh of examples/demo/NAME.geo, unless it exists. The options are gmsh's.
+# examples/demo/fill.geo explains why the surface is written to a file first. gmsh runs with one thread, because several threads
+# sometimes left stray cells in the mesh.
 demo_mesh() {
   local mesh=$build/demo/$1 surface=examples/demo/$1.geo volume=examples/demo/fill.geo
+  shift
   [[ ! -s $mesh.vtk || $surface -nt $mesh.vtk || $volume -nt $mesh.vtk ]] || return 0
-  gmsh -2 -nt 1 -format msh2 -o "$mesh.msh" "$surface" &&
+  gmsh -2 -nt 1 "$@" -format msh2 -o "$mesh.msh" "$surface" &&
     gmsh -3 -nt 1 -format vtk -o "$mesh.vtk.part" "$mesh.msh" "$volume" &&
     mv "$mesh.vtk.part" "$mesh.vtk"
 }
@@ -26,19 +28,19 @@ demo_mesh() {
 demo_parts() {
   local meshing status=0
   mkdir -p out "$build/demo"
-  { demo_mesh mitral_tube && demo_mesh aortic_root; } &
+  { demo_mesh mitral_tube && demo_mesh aortic_root -setnumber coapting 1; } &
   meshing=$!
   build_demo || status=$?
   wait "$meshing" || status=$?
   return "$status"
 }
 
-# The demo's valves and their meshes: the aortic valve is the trileaflet valve in its root.
+# The demo's valves and their meshes: the aortic valve is the coapting valve in its root.
 demo_valves=(aortic mitral)
-declare -A demo_kind=([aortic]=trileaflet [mitral]=mitral) demo_mesh_of=([aortic]=aortic_root [mitral]=mitral_tube)
+declare -A demo_kind=([aortic]=coapting [mitral]=mitral) demo_mesh_of=([aortic]=aortic_root [mitral]=mitral_tube)
 demo_openings=(0 0.25 0.5 0.75 1)
 # Two points for each valve, one on each side. demo_states looks for a path between them through the closed valve.
-declare -A demo_from=([aortic]="0,0,-1.6" [mitral]="0,0.2,-1.3") demo_to=([aortic]="0,0,1.1" [mitral]="0,0.2,2.1")
+declare -A demo_from=([aortic]="0,0,-0.4" [mitral]="0,0.2,-1.3") demo_to=([aortic]="0,0,2.8" [mitral]="0,0.2,2.1")
 
 # of_each_valve COMMAND: runs the command for both valves at the same time.
 of_each_valve() {

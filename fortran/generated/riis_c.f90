@@ -775,7 +775,7 @@ module riis_c
     ! Valve
     ! -----------------------------------------------------------------------------------------------------------------
 
-    !>   kind  riis_c_string('aortic'), 'mitral', 'trileaflet' or 'bileaflet'
+    !>   kind  riis_c_string('aortic'), 'mitral', 'coapting', 'trileaflet' or 'bileaflet'
     function riis_valve_create(kind, valve) result(status) bind(c, name='riis_valve_create')
       import :: c_char, c_ptr, riis_status
       implicit none

@@ -38,7 +38,7 @@ subroutine riisf_valve_create(kind, valve, status)
   use riis_c, only: riis_status, RIIS_OK, riis_c_string, riis_valve_create
   use riis_support, only: handle_of
   implicit none
-  character(len=*), intent(in) :: kind                    !< 'aortic', 'mitral', 'trileaflet' or 'bileaflet'.
+  character(len=*), intent(in) :: kind                    !< 'aortic', 'mitral', 'coapting', 'trileaflet' or 'bileaflet'.
   integer(int64), intent(inout) :: valve                  !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(c_ptr) :: c_handle

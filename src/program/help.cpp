@@ -92,10 +92,11 @@ cusps. A JSON file sets the names without a cusp first, in any order of the file
 right. --opening comes last, and cannot be combined with --set opening.
 
 annulus and stj are diameters, and effective_height is the height of the free edges above the annulus. These names set sizes of
-aortic and trileaflet valves, and annulus also that of a bileaflet valve. riis params --describe shows which parameters they set.
+aortic, coapting and trileaflet valves, and annulus also that of a bileaflet valve. riis params --describe shows which parameters
+they set.
 
-Some parameters follow from others unless they are set: five sizes of the trileaflet valve, and two rotations of the aortic
-valve. riis params --describe prints these rules after "unless set". riis params prints the present values of all parameters.
+Some parameters follow from others unless they are set: five sizes each of the trileaflet and the coapting valve, and two
+rotations of the aortic valve. riis params --describe prints these rules after "unless set". riis params prints the present values of all parameters.
 After such a file was read, all parameters are set, and none follows.
 )"},
     {"opening", "closed and open states",
