@@ -15,7 +15,7 @@ from typing import Any, Literal
 import numpy
 from numpy.typing import NDArray
 
-from riis._errors import InvalidArgumentError, InvalidParameterError
+from riis._errors import Error, InvalidArgumentError, InvalidParameterError
 from riis._riis import Valve, place_landmarks
 
 Reals = NDArray[numpy.float64]
@@ -71,11 +71,13 @@ class PlaceResult:
         for source in words:
             for name in getattr(self, source):
                 unit = "cm" if table[name].unit == "length" else table[name].unit.replace("1", "")
-                lines.append(f"{name:32} {self.valve[name]:10.4g} {self.standard_errors[name]:10.2g}  {words[source]} {unit}".rstrip())
+                error = self.standard_errors[name]
+                lines.append(f"{name:32} {self.valve[name]:10.4g} {error:10.2g}  {words[source]} {unit}".rstrip())
         lines.append("in proportion: " + ", ".join(self.in_proportion))
         for key, value in self.placement.items():
             lines.append(f"{key:32} " + " ".join(f"{number:.4f}" for number in numpy.atleast_1d(value)))
-        lines += [f"{name:32} residual {residual:.3g} {self.unit}" for name, residual in zip(self.names, self.residuals, strict=True)]
+        for name, residual in zip(self.names, self.residuals, strict=True):
+            lines.append(f"{name:32} residual {residual:.3g} {self.unit}")
         lines.append(f"rms {self.rms:.3g}, worst {self.worst:.3g} {self.unit} at {self.worst_landmark}")
         return "\n".join(lines)
 
@@ -267,7 +269,8 @@ def _read_csv(read: _Landmarks, text: str) -> None:
             if not equals:
                 continue
             if key not in ("unit", "axes", "valve", "noise", "flow"):
-                raise _refuse(read.where, f"line {number}: {key!r} is unknown; a line # NAME = VALUE states unit, axes, valve, noise or flow")
+                words = "a line # NAME = VALUE states unit, axes, valve, noise or flow"
+                raise _refuse(read.where, f"line {number}: {key!r} is unknown; {words}")
             if key in stated:
                 raise _refuse(read.where, f"line {number}: {key} is given twice")
             stated[key] = value
@@ -303,6 +306,17 @@ def _read(landmarks: Mapping[str, Any] | str | os.PathLike[str]) -> _Landmarks:
     (_read_csv if path.suffix.lower() == ".csv" else _read_json)(read, text)
     _check_stated(read, "axes", _AXES, _WHY_AXES)
     return read
+
+
+def _in_words_of_file(text: str, read: _Landmarks) -> str:
+    """Returns the library's message with the names of landmarks, and the words of this module for fields."""
+    text = re.sub(r"landmark (\d+)(?: \(\w+\))?", lambda found: repr(read.names[int(found[1])]), text)
+    text = re.sub(r"^landmarks\.scale is \S+ \((\w+)\)", r"unit: the unit is \1", text)
+    text = re.sub(r"^landmarks\.leaflet_id of ", "the name of ", text)
+    text = re.sub(r"^landmarks\.leaflet_id", "the names", text)
+    text = re.sub(r"^landmarks\.role has the ", "it has the ", text)
+    text = re.sub(r"^landmarks\.", "", text)
+    return f"{read.where}: {text}"
 
 
 def place(
@@ -381,16 +395,19 @@ def place(
         given for given in keep if not any(full == given or full.endswith("." + given) for full in table)
     ]
     scatter = noise if noise is not None else read.noise
-    result = place_landmarks(
-        placed,
-        points,
-        numpy.array(read.roles, numpy.int32),
-        numpy.array(read.leaflets, numpy.int32).reshape(-1, 2),
-        _SCALES[read.unit],
-        scatter,
-        None if direction is None else tuple(direction.tolist()),
-        " ".join(keep),
-    )
+    try:
+        result = place_landmarks(
+            placed,
+            points,
+            numpy.array(read.roles, numpy.int32),
+            numpy.array(read.leaflets, numpy.int32).reshape(-1, 2),
+            _SCALES[read.unit],
+            scatter,
+            None if direction is None else tuple(direction.tolist()),
+            " ".join(keep),
+        )
+    except Error as error:
+        raise type(error)(_in_words_of_file(str(error), read)) from None
     placement, residuals, errors, states, rms, worst, shown, rotation_error, position_error, worst_id = result
     by_source: dict[str, list[str]] = {source: [] for source in _SOURCES}
     for name, state in zip(table, states, strict=True):

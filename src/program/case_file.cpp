@@ -10,6 +10,7 @@
 #include "program/opening_law.hpp"
 #include "program/outputs.hpp"
 #include "program/parameters.hpp"
+#include "program/placed_valve.hpp"
 #include "program/refusal.hpp"
 #include "program/text.hpp"
 #include "program/valve_file.hpp"
@@ -105,6 +106,7 @@ class CaseReader {
     if (options.valve.empty() == options.surface.empty())
       values.refuse("valve", "either it or \"surface\" must be given");
     if (is_valve_file(options.valve)) options.valve = file_of(values, "valve");
+    use_placed_valve(options);
     read_placement(values, options);
     if (const auto own = values.at_least_zero("resistance")) options.resistance = own;
     if (options.surface.empty())
@@ -127,6 +129,9 @@ class CaseReader {
   }
 
   void read_placement(const CaseValues &values, MarkOptions &options) const {
+    if (!options.placed.empty())
+      for (const char *key : {"scale", "surface_unit", "rotate", "translate"})
+        if (values.has(key)) values.refuse(key, "it has no effect, because the placement is in " + options.placed);
     riis_surface_options &surface = options.surface_options;
     if (const auto scale = values.above_zero("scale")) {
       if (options.unit) values.refuse("scale", "it cannot be combined with \"unit\", which gives the scale");
@@ -175,6 +180,7 @@ class CaseReader {
       return;
     }
     source.valve = make_kind(kind, source.subject);
+    set_placed_parameters(source.options, source.valve.get());
     set_parameters_of(values, "parameters", source.valve.get());
     if (values.has("open_parameters")) {
       const Valve open = make_kind(kind, source.subject);

@@ -128,14 +128,14 @@ class Collector {
 
  private:
   [[noreturn]] void refuse_name(const std::string &name) const {
-    NearestName nearest(plain(name));
+    const std::string text = plain(name);
+    NearestName nearest(text);
     std::string known;
     for (const RoleWord &word : role_words) {
       nearest.consider(word.word);
       known += (known.empty() ? "" : ", ") + std::string(word.word);
     }
-    for (const std::string &cusp : cusp_names) nearest_nadirs_.push_back("nadir_" + cusp);
-    for (const std::string &nadir : nearest_nadirs_) nearest.consider(nadir);
+    for (const char *nadir : {"nadir_right", "nadir_left", "nadir_non_coronary"}) nearest.consider(nadir);
     const std::string near(nearest.nearest());
     refuse_file(file_.path,
                 quoted(name) + " is not the name of a landmark" +
@@ -148,7 +148,6 @@ class Collector {
   std::map<std::string, std::array<double, 3>> ends_;
   std::set<std::string> names_;
   std::set<std::pair<std::int32_t, std::pair<std::int32_t, std::int32_t>>> cusps_;
-  mutable std::vector<std::string> nearest_nadirs_;
 };
 
 // ---- What a file states ----

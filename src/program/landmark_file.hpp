@@ -14,7 +14,8 @@
 
 namespace riis::program {
 
-// The directions of x, y and z. LPS is left, posterior, superior; RAS is right, anterior, superior. `mesh` stands for the mesh's own.
+// The directions of x, y and z. LPS is left, posterior, superior; RAS is right, anterior, superior. `mesh` stands for the
+// mesh's own.
 enum class Axes { LPS, RAS, mesh };
 const std::vector<std::string> &axes_names();
 const char *name_of(Axes axes);

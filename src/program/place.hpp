@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis place. In: landmarks of a patient. Out: the sizes and the placement of the valve, as a report, as a file that every command
-// takes, and as text for OpenFOAM, C and Fortran.
+// riis place. In: landmarks of a patient. Out: the sizes and the placement of the valve, as a report, as a file that every
+// command takes, and as text for OpenFOAM, C and Fortran.
 #pragma once
 
 #include "program/options.hpp"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Tests riis_place. Landmarks are made from known sizes by closed forms, or by the oracle of the mitral valve, then placed and
- * disturbed at random. The sizes must come back, and the errors must be those that the noise explains. The same landmarks lie on the
- * surface of the placed valve. Prints the table of accuracy of docs/theory.md, section 17. */
+ * disturbed at random. The sizes must come back, and the errors must be those that the noise explains. The same landmarks lie
+ * on the surface of the placed valve. Prints the table of accuracy of docs/theory.md, section 17. */
 #include <riis/riis.h>
 
 #include <stdbool.h>
@@ -603,7 +603,7 @@ static void test_refused_cusps(void **state) {
   REFUSED("trileaflet", "z of landmark 3 is nan", p.xyz[3][2] = NAN);
   REFUSED("trileaflet", "x of landmark 5 is inf", p.xyz[5][0] = INFINITY);
   REFUSED("trileaflet", "landmarks.flow is nan", p.flow[0] = NAN);
-  REFUSED("trileaflet", "landmarks.role of landmark 2 is 10|0 to 9", p.role[2] = 10);
+  REFUSED("trileaflet", "landmarks.role of landmark 2 is 10|from 0 to 9", p.role[2] = 10);
   REFUSED("trileaflet", "landmark 2 (hinge) has a role that the trileaflet valve lacks|commissure, nadir",
           p.role[2] = RIIS_LANDMARK_HINGE);
   REFUSED("trileaflet", "has the commissure 2 times|needs 3", p.n = 4);

@@ -57,8 +57,8 @@ riis::Landmarks landmarks_of(const riis_landmarks &given) {
   for (std::int64_t i = 0; i < given.n_landmarks; ++i) {
     const std::int32_t role = given.role[i];
     if (role < 0 || role >= riis::n_roles)
-      riis::fail(RIIS_INVALID_ARGUMENT, "landmarks.role of landmark ", i, " is ", role,
-                 "; it must be RIIS_LANDMARK_*, 0 to ", riis::n_roles - 1);
+      riis::fail(RIIS_INVALID_ARGUMENT, "landmarks.role of landmark ", i, " is ", role, "; it must be from 0 to ",
+                 riis::n_roles - 1);
     const auto leaflet = [&](std::int64_t k) { return given.leaflet_id ? given.leaflet_id[2 * i + k] : -1; };
     made.list.push_back(
         {(1 / given.scale) * (points[static_cast<std::size_t>(i)] - made.mean), role, {leaflet(0), leaflet(1)}});

@@ -34,8 +34,7 @@ Vec3 nearest_on(const std::array<Bezier, 3> &curve, Vec3 p) {
       if (least >= 0 && dot(d, d) >= least) continue;
       least = dot(d, d), piece = &tried, t = at;
     }
-  // Newton's method on the derivative of the squared distance, kept within the piece. Pieces meet smoothly, so a minimum that moves
-  // beyond an end is at most a rounding away from the end in the next piece.
+  // Newton's method on the derivative of the squared distance, kept within the piece.
   const auto index = static_cast<std::size_t>(piece - curve.data());
   const auto refined = [&](const Bezier &on, double from, double &squared) {
     double at = from;

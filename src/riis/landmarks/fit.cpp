@@ -13,8 +13,8 @@
 namespace riis {
 namespace {
 
-// A size is determined if its standard error at the stated noise moves the valve by at most this share of its radius. Residuals do
-// not count here: a patient who differs from the model has large ones, but the sizes that fit best are still well defined.
+// A size is determined if its standard error at the stated noise moves the valve by at most this share of its radius. Residuals
+// do not count here: a patient who differs from the model has large ones, but the sizes that fit best are still well defined.
 constexpr double determined_share = 1.0 / 15;
 
 // Solves for the sizes that are not held, then a rotation vector and a shift. All unknowns are in centimetres.

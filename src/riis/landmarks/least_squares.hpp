@@ -17,8 +17,8 @@ struct Minimum {
   double cost;  // the sum of squares
 };
 
-// Changes x until the sum of squares is least. Unknowns have one unit, and `size` is a length in this unit over which the residuals
-// are smooth. Derivatives are central differences. The unknowns stay between their bounds.
+// Changes x until the sum of squares is least. Unknowns have one unit, and `size` is a length in this unit over which the
+// residuals are smooth. Derivatives are central differences. The unknowns stay between their bounds.
 struct Bounded {
   std::vector<double> lower, upper;
 };
@@ -35,8 +35,8 @@ struct Eigen {
 };
 Eigen symmetric_eigen(std::vector<double> matrix, std::size_t n);
 
-// Returns the inverse of J^T J. An entry of its diagonal is infinite if the unknown takes part in a combination of unknowns that the
-// residuals do not depend on; then the other entries of its row and column are 0.
+// Returns the inverse of J^T J. An entry of its diagonal is infinite if the unknown takes part in a combination of unknowns that
+// the residuals do not depend on; then the other entries of its row and column are 0.
 std::vector<double> covariance(const std::vector<double> &normal_matrix, std::size_t n);
 
 }  // namespace riis

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: Apache-2.0
+"""riis.place against scipy's least squares, and the files and names of landmarks."""
+
+import json
+
+import numpy
+import pytest
+import riis
+from scipy.optimize import least_squares
+from scipy.spatial.transform import Rotation
+
+NAMES = ("nadir_right", "nadir_left", "nadir_non_coronary", "commissure_right_left", "commissure_left_non",
+         "commissure_right_non")
+
+
+def trileaflet(R, Rc, h):
+    """Returns the landmarks of the names above in the valve's frame, in centimetres."""
+    angles = numpy.radians([0, 120, 240, 60, 180, 300])
+    radii = numpy.repeat([R, Rc], 3)
+    return numpy.stack([radii * numpy.cos(angles), radii * numpy.sin(angles), numpy.repeat([0, h], 3)], 1)
+
+
+def patient(seed, noise=0.0, scale=10.0):
+    random = numpy.random.default_rng(seed)
+    sizes = random.uniform([0.9, 0.8, 1.0], [1.5, 1.4, 2.2])
+    turn, shift = Rotation.random(random_state=seed), random.uniform(-50, 50, 3)
+    return sizes, turn, scale * turn.apply(trileaflet(*sizes)) + shift + random.normal(scale=noise, size=(6, 3)) if noise else (
+        scale * turn.apply(trileaflet(*sizes)) + shift)
+
+
+def oracle(points, scale, start, turn):
+    """Returns the sizes and the sum of squares of the least squares that scipy finds."""
+
+    def residuals(x):
+        return (scale * Rotation.from_rotvec(x[3:6]).apply(trileaflet(*x[:3])) + x[6:9] - points).ravel()
+
+    first = [*start, *turn.as_rotvec(), *points.mean(axis=0)]
+    found = least_squares(residuals, first, xtol=1e-14, ftol=1e-14, gtol=1e-14, max_nfev=2000)
+    return found.x[:3], 2 * found.cost, found.jac
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_least_squares(seed):
+    sizes, turn, points = patient(seed, noise=1.0)
+    found = riis.place(dict(zip(NAMES, points, strict=True)), "trileaflet", unit="mm")
+    expected, squares, jacobian = oracle(points, 10.0, sizes, turn)
+    got = [found.valve[name] for name in ("root_radius", "leaflet_radius_out", "leaflet_height")]
+    numpy.testing.assert_allclose(got, expected, rtol=1e-4)
+    assert found.rms**2 * 6 == pytest.approx(squares, rel=1e-6)
+    errors = found.noise * numpy.sqrt(numpy.diag(numpy.linalg.inv(jacobian.T @ jacobian)))[:3]
+    # Both linearise, one in the frame of the valve and one in that of the patient. This differs in proportion to the residuals.
+    numpy.testing.assert_allclose(list(found.standard_errors.values()), errors, rtol=1e-2)
+    assert found.worst == found.residuals.max() and found.worst_landmark == NAMES[int(found.residuals.argmax())]
+    # The residuals belong to the placement: the landmarks' places are where the result puts them.
+    at = found.placement
+    axis, degrees = numpy.array(at["rotation_axis"]), at["rotation_angle"]
+    local = trileaflet(*got) + found.valve["translation"]
+    places = at["scale"] * Rotation.from_rotvec(numpy.radians(degrees) * axis).apply(local) + at["translation"]
+    numpy.testing.assert_allclose(numpy.linalg.norm(places - points, axis=1), found.residuals, atol=1e-6)
+    assert "NOT DETERMINED" in found.report() or not found.undetermined
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_files_agree(seed, tmp_path):
+    sizes, _, points = patient(seed)
+    json_file, slicer, csv = tmp_path / "a.json", tmp_path / "b.mrk.json", tmp_path / "c.csv"
+    named = {name: point.tolist() for name, point in zip(NAMES, points, strict=True)}
+    json_file.write_text(json.dumps({"valve": "trileaflet", "unit": "mm", "axes": "LPS", "landmarks": named}))
+    turned = points * (-1, -1, 1)
+    control = [{"id": str(i), "label": name.replace("_", "-"), "position": point.tolist(), "positionStatus": "defined"}
+               for i, (name, point) in enumerate(zip(NAMES, turned, strict=True))]
+    markups = {"type": "Fiducial", "coordinateSystem": "RAS", "coordinateUnits": "mm", "controlPoints": control}
+    slicer.write_text(json.dumps({"markups": [markups]}))
+    rows = [f"{name},{x!r},{y!r},{z!r}" for name, (x, y, z) in zip(NAMES, (points / 1000).tolist(), strict=True)]
+    csv.write_text("# unit = m\n# axes = LPS\nname,x,y,z\n" + "\n".join(rows) + "\n")
+    results = [riis.place(json_file), riis.place(slicer, "trileaflet", axes="LPS"),
+               riis.place(str(csv), riis.Valve("trileaflet"), unit="mm")]
+    for found in results:
+        numpy.testing.assert_allclose(found.valve["root_radius"], sizes[0], rtol=1e-9)
+        assert found.unit == "mm" and found.axes == "LPS" and not found.undetermined
+        numpy.testing.assert_allclose(found.placement["translation"], results[0].placement["translation"], atol=1e-7)
+        surface = riis.Surface(found.valve, **found.placement)
+        assert surface.info.half_thickness == pytest.approx(1.0)  # 0.1 cm in millimetres
+        assert surface.closest_points(points).distance.max() < 0.1
+    results[0].save(tmp_path / "placed.json")
+    saved = json.loads((tmp_path / "placed.json").read_text())
+    assert saved["valve"] == "trileaflet" and saved["parameters"]["root_radius"] == results[0].valve["root_radius"]
+
+
+def test_held_and_copied():
+    _, _, points = patient(4)
+    valve = riis.Valve("trileaflet", leaflet_height=1.7)
+    found = riis.place(dict(zip(NAMES, points, strict=True)), valve, unit="mm", held=["leaflet_height"])
+    assert found.valve["leaflet_height"] == 1.7 and "leaflet_height" not in found.determined
+    assert valve["root_radius"] == 1.25  # the caller's valve stays
+
+
+def test_refused(tmp_path):
+    _, _, points = patient(1)
+    named = dict(zip(NAMES, points, strict=True))
+
+    def refused(text, *arguments, error=riis.InvalidArgumentError, **keywords):
+        with pytest.raises(error, match=text):
+            riis.place(*arguments, **keywords)
+
+    refused("unit is missing", named, "trileaflet")
+    refused("unit is 'inch'", named, "trileaflet", unit="inch")
+    refused("the unit is centimetres.*in millimetres", named, "trileaflet", unit="cm")
+    refused("valve is needed", named, unit="mm")
+    refused("'nadir_rigth' is not the name", named | {"nadir_rigth": (0, 0, 0)}, "trileaflet", unit="mm")
+    refused("'nadir_right': y is nan", named | {"nadir_right": (0, numpy.nan, 0)}, "trileaflet", unit="mm")
+    refused("must be three numbers", named | {"nadir_right": (0, 1)}, "trileaflet", unit="mm")
+    refused("'nadir-right' is given twice", named | {"nadir-right": (0, 0, 0)}, "trileaflet", unit="mm")
+    refused("no landmarks", {}, "trileaflet", unit="mm")
+    refused("axes is 'LPS', but landmarks states", named, "trileaflet", unit="mm", axes="LPS")
+    refused("flow has 2 numbers", named, "trileaflet", unit="mm", flow=(1, 2))
+    refused("did you mean 'leaflet_height'", named, "trileaflet", unit="mm", held="leaflet_hight",
+            error=riis.InvalidParameterError)
+    swapped = named | {"nadir_left": named["nadir_right"], "nadir_right": named["nadir_left"]}
+    for name in NAMES[3:]:
+        swapped["commissure_" + str(NAMES.index(name))] = swapped.pop(name)
+    refused("mirrored", swapped, "aortic", unit="mm")
+    one = named | {"nadir_left": named["nadir_right"] + 1e-3}
+    refused("'nadir_right' and 'nadir_left' are in one place", one, "trileaflet", unit="mm")
+    missing = {name: point for name, point in named.items() if name != "nadir_left"}
+    refused("the nadir 2 times", missing, "trileaflet", unit="mm")
+    with pytest.raises(TypeError, match="mapping"):
+        riis.place(3, "trileaflet")
+    for name, text, words in (
+        ("a.txt", "", "must be a .json"),
+        ("a.csv", "# unit = mm\nnadir,1,2,3\n", "states no axes.*half a turn"),
+        ("a.csv", "# unit = mm\n# axes = LPI\nnadir,1,2,3\n", "axes is 'LPI'"),
+        ("a.csv", "# axes = LPS\nnadir,1,2,3\n", "unit is missing"),
+        ("a.csv", "# axes = LPS\nnadir,1,2\n", "line 2 must be NAME,X,Y,Z"),
+        ("a.csv", "# axis = LPS\n", "line 1: 'axis' is unknown"),
+        ("a.json", "{", "is not JSON"),
+        ("a.json", "[]", "JSON object"),
+        ("a.json", '{"axes": "LPS", "axes": "RAS"}', "given twice"),
+        ("a.json", '{"axes": "LPS", "unitt": "mm"}', "'unitt' is unknown"),
+        ("a.json", '{"unit": "mm", "landmarks": {"nadir": [1, 2, 3]}}', "axes is missing.*half a turn"),
+        ("a.json", '{"markups": [{"coordinateSystem": "LPI", "coordinateUnits": "mm"}]}', "coordinateSystem is 'LPI'"),
+        ("a.json", '{"markups": [{"coordinateSystem": "LPS"}]}', "3D Slicer"),
+    ):
+        (tmp_path / name).write_text(text)
+        refused(words, tmp_path / name, "trileaflet")

@@ -1,0 +1,257 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * riis place: files of landmarks, the placed valve for other commands, and refusals. The landmarks are made from known sizes. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "program.h"
+#include "scratch.h"
+
+static const double R = 1.1, Rc = 1.05, height = 1.4;
+static const char *const names[6] = {"nadir_right",         "commissure_right_left", "nadir_left",
+                                     "commissure_left_non", "nadir_non_coronary",    "commissure_right_non"};
+
+/* Writes landmark i of a trileaflet valve that is turned by 90 degrees about y and moved, in units of a `scale`-th centimetre. */
+static void landmark(int i, double scale, double *p) {
+  const double angle = 60 * i * acos(-1.0) / 180, radius = i % 2 ? Rc : R, z = i % 2 ? height : 0;
+  p[0] = scale * (z + 0.2), p[1] = scale * (radius * sin(angle) + 0.1), p[2] = scale * (-radius * cos(angle) - 0.3);
+}
+
+/* Writes a JSON of landmarks; axes and unit are as given, `sign` turns x and y, and `more` has further keys or "". */
+static const char *json_of(const char *name, const char *unit, double scale, const char *axes, double sign,
+                           const char *more) {
+  char text[4096];
+  int n = snprintf(text, sizeof text, "{\"unit\": \"%s\", \"axes\": \"%s\", %s\"landmarks\": {", unit, axes, more);
+  for (int i = 0; i < 6; ++i) {
+    double p[3];
+    landmark(i, scale, p);
+    n += snprintf(text + n, sizeof text - (size_t)n, "%s\"%s\": [%.17g, %.17g, %.17g]", i ? ", " : "", names[i],
+                  sign * p[0], sign * p[1], p[2]);
+  }
+  snprintf(text + n, sizeof text - (size_t)n, "}}");
+  scratch_write_text(name, text);
+  return scratch_path(name);
+}
+
+static void expect_sizes(const char *json) {
+  if (fabs(json_number(json, "root_radius") - R) > 1e-9 || fabs(json_number(json, "leaflet_radius_out") - Rc) > 1e-9 ||
+      fabs(json_number(json, "leaflet_height") - height) > 1e-9 ||
+      fabs(json_number(json, "bending_height") - 0.7) > 1e-9)
+    fail_msg("other sizes: %s", json);
+}
+
+static void every_format_gives_the_same(void **state) {
+  (void)state;
+  static char first[longest_output];
+  RUN_FINE("place", json_of("a.json", "mm", 10, "LPS", 1, "\"valve\": \"trileaflet\", "), "--output", "-");
+  expect_sizes(program_out);
+  assert_true(strstr(program_out, "\"unit\": \"mm\"") && strstr(program_out, "\"axes\": \"LPS\""));
+  if (fabs(json_number(program_out, "rms")) > 1e-8) fail_msg("residuals: %s", program_out);
+  strcpy(first, strstr(program_out, "\"rotate\""));
+  /* The same in metres and RAS, turned back by the options. */
+  RUN_FINE("place", json_of("b.json", "m", 0.01, "RAS", -1, ""), "--valve", "trileaflet", "--unit", "mm", "--axes",
+           "LPS", "--output", "-");
+  expect_sizes(program_out);
+  char text[4096], slicer[4096];
+  int n = snprintf(text, sizeof text,
+                   "# a comment\n# unit = cm\n# axes = mesh\n# valve = trileaflet\n# flow = 1, 0, 0\nname,x,y,z\n");
+  int m = snprintf(slicer, sizeof slicer,
+                   "{\"markups\": [{\"coordinateSystem\": \"LPS\", \"coordinateUnits\": \"mm\", "
+                   "\"locked\": true, \"controlPoints\": [");
+  for (int i = 0; i < 6; ++i) {
+    double p[3];
+    landmark(i, 1, p);
+    n += snprintf(text + n, sizeof text - (size_t)n, "%s;%.17g;%.17g;%.17g\r\n", names[i], p[0], p[1], p[2]);
+    landmark(i, 10, p);
+    m += snprintf(slicer + m, sizeof slicer - (size_t)m,
+                  "{\"label\": \"%s\", \"position\": [%.17g, %.17g, %.17g], \"positionStatus\": \"defined\"}, ",
+                  names[i], p[0], p[1], p[2]);
+  }
+  snprintf(
+      slicer + m, sizeof slicer - (size_t)m,
+      "{\"label\": \"flow-from\", \"position\": [0, 0, 0]}, {\"label\": \"flow-to\", \"position\": [9, 1, 0]}]}]}");
+  scratch_write_text("c.csv", text);
+  scratch_write_text("d.mrk.json", slicer);
+  RUN_FINE("place", scratch_path("c.csv"), "--output", "-");
+  expect_sizes(program_out);
+  RUN_FINE("place", scratch_path("d.mrk.json"), "--valve", "trileaflet", "--output", "-");
+  expect_sizes(program_out);
+}
+
+static void report_has_sizes_and_residuals(void **state) {
+  (void)state;
+  RUN_FINE("place", json_of("a.json", "mm", 10, "LPS", 1, "\"parameters\": {\"leaflet_height\": 1.5}, "), "--valve",
+           "trileaflet", "--noise", "0.5");
+  for (const char *const *words =
+           (const char *const[]){"trileaflet valve from 6 landmarks", "noise 0.5 mm", "root_radius", "1.1 cm",
+                                 "landmarks", "proportion", "residual mm", "nadir_right", "rms 0.5", "scale 10,",
+                                 "determine every size", NULL};
+       *words; ++words)
+    if (!strstr(program_out, *words)) fail_msg("no %s in %s", *words, program_out);
+  if (strstr(program_out, "leaflet_height")) fail_msg("a held size is in the report: %s", program_out);
+}
+
+static void other_commands_take_the_placed_valve(void **state) {
+  (void)state;
+  const char *placed = scratch_path("placed.json");
+  RUN_FINE("place", json_of("a.json", "mm", 10, "LPS", 1, ""), "--valve", "trileaflet", "--quiet", "--output", placed,
+           "--foam", scratch_path("foam"), "--c", scratch_path("lines.c"), "--fortran", scratch_path("lines.f90"));
+  assert_int_equal(program_out[0], 0);
+  size_t n;
+  char *foam = scratch_read(scratch_path("foam"), &n);
+  if (!strstr(foam, "scale           0.01;") || !strstr(foam, "kind            trileaflet;") ||
+      !strstr(foam, "translation     ("))
+    fail_msg("OpenFOAM: %s", foam);
+  free(foam);
+  RUN_FINE("params", "--valve", placed);
+  expect_sizes(program_out);
+  RUN_FINE("check", "crossings", "--valve", placed);
+  RUN_FINE("states", scratch_path("states.csv"), "--valve", placed, "--count", "2", "--quiet");
+  /* The box is in centimetres, so the unit of the placement is converted. */
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", placed, "--unit", "cm", "--set", "xq=-0.2", "--stats", "-",
+           "--output", scratch_path("by_options.vtu"));
+  const double n_marked = json_number(program_out, "n_marked"), area = json_number(program_out, "area");
+  if (n_marked < 20 || area < 4 || area > 12) fail_msg("%g nodes, area %g", n_marked, area);
+  if (fabs(json_number(program_out, "half_thickness") - 0.1) > 1e-12) fail_msg("half thickness: %s", program_out);
+  scratch_write_text("case.json",
+                     "{\"mesh\": \"in.vtu\", \"unit\": \"cm\", \"valves\": [{\"valve\": \"placed.json\", "
+                     "\"parameters\": {\"xq\": -0.2}}]}");
+  RUN_FINE("mark", "--case", scratch_path("case.json"), "--output", scratch_path("by_case.vtu"));
+  assert_true(scratch_is_same("by_options.vtu", "by_case.vtu"));
+  scratch_write_text("case.json",
+                     "{\"mesh\": \"in.vtu\", \"valves\": [{\"valve\": \"placed.json\", \"translate\": [1, 0, 0]}]}");
+  RUN_REFUSED(1, "translate: it has no effect, because the placement is in", "mark", "--case",
+              scratch_path("case.json"), "--output", scratch_path("by_case.vtu"));
+  RUN_REFUSED(2, "--scale has no effect with --valve", "mark", scratch_path("in.vtu"), "--valve", placed, "--scale",
+              "2");
+  RUN_REFUSED(2, "--rotate and --translate have no effect", "mark", scratch_path("in.vtu"), "--valve", placed,
+              "--translate", "1,0,0");
+  RUN_REFUSED(2, "--surface-unit has no effect", "mark", scratch_path("in.vtu"), "--valve", placed, "--unit", "cm",
+              "--surface-unit", "mm");
+  RUN_REFUSED(2, "is also the file of --valve", "surface", "--valve", placed, "--output", placed);
+  scratch_write_text("bad.json", "{\"valve\": \"trileaflet\", \"rotate\": [0, 0, 1, 0], \"translate\": [0, 0, 0]}");
+  RUN_REFUSED(1, "unit: it is missing", "params", "--valve", scratch_path("bad.json"));
+}
+
+static void landmarks_must_be_at_the_mesh(void **state) {
+  (void)state;
+  RUN_FINE("place", json_of("a.json", "cm", 1, "LPS", 1, ""), "--valve", "trileaflet", "--quiet", "--mesh",
+           scratch_path("in.vtu"));
+  RUN_REFUSED(1, "in centimetres, they are", "place", json_of("a.json", "mm", 10, "LPS", 1, ""), "--valve",
+              "trileaflet", "--quiet", "--mesh", scratch_path("in.vtu"));
+  assert_non_null(strstr(program_err, "give --unit cm"));
+  RUN_FINE("place", scratch_path("a.json"), "--valve", "trileaflet", "--quiet", "--mesh", scratch_path("in.vtu"),
+           "--unit", "cm");
+}
+
+/* The box is away from the axis z, so half a turn about z moves landmarks out of it. */
+static int make_far_box(void **state) {
+  const double lower[3] = {8, 8, -2}, upper[3] = {12, 12, 2};
+  return make_box_of(state, lower, upper);
+}
+
+static void wrong_axes_are_named(void **state) {
+  (void)state;
+  char text[1024];
+  int n = snprintf(text, sizeof text, "# unit = cm\n# axes = RAS\n# valve = trileaflet\n");
+  for (int i = 0; i < 6; ++i) {
+    double p[3];
+    landmark(i, 1, p);
+    n += snprintf(text + n, sizeof text - (size_t)n, "%s,%.17g,%.17g,%.17g\n", names[i], -p[0] - 9.5, -p[1] - 10, p[2]);
+  }
+  scratch_write_text("far.csv", text);
+  RUN_REFUSED(1, "with x and y reversed, as between LPS and RAS, they are", "place", scratch_path("far.csv"), "--mesh",
+              scratch_path("in.vtu"), "--quiet");
+  assert_non_null(strstr(program_err, "give --axes LPS"));
+  RUN_FINE("place", scratch_path("far.csv"), "--mesh", scratch_path("in.vtu"), "--quiet", "--axes", "LPS");
+  RUN_REFUSED(2, "states the axes mesh", "place", json_of("a.json", "cm", 1, "mesh", 1, ""), "--mesh",
+              scratch_path("in.vtu"), "--valve", "trileaflet", "--axes", "LPS");
+}
+
+static void refuse_text(const char *name, const char *text, const char *words) {
+  scratch_write_text(name, text);
+  RUN_REFUSED(1, words, "place", scratch_path(name), "--valve", "trileaflet");
+}
+
+static void files_are_refused_by_name(void **state) {
+  (void)state;
+  const char *csv = "# unit = mm\n# axes = LPS\n";
+  char text[512];
+  refuse_text("a.txt", "x", "landmarks must be a .json, .mrk.json or .csv file");
+  refuse_text("a.csv", "# unit = mm\nnadir,1,2,3\n", "states no axes: a line such as # axes = LPS is missing");
+  refuse_text("a.csv", "# unit = mm\n# axes = LPI\nnadir,1,2,3\n",
+              "the axes are \"LPI\"; they must be LPS, RAS or mesh; LPS and RAS");
+  refuse_text("a.csv", "# axes = LPS\nnadir,1,2,3\n", "states no unit: a line such as # unit = mm is missing");
+  refuse_text("a.csv", "# unit = inch\n# axes = LPS\nnadir,1,2,3\n", "the unit is \"inch\"; it must be m, cm or mm");
+  refuse_text("a.csv", "# axis = LPS\n", "line 1: \"axis\" is unknown");
+  refuse_text("a.csv", "# unit = mm\n# unit = mm\n", "line 2: the unit is given twice");
+  const struct {
+    const char *line, *words;
+  } lines[] = {
+      {"nadir,1,2\n", "line 3 must be NAME,X,Y,Z, not \"nadir,1,2\""},
+      {"nadir,1,2,x3\n", "line 3"},
+      {"nadir,1,2,nan\n", "nan"},
+      {"nadire,1,2,3\n", "\"nadire\" is not the name of a landmark, did you mean \"nadir\"?"},
+      {"nadir_left,1,2,3\nNadir-Left,1,2,4\n", "\"Nadir-Left\" is given twice"},
+      {"commissure_left_right,1,2,3\ncommissure_right_left,1,2,4\n", "\"commissure_right_left\" is given twice"},
+      {"coaptation,1,2,3\ncoaptation,1,2,4\n", "\"coaptation\" is given twice"},
+      {"annulus_1,1,2,3\nannulus_1,1,2,4\n", "\"annulus_1\" is given twice"},
+      {"nadir,1,2,3\nflow_to,1,2,4\n", "flow_to is given without flow_from"},
+      {"flow_from,1,2,3\nflow_from,1,2,4\n", "\"flow_from\" is given twice"},
+      {"# noise = -1\nnadir,1,2,3\n", "noise: -1 is below 0"},
+      {"# flow = 1,2\nnadir,1,2,3\n", "flow: \"1,2\" is not X,Y,Z"},
+      {"", "holds no landmarks"}};
+  for (size_t i = 0; i < sizeof lines / sizeof *lines; ++i) {
+    snprintf(text, sizeof text, "%s%s", csv, lines[i].line);
+    refuse_text("a.csv", text, lines[i].words);
+  }
+  refuse_text("a.json", "{\"unit\": \"mm\", \"landmarks\": {}}", "axes: they are missing");
+  refuse_text("a.json", "{\"axes\": \"LPS\", \"landmarks\": {}}", "unit: it is missing");
+  refuse_text("a.json", "{\"unit\": \"mm\", \"axes\": \"LPS\", \"landmark\": {}}", "did you mean \"landmarks\"?");
+  refuse_text("a.json", "{\"unit\": \"mm\", \"axes\": \"LPS\", \"landmarks\": {\"nadir\": [1, 2]}}",
+              "must be three numbers");
+  refuse_text("a.json", "{\"unit\": \"mm\", \"axes\": \"LPS\", \"landmarks\": []}", "landmarks: it must be an object");
+  refuse_text("a.json", "{\"markups\": []}", "markups must be an array");
+  refuse_text("a.json", "{\"markups\": [{\"coordinateSystem\": \"LPI\"}]}",
+              "coordinateSystem is \"LPI\"; it must be LPS or RAS");
+  refuse_text("a.json", "{\"markups\": [{\"coordinateSystem\": \"LPS\"}]}", "has no text \"coordinateUnits\"");
+  refuse_text("a.json",
+              "{\"markups\": [{\"coordinateSystem\": \"LPS\", \"coordinateUnits\": \"mm\", \"controlPoints\": "
+              "[{\"label\": \"nadir-1\", \"position\": [0, 0, 0], \"positionStatus\": \"undefined\"}]}]}",
+              "\"nadir-1\" has the positionStatus");
+}
+
+static void fits_are_refused_in_words_of_the_file(void **state) {
+  (void)state;
+  const char *path = json_of("a.json", "cm", 10, "LPS", 1, "");
+  RUN_REFUSED(1, "a.json: the unit is centimetres: the landmarks' mean distance", "place", path, "--valve",
+              "trileaflet");
+  assert_non_null(strstr(program_err, "in millimetres, scale 10, this would be"));
+  json_of("a.json", "mm", 10, "LPS", 1, "");
+  RUN_REFUSED(1, "a.json: flow is at 180 degrees", "place", path, "--valve", "trileaflet", "--flow", "-1,0,0");
+  RUN_REFUSED(1, "\"nadir_right\" has a role that the mitral valve lacks", "place", path, "--valve", "mitral");
+  RUN_REFUSED(2, "--valve is needed, because", "place", path);
+  RUN_REFUSED(1, "'tricuspid' is not a kind of valve", "place", path, "--valve", "tricuspid");
+  RUN_REFUSED(2, "is a file; landmarks place a kind of valve", "place", path, "--valve", "own.json");
+  RUN_REFUSED(2, "must end in .json", "place", path, "--valve", "trileaflet", "--output", scratch_path("placed.txt"));
+  RUN_REFUSED(2, "cannot both be on standard output", "place", path, "--valve", "trileaflet", "--output", "-", "--c",
+              "-");
+  RUN_REFUSED(2, "is also the file of LANDMARKS", "place", path, "--valve", "trileaflet", "--output", path);
+  RUN_REFUSED(2, "--noise: -1 is below 0", "place", path, "--valve", "trileaflet", "--noise", "-1");
+  json_of("a.json", "mm", 10, "LPS", 1, "\"valve\": \"aortic\", ");
+  RUN_REFUSED(2, "trileaflet is not the valve of", "place", path, "--valve", "trileaflet");
+}
+
+int main(void) {
+  const struct CMUnitTest near[] = {cmocka_unit_test(every_format_gives_the_same),
+                                    cmocka_unit_test(report_has_sizes_and_residuals),
+                                    cmocka_unit_test(other_commands_take_the_placed_valve),
+                                    cmocka_unit_test(landmarks_must_be_at_the_mesh),
+                                    cmocka_unit_test(files_are_refused_by_name),
+                                    cmocka_unit_test(fits_are_refused_in_words_of_the_file)};
+  const struct CMUnitTest far[] = {cmocka_unit_test(wrong_axes_are_named)};
+  const int n_near = cmocka_run_group_tests(near, make_box, scratch_teardown);
+  return n_near + cmocka_run_group_tests(far, make_far_box, scratch_teardown);
+}
