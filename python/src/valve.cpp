@@ -197,7 +197,9 @@ nb::dict values_of(Valve &valve) {
 }
 
 // Returns the values from which pickle makes the valve.
-nb::tuple state_of(Valve &valve) { return nb::make_tuple(valve.kind, values_of(valve), valve.open, valve.patches, valve.warp); }
+nb::tuple state_of(Valve &valve) {
+  return nb::make_tuple(valve.kind, values_of(valve), valve.open, valve.patches, valve.warp);
+}
 
 void make_from_state(Valve *self, const nb::tuple &state) {
   const nb::object kind = state[0], open = state[2], patches = state[3];
