@@ -163,7 +163,7 @@ def sealing(n, seed):
         _, valve, warp = fitted(random, 0.0)
         nodes = grid[inside] * [1.05, 1.05, 1.0]
         mesh = riis.Mesh(warp.map(nodes))
-        mesh.set_adjacency(offsets.astype(numpy.int64), both[:, 1].astype(numpy.int64))
+        mesh.set_adjacency(offsets=offsets.astype(numpy.int64), columns=both[:, 1].astype(numpy.int64))
         ends = [numpy.flatnonzero(nodes[:, 2] == nodes[:, 2].min()), numpy.flatnonzero(nodes[:, 2] == nodes[:, 2].max())]
         for opening in (0.0, 0.3):
             valve["opening"] = opening
