@@ -319,8 +319,8 @@ contains
     call finish(code, status)
   end subroutine valve_set_open_state
 
-  !> Warps the valve: its curves are mapped at every opening, before the placement. The valve copies the warps. For an annulus that
-  !! moves, call this in each step, for two valves in turn, and pass both to riis_surface%update_moving. Without arguments it
+  !> Warps the valve: its curves are mapped at every opening, before the placement. The valve copies the warps. For an annulus
+  !! that moves, call this in each step, for two valves in turn, and pass both to riis_surface%update_moving. Without arguments it
   !! removes the warp. Errors: RIIS_INVALID_ARGUMENT for open without closed; RIIS_INVALID_PARAMETER for a bileaflet valve.
   subroutine valve_set_warp(this, closed, open, status)
     class(riis_valve), intent(inout) :: this                !< Must be created.

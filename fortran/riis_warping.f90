@@ -9,8 +9,8 @@ module riis_warping
   private
   public :: riis_warp
 
-  !> A smooth map of space that takes landmarks on a valve to landmarks in a patient. Its matrix is factored once, so new targets in
-  !! each time step cost little. It is empty before %create and after %destroy, which must be called. Any number of threads may
+  !> A smooth map of space that takes landmarks on a valve to landmarks in a patient. Its matrix is factored once, so new targets
+  !! in each time step cost little. It is empty before %create and after %destroy, which must be called. Any number of threads may
   !! read it at once. One thread may write it while no other reads it.
   type :: riis_warp
     private
@@ -30,8 +30,8 @@ module riis_warping
 
 contains
 
-  !> Makes a warp from landmarks on the valve at rest. Until %set_targets, it is the identity. Without a placement, landmarks are in
-  !! the valve's own coordinates. Otherwise they are in the mesh's: give the placement of the surface. Errors:
+  !> Makes a warp from landmarks on the valve at rest. Until %set_targets, it is the identity. Without a placement, landmarks are
+  !! in the valve's own coordinates. Otherwise they are in the mesh's: give the placement of the surface. Errors:
   !! RIIS_INVALID_ARGUMENT naming the landmark, counted from 0, also for two in one place, and for landmarks on a line.
   subroutine warp_create(this, sources, noise, scale, rotation_axis, rotation_angle, translation, status)
     class(riis_warp), intent(inout) :: this                 !< Must be empty.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench moving: measures the cost of a valve's velocity, of the fields of the closest points and of the resistance. It
 // compares them with a plain time step on the same nodes in the same run. It does the same for fixed triangulations, coarse and
-// fine, and for the search for crossings. It compares a step of an annulus that moves by landmarks with a moving update of the same
-// patches. It prints times and bars.
+// fine, and for the search for crossings. It compares a step of an annulus that moves by landmarks with a moving
+// update of the same patches. It prints times and bars.
 //   argv[1]  thousands of nodes instead of a million, for a quick look
 #include <riis/riis.h>
 

@@ -104,6 +104,7 @@ LEFT_OUT = {
         "riis_surface_options_init",
         "riis_surface_arrays_init",
         "riis_keyframe_arrays_init",
+        "riis_warp_options_init",
         "riis_crossing_options_init",
         "riis_closest_options_init",
         "riis_closest_arrays_init",

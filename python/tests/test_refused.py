@@ -313,7 +313,7 @@ REFUSED = {
                                lambda o: riis.Warp(corners()[[0, 1, 2, 0, 3]])),
     "landmarks on a line": (Argument, "all 3 landmarks lie on a line", lambda o: riis.Warp(numpy.outer([0., 1, 3], [1., 2, 3]))),
     "too few landmarks": (Argument, "2; it must be from 3 to 1000", lambda o: riis.Warp(corners()[:2])),
-    "NaN in landmarks": (Argument, "z of landmark 1 is nan", lambda o: riis.Warp(corners() * [[1, 1, math.nan]])),
+    "NaN in landmarks": (Argument, "z of landmark 0 is nan", lambda o: riis.Warp(corners() * [[1, 1, math.nan]])),
     "shape of landmarks": (Argument, "sources: its shape", lambda o: riis.Warp(numpy.zeros((4, 2)))),
     "noise": (Argument, "^noise is -1", lambda o: riis.Warp(corners(), noise=-1.0)),
     "placement of a warp": (Argument, "scale is 0", lambda o: riis.Warp(corners(), placement={"scale": 0.0})),

@@ -292,7 +292,7 @@ def test_a_warp_moves_a_valve():
     for other in (valve.copy(), pickle.loads(pickle.dumps(valve))):
         assert numpy.array_equal(riis.Surface(other, **placement).vertices, twice.vertices)
     again = pickle.loads(pickle.dumps(warp))
-    assert numpy.array_equal(again.map(sources), warp.map(sources)) and again.info.least_determinant == warp.info.least_determinant
+    assert numpy.array_equal(again.map(sources), warp.map(sources))
     keys = numpy.array([2.0 * sources, 2.0 * sources + [0, 0, 1]])
     before = valve.copy()
     warp.set_targets_at(numpy.array([0.0, 0.5]), keys, 0.25)

@@ -29,6 +29,13 @@ void add_points(const CaseValues &values, const char *key, const Json &list, std
   }
 }
 
+// Landmarks are data of the case, so a refusal of them names the case.
+void check_landmarks(riis_status status, const std::string &subject) {
+  if (status == RIIS_INVALID_ARGUMENT || status == RIIS_INVALID_PARAMETER)
+    throw Refusal{exit_bad_data, subject + ": " + riis_last_error()};
+  check(status);
+}
+
 }  // namespace
 
 LandmarkPairs::LandmarkPairs(const CaseValues &values, double noise, const riis_surface_options *placement)
@@ -67,7 +74,7 @@ LandmarkPairs::LandmarkPairs(const CaseValues &values, double noise, const riis_
   options.noise = noise;
   options.placement = placement;
   riis_warp *warp = nullptr;
-  check(riis_warp_create(&points, &options, &warp), subject_);
+  check_landmarks(riis_warp_create(&points, &options, &warp), subject_);
   warp_ = Warp(warp);
   at(times_.front());
 }
@@ -81,7 +88,7 @@ const riis_warp *LandmarkPairs::at(double time) {
   frames.xyz = targets_.data();
   frames.period = period_;
   frames.interpolation = interpolation_;
-  check(riis_warp_set_targets_at(warp_.get(), &frames, time), subject_);
+  check_landmarks(riis_warp_set_targets_at(warp_.get(), &frames, time), subject_);
   return warp_.get();
 }
 
@@ -104,7 +111,7 @@ void WarpSource::apply(double time, riis_valve *valve) {
   if (pairs_.empty()) return;
   const riis_warp *closed = pairs_.front().at(time);
   const riis_warp *open = pairs_.size() > 1 ? pairs_.back().at(time) : nullptr;
-  check(riis_valve_set_warp(valve, closed, open), subject_);
+  check_landmarks(riis_valve_set_warp(valve, closed, open), subject_);
 }
 
 }  // namespace riis::program

@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Tests of module riis: surfaces from frames in time, warps, velocities of the caller's vertices, closest points of a mask and of a list.
+! Tests of module riis: surfaces from frames in time, warps, velocities of the caller's vertices, closest points of a mask and of
+! a list.
 ! The results are compared with closed forms and with riis_c.
 program test_frames
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_loc, c_null_ptr, c_ptr

@@ -719,7 +719,7 @@ static void folds_at_patches_are_named(void **state) {
   (void)state;
   riis_valve *valve = new_valve("trileaflet");
   riis_surface *surface = new_surface(valve, NULL);
-  /* Landmarks lie at the corners of two cubes around the valve. The inner ones move inwards, until the middle between them folds. */
+  /* Landmarks lie at the corners of two cubes around the valve. The inner ones move inwards until their middle folds. */
   int n_refused = 0;
   for (int trial = 0; trial < 100 && n_refused == 0; ++trial) {
     const int owned_before = n_owned();

@@ -360,8 +360,18 @@ void WarpLandmarks::fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &
     terms[3] = (area > 0 ? 1 / std::sqrt(area) : 0) * across - axis_[2];
     for (std::size_t i = 0; i < n; ++i) displacement_[i] = displacement_[i] - dot(axis_[2], scaled_[i]) * terms[3];
   }
-  for (std::size_t k = 0; k < n_free_; ++k)
-    for (std::size_t i = 0; i < n; ++i) reduced_[k] = reduced_[k] + basis_[k * n + i] * displacement_[i];
+  for (std::size_t k = 0; k < n_free_; ++k) {
+    // Two sums at once hide the time of an addition.
+    const double *column = basis_.data() + k * n;
+    Vec3 even{0, 0, 0}, odd{0, 0, 0};
+    std::size_t i = 0;
+    for (; i + 1 < n; i += 2) {
+      even = even + column[i] * displacement_[i];
+      odd = odd + column[i + 1] * displacement_[i + 1];
+    }
+    if (i < n) even = even + column[i] * displacement_[i];
+    reduced_[k] = even + odd;
+  }
   quality.smoothing = smoothing_for_noise();
   if (std::isinf(quality.smoothing))
     solution_.assign(n_free_, Vec3{0, 0, 0});
@@ -372,14 +382,18 @@ void WarpLandmarks::fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &
   for (Vector<double> *list :
        {&map.source_x, &map.source_y, &map.source_z, &map.weight_x, &map.weight_y, &map.weight_z})
     list->assign(n + n % 2, 0.0);
+  for (std::size_t k = 0; k < n_free_; ++k) {
+    const double *column = basis_.data() + k * n;
+    const Vec3 z = solution_[k];
+    for (std::size_t i = 0; i < n; ++i) map.weight_x[i] += column[i] * z.x;
+    for (std::size_t i = 0; i < n; ++i) map.weight_y[i] += column[i] * z.y;
+    for (std::size_t i = 0; i < n; ++i) map.weight_z[i] += column[i] * z.z;
+  }
   for (std::size_t i = 0; i < n; ++i) {
-    Vec3 weight{0, 0, 0};
-    for (std::size_t k = 0; k < n_free_; ++k) weight = weight + basis_[k * n + i] * solution_[k];
     map.source_x[i] = scaled_[i].x, map.source_y[i] = scaled_[i].y, map.source_z[i] = scaled_[i].z;
-    map.weight_x[i] = weight.x, map.weight_y[i] = weight.y, map.weight_z[i] = weight.z;
-    for (std::size_t k = 0; k < n_terms_; ++k) {
+    const Vec3 weight{map.weight_x[i], map.weight_y[i], map.weight_z[i]};
+    for (std::size_t k = 0; k < n_terms_; ++k)
       terms[k] = terms[k] + least_squares_[k * n + i] * displacement_[i] - of_kernel_[k * n + i] * weight;
-    }
   }
   map.shift = terms[0];
   map.linear_x = axis_[0].x * terms[1] + axis_[1].x * terms[2] + axis_[2].x * terms[3];

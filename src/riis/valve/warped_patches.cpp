@@ -176,7 +176,7 @@ double within_limits(double factor, double own) {
   return own == 0 ? std::clamp(factor, 0.0, most_of_missing) : std::clamp(factor, least_factor, most_factor);
 }
 
-// Returns the cubic with the warped ends and end tangents whose lengths fit the warped points best. The map is known at both ends.
+// Returns the cubic with the warped ends and end tangents whose lengths fit the warped points best. The map is known at the ends.
 Bezier warped_piece(const Bezier &given, const MapAt &first, const MapAt &last, const BlendedWarp &warp) {
   if (is_point(given)) return Bezier::point(first.value);
   const Bezier cubic = raised_to_cubic(given);
@@ -213,6 +213,33 @@ Bezier warped_rate(const Bezier &curve, const Bezier &rate, const MapAt &first, 
   return Bezier::cubic(q[0], (1.0 / 6) * (18 * q[1] - 5 * q[0] - 9 * q[2] + 2 * q[3]),
                        (1.0 / 6) * (18 * q[2] - 5 * q[3] - 9 * q[1] + 2 * q[0]), q[3]);
 }
+
+// The map at ends of curves. Several curves end in one place, so the last places are remembered.
+class MapAtEnds {
+ public:
+  explicit MapAtEnds(const BlendedWarp &warp) : warp_(warp) {}
+
+  MapAt operator()(Vec3 p) {
+    for (const Place &place : places_)
+      if (place.p == p) return place.at;
+    const Place made{p, warp_.at(p)};
+    if (places_.size() < n_remembered)
+      places_.push_back(made);
+    else
+      places_[next_++ % n_remembered] = made;
+    return made.at;
+  }
+
+ private:
+  static constexpr std::size_t n_remembered = 64;
+  struct Place {
+    Vec3 p;
+    MapAt at;
+  };
+  const BlendedWarp &warp_;
+  Vector<Place> places_;
+  std::size_t next_ = 0;
+};
 
 // Bends the arcs at the sides of patches of arcs between their warped ends.
 void bend_arcs(PatchSet &set) {
@@ -325,10 +352,11 @@ PatchSet without_images(const PatchSet &set) {
 
 PatchSet warped(const PatchSet &set, const BlendedWarp &warp, FoldCheck check) {
   Unfolding unfolding(set);
+  MapAtEnds at_ends(warp);
   for (CurveCopy &copy : unfolding.copies()) {
-    MapAt first = warp.at(copy.pieces.front().first());
+    MapAt first = at_ends(copy.pieces.front().first());
     for (Bezier &piece : copy.pieces) {
-      const MapAt last = piece.last() == piece.first() ? first : warp.at(piece.last());
+      const MapAt last = at_ends(piece.last());
       if (!set.rates.empty()) copy.rate = warped_rate(piece, copy.rate, first, last, warp);
       piece = warped_piece(piece, first, last, warp);
       first = last;

@@ -14,8 +14,8 @@ PatchSet without_images(const PatchSet &set);
 
 // Returns the same patches with warped curves. A warped curve has the warped ends and the directions of the warped end tangents.
 // The lengths of these tangents make it the nearest to the warped points of the curve, by least squares. Arcs are bent anew
-// between warped curves. Unless `check` is no, fails with RIIS_INVALID_PARAMETER if the warp folds at a patch or turns a part of it over. The message
-// names the place and the value.
+// between warped curves. Unless `check` is no, fails with RIIS_INVALID_PARAMETER if the warp folds at a patch or turns a part of
+// it over. The message names the place and the value.
 enum class FoldCheck { no, yes };
 PatchSet warped(const PatchSet &set, const BlendedWarp &warp, FoldCheck check = FoldCheck::yes);
 
