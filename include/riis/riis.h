@@ -236,7 +236,9 @@ enum {
   RIIS_LEAFLET_POSTERIOR = 1,   /* mitral: the posterior leaflet, all three scallops */
   RIIS_LEAFLET_POSITIVE = 0,    /* bileaflet: the leaflet at x > 0 */
   RIIS_LEAFLET_NEGATIVE = 1,    /* bileaflet: the leaflet at x < 0 */
-  RIIS_LEAFLET_HOUSING = 2      /* bileaflet: the housing's wall, if ring_height is not 0 */
+  RIIS_LEAFLET_HOUSING = 2,     /* bileaflet: the housing's wall, if ring_height is not 0 */
+  RIIS_LEAFLET_SKIRT = 3        /* aortic, mitral, trileaflet: the skirt, if skirt_length is not 0. The skirt of a valve
+                                   from patches has this id or the largest leaflet_id + 1, whichever is larger */
 };
 
 /* How triangles of zero area in the caller's arrays are treated. */

@@ -126,13 +126,13 @@ riis_first_passage first_passage(PassageTrials &trials, double tolerance) {
   return found_at(open, closed, passage, RIIS_FIRST_PASSAGE_FOUND);
 }
 
-// Returns the volume of one leaflet, or the sum of all leaflets, after the placement. A message about a missing leaflet names
-// `owner`.
-double placed_volume(const riis::SweptVolumes &volumes, std::int32_t leaflet_id, const char *owner,
+// Returns the volume of one leaflet, or the sum of all leaflets without the skirt, after the placement. `skirt` is -1 without a
+// skirt. A message about a missing leaflet names `owner`.
+double placed_volume(const riis::SweptVolumes &volumes, std::int32_t leaflet_id, std::int32_t skirt, const char *owner,
                      const riis_surface_options &options) {
   double sum = 0;
   for (const auto &[id, volume] : volumes)
-    if (leaflet_id == RIIS_ALL_LEAFLETS || id == leaflet_id) sum += volume;
+    if (leaflet_id == RIIS_ALL_LEAFLETS ? id != skirt : id == leaflet_id) sum += volume;
   if (leaflet_id != RIIS_ALL_LEAFLETS && volumes.count(leaflet_id) == 0)
     riis::fail(RIIS_INVALID_ARGUMENT, "leaflet_id is ", leaflet_id, ", which the ", owner,
                " lack; RIIS_ALL_LEAFLETS, -1, stands for all");
@@ -257,7 +257,7 @@ riis_status riis_valve_get_swept_volume(const riis_valve *valve, double opening_
     const int n_threads =
         riis::threads_for(whole.n_threads, "options.n_threads", triangles_at_all_openings, riis::triangles_per_thread);
     *volume = placed_volume(riis::swept_volumes(content, opening_from, opening_to, n_threads), leaflet_id,
-                            "patches of the valve", whole);
+                            content.skirt_leaflet(), "patches of the valve", whole);
   });
 }
 
@@ -270,7 +270,7 @@ riis_status riis_keyframes_get_swept_volume(const riis_keyframes *keyframes, dou
     const riis_surface_options whole = checked_options(options);
     require(volume, "volume");
     *volume =
-        placed_volume(riis::swept_volumes(frames, time_from, time_to), leaflet_id, "faces of the keyframes", whole);
+        placed_volume(riis::swept_volumes(frames, time_from, time_to), leaflet_id, -1, "faces of the keyframes", whole);
   });
 }
 }

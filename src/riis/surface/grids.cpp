@@ -107,7 +107,7 @@ class GridMaker {
     curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
     parallel_for(view(curves).size(), n_threads_, [&](std::int64_t i, int) {
       const std::size_t at = view(curves)[i];
-      polylines_[at] = max_bend_ > 0 ? make_polyline(set_.curves[at], errors_[at], set_.rates[at], max_bend_)
+      polylines_[at] = max_bend_ > 0 && at < set_.rates.size() ? make_polyline(set_.curves[at], errors_[at], set_.rates[at], max_bend_)
                                      : make_polyline(set_.curves[at], errors_[at]);
       reversed_[at] = reversed(polylines_[at]);
     });

@@ -43,6 +43,16 @@ std::optional<Outline> outline_of(const TriangleSet &set, const ValveFrame &fram
   return closed_outline(lines, seen.rounding());
 }
 
+// Returns the vertices of all triangles except those of one leaflet.
+std::vector<std::int64_t> without_leaflet(const TriangleSet &set, std::int32_t leaflet_id) {
+  std::vector<std::int64_t> kept;
+  kept.reserve(set.vertex_id.size());
+  for (std::int64_t i = 0; i < set.n_triangles(); ++i)
+    if (view(set.leaflet_id)[i] != leaflet_id)
+      kept.insert(kept.end(), set.vertex_id.begin() + 3 * i, set.vertex_id.begin() + 3 * i + 3);
+  return kept;
+}
+
 double area_of_triangle(const TriangleSet &set, std::int64_t i) {
   const auto [a, b, c] = set.corners(i);
   return 0.5 * length(cross(b - a, c - a));
@@ -57,7 +67,7 @@ Orifice measure_orifice(const TriangleSet &set, const ValveFrame &frame, const O
   std::vector<PlanePoint> vertices;
   vertices.reserve(set.xyz.size() / 3);
   for (std::int64_t i = 0; i < set.n_vertices(); ++i) vertices.push_back(seen(set.vertex(i)));
-  const Cover cover = cover_of(vertices, set.vertex_id);
+  const Cover cover = cover_of(vertices, frame.skirt < 0 ? set.vertex_id : without_leaflet(set, frame.skirt));
   return {uncovered_area(*outline, cover, 0), area_of(*outline), uncovered_edge(*outline, cover, limits.slit),
           uncovered_area(*outline, cover, limits.reach),
           outline->radius > 0 ? RIIS_OUTLINE_DISC : RIIS_OUTLINE_ATTACHMENT};

@@ -21,11 +21,12 @@ namespace riis {
 inline constexpr double rim_reach_round = 0.84;  // RIIS_RIM_ROUND
 inline constexpr double rim_reach_cut = 0.70;    // RIIS_RIM_CUT
 
-// The placement, the disc and the housing of the valve that a surface was made from.
+// The placement, the disc, the housing and the skirt of the valve that a surface was made from.
 struct ValveFrame {
   Placement placement;
   Valve::Disc disc;      // before placement
   std::int32_t housing;  // the leaflet_id of the housing, or -1 if the valve has no housing
+  std::int32_t skirt;    // the leaflet_id of the skirt, or -1 if the valve has no skirt
 };
 
 // The measured numbers. The caller computes the other fields of riis_orifice from these numbers and the frame.

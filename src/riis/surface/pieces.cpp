@@ -208,7 +208,8 @@ Pieces::Pieces(const PatchSet &set, const Triangulation &how, const Vector<Level
     const auto &images = set.patches[i].images;
     for (std::size_t k = 0; k < images.size(); ++k) {
       const Seam *seam = seam_of(set, i, k);
-      pieces_.push_back({i, &images[k], seam ? &images[seam->twin] : nullptr, seam, n_vertices_, n_triangles_});
+      const PatchImage *twin = seam ? &set.patches[seam->patch_of_twin()].images[seam->twin] : nullptr;
+      pieces_.push_back({i, &images[k], twin, seam, n_vertices_, n_triangles_});
       n_triangles_ += grids[i].n_triangles;
       n_vertices_ += grids[i].n_vertices;
       check_count(static_cast<double>(n_triangles_), how.max_error);

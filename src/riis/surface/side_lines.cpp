@@ -58,8 +58,8 @@ std::vector<SideLine> free_edges(const TriangleSet &set) {
 
 std::vector<SideLine> attached_sides(const TriangleSet &set) {
   return sides(set, [](const VerticesOfPatch &patch, int rim) {
-    if (patch.attached == AttachedSide::none) return 0;
-    return rim & (patch.attached == AttachedSide::v0 ? rim_v0 : rim_u1);
+    if ((rim & held) == 0) return 0;
+    return static_cast<int>(patch.attached == AttachedSide::v0 ? rim_v0 : rim_u1);
   });
 }
 

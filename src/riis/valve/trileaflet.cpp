@@ -97,7 +97,7 @@ void sew(PatchSet &set, bool is_closed) {
   constexpr std::size_t right = 0, left = 1, non_coronary = 2;
   for (const auto &[cusp, before] :
        {std::pair(right, non_coronary), std::pair(left, right), std::pair(non_coronary, left)})
-    set.seams.push_back({top, 2 * cusp + 1, 2 * before, is_closed});
+    set.seams.push_back({top, 2 * cusp + 1, 2 * before, is_closed ? SeamPlace::side_v1 : SeamPlace::corner});
 }
 
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening) {
@@ -118,7 +118,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 
 const ValveKind &trileaflet_valve_kind() {
   // The kind is made when it is first used, and it is never destroyed. So it can be used during the whole life of the process.
-  static const ValveKind &kind = *new ValveKind(make_kind());
+  static const ValveKind &kind = *new ValveKind(with_skirt(make_kind(), SkirtAxis::of_cusp));
   return kind;
 }
 

@@ -168,14 +168,15 @@ PatchSet patches_from_arrays(const riis_patches &arrays) {
 }
 
 const ValveKind &patches_valve_kind() {
-  static const ValveKind &kind = *new ValveKind{
-      "patches",
-      {opening_spec("0: this state, to 1: the open state; it stays 0 without riis_valve_set_open_state", 0)},
-      0,
-      false,
-      nullptr,
-      make_patches,
-      check_states};
+  static const ValveKind &kind = *new ValveKind(with_skirt(
+      {"patches",
+       {opening_spec("0: this state, to 1: the open state; it stays 0 without riis_valve_set_open_state", 0)},
+       0,
+       false,
+       nullptr,
+       make_patches,
+       check_states},
+      SkirtAxis::boundary));
   return kind;
 }
 

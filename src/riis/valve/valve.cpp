@@ -29,6 +29,9 @@ std::string_view nearest_parameter(const ValveKind &kind, std::string_view name)
 }
 
 [[noreturn]] void fail_unknown(const ValveKind &kind, std::string_view name) {
+  if (name == "skirt_length" && kind.skirt_axis == SkirtAxis::none)
+    fail(RIIS_INVALID_PARAMETER, "'skirt_length' is not a parameter of the ", kind.name,
+         " valve: its ring, which ring_height sets, closes the gap to the wall");
   const std::string_view nearest = nearest_parameter(kind, name);
   const bool is_near = !nearest.empty();
   fail(RIIS_INVALID_PARAMETER, "'", shown(name), "' is not a parameter of the ", kind.name, " valve; ",
@@ -77,6 +80,15 @@ void Valve::set(std::string_view name, std::int64_t n_values, const double *new_
     if (named(spec)) check(spec, name, n_values, new_values);
   for (std::size_t i = 0; i < specs.size(); ++i)
     if (named(specs[i])) std::copy_n(new_values, n_values, state_.values[i].begin());
+  if (name == "skirt_length") skirt_lengths_.clear();
+}
+
+void Valve::set_skirt_lengths(SkirtLengths lengths) {
+  double largest = 0;
+  for (const Vector<double> &of_side : lengths)
+    for (const double length : of_side) largest = std::max(largest, length);
+  skirt_lengths_ = std::move(lengths);
+  state_.values[kind_->skirt_length][0] = largest;
 }
 
 void Valve::get(std::string_view name, std::int64_t n_values, double *out) const {
@@ -150,6 +162,9 @@ void Valve::check_same_but_for_opening(const Valve &other) const {
          kind_->name);
   if (kind_->check_states) kind_->check_states(state_, other.state_, "the valve");
   check_same_state(*kind_, state_, other.state_, "");
+  if (skirt_lengths_ != other.skirt_lengths_)
+    fail(RIIS_INVALID_PARAMETER, "the skirt's lengths to the wall differ from those that the surface's triangulation is ",
+         "fixed for: only opening and placement may move");
   if (open_.has_value() != other.open_.has_value())
     fail(RIIS_INVALID_PARAMETER, "the valve has ", other.open_ ? "an" : "no", " open state", fixed_for,
          other.open_ ? "none" : "one");
@@ -203,6 +218,8 @@ std::uint64_t Valve::shape_digest() const {
   for (const char *letter = kind_->name; *letter; ++letter) digest.add(static_cast<std::uint64_t>(*letter));
   digest.add(*kind_, state_);
   if (open_) digest.add(*kind_, *open_);
+  for (const Vector<double> &of_side : skirt_lengths_)
+    for (const double length : of_side) digest.add(length);
   return digest.value();
 }
 
@@ -214,7 +231,10 @@ PatchSet Valve::make_patches() const {
     kind_->check_values(state_.values);
     if (open_) check_open_values();
   }
-  return kind_->make_patches(state_, open_ ? *open_ : state_, opening());
+  PatchSet set = kind_->make_patches(state_, open_ ? *open_ : state_, opening());
+  aim_skirt(set, kind_->skirt_axis);
+  if (has_skirt()) add_skirt(set, state_.values[kind_->skirt_length][0], skirt_lengths_);
+  return set;
 }
 
 PatchSet Valve::make_patches_before(const Valve &before) const {
@@ -248,6 +268,19 @@ Bezier rate(const Bezier &closed, const Bezier &open) {
   Bezier made = closed;
   for (int i = 0; i <= closed.degree; ++i) view(made.control)[i] = view(open.control)[i] - view(closed.control)[i];
   return made;
+}
+
+ValveKind with_skirt(ValveKind kind, SkirtAxis axis) {
+  kind.skirt_axis = axis;
+  kind.skirt_length = kind.parameters.size();
+  kind.parameters.push_back({"skirt_length",
+                             "length",
+                             "length of the skirt that leads outwards from the attachment to the wall; 0: no skirt",
+                             1,
+                             {0},
+                             0,
+                             1e9});
+  return kind;
 }
 
 ParameterSpec opening_spec(const char *description, double default_value) {
