@@ -41,7 +41,8 @@ static riis_surface_options random_placement(int32_t triangulation) {
   options.triangulation = triangulation;
   options.scale = pow(10, between(-2, 1));
   for (int c = 0; c < 3; ++c)
-    options.rotation_axis[c] = between(-1, 1) + (c == 1 ? 2 : 0), options.translation[c] = options.scale * between(-3, 3);
+    options.rotation_axis[c] = between(-1, 1) + (c == 1 ? 2 : 0),
+    options.translation[c] = options.scale * between(-3, 3);
   options.rotation_angle = between(-180, 180);
   return options;
 }
@@ -216,7 +217,8 @@ static void the_skirt_continues_the_leaflets(void **state) {
       double direction[2] = {0, 0};
       for (int64_t t = 0; t < all.n_triangles; ++t)
         for (int k = 0; k < 3; ++k) {
-          const double *p = all.xyz + 3 * all.vertex_id[3 * t + k], *q = all.xyz + 3 * all.vertex_id[3 * t + (k + 1) % 3];
+          const double *p = all.xyz + 3 * all.vertex_id[3 * t + k],
+                       *q = all.xyz + 3 * all.vertex_id[3 * t + (k + 1) % 3];
           if (distance_to_edge(inside, p, q) > 1e-13 * options.scale) continue;
           const double pq[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
           const int is_skirt = all.leaflet_id[t] == RIIS_LEAFLET_SKIRT;
@@ -262,7 +264,8 @@ static void sides_are_right_beside_the_skirt(void **state) {
   for (int trial = 0; trial < 2 * n_skirted; ++trial) {
     const int owned_before = n_owned(), kind = trial % n_skirted;
     riis_surface_options options = random_placement(trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
-    const riis_surface *surface = new_surface(skirted_valve(kind, 0.15, trial < n_skirted ? 0 : between(0, 1)), &options);
+    const riis_surface *surface =
+        new_surface(skirted_valve(kind, 0.15, trial < n_skirted ? 0 : between(0, 1)), &options);
     const riis_triangles all = triangles_of(surface);
     int n = 0;
     for (int64_t t = 0; t < all.n_triangles; ++t) {
@@ -270,8 +273,7 @@ static void sides_are_right_beside_the_skirt(void **state) {
       const double *a = all.xyz + 3 * all.vertex_id[3 * t], *b = all.xyz + 3 * all.vertex_id[3 * t + 1],
                    *c = all.xyz + 3 * all.vertex_id[3 * t + 2];
       double ab[3], ac[3], normal[3], middle[3];
-      for (int k = 0; k < 3; ++k)
-        ab[k] = b[k] - a[k], ac[k] = c[k] - a[k], middle[k] = (a[k] + b[k] + c[k]) / 3;
+      for (int k = 0; k < 3; ++k) ab[k] = b[k] - a[k], ac[k] = c[k] - a[k], middle[k] = (a[k] + b[k] + c[k]) / 3;
       for (int k = 0; k < 3; ++k) normal[k] = ab[(k + 1) % 3] * ac[(k + 2) % 3] - ab[(k + 2) % 3] * ac[(k + 1) % 3];
       const double size = length_of(normal), away = between(0.1, 0.5) * (trial % 2 ? 1 : -1) * 0.02 * options.scale;
       const riis_closest found = closest_to(surface, middle[0] + away * normal[0] / size,
@@ -392,6 +394,295 @@ static void skirts_move_with_the_attachment(void **state) {
   }
 }
 
+/* A wall: a tube with a straight axis, cut by planes from 0 to 1 along it. The sides are triangles, in random diagonals. */
+typedef struct tube_wall {
+  axis_line axis; /* through the middle */
+  double radius, half_length;
+} tube_wall;
+
+static void across(const double *direction, double *x, double *y) {
+  const int least = fabs(direction[0]) < 0.6 ? 0 : 1;
+  double unit[3] = {0, 0, 0};
+  unit[least] = 1;
+  const double along = dot(unit, direction);
+  for (int c = 0; c < 3; ++c) x[c] = unit[c] - along * direction[c];
+  const double size = length_of(x);
+  for (int c = 0; c < 3; ++c) x[c] /= size;
+  for (int c = 0; c < 3; ++c) y[c] = direction[(c + 1) % 3] * x[(c + 2) % 3] - direction[(c + 2) % 3] * x[(c + 1) % 3];
+}
+
+static riis_surface *wall_from(const tube_wall *tube_at) {
+  enum { n_round = 600, n_along = 3 };
+  static double xyz[3 * n_round * n_along];
+  static int32_t ids[6 * n_round * (n_along - 1)];
+  double x[3], y[3];
+  across(tube_at->axis.direction, x, y);
+  int64_t n = 0;
+  for (int j = 0; j < n_along; ++j)
+    for (int i = 0; i < n_round; ++i) {
+      const double angle = 2 * acos(-1) * i / n_round, z = tube_at->half_length * (2.0 * j / (n_along - 1) - 1);
+      for (int c = 0; c < 3; ++c)
+        xyz[3 * (j * n_round + i) + c] = tube_at->axis.centre[c] + z * tube_at->axis.direction[c] +
+                                         tube_at->radius * (cos(angle) * x[c] + sin(angle) * y[c]);
+      if (j + 1 == n_along) continue;
+      const int32_t a = j * n_round + i, b = j * n_round + (i + 1) % n_round, d = a + n_round, e = b + n_round;
+      const int32_t two[2][6] = {{a, b, e, a, e, d}, {a, b, d, b, e, d}};
+      memcpy(ids + 3 * n, two[one_in(2)], sizeof two[0]), n += 2;
+    }
+  const riis_surface_arrays arrays = triangle_arrays(n_round * n_along, xyz, n, ids);
+  return surface_from(&arrays, NULL);
+}
+
+/* Returns where the line p + t d meets a round tube, the nearest of both places. */
+static double distance_to_tube(const tube_wall *wall, const double *p, const double *d) {
+  double q[3], e[3];
+  const double *axis = wall->axis.direction;
+  for (int c = 0; c < 3; ++c) q[c] = p[c] - wall->axis.centre[c], e[c] = d[c];
+  const double along_q = dot(q, axis), along_e = dot(e, axis);
+  for (int c = 0; c < 3; ++c) q[c] -= along_q * axis[c], e[c] -= along_e * axis[c];
+  const double a = dot(e, e), b = dot(q, e), c = dot(q, q) - wall->radius * wall->radius;
+  const double root = sqrt(b * b - a * c), first = (-b - root) / a, second = (-b + root) / a;
+  return fabs(first) < fabs(second) ? first : second;
+}
+
+/* Makes a tube around a placed valve, whose axis is shifted and tilted against the valve's. */
+static tube_wall tube_around(const riis_surface *surface, const axis_line *axis, double scale) {
+  const riis_attachment held = attachment_of(surface);
+  tube_wall made = {*axis, 0, 20 * scale};
+  for (int c = 0; c < 3; ++c) {
+    made.axis.centre[c] += between(-0.05, 0.05) * scale;
+    made.axis.direction[c] += between(-0.05, 0.05);
+  }
+  const double size = length_of(made.axis.direction);
+  for (int c = 0; c < 3; ++c) made.axis.direction[c] /= size;
+  for (int64_t i = 0; i < 2 * held.n_edges; ++i) {
+    double q[3];
+    for (int c = 0; c < 3; ++c) q[c] = held.edges[3 * i + c] - made.axis.centre[c];
+    const double along = dot(q, made.axis.direction);
+    for (int c = 0; c < 3; ++c) q[c] -= along * made.axis.direction[c];
+    made.radius = fmax(made.radius, length_of(q));
+  }
+  made.radius += 0.05 * scale;
+  return made;
+}
+
+static riis_gap gap_between(const riis_surface *surface, const riis_surface *wall, double *distance) {
+  riis_gap gap;
+  memset(&gap, 0x5a, sizeof gap);
+  CHECK_OK(riis_surface_get_gap(surface, wall, distance, &gap, sizeof gap));
+  return gap;
+}
+
+/* The gap to a round tube is the root of a quadratic equation. A skirt to that tube ends on it, and the leaflets stay. */
+static void skirts_reach_walls_and_no_farther(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 2 * n_skirted; ++trial) {
+    const int owned_before = n_owned(), kind = trial % n_skirted;
+    riis_valve *valve = skirted_valve(kind, 0, 0);
+    set_random_sizes(valve, kind);
+    riis_surface_options options = random_placement(trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
+    const double s = options.scale;
+    const riis_surface *bare = new_surface(valve, &options);
+    const axis_line axis = axis_of(bare, kind, &options);
+    const tube_wall round = tube_around(bare, &axis, s);
+    const riis_surface *wall = wall_from(&round);
+    const riis_attachment held = attachment_of(bare);
+    double *distance = own(malloc((size_t)held.n_edges * 2 * sizeof *distance));
+    const riis_gap gap = gap_between(bare, wall, distance);
+    double least = INFINITY, most = -INFINITY, sum = 0, whole = 0;
+    const double facets = 2 * round.radius * 2e-5; /* between the round tube and its facets */
+    for (int64_t i = 0; i < 2 * held.n_edges; ++i) {
+      const double *p = held.edges + 3 * i, *edge = held.edges + 6 * (i / 2);
+      double out[3];
+      outwards_from(&axis, p, out);
+      const double wanted = distance_to_tube(&round, p, out), size = distance_between(edge, edge + 3);
+      if (kind != 2) CHECK_NEAR(distance[i], wanted, facets);
+      least = fmin(least, distance[i]), most = fmax(most, distance[i]), sum += size * distance[i], whole += size;
+    }
+    assert_int_equal(gap.n_ends, 2 * held.n_edges);
+    assert_int_equal(gap.n_without_wall, 0);
+    CHECK_NEAR(gap.least, least, 0);
+    CHECK_NEAR(gap.most, most, 0);
+    CHECK_NEAR(gap.mean, sum / whole, 1e-12 * s);
+    assert_true(gap.least > 0.01 * s);
+
+    CHECK_OK(riis_valve_set_skirt_to_wall(valve, wall, 2 * s, &options));
+    double longest = 0;
+    CHECK_OK(riis_valve_get(valve, "skirt_length", 1, &longest));
+    CHECK_NEAR(longest * s, gap.most, 5e-3 * gap.most); /* at other points than the ends of edges */
+    const riis_surface *reaching = new_surface(valve, &options);
+    const riis_triangles all = triangles_of(reaching);
+    double farthest = 0, worst = 0;
+    for (int64_t t = 0; t < all.n_triangles; ++t)
+      for (int k = 0; k < 3 && all.leaflet_id[t] == RIIS_LEAFLET_SKIRT; ++k) {
+        const int64_t id = all.vertex_id[3 * t + k];
+        const double *p = all.xyz + 3 * id;
+        double q[3];
+        for (int c = 0; c < 3; ++c) q[c] = p[c] - round.axis.centre[c];
+        const double along = dot(q, round.axis.direction);
+        for (int c = 0; c < 3; ++c) q[c] -= along * round.axis.direction[c];
+        const double beyond = length_of(q) - round.radius;
+        farthest = fmax(farthest, beyond);
+        if (all.uv[2 * id + 1] == 0) worst = fmax(worst, fabs(beyond));
+      }
+    const double allowed = info_of(reaching).error_bound + 1e-3 * gap.most + facets;
+    printf("%s: gap %.3g to %.3g, outer edge off the wall by %.2g of %.2g\n", skirted[kind], gap.least, gap.most, worst,
+           allowed);
+    CHECK_AT_MOST(worst, allowed);
+    CHECK_AT_MOST(farthest, allowed);
+    assert_true(all.n_triangles > triangles_of(bare).n_triangles);
+
+    /* The lengths belong to the shape: another skirt is refused by a fixed triangulation, and a copy has the same. */
+    riis_valve *copy = NULL;
+    CHECK_OK(riis_valve_copy(valve, &copy));
+    own(copy);
+    assert_true(is_same_content(reaching, new_surface(copy, &options)));
+    CHECK_OK(riis_valve_set_scalar(copy, "opening", 0.5));
+    CHECK_OK(riis_surface_update((riis_surface *)(uintptr_t)reaching, copy, NULL));
+    CHECK_OK(riis_valve_set_scalar(copy, "skirt_length", longest));
+    if (options.triangulation == RIIS_TRIANGULATION_FIXED)
+      CHECK_REFUSED(RIIS_INVALID_PARAMETER, "the skirt's lengths to the wall differ",
+                    riis_surface_update((riis_surface *)(uintptr_t)reaching, copy, NULL));
+    CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", 0));
+    assert_int_equal(triangles_of(new_surface(valve, &options)).n_triangles, triangles_of(bare).n_triangles);
+    free_owned_after(owned_before);
+  }
+}
+
+/* A funnel of four patches in a tilted frame, attached along a circle. */
+static shape funnel(const double *centre, const double *direction, double radius) {
+  enum { n = 3 };
+  shape made = {0};
+  double x[3], y[3], at[2][n][3], control[4][3];
+  across(direction, x, y);
+  const double step = 2 * acos(-1) / n, reach = 4.0 / 3 * tan(step / 4);
+  for (int level = 0; level < 2; ++level)
+    for (int i = 0; i < n; ++i) {
+      const double r = level ? 0.4 * radius : radius;
+      for (int k = 0; k < 4; ++k) {
+        const double angle = step * (k < 2 ? i : i + 1), turn = k == 1 ? reach : k == 2 ? -reach : 0;
+        for (int c = 0; c < 3; ++c)
+          control[k][c] = centre[c] + (level ? radius : 0) * direction[c] +
+                          r * ((cos(angle) - turn * sin(angle)) * x[c] + (sin(angle) + turn * cos(angle)) * y[c]);
+      }
+      memcpy(at[level][i], control[0], sizeof control[0]);
+      add_curve(&made, 3, control);
+    }
+  for (int i = 0; i < n; ++i) {
+    const double *a = at[0][i], *b = at[1][i];
+    add_line(&made, a[0], a[1], a[2], b[0], b[1], b[2]);
+  }
+  for (int i = 0; i < n; ++i) {
+    add_patch(&made, i, n + i, 2 * n + i, 2 * n + (i + 1) % n);
+    made.leaflet_id[i] = 2 + i;
+  }
+  return made;
+}
+
+/* Patches in any frame get a flat ring, because their attachment is a circle. */
+static void patches_have_skirts_in_any_frame(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 4; ++trial) {
+    const int owned_before = n_owned();
+    const double centre[3] = {between(-5, 5), between(-5, 5), between(-5, 5)}, radius = between(0.5, 2);
+    double direction[3] = {between(-1, 1), between(-1, 1), 1.2};
+    const double size = length_of(direction), length = 0.2 * radius;
+    for (int c = 0; c < 3; ++c) direction[c] /= size;
+    const shape made = funnel(centre, direction, radius);
+    riis_valve *valve = valve_from(&made);
+    CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", length));
+    riis_surface_options options = surface_options();
+    options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
+    options.half_thickness = 0.05 * radius;
+    const riis_surface *surface = new_surface(valve, &options);
+    const riis_triangles all = triangles_of(surface);
+    const double error = info_of(surface).error_bound + 1e-3 * radius;
+    int n = 0;
+    for (int64_t t = 0; t < all.n_triangles; ++t) {
+      if (all.patch_id[t] < 3) continue;
+      assert_int_equal(all.leaflet_id[t], 5);
+      assert_in_range(all.patch_id[t], 3, 5);
+      for (int k = 0; k < 3; ++k, ++n) {
+        const double *p = all.xyz + 3 * all.vertex_id[3 * t + k];
+        double q[3];
+        for (int c = 0; c < 3; ++c) q[c] = p[c] - centre[c];
+        const double along = dot(q, direction);
+        CHECK_NEAR(along, 0, error);
+        CHECK_NEAR(sqrt(dot(q, q) - along * along),
+                   all.uv[2 * all.vertex_id[3 * t + k] + 1] == 1 ? radius : radius + length, error);
+      }
+    }
+    assert_true(n > 30);
+    free_owned_after(owned_before);
+  }
+}
+
+static void wrong_skirts_are_refused(void **state) {
+  (void)state;
+  riis_surface *surface = NULL;
+  riis_valve *trileaflet = new_valve("trileaflet"), *bileaflet = new_valve("bileaflet");
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'skirt_length' is not a parameter of the bileaflet valve|ring_height",
+                riis_valve_set_scalar(bileaflet, "skirt_length", 0.1));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'skirt_length' is -0.1",
+                riis_valve_set_scalar(trileaflet, "skirt_length", -0.1));
+  CHECK_OK(riis_valve_set_scalar(trileaflet, "skirt_length", 1e-6));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "skirt_length is 1e-06|from 1e-04 to 10 times|attachment from its axis",
+                riis_surface_create(trileaflet, NULL, &surface));
+  CHECK_OK(riis_valve_set_scalar(trileaflet, "skirt_length", 20));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "skirt_length is 20", riis_surface_create(trileaflet, NULL, &surface));
+  const shape square = unit_square();
+  riis_valve *flat = valve_from(&square);
+  CHECK_OK(riis_valve_set_scalar(flat, "skirt_length", 0.1));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "the attachment encloses no area", riis_surface_create(flat, NULL, &surface));
+
+  CHECK_OK(riis_valve_set_scalar(trileaflet, "skirt_length", 0));
+  const riis_surface *bare = new_surface(trileaflet, NULL);
+  const tube_wall round = {{{0, 0, 0}, {0, 0, 1}}, 1.5, 5}, low = {{{0, 0, 0}, {0, 0, 1}}, 1.5, 0.5};
+  const riis_surface *wall = wall_from(&round);
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "the bileaflet valve has no skirt|ring_height",
+                riis_valve_set_skirt_to_wall(bileaflet, wall, 1, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve is NULL", riis_valve_set_skirt_to_wall(NULL, wall, 1, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "wall is NULL", riis_valve_set_skirt_to_wall(trileaflet, NULL, 1, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "longest is 0", riis_valve_set_skirt_to_wall(trileaflet, wall, 0, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "wall is not within longest, 0.1|points of the attachment",
+                riis_valve_set_skirt_to_wall(trileaflet, wall, 0.1, NULL));
+  riis_surface_options options = surface_options();
+  options.scale = 0;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.scale is 0",
+                riis_valve_set_skirt_to_wall(trileaflet, wall, 1, &options));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "the attachment encloses no area",
+                riis_valve_set_skirt_to_wall((riis_valve_set_scalar(flat, "skirt_length", 0), flat), wall, 1, NULL));
+  const riis_surface *short_wall = wall_from(&low);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "wall is not within longest|it is missed",
+                riis_valve_set_skirt_to_wall(trileaflet, short_wall, 1, NULL));
+  double length = 1;
+  CHECK_OK(riis_valve_get(trileaflet, "skirt_length", 1, &length));
+  CHECK_NEAR(length, 0, 0);
+
+  riis_gap gap;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface is NULL", riis_surface_get_gap(NULL, wall, NULL, &gap, sizeof gap));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "wall is NULL", riis_surface_get_gap(bare, NULL, NULL, &gap, sizeof gap));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "gap is NULL", riis_surface_get_gap(bare, wall, NULL, NULL, sizeof gap));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "gap is 8", riis_surface_get_gap(bare, wall, NULL, &gap, 8));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface was made from arrays|a gap needs a valve",
+                riis_surface_get_gap(wall, wall, NULL, &gap, sizeof gap));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface has no attachment",
+                riis_surface_get_gap(surface_of_kind("bileaflet", NULL), wall, NULL, &gap, sizeof gap));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "encloses no area",
+                riis_surface_get_gap(new_surface(flat, NULL), wall, NULL, &gap, sizeof gap));
+  /* A short wall is missed at the commissures. A narrow wall is inside the attachment. */
+  gap = gap_between(bare, short_wall, NULL);
+  assert_true(gap.n_without_wall > 0 && gap.n_without_wall < gap.n_ends);
+  const tube_wall narrow = {{{0, 0, 0}, {0, 0, 1}}, 0.9, 5};
+  const riis_surface *inside = wall_from(&narrow);
+  gap = gap_between(bare, inside, NULL);
+  assert_true(gap.most < 0);
+  CHECK_OK(riis_valve_set_skirt_to_wall(trileaflet, inside, 1, NULL));
+  CHECK_OK(riis_valve_get(trileaflet, "skirt_length", 1, &length));
+  assert_true(length > 0 && length < 2e-4);
+  new_surface(trileaflet, NULL);
+}
+
 static int start(void **state) {
   (void)state;
   rng = random_start("test_skirt");
@@ -400,13 +691,11 @@ static int start(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_outer_edge_is_the_length_away),
-      cmocka_unit_test(leaflets_stay_as_they_are),
-      cmocka_unit_test(the_skirt_continues_the_leaflets),
-      cmocka_unit_test(skirts_cross_nothing),
-      cmocka_unit_test(sides_are_right_beside_the_skirt),
-      cmocka_unit_test(skirts_seal_gaps),
-      cmocka_unit_test(skirts_move_with_the_attachment),
+      cmocka_unit_test(the_outer_edge_is_the_length_away), cmocka_unit_test(leaflets_stay_as_they_are),
+      cmocka_unit_test(the_skirt_continues_the_leaflets),  cmocka_unit_test(skirts_cross_nothing),
+      cmocka_unit_test(sides_are_right_beside_the_skirt),  cmocka_unit_test(skirts_seal_gaps),
+      cmocka_unit_test(skirts_move_with_the_attachment),   cmocka_unit_test(skirts_reach_walls_and_no_farther),
+      cmocka_unit_test(patches_have_skirts_in_any_frame),  cmocka_unit_test(wrong_skirts_are_refused),
   };
   return cmocka_run_group_tests(tests, start, NULL);
 }

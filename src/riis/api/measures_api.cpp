@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defines the public functions for leaflets, orifice, leak, first passage, cells across and swept volume. They check arguments.
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <vector>
@@ -11,8 +12,10 @@
 #include "base/integer_array.hpp"
 #include "common/array_view.hpp"
 #include "marking/cells_across.hpp"
+#include "surface/coaptation.hpp"
 #include "surface/orifice.hpp"
 #include "surface/swept_volume.hpp"
+#include "surface/wall.hpp"
 
 using riis::check_range;
 using riis::guarded;
@@ -37,13 +40,12 @@ riis_resistance resistance_for(const riis_resistance *resistance, const riis::Su
   return whole;
 }
 
-riis_orifice orifice_of(const riis::Surface &surface, const riis::ValveFrame &frame,
-                        const riis_resistance &resistance) {
+riis_orifice orifice_of(const riis::Surface &surface, const riis_resistance &resistance) {
   const double c = resistance.rim == RIIS_RIM_CUT ? riis::rim_reach_cut : riis::rim_reach_round;
   const double eps = resistance.half_thickness;
+  const riis::ValveFrame *frame = surface.frame() ? &*surface.frame() : nullptr;
   const riis::Orifice found = riis::measure_orifice(surface.triangles(), frame, {c * eps, 0.1 * eps});
-  const riis::Vec3 axis = frame.placement.rotation * riis::Vec3{0, 0, 1};
-  const double radius = found.outline == RIIS_OUTLINE_DISC ? frame.placement.scale * frame.disc.radius : 0;
+  const double radius = found.outline == RIIS_OUTLINE_DISC ? frame->placement.scale * frame->disc.radius : 0;
   return {found.area,
           found.outline_area,
           found.perimeter,
@@ -51,7 +53,7 @@ riis_orifice orifice_of(const riis::Surface &surface, const riis::ValveFrame &fr
           c,
           eps,
           radius,
-          {axis.x, axis.y, axis.z},
+          {found.axis.x, found.axis.y, found.axis.z},
           found.outline,
           0};
 }
@@ -155,15 +157,14 @@ extern "C" {
 riis_status riis_surface_get_n_leaflets(const riis_surface *surface, int64_t *n_leaflets) {
   return guarded([&] {
     const riis::Surface &content = riis::content_of(surface);
-    const std::vector<riis_leaflet> leaflets = riis::leaflets_of(content.triangles());
-    *require(n_leaflets, "n_leaflets") = riis::view(leaflets).size();
+    *require(n_leaflets, "n_leaflets") = riis::view(content.leaflet_ids()).size();
   });
 }
 
 riis_status riis_surface_get_leaflet(const riis_surface *surface, int64_t leaflet, riis_leaflet *sizes,
                                      int64_t struct_size) {
   return guarded([&] {
-    const std::vector<riis_leaflet> leaflets = riis::leaflets_of(riis::content_of(surface).triangles());
+    const std::vector<riis_leaflet> &leaflets = riis::content_of(surface).leaflets();
     const auto n = riis::view(leaflets).size();
     if (leaflet < 0 || leaflet >= n)
       riis::fail(RIIS_INVALID_ARGUMENT, "leaflet is ", leaflet, "; the surface has ", n, ", from 0");
@@ -178,11 +179,48 @@ riis_status riis_surface_get_orifice(const riis_surface *surface, const riis_res
     const riis_resistance whole = resistance_for(resistance, content);
     riis::check_struct_size<riis_orifice>(struct_size, "orifice");
     require(orifice, "orifice");
-    if (!content.frame())
+    riis::write_struct(orifice, struct_size, "orifice", orifice_of(content, whole));
+  });
+}
+
+riis_status riis_surface_get_coaptation(const riis_surface *surface, double reach, int32_t leaflet_id,
+                                        riis_coaptation *coaptation, int64_t struct_size) {
+  return guarded([&] {
+    const riis::Surface &content = riis::content_of(surface);
+    const double whole = reach == RIIS_AUTO ? content.half_thickness() : reach;
+    check_range("", "reach", whole, 1e-50, 1e50);
+    riis::check_struct_size<riis_coaptation>(struct_size, "coaptation");
+    require(coaptation, "coaptation");
+    const std::vector<std::int32_t> &ids = content.leaflet_ids();
+    if (leaflet_id != RIIS_ALL_LEAFLETS && std::find(ids.begin(), ids.end(), leaflet_id) == ids.end())
+      riis::fail(RIIS_INVALID_ARGUMENT, "leaflet_id is ", leaflet_id,
+                 ", which the surface lacks; RIIS_ALL_LEAFLETS, -1, stands for all");
+    std::vector<std::int32_t> omitted;
+    if (content.frame()) omitted = {content.frame()->housing, content.frame()->skirt};
+    const riis::TriangleSet &triangles = content.triangles();
+    const auto contacts = riis::contacts_of(triangles, riis::free_edge_parts(triangles), whole, omitted,
+                                            riis::threads_for(0, triangles.n_triangles(), riis::triangles_per_thread));
+    riis_coaptation made{0, 0, whole};
+    for (const auto &[id, contact] : contacts)
+      if (leaflet_id == RIIS_ALL_LEAFLETS || id == leaflet_id) made.area += contact.area, made.edge += contact.edge;
+    riis::write_struct(coaptation, struct_size, "coaptation", made);
+  });
+}
+
+riis_status riis_surface_get_gap(const riis_surface *surface, const riis_surface *wall, double *distance, riis_gap *gap,
+                                 int64_t struct_size) {
+  return guarded([&] {
+    const riis::Surface &content = riis::content_of(surface);
+    const riis::Surface &of_wall = require_handle(wall, "wall")->updatable.surface();
+    riis::check_struct_size<riis_gap>(struct_size, "gap");
+    require(gap, "gap");
+    if (!content.triangles().is_of_patches())
       riis::fail(RIIS_INVALID_ARGUMENT,
-                 "surface was made from arrays or keyframes, which have no axis and no outline: an orifice needs one "
-                 "from a valve");
-    riis::write_struct(orifice, struct_size, "orifice", orifice_of(content, *content.frame(), whole));
+                 "surface was made from arrays, which do not tell attached edges from free ones: a gap needs a valve");
+    const riis::Gap made = riis::gap_of(content.attachment(), {of_wall.triangles(), of_wall.scene()},
+                                        riis::threads_for(0, content.attachment().n_edges(), 2048));
+    if (distance) std::copy(made.distance.begin(), made.distance.end(), distance);
+    riis::write_struct(gap, struct_size, "gap", made.measures);
   });
 }
 
@@ -195,7 +233,7 @@ riis_status riis_surface_get_leak(const riis_surface *surface, const riis_resist
     check_range("", "drop", drop, -1e30, 1e30);
     require(flow, "flow");
     const double area =
-        content.frame() ? riis::area_without(content.triangles(), content.frame()->housing) : content.area();
+        content.frame() ? riis::area_without(content.leaflets(), content.frame()->housing) : content.area();
     *flow = drop * (whole.half_thickness / whole.R) * area;
   });
 }

@@ -101,7 +101,8 @@ class PlannedArcs {
       made.u_lines.push_back({lines_[i], lines_[i], lines_[i]});
       made.offsets.push_back(offsets_[at_[i]]);
     }
-    if (!is_strip_) made.offsets.front() = arc_offset(set_, patch_.u0), made.offsets.back() = arc_offset(set_, patch_.u1);
+    if (!is_strip_)
+      made.offsets.front() = arc_offset(set_, patch_.u0), made.offsets.back() = arc_offset(set_, patch_.u1);
     for (std::size_t i = 0; i < errors.size(); ++i) made.errors.push_back(errors[i].offset(n_parts[i]));
     return made;
   }
@@ -264,7 +265,8 @@ class Planner {
         plan_arcs(i);
     }
     for (std::size_t i = 0; i < set_.patches.size(); ++i)
-      if (plan_.patches[i].has_arcs && patch_of_strip(i) != no_patch) plan_.patches[i] = plan_.patches[patch_of_strip(i)];
+      if (plan_.patches[i].has_arcs && patch_of_strip(i) != no_patch)
+        plan_.patches[i] = plan_.patches[patch_of_strip(i)];
     for (std::size_t i = 0; i < set_.patches.size(); ++i) count(i);
     return std::move(plan_);
   }

@@ -59,7 +59,8 @@ struct Patch {
   // (geometry/bulge.hpp), and u0 and u1 must be such arcs.
   double bulge = 0;
   AttachedSide attached = AttachedSide::none;
-  AxisLine axis = {{0, 0, 0}, {0, 0, 1}};  // before an image is placed; the line that a skirt of this patch leads away from
+  AxisLine axis = {{0, 0, 0},
+                   {0, 0, 1}};  // before an image is placed; the line that a skirt of this patch leads away from
   bool is_skirt = false;
   // Unless this is no_patch, the patch is a skirt at the side v0 of that patch. The side is the skirt's v1.
   std::size_t skirt_of_arcs = no_patch;

@@ -79,11 +79,8 @@ class SkirtMaker {
   void add(const HeldSide &held, std::size_t first_image, std::size_t n_images, const Vector<double> &lengths) {
     const Patch parent = set_.patches[held.patch];
     const Curve inner = along(set_, held.side), outer = outer_curve(inner, parent, lengths);
-    Patch strip{{add_curve(outer)},
-                held.side,
-                {line(outer.first(), inner.first())},
-                {line(outer.last(), inner.last())},
-                {}};
+    Patch strip{
+        {add_curve(outer)}, held.side, {line(outer.first(), inner.first())}, {line(outer.last(), inner.last())}, {}};
     for (std::size_t i = first_image; i < first_image + n_images; ++i) {
       PatchImage image = parent.images[i];
       image.leaflet_id = leaflet_id_;
@@ -103,8 +100,7 @@ class SkirtMaker {
       if (set_.patches[seam.patch].attached != AttachedSide::u1) continue;
       const auto own = places_.find({seam.patch, seam.image}), other = places_.find({seam.patch_of_twin(), seam.twin});
       if (own == places_.end() || other == places_.end()) continue;
-      set_.seams.push_back(
-          {own->second[0], own->second[1], other->second[1], SeamPlace::side_u1, other->second[0]});
+      set_.seams.push_back({own->second[0], own->second[1], other->second[1], SeamPlace::side_u1, other->second[0]});
     }
   }
 
@@ -155,36 +151,34 @@ class SkirtMaker {
   std::map<std::array<std::size_t, 2>, std::array<std::size_t, 2>> places_;  // strip and image of a patch and its image
 };
 
-// Fails unless every end of a side has an outward direction. Returns the mean distance of the ends from their axes.
-double checked_radius(const PatchSet &set, const Vector<HeldSide> &sides) {
-  if (sides.empty())
-    fail(RIIS_INVALID_PARAMETER,
-         "skirt_length is not 0, but the valve has no attachment: no side v = 0 belongs to one patch only");
-  double sum = 0;
-  for (const HeldSide &held : sides) {
-    const AxisLine &axis = set.patches[held.patch].axis;
-    if (axis.direction == Vec3{0, 0, 0})
-      fail(RIIS_INVALID_PARAMETER,
-           "skirt_length is not 0, but the attachment encloses no area: nothing tells which way is outwards");
-    const Curve &curve = set.curve_of(held.side);
-    for (const double share : {0.0, 0.5, 1.0}) {
-      const Vec3 p = curve.at(share), q = p - axis.centre;
-      const double radius = length(q - dot(q, axis.direction) * axis.direction);
-      if (!(radius > 1e-6 * curve.length()))
-        fail(RIIS_INVALID_PARAMETER, "skirt_length is not 0, but the attachment of patch ",
-             set.patches[held.patch].images.front().patch_id, " reaches its axis: nothing tells which way is outwards");
-      sum += radius;
-    }
-  }
-  return sum / static_cast<double>(3 * sides.size());
-}
-
 }  // namespace
 
 Vec3 outwards(const AxisLine &axis, Vec3 point) {
   const Vec3 from_axis = point - axis.centre, q = from_axis - dot(from_axis, axis.direction) * axis.direction;
   const double size = length(q);
   return size > 0 ? Vec3{q.x / size, q.y / size, q.z / size} : Vec3{0, 0, 0};
+}
+
+double attachment_radius(const PatchSet &set, const Vector<HeldSide> &sides) {
+  if (sides.empty())
+    fail(RIIS_INVALID_PARAMETER,
+         "a skirt needs an attachment, but the valve has none: no side v = 0 belongs to one patch only");
+  double sum = 0;
+  for (const HeldSide &held : sides) {
+    const AxisLine &axis = set.patches[held.patch].axis;
+    if (axis.direction == Vec3{0, 0, 0})
+      fail(RIIS_INVALID_PARAMETER, "a skirt has no direction, because the attachment encloses no area");
+    const Curve &curve = set.curve_of(held.side);
+    for (const double share : {0.0, 0.5, 1.0}) {
+      const Vec3 p = curve.at(share), q = p - axis.centre;
+      const double radius = length(q - dot(q, axis.direction) * axis.direction);
+      if (!(radius > 1e-6 * curve.length()))
+        fail(RIIS_INVALID_PARAMETER, "a skirt has no direction at (", p.x, ", ", p.y, ", ", p.z,
+             "), where the attachment reaches its axis");
+      sum += radius;
+    }
+  }
+  return sum / static_cast<double>(3 * sides.size());
 }
 
 Vector<HeldSide> held_sides(const PatchSet &set) {
@@ -202,7 +196,8 @@ Vector<HeldSide> held_sides(const PatchSet &set) {
 }
 
 void aim_skirt(PatchSet &set, SkirtAxis axis) {
-  if (axis == SkirtAxis::none || axis == SkirtAxis::of_cusp) return;  // patches have the axis of their cusp from the start
+  if (axis == SkirtAxis::none || axis == SkirtAxis::of_cusp)
+    return;  // patches have the axis of their cusp from the start
   const Vector<HeldSide> sides = held_sides(set);
   AxisLine whole = axis_of_attachment(set, sides);
   if (axis == SkirtAxis::vertical) whole.direction = {0, 0, 1};
@@ -229,13 +224,12 @@ std::int32_t skirt_leaflet(const PatchSet &set) {
 
 void add_skirt(PatchSet &set, double length, const SkirtLengths &lengths) {
   const Vector<HeldSide> sides = held_sides(set);
-  const double radius = checked_radius(set, sides);
+  const double radius = attachment_radius(set, sides);
   SkirtMaker maker(set);
   if (lengths.empty()) {
-    constexpr double least = 1e-4, most = 10;
-    if (!(length >= least * radius && length <= most * radius))
-      fail(RIIS_INVALID_PARAMETER, "skirt_length is ", length, "; it must be 0, or from ", least, " to ", most,
-           " times the mean distance of the attachment from its axis, which is ", radius);
+    if (!(length >= least_skirt * radius && length <= most_skirt * radius))
+      fail(RIIS_INVALID_PARAMETER, "skirt_length is ", length, "; it must be 0, or from ", least_skirt, " to ",
+           most_skirt, " times the mean distance of the attachment from its axis, which is ", radius);
     const Vector<double> even(n_even_parts + 1, length);
     for (const HeldSide &held : sides) maker.add(held, 0, set.patches[held.patch].images.size(), even);
   } else {

@@ -35,6 +35,12 @@ Vector<HeldSide> held_sides(const PatchSet &set);
 using SkirtLengths = Vector<Vector<double>>;
 inline constexpr std::size_t n_skirt_parts = 32;  // of each side with such lengths
 
+// Returns the mean distance of the attachment from its axis. Fails with RIIS_INVALID_PARAMETER unless every side has an outward
+// direction.
+double attachment_radius(const PatchSet &set, const Vector<HeldSide> &sides);
+// A skirt is at least and at most this many such distances long.
+inline constexpr double least_skirt = 1e-4, most_skirt = 10;
+
 // Returns the unit vector from the axis through the point, perpendicular to the axis. It is 0 if the point is on the axis.
 Vec3 outwards(const AxisLine &axis, Vec3 point);
 

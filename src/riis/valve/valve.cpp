@@ -163,7 +163,8 @@ void Valve::check_same_but_for_opening(const Valve &other) const {
   if (kind_->check_states) kind_->check_states(state_, other.state_, "the valve");
   check_same_state(*kind_, state_, other.state_, "");
   if (skirt_lengths_ != other.skirt_lengths_)
-    fail(RIIS_INVALID_PARAMETER, "the skirt's lengths to the wall differ from those that the surface's triangulation is ",
+    fail(RIIS_INVALID_PARAMETER,
+         "the skirt's lengths to the wall differ from those that the surface's triangulation is ",
          "fixed for: only opening and placement may move");
   if (open_.has_value() != other.open_.has_value())
     fail(RIIS_INVALID_PARAMETER, "the valve has ", other.open_ ? "an" : "no", " open state", fixed_for,
