@@ -65,7 +65,7 @@ class Measuring {
   }
 
  private:
-  static constexpr double small = 1.0 / 16;  // of the reach
+  static constexpr double small = 1.0 / 8;  // of the reach
 
   double halves(Vec3 tip, Vec3 from, Vec3 to) const {
     const Vec3 middle = 0.5 * (from + to);
