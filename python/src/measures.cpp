@@ -53,8 +53,7 @@ nb::object gap(Surface &self, nb::handle wall_) {
   riis_attachment held;
   call_shortly(riis_surface_get_attachment(self.handle, &held, sizeof held));
   std::vector<double> distance(static_cast<std::size_t>(2 * held.n_edges));
-  call_library(
-      [&] { return riis_surface_get_gap(self.handle, wall.handle, distance.data(), &made, sizeof made); });
+  call_library([&] { return riis_surface_get_gap(self.handle, wall.handle, distance.data(), &made, sizeof made); });
   nb::object distances = copy_of(distance.data(), {static_cast<std::size_t>(held.n_edges), 2});
   return record("Gap")(made.least, made.mean, made.most, array_of(made.widest_point, "float64"), distances,
                        made.n_without_wall);
@@ -170,10 +169,10 @@ void add_measures(nb::module_ &module) {
   add_method(module, "Surface", "leaflets", &leaflets,
              nb::sig("def leaflets(self) -> list[riis._records.LeafletSizes]"),
              "Returns the sizes of each leaflet, ascending by leaflet_id.");
-  add_method(
-      module, "Surface", "orifice", &orifice, nb::kw_only(), nb::arg("half_thickness").none() = nb::none(),
-      nb::arg("rim").none() = "round", nb::sig("def orifice(self, *, " RIIS_RIM_MODEL ") -> riis._records.Orifice"),
-      R"(Measures the orifice of a surface, the area that its triangles leave uncovered, seen along its axis.
+  add_method(module, "Surface", "orifice", &orifice, nb::kw_only(), nb::arg("half_thickness").none() = nb::none(),
+             nb::arg("rim").none() = "round",
+             nb::sig("def orifice(self, *, " RIIS_RIM_MODEL ") -> riis._records.Orifice"),
+             R"(Measures the orifice of a surface, the area that its triangles leave uncovered, seen along its axis.
 
 The outline of a surface from arrays or keyframes is its longest open boundary.
 

@@ -21,10 +21,11 @@ namespace {
 
 const std::vector<std::string> case_keys = {"mesh",       "unit",  "half_thickness", "distance_limit",
                                             "resistance", "times", "valves",         "check_leaks"};
-const std::vector<std::string> valve_keys = {
-    "name",      "valve",          "surface",      "leaflets",       "parameters",    "open_parameters",
-    "opening",   "half_thickness", "resistance",   "scale",          "surface_unit",  "rotate",
-    "translate", "tolerance",      "flip_normals", "skip_zero_area", "triangulation", "period"};
+const std::vector<std::string> valve_keys = {"name",          "valve",           "surface",      "leaflets",
+                                             "parameters",    "open_parameters", "opening",      "half_thickness",
+                                             "resistance",    "scale",           "surface_unit", "rotate",
+                                             "translate",     "tolerance",       "flip_normals", "skip_zero_area",
+                                             "triangulation", "period",          "skirt",        "wall"};
 
 class CaseReader {
  public:
@@ -106,6 +107,9 @@ class CaseReader {
     if (is_valve_file(options.valve)) options.valve = file_of(values, "valve");
     read_placement(values, options);
     if (const auto own = values.at_least_zero("resistance")) options.resistance = own;
+    options.skirt = values.above_zero("skirt");
+    options.wall = file_of(values, "wall");
+    if (!options.wall.empty() && !options.skirt) values.refuse("wall", "it needs \"skirt\", the longest skirt");
     if (options.surface.empty())
       make_valve_of(values, source);
     else
@@ -169,6 +173,7 @@ class CaseReader {
       set_parameters_of(values, "parameters", file.valve());
       set_law(values, file.valve(), source);
       file.check_opening();
+      set_skirt(source.options, file.valve(), source.subject);
       source.valve = file.take_valve();
       return;
     }
@@ -181,6 +186,7 @@ class CaseReader {
       source.has_open_state = true;
     }
     set_law(values, source.valve.get(), source);
+    set_skirt(source.options, source.valve.get(), source.subject);
   }
 
   // Sets parameters from an object, or from a file if the value is a path.
@@ -207,7 +213,7 @@ class CaseReader {
   }
 
   void make_surface_of(const CaseValues &values, ValveSource &source) {
-    for (const char *key : {"parameters", "open_parameters", "opening", "tolerance", "triangulation"})
+    for (const char *key : {"parameters", "open_parameters", "opening", "tolerance", "triangulation", "skirt", "wall"})
       if (values.has(key)) values.refuse(key, "it cannot be combined with \"surface\"");
     Seconds seconds;
     if (!is_motion_file(source.options.surface)) {

@@ -88,6 +88,13 @@ opening 0. With --params-open, the other options give the closed state. That fil
 state. An opening in that file has no effect. The paper's aortic valve, at opening 0 with the default parameters, is not
 closed. Seen along its axis, 19 % of a disc of radius 1.2 cm stay open. --valve trileaflet closes.
 )"},
+    {"skirt", "a strip that closes the gap to the wall",
+     R"(
+--skirt L gives a valve a strip of the length L, in the mesh's unit. It leads outwards from the attachment and closes the gap
+to the wall. The parameter skirt_length is the same length in the valve's own unit. With --wall FILE, a surface in the mesh's
+frame and unit, the skirt reaches that wall, and no farther. L is then the longest skirt to accept. The program prints the
+gap. A wall that is missed or farther away is refused. In a case, "skirt" and "wall" are keys of a valve.
+)"},
     {"patches", "a file of curves for a valve of your own",
      R"(
 --valve FILE.json is a valve from patches, by the curves that bound them:

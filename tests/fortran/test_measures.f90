@@ -117,9 +117,10 @@ contains
     call check_refused(status, RIIS_INVALID_PARAMETER, 'the bileaflet valve has no skirt')
     call riis_get_leaflet(surface, 2, leaflet)
     call riis_get_coaptation(surface, contact, leaflet_id=1)
-    call check(abs(contact%edge - leaflet%free_edge) < 1d-12 .and. contact%area > 0 .and. contact%reach == 0.1d0, 'contact')
+    call check(abs(contact%edge - leaflet%free_edge) < 1d-12 .and. contact%area > 0 .and. &
+      abs(contact%reach - 0.1d0) < 1d-15, 'contact')
     call riis_get_coaptation(surface, contact, reach=0.05d0)
-    call check(abs(contact%edge - 3 * leaflet%free_edge) < 1d-9 .and. contact%reach == 0.05d0, 'contact of all')
+    call check(abs(contact%edge - 3 * leaflet%free_edge) < 1d-9 .and. abs(contact%reach - 0.05d0) < 1d-15, 'contact of all')
     call riis_get_coaptation(surface, contact, leaflet_id=7, status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'leaflet_id is 7')
     call prosthesis%destroy()

@@ -55,7 +55,7 @@ static double edge_length(const double *edge) {
   return sqrt(pow(edge[3] - edge[0], 2) + pow(edge[4] - edge[1], 2) + pow(edge[5] - edge[2], 2));
 }
 
-/* Returns the area that the attachment encloses, seen along z. The edges of one half of a mirrored valve run the other way, so the
+/* Returns the area that the attachment encloses, seen along z. The edges of one half of a mirrored valve run the other way. So the
  * area is summed around the middle without signs. It is the whole area if the attachment is seen once from there. */
 static double area_of_attachment(const riis_surface *surface) {
   riis_attachment held;
@@ -83,8 +83,8 @@ static double length_of_commissure(const riis_surface *surface) {
   return length;
 }
 
-/* A valve's triangles, given as arrays, have the valve's free edges. Patches have vertices inside the edges of their neighbours, and
- * these edges are no boundary. The attachment is the outline. */
+/* A valve's triangles, given as arrays, have the valve's free edges. Patches have vertices inside the edges of their neighbours,
+ * and these edges are no boundary. The attachment is the outline. */
 static void arrays_have_the_edges_of_their_valve(void **state) {
   (void)state;
   static const char *const kinds[3] = {"trileaflet", "aortic", "mitral"};
@@ -104,7 +104,7 @@ static void arrays_have_the_edges_of_their_valve(void **state) {
     CHECK_OK(riis_surface_get_n_leaflets(surface, &n));
     assert_int_equal(n, kind == 2 ? 2 : 3);
     if (kind == 1) {
-      /* The paper's cusps are not joined at the commissures. So each has a boundary of its own, and one of them is the outline. */
+      /* The paper's cusps are not joined at the commissures. So each has a boundary of its own, and one of them is taken. */
       assert_int_equal(orifice_of(surface).outline, RIIS_OUTLINE_BOUNDARY);
       free_owned_after(owned_before);
       continue;
@@ -119,8 +119,7 @@ static void arrays_have_the_edges_of_their_valve(void **state) {
     double opening;
     CHECK_OK(riis_valve_get(valve, "opening", 1, &opening));
     if (kind == 2 && opening == 1) {
-      /* The annulus of the open mitral valve is flat, so the axis is that of the valve. Normals point into the ventricle, which is
-       * below. */
+      /* The annulus of the open mitral valve is flat, so the axis is that of the valve. Normals point into the ventricle, below. */
       CHECK_NEAR(found.outline_area, s * s * of_valve.outline_area, 1e-3 * s * s * of_valve.outline_area);
       CHECK_NEAR(found.area, s * s * of_valve.area, 1e-3 * s * s * of_valve.outline_area);
       const riis_orifice there = orifice_of(new_surface(valve, &placed));
