@@ -68,6 +68,7 @@ void skirt_to_wall(Valve &self, nb::handle wall_, nb::handle longest_, const nb:
   call_shortly(riis_surface_options_init(&options, sizeof options));
   set_surface_options(options, surface_options, "skirt_to_wall");
   call_library([&] { return riis_valve_set_skirt_to_wall(self.handle, wall.handle, longest, &options); });
+  self.has_wall_lengths = true;
 }
 
 double leak(Surface &self, nb::handle drop, nb::handle R, nb::handle half_thickness) {

@@ -45,6 +45,7 @@ void set(Valve &valve, nb::handle key, nb::handle value) {
     call_shortly(riis_valve_set(valve.handle, name.c_str(), 3, values));
   } else {
     call_shortly(riis_valve_set_scalar(valve.handle, name.c_str(), number(value, name.c_str())));
+    if (name == "skirt_length") valve.has_wall_lengths = false;
   }
 }
 
@@ -92,6 +93,7 @@ Valve *copy(Valve &valve) {
   made->kind = valve.kind;
   made->patches = valve.patches;
   made->open = valve.open;
+  made->has_wall_lengths = valve.has_wall_lengths;
   call_shortly(riis_valve_copy(valve.handle, &made->handle));
   return made.release();
 }
@@ -196,7 +198,12 @@ nb::dict values_of(Valve &valve) {
 }
 
 // Returns the values from which pickle makes the valve.
-nb::tuple state_of(Valve &valve) { return nb::make_tuple(valve.kind, values_of(valve), valve.open, valve.patches); }
+nb::tuple state_of(Valve &valve) {
+  if (valve.has_wall_lengths)
+    raise_status(RIIS_INVALID_ARGUMENT,
+                 "valve: its skirt reaches a wall, and the lengths cannot be pickled: pickle it before skirt_to_wall");
+  return nb::make_tuple(valve.kind, values_of(valve), valve.open, valve.patches);
+}
 
 void make_from_state(Valve *self, const nb::tuple &state) {
   const nb::object kind = state[0], open = state[2], patches = state[3];
@@ -262,7 +269,7 @@ curve_id     (n_patches, 4) int32: the curves at v = 0, v = 1, u = 0, u = 1, cou
 reversed     (n_patches, 4) int32: 1 if the side runs opposite to its curve
 leaflet_id   (n_patches,) int32, >= 0; default 0
 
-The valve's only parameter is 'opening'. Arrays are copied.)")
+The valve's parameters are 'opening' and 'skirt_length'. Arrays are copied.)")
       .def("__setitem__", &set, nb::arg("name").none(), nb::arg("value").none(),
            nb::sig("def __setitem__(self, name: str, value: float | collections.abc.Sequence[float] | "
                    "numpy.typing.NDArray[numpy.float64]) -> None"),

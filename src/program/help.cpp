@@ -103,8 +103,8 @@ gap. A wall that is missed or farther away is refused. In a case, "skirt" and "w
  "patches": [{"v0": "hinge", "v1": "edge", "u0": "left", "u1": "-right", "leaflet": 0}]}
 2, 3 or 4 points control a curve of degree 1, 2 or 3. One point stands for a side that collapses to a point. A minus reverses
 a curve. v0 and v1 run from u0 to u1; u0 and u1 run from v0 to v1. The default of "leaflet" is 0. "open": {"curves": {...}}
-beside "patches" holds all curves at --opening 1. Without it the valve stays at opening 0. The valve's only parameter is
-opening.
+beside "patches" holds all curves at --opening 1. Without it the valve stays at opening 0. The valve's parameters are
+opening and skirt_length.
 )"},
     {"series", "many times: .pvd, movies, tables",
      R"(

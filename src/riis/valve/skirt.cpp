@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "base/errors.hpp"
@@ -117,6 +118,18 @@ class SkirtMaker {
     return found->second;
   }
 
+  // Returns the growth of the length at one of the shares, for each step. Between two shares, the length then stays between the
+  // lengths there, so a skirt does not overshoot at a corner of the wall (F. N. Fritsch, R. E. Carlson 1980).
+  static double growth_at(const Vector<double> &lengths, std::size_t i) {
+    const double before = i == 0 ? 0 : lengths[i] - lengths[i - 1];
+    const double after = i + 1 == lengths.size() ? 0 : lengths[i + 1] - lengths[i];
+    if (i == 0) return after;
+    if (i + 1 == lengths.size()) return before;
+    if (!(before * after > 0)) return 0;
+    const double most = 2 * std::min(std::abs(before), std::abs(after)), mean = 0.5 * (before + after);
+    return std::clamp(mean, -most, most);
+  }
+
   // Each part is the cubic with the exact points and the exact derivatives by the share at both of its ends.
   static Curve outer_curve(const Curve &inner, const Patch &parent, const Vector<double> &lengths) {
     const std::size_t n = lengths.size() - 1;
@@ -131,8 +144,7 @@ class SkirtMaker {
       const Vec3 q = from_axis - dot(from_axis, d) * d, out = outwards(parent.axis, p);
       const Vec3 along = inner.length() * tangent, across = along - dot(along, d) * d;
       const Vec3 turn = (1 / length(q)) * (across - dot(across, out) * out);
-      const std::size_t before = i == 0 ? 0 : i - 1, after = i == n ? n : i + 1;
-      const double growth = (lengths[after] - lengths[before]) / (step * static_cast<double>(after - before));
+      const double growth = growth_at(lengths, i) / step;
       return along + lengths[i] * turn + growth * out;
     };
     Vector<Bezier> pieces;
