@@ -105,9 +105,9 @@ def test_a_skirt_reaches_a_wall():
     assert gap.most - 0.01 < valve["skirt_length"] < 8**0.5 - radius.min()  # a corner lies between two ends of edges
     reaching = riis.Surface(valve)
     assert [leaflet.leaflet_id for leaflet in reaching.leaflets()] == [0, 1, 2, 3]
-    assert abs(numpy.abs(reaching.xyz[:, :2]).max() - 2) < 0.02
+    assert abs(numpy.abs(reaching.vertices[:, :2]).max() - 2) < 0.02
     assert reaching.orifice().area == bare.orifice().area
-    assert numpy.array_equal(riis.Surface(valve.copy()).xyz, reaching.xyz)
+    assert numpy.array_equal(riis.Surface(valve.copy()).vertices, reaching.vertices)
     with pytest.raises(riis.InvalidArgumentError, match="cannot be pickled"):
         pickle.dumps(valve)
     valve["skirt_length"] = 0.0

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Implements `riis states`: free edges, leaflet areas, the orifice and the coaptation. A valve is measured at openings from 0 to 1,
-// in its own frame. A surface from a file is measured as it is, or at the times of its frames.
+// Implements `riis states`: free edges, leaflet areas, the orifice and the coaptation. A valve is measured at openings from 0 to
+// 1, in its own frame. A surface from a file is measured as it is, or at the times of its frames.
 #pragma once
 
 #include <cstdint>

@@ -55,8 +55,8 @@ static double edge_length(const double *edge) {
   return sqrt(pow(edge[3] - edge[0], 2) + pow(edge[4] - edge[1], 2) + pow(edge[5] - edge[2], 2));
 }
 
-/* Returns the area that the attachment encloses, seen along z. The edges of one half of a mirrored valve run the other way. So the
- * area is summed around the middle without signs. It is the whole area if the attachment is seen once from there. */
+/* Returns the area that the attachment encloses, seen along z. The edges of one half of a mirrored valve run the other way. So
+ * the area is summed around the middle without signs. It is the whole area if the attachment is seen once from there. */
 static double area_of_attachment(const riis_surface *surface) {
   riis_attachment held;
   CHECK_OK(riis_surface_get_attachment(surface, &held, sizeof held));
@@ -119,7 +119,7 @@ static void arrays_have_the_edges_of_their_valve(void **state) {
     double opening;
     CHECK_OK(riis_valve_get(valve, "opening", 1, &opening));
     if (kind == 2 && opening == 1) {
-      /* The annulus of the open mitral valve is flat, so the axis is that of the valve. Normals point into the ventricle, below. */
+      /* The annulus of the open mitral valve is flat, so the axis is that of the valve. Normals point down into the ventricle. */
       CHECK_NEAR(found.outline_area, s * s * of_valve.outline_area, 1e-3 * s * s * of_valve.outline_area);
       CHECK_NEAR(found.area, s * s * of_valve.area, 1e-3 * s * s * of_valve.outline_area);
       const riis_orifice there = orifice_of(new_surface(valve, &placed));

@@ -20,9 +20,9 @@ struct OpenEdge {
 // count. Where a vertex lies inside the edge of a neighbour, the edges on both sides cancel.
 std::vector<OpenEdge> open_edges(const TriangleSet &set, bool by_leaflet);
 
-// Returns the edges of the longest closed line of open edges, in order. Returns nothing if there is none. Where several lines meet
-// in one vertex, a line goes on at other triangles than those it came along: the attachments of cusps that meet at commissures are
-// one line, and their free edges are another.
+// Returns the edges of the longest closed line of open edges, in order. Returns nothing if there is none. Where several lines
+// meet in one vertex, a line goes on at other triangles than those it came along. So the attachments of cusps that meet at
+// commissures are one line, and their free edges are another.
 std::vector<OpenEdge> longest_boundary(const TriangleSet &set);
 
 }  // namespace riis
