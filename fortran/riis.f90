@@ -52,12 +52,13 @@ module riis
     c_f_procpointer
   use, intrinsic :: iso_fortran_env, only: int32
   use riis_c, only: riis_status, riis_surface_info, riis_closest, riis_mark_stats, riis_c_text, &
-    riis_c_text_length, riis_last_error, riis_band_sums, riis_passage, riis_leaflet, riis_orifice, &
+    riis_c_text_length, riis_last_error, riis_band_sums, riis_passage, riis_leaflet, riis_orifice, riis_coaptation, riis_gap, &
     riis_first_passage, riis_cells_across, riis_warp_info, &
     RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, RIIS_INVALID_PARAMETER, RIIS_INVALID_SURFACE, &
     RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, RIIS_INTERNAL_ERROR, &
     RIIS_LOG_INFO, RIIS_LOG_WARNING, RIIS_LEAFLET_RIGHT, RIIS_LEAFLET_LEFT, RIIS_LEAFLET_NON_CORONARY, &
     RIIS_LEAFLET_ANTERIOR, RIIS_LEAFLET_POSTERIOR, RIIS_LEAFLET_POSITIVE, RIIS_LEAFLET_NEGATIVE, RIIS_LEAFLET_HOUSING, &
+    RIIS_LEAFLET_SKIRT, &
     RIIS_MEASURE_TRIANGLES, RIIS_MEASURE_SAMPLING, RIIS_MEASURE_MINIMIZATION, &
     RIIS_SEARCH_AUTO, RIIS_SEARCH_EXHAUSTIVE, RIIS_SEARCH_NEIGHBOR, &
     RIIS_SEARCH_PAPER, RIIS_SEARCH_CLUSTERS, RIIS_INSTRUCTIONS_AUTO, RIIS_INSTRUCTIONS_BASELINE, &
@@ -66,7 +67,8 @@ module riis
     RIIS_FIELD_VELOCITY, RIIS_FIELD_PATCH, RIIS_LIST_MARKED, RIIS_LIST_WITHIN_LIMIT, RIIS_RIM_ROUND, RIIS_RIM_CUT, &
     RIIS_INTERPOLATION_LINEAR, RIIS_INTERPOLATION_CUBIC, RIIS_PHASE_CLOSING, RIIS_PHASE_OPENING, &
     RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED, RIIS_PASSAGE_CLOSED, RIIS_PASSAGE_OPEN, RIIS_PASSAGE_NONE, &
-    RIIS_OUTLINE_NONE, RIIS_OUTLINE_DISC, RIIS_OUTLINE_ATTACHMENT, RIIS_FIRST_PASSAGE_FOUND, RIIS_FIRST_PASSAGE_ALWAYS, &
+    RIIS_OUTLINE_NONE, RIIS_OUTLINE_DISC, RIIS_OUTLINE_ATTACHMENT, RIIS_OUTLINE_BOUNDARY, &
+    RIIS_FIRST_PASSAGE_FOUND, RIIS_FIRST_PASSAGE_ALWAYS, &
     RIIS_FIRST_PASSAGE_NEVER, RIIS_FIRST_PASSAGE_NONE, RIIS_ALL_LEAFLETS, &
     RIIS_LANDMARK_COMMISSURE, RIIS_LANDMARK_NADIR, RIIS_LANDMARK_COAPTATION, RIIS_LANDMARK_ANNULUS, &
     RIIS_LANDMARK_ANTERIOR_HORN, RIIS_LANDMARK_POSTERIOR_HORN, RIIS_LANDMARK_TRIGONE, RIIS_LANDMARK_POSTEROMEDIAL, &
@@ -84,7 +86,9 @@ module riis
   use riis_leaking, only: riis_leaks, riis_leak_list, riis_find_leaks
   use riis_crossing, only: riis_crossings, riis_crossing_list, riis_find_crossings
   use riis_passages, only: riis_label_open_regions, riis_find_passage
-  use riis_measures, only: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_leak, riis_get_cells_across, &
+  use riis_measures, only: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_coaptation, riis_get_gap, &
+    riis_set_skirt_to_wall, &
+    riis_get_leak, riis_get_cells_across, &
     riis_get_swept_volume, riis_find_first_passage
   use riis_placing, only: riis_place
   use riis_laws, only: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, &
@@ -94,9 +98,10 @@ module riis
   public :: riis_valve, riis_parameter_info, riis_surface, riis_surface_info, riis_closest, riis_mesh, riis_adjacency, &
     riis_marks, riis_mark_list, riis_mark_nodes, riis_mark_stats, riis_band_sums, riis_find_leaks, riis_leaks, riis_leak_list, &
     riis_keyframes, riis_label_open_regions, riis_find_passage, riis_passage, riis_find_crossings, riis_crossings, &
-    riis_crossing_list, riis_attachment, riis_triangles, riis_leaflet, riis_orifice, riis_first_passage, riis_cells_across, &
-    riis_warp, riis_warp_info, riis_valve_patches
-  public :: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_leak, riis_get_cells_across, &
+    riis_crossing_list, riis_attachment, riis_triangles, riis_leaflet, riis_orifice, riis_coaptation, riis_gap, &
+    riis_first_passage, riis_cells_across, riis_warp, riis_warp_info, riis_valve_patches
+  public :: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_coaptation, riis_get_gap, &
+    riis_set_skirt_to_wall, riis_get_leak, riis_get_cells_across, &
     riis_get_swept_volume, riis_find_first_passage
   public :: riis_place, riis_placement, &
     RIIS_LANDMARK_COMMISSURE, RIIS_LANDMARK_NADIR, RIIS_LANDMARK_COAPTATION, RIIS_LANDMARK_ANNULUS, &
@@ -111,6 +116,7 @@ module riis
     RIIS_INTERNAL_ERROR
   public :: RIIS_LOG_INFO, RIIS_LOG_WARNING, RIIS_LEAFLET_RIGHT, RIIS_LEAFLET_LEFT, RIIS_LEAFLET_NON_CORONARY, &
     RIIS_LEAFLET_ANTERIOR, RIIS_LEAFLET_POSTERIOR, RIIS_LEAFLET_POSITIVE, RIIS_LEAFLET_NEGATIVE, RIIS_LEAFLET_HOUSING, &
+    RIIS_LEAFLET_SKIRT, &
     RIIS_MEASURE_TRIANGLES, RIIS_MEASURE_SAMPLING, RIIS_MEASURE_MINIMIZATION, &
     RIIS_SEARCH_AUTO, RIIS_SEARCH_EXHAUSTIVE, RIIS_SEARCH_NEIGHBOR, &
     RIIS_SEARCH_PAPER, RIIS_SEARCH_CLUSTERS, RIIS_INSTRUCTIONS_AUTO, RIIS_INSTRUCTIONS_BASELINE, &
@@ -119,7 +125,8 @@ module riis
     RIIS_FIELD_VELOCITY, RIIS_FIELD_PATCH, RIIS_LIST_MARKED, RIIS_LIST_WITHIN_LIMIT, RIIS_RIM_ROUND, RIIS_RIM_CUT, &
     RIIS_INTERPOLATION_LINEAR, RIIS_INTERPOLATION_CUBIC, RIIS_PHASE_CLOSING, RIIS_PHASE_OPENING, &
     RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED, RIIS_PASSAGE_CLOSED, RIIS_PASSAGE_OPEN, RIIS_PASSAGE_NONE, &
-    RIIS_OUTLINE_NONE, RIIS_OUTLINE_DISC, RIIS_OUTLINE_ATTACHMENT, RIIS_FIRST_PASSAGE_FOUND, RIIS_FIRST_PASSAGE_ALWAYS, &
+    RIIS_OUTLINE_NONE, RIIS_OUTLINE_DISC, RIIS_OUTLINE_ATTACHMENT, RIIS_OUTLINE_BOUNDARY, &
+    RIIS_FIRST_PASSAGE_FOUND, RIIS_FIRST_PASSAGE_ALWAYS, &
     RIIS_FIRST_PASSAGE_NEVER, RIIS_FIRST_PASSAGE_NONE, RIIS_ALL_LEAFLETS
 
   integer, parameter, public :: riis_id = c_int64_t         !< The kind of node, triangle and vertex ids. It is for codes in

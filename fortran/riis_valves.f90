@@ -98,10 +98,10 @@ contains
     call finish(code, status)
   end subroutine valve_copy
 
-  !> Makes a valve, such as a prosthesis, from Coons patches, each given by its four boundary curves. Its only parameter is
-  !! 'opening'. The sides v = 0 and v = 1 run from the side u = 0 to the side u = 1. The sides u = 0 and u = 1 run from v = 0 to v
-  !! = 1. Corners must meet to 1e-9 of the valve's size. Normals point along S_u x S_v. All arrays are read during the call only,
-  !! and sections that are not contiguous are copied. Errors: RIIS_INVALID_ARGUMENT for sizes that do not match,
+  !> Makes a valve, such as a prosthesis, from Coons patches, each given by its four boundary curves. Its parameters are 'opening'
+  !! and 'skirt_length'. The sides v = 0 and v = 1 run from the side u = 0 to the side u = 1. The sides u = 0 and u = 1 run from v
+  !! = 0 to v = 1. Corners must meet to 1e-9 of the valve's size. Normals point along S_u x S_v. All arrays are read during
+  !! the call only, and sections that are not contiguous are copied. Errors: RIIS_INVALID_ARGUMENT for sizes that do not match,
   !! RIIS_INVALID_PARAMETER naming the curve or patch and its value.
   subroutine valve_from_patches_int32(this, degree, control, curve_id, reversed, leaflet_id, index_base, status)
     class(riis_valve), intent(inout) :: this                     !< Must be empty.

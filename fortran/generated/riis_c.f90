@@ -66,6 +66,7 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_LEAFLET_POSITIVE = 0
   integer(c_int32_t), parameter :: RIIS_LEAFLET_NEGATIVE = 1
   integer(c_int32_t), parameter :: RIIS_LEAFLET_HOUSING = 2
+  integer(c_int32_t), parameter :: RIIS_LEAFLET_SKIRT = 3
 
   integer(c_int32_t), parameter :: RIIS_ZERO_AREA_REFUSE = 0
   integer(c_int32_t), parameter :: RIIS_ZERO_AREA_SKIP = 1
@@ -113,6 +114,7 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_OUTLINE_NONE = 0
   integer(c_int32_t), parameter :: RIIS_OUTLINE_DISC = 1
   integer(c_int32_t), parameter :: RIIS_OUTLINE_ATTACHMENT = 2
+  integer(c_int32_t), parameter :: RIIS_OUTLINE_BOUNDARY = 3
 
   integer(c_int32_t), parameter :: RIIS_FIRST_PASSAGE_FOUND = 0
   integer(c_int32_t), parameter :: RIIS_FIRST_PASSAGE_ALWAYS = 1
@@ -303,6 +305,15 @@ module riis_c
     type(c_ptr) :: attached    !< integer(c_int32_t), (n_patches)
     type(c_ptr) :: bulge       !< real(c_double), (n_patches)
   end type riis_valve_patches
+
+  !> The gap between the attachment of a valve and a wall. Lengths are in mesh units.
+  type, bind(c) :: riis_gap
+    real(c_double) :: least, mean, most  !< of the gap at the ends of the edges; mean is weighted by the edges' lengths.
+                                         !! 0 without a wall at any end
+    real(c_double) :: widest_point(3)    !< the end of an edge with the widest gap
+    integer(c_int64_t) :: n_ends         !< the ends of edges: 2 * riis_attachment.n_edges
+    integer(c_int64_t) :: n_without_wall !< the ends whose line misses the wall. They count in no other field
+  end type riis_gap
 
   type, bind(c) :: riis_crossing_options
     integer(c_int64_t) :: struct_size
@@ -557,13 +568,15 @@ module riis_c
     integer(c_int64_t) :: n_triangles !< the number of its triangles that answer queries
     real(c_double) :: area            !< the area of its triangles
     real(c_double) :: free_edge       !< the length of its free edge: the sides v = 1 that only one of its patches has.
-                                      !! 0 for a surface from arrays
+                                      !! Of a surface from arrays: the edges that only one of its triangles has, without
+                                      !! the outline of riis_orifice. 0 for a skirt
     integer(c_int32_t) :: leaflet_id  !< as in riis_triangles
     integer(c_int32_t) :: reserved    !< 0
   end type riis_leaflet
 
-  !> The orifice of a valve: the part of an outline that the triangles do not cover, seen along the valve's axis. The
-  !! axis is the z axis of the placed valve. Lengths are in mesh units (docs/theory.md, section 15).
+  !> The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis of a
+  !! valve is its z axis, placed, and its skirt does not count. For arrays and keyframes it is the vector area of the
+  !! outline, towards the side to which normals point. Lengths are in mesh units (docs/theory.md, section 15).
   type, bind(c) :: riis_orifice
     real(c_double) :: area           !< the area of the orifice. Without an outline only axis and rim_reach differ from
                                      !! 0
@@ -579,10 +592,19 @@ module riis_c
     real(c_double) :: half_thickness !< eps of the resistance
     real(c_double) :: radius         !< the radius of the disc, or of a circle as large as a warped disc; 0 for other
                                      !! outlines
-    real(c_double) :: axis(3)        !< unit vector along the placed valve's z axis, or the normal of a warped disc
+    real(c_double) :: axis(3)        !< unit vector; of a warped disc its normal; 0 for arrays and keyframes without an
+                                     !! outline
     integer(c_int32_t) :: outline    !< RIIS_OUTLINE_*
     integer(c_int32_t) :: reserved   !< 0
   end type riis_orifice
+
+  !> The coaptation of a surface's leaflets: the parts that touch another leaflet. Lengths are in mesh units.
+  type, bind(c) :: riis_coaptation
+    real(c_double) :: area  !< the area of the points of the leaflet's triangles that lie within reach of another
+                            !! leaflet
+    real(c_double) :: edge  !< the length of the part of its free edge (riis_leaflet) within reach of another leaflet
+    real(c_double) :: reach !< the distance within which leaflets touch
+  end type riis_coaptation
 
   type, bind(c) :: riis_first_passage_options
     integer(c_int64_t) :: struct_size
@@ -1140,6 +1162,31 @@ module riis_c
       integer(riis_status) :: status
     end function riis_valve_get_patches
 
+    !>   distance     (2, riis_attachment%n_edges)
+    !!   struct_size  c_sizeof(gap)
+    function riis_surface_get_gap(surface, wall, distance, gap, struct_size) result(status) &
+        bind(c, name='riis_surface_get_gap')
+      import :: c_double, c_int64_t, c_ptr, riis_gap, riis_status
+      implicit none
+      type(c_ptr), value :: surface, wall
+      real(c_double), intent(inout), optional :: distance(*)
+      type(riis_gap), intent(inout) :: gap
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_surface_get_gap
+
+    !>   options  if left out: all defaults
+    function riis_valve_set_skirt_to_wall(valve, wall, longest, options) result(status) &
+        bind(c, name='riis_valve_set_skirt_to_wall')
+      import :: c_double, c_ptr, riis_status, riis_surface_options
+      implicit none
+      type(c_ptr), value :: valve
+      type(c_ptr), value :: wall
+      real(c_double), value :: longest
+      type(riis_surface_options), intent(in), optional :: options
+      integer(riis_status) :: status
+    end function riis_valve_set_skirt_to_wall
+
     ! -----------------------------------------------------------------------------------------------------------------
     ! Crossings
     ! -----------------------------------------------------------------------------------------------------------------
@@ -1659,6 +1706,19 @@ module riis_c
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
     end function riis_surface_get_orifice
+
+    !>   struct_size  c_sizeof(coaptation)
+    function riis_surface_get_coaptation(surface, reach, leaflet_id, coaptation, struct_size) result(status) &
+        bind(c, name='riis_surface_get_coaptation')
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, riis_coaptation, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), value :: reach
+      integer(c_int32_t), value :: leaflet_id
+      type(riis_coaptation), intent(inout) :: coaptation
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_surface_get_coaptation
 
     function riis_surface_get_leak(surface, resistance, drop, flow) result(status) bind(c, name='riis_surface_get_leak')
       import :: c_double, c_ptr, riis_resistance, riis_status

@@ -28,7 +28,7 @@ subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_ed
   integer(int32), intent(in) :: leaflet_num               !< 1 to n_leaflets, ascending by leaflet_id.
   integer(int32), intent(inout) :: leaflet_id             !< From 0.
   real(c_double), intent(inout) :: area                   !< The area of its triangles.
-  real(c_double), intent(inout) :: free_edge              !< The length of its free edge; 0 for a surface from arrays.
+  real(c_double), intent(inout) :: free_edge              !< The length of its free edge.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_leaflet) :: leaflet
   status = riis_surface_get_leaflet(c_handle_of(surface), int(leaflet_num, int64) - 1, leaflet, c_sizeof(leaflet))
@@ -38,15 +38,14 @@ subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_ed
   free_edge = leaflet%free_edge
 end subroutine riisf_surface_leaflet
 
-!> Measures the orifice of a valve's surface, along the valve's axis. Errors: RIIS_INVALID_ARGUMENT for an argument out of range,
-!! and for a surface from arrays or keyframes.
+!> Measures the orifice of a surface, along its axis. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
 subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_area, perimeter, effective_area, outline, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_orifice, riis_resistance, riis_status, RIIS_OK, riis_resistance_init, riis_surface_get_orifice
   use riis_support, only: c_handle_of
   implicit none
-  integer(int64), intent(in) :: surface                   !< A surface made from a valve.
+  integer(int64), intent(in) :: surface                   !< Must be created.
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_*.
   real(c_double), intent(inout) :: area                   !< The area that the triangles leave uncovered.
@@ -69,6 +68,77 @@ subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_are
   effective_area = orifice%effective_area
   outline = orifice%outline
 end subroutine riisf_surface_orifice
+
+!> Measures the coaptation of leaflets: the area and the length of free edge that lie within reach of another leaflet. Errors:
+!! RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks, and for a reach out of range.
+subroutine riisf_surface_coaptation(surface, reach, leaflet_id, area, edge, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_coaptation, riis_status, RIIS_OK, riis_surface_get_coaptation
+  use riis_support, only: c_handle_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  real(c_double), intent(in) :: reach                     !< Mesh units; RIIS_AUTO: the surface's half thickness.
+  integer(int32), intent(in) :: leaflet_id                !< From 0; RIIS_ALL_LEAFLETS: the sum over all leaflets.
+  real(c_double), intent(inout) :: area                   !< The area within reach of another leaflet.
+  real(c_double), intent(inout) :: edge                   !< The length of free edge within reach of another leaflet.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_coaptation) :: coaptation
+  status = riis_surface_get_coaptation(c_handle_of(surface), reach, leaflet_id, coaptation, c_sizeof(coaptation))
+  if (status /= RIIS_OK) return
+  area = coaptation%area
+  edge = coaptation%edge
+end subroutine riisf_surface_coaptation
+
+!> Measures the gap between the attachment of a valve and a wall, along the direction of a skirt. Errors: RIIS_INVALID_ARGUMENT
+!! for a surface from arrays, and for one without an attachment.
+subroutine riisf_surface_gap(surface, wall, least, mean, most, missed, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_gap, riis_status, RIIS_OK, riis_surface_get_gap
+  use riis_support, only: c_handle_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< A surface made from a valve.
+  integer(int64), intent(in) :: wall                      !< A surface in the same frame.
+  real(c_double), intent(inout) :: least                  !< The least gap; negative where the wall is inside.
+  real(c_double), intent(inout) :: mean                   !< The mean along the attachment.
+  real(c_double), intent(inout) :: most                   !< The widest gap.
+  integer(int32), intent(inout) :: missed                 !< The number of ends of edges whose line misses the wall.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_gap) :: gap
+  status = riis_surface_get_gap(c_handle_of(surface), c_handle_of(wall), gap=gap, struct_size=c_sizeof(gap))
+  if (status /= RIIS_OK) return
+  least = gap%least
+  mean = gap%mean
+  most = gap%most
+  missed = int(gap%n_without_wall, int32)
+end subroutine riisf_surface_gap
+
+!> Gives a valve a skirt that reaches a wall, and no farther. Errors: RIIS_INVALID_ARGUMENT for a wall that is missed or farther
+!! than longest; RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area.
+subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, tolerance, scale, rotation_axis, &
+    rotation_angle, translation, status)
+  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_valve_set_skirt_to_wall
+  use riis_support, only: c_handle_of, get_placement
+  implicit none
+  integer(int64), intent(in) :: valve                     !< Must be created.
+  integer(int64), intent(in) :: wall                      !< A surface in the frame of the placed valve.
+  real(c_double), intent(in) :: longest                   !< The longest length to accept, mesh units.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
+                                                          !! * half_thickness.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_options) :: options
+  status = get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options)
+  if (status /= RIIS_OK) return
+  status = riis_valve_set_skirt_to_wall(c_handle_of(valve), c_handle_of(wall), longest, options)
+end subroutine riisf_valve_skirt_to_wall
 
 !> Tells the ideal leak of a closed surface: the volume flow through it at a pressure drop. The flow is drop * (eps / R) * area.
 !! The bileaflet housing does not count. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.

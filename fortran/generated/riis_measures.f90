@@ -14,8 +14,8 @@ module riis_measures
   use riis_marking, only: riis_marks
   implicit none
   private
-  public :: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_leak, riis_get_cells_across, &
-    riis_get_swept_volume, riis_find_first_passage
+  public :: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_coaptation, riis_get_gap, &
+    riis_set_skirt_to_wall, riis_get_leak, riis_get_cells_across, riis_get_swept_volume, riis_find_first_passage
 
   !> Gives the volume that a valve or keyframes sweep.
   interface riis_get_swept_volume
@@ -67,11 +67,10 @@ contains
     call get_integer(rim, 'rim', made%rim, code)
   end subroutine get_resistance
 
-  !> Measures the orifice of a valve's surface: the area that its triangles do not cover, seen along the valve's axis, and the
-  !! effective area that the band leaves to the flow. Errors: RIIS_INVALID_ARGUMENT for an argument out of range, and for a
-  !! surface from arrays or keyframes.
+  !> Measures the orifice of a surface: the area that its triangles do not cover, seen along the axis, and the effective area that
+  !! the band leaves to the flow. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
   subroutine riis_get_orifice(surface, orifice, half_thickness, rim, status)
-    class(riis_surface), intent(in) :: surface              !< Must be created from a valve.
+    class(riis_surface), intent(in) :: surface              !< Must be created.
     type(riis_orifice), intent(inout) :: orifice            !< Unchanged on an error.
     real(c_double), intent(in), optional :: half_thickness  !< eps of the resistance. Default RIIS_AUTO: the surface's.
     class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND.
@@ -83,6 +82,76 @@ contains
     if (code == RIIS_OK) code = riis_surface_get_orifice(surface%c_handle(), made, orifice, c_sizeof(orifice))
     call finish(code, status)
   end subroutine riis_get_orifice
+
+  !> Measures the coaptation of leaflets: the area and the length of free edge that lie within reach of another leaflet. Errors:
+  !! RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks, and for a reach out of range.
+  subroutine riis_get_coaptation(surface, coaptation, reach, leaflet_id, status)
+    class(riis_surface), intent(in) :: surface              !< Must be created.
+    type(riis_coaptation), intent(inout) :: coaptation      !< Unchanged on an error.
+    real(c_double), intent(in), optional :: reach           !< Mesh units. Default RIIS_AUTO: the surface's half thickness.
+    class(*), intent(in), optional :: leaflet_id            !< integer. Default RIIS_ALL_LEAFLETS: the sum over all leaflets.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    real(c_double) :: within
+    integer(int32) :: id
+    integer(riis_status) :: code
+    within = RIIS_AUTO
+    if (present(reach)) within = reach
+    id = RIIS_ALL_LEAFLETS
+    code = check_created(surface%c_handle(), 'the surface')
+    call get_integer(leaflet_id, 'leaflet_id', id, code)
+    if (code == RIIS_OK) &
+      code = riis_surface_get_coaptation(surface%c_handle(), within, id, coaptation, c_sizeof(coaptation))
+    call finish(code, status)
+  end subroutine riis_get_coaptation
+
+  !> Measures the gap between the attachment of a valve and a wall, along the direction of a skirt. Errors: RIIS_INVALID_ARGUMENT
+  !! for a surface from arrays, for one without an attachment, and for a distance of another size.
+  subroutine riis_get_gap(surface, wall, gap, distance, status)
+    class(riis_surface), intent(in) :: surface              !< Must be created from a valve.
+    class(riis_surface), intent(in) :: wall                 !< Must be created, in the same frame.
+    type(riis_gap), intent(inout) :: gap                    !< Unchanged on an error.
+    real(c_double), intent(inout), contiguous, optional :: distance(:, :) !< (2, n_edges): at both ends of the edges of
+                                                            !! %get_attachment. RIIS_FAR_DISTANCE without a wall.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_attachment) :: attachment
+    integer(riis_status) :: code
+    code = check_created(surface%c_handle(), 'the surface')
+    if (code == RIIS_OK) code = check_created(wall%c_handle(), 'the wall')
+    if (code == RIIS_OK .and. present(distance)) then
+      code = riis_surface_get_attachment(surface%c_handle(), attachment, c_sizeof(attachment))
+      if (code == RIIS_OK .and. size(distance, 1) /= 2) &
+        code = refuse('the first extent of distance is ' // text_of(size(distance, 1)) // '; it must be 2')
+      if (code == RIIS_OK) code = check_size(size(distance, 2, int64), attachment%n_edges, 'distance(1, :)', 'edges')
+    end if
+    if (code == RIIS_OK) &
+      code = riis_surface_get_gap(surface%c_handle(), wall%c_handle(), distance, gap, c_sizeof(gap))
+    call finish(code, status)
+  end subroutine riis_get_gap
+
+  !> Gives a valve a skirt that reaches a wall, and no farther. Its length at each point of the closed valve's attachment is the
+  !! gap to the wall. Errors: RIIS_INVALID_ARGUMENT for a wall that is missed or farther than longest; RIIS_INVALID_PARAMETER for
+  !! a bileaflet valve, and for an attachment that encloses no area.
+  subroutine riis_set_skirt_to_wall(valve, wall, longest, scale, rotation_axis, rotation_angle, translation, status)
+    class(riis_valve), intent(inout) :: valve               !< Must be created.
+    class(riis_surface), intent(in) :: wall                 !< Must be created, in the frame of the placed valve.
+    real(c_double), intent(in) :: longest                   !< The longest length to accept, mesh units.
+    real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12. Default 1.
+    real(c_double), intent(in), optional :: rotation_axis(3) !< At least 1e-50 long. Default (0, 0, 1).
+    real(c_double), intent(in), optional :: rotation_angle  !< Degrees. Default 0.
+    real(c_double), intent(in), optional :: translation(3)  !< Mesh units. Default 0.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_surface_options) :: options
+    integer(riis_status) :: code
+    code = check_created(valve%c_handle(), 'the valve')
+    if (code == RIIS_OK) code = check_created(wall%c_handle(), 'the wall')
+    if (code == RIIS_OK) code = riis_surface_options_init(options, c_sizeof(options))
+    if (present(scale)) options%scale = scale
+    if (present(rotation_axis)) options%rotation_axis = rotation_axis
+    if (present(rotation_angle)) options%rotation_angle = rotation_angle
+    if (present(translation)) options%translation = translation
+    if (code == RIIS_OK) code = riis_valve_set_skirt_to_wall(valve%c_handle(), wall%c_handle(), longest, options)
+    call finish(code, status)
+  end subroutine riis_set_skirt_to_wall
 
   !> Tells the ideal leak of a closed surface: the volume flow through it at a pressure drop. The flow is drop * (eps / R) * area.
   !! The bileaflet housing does not count. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.

@@ -90,6 +90,9 @@ module riisf
   public :: riisf_surface_n_leaflets
   public :: riisf_surface_leaflet
   public :: riisf_surface_orifice
+  public :: riisf_surface_coaptation
+  public :: riisf_surface_gap
+  public :: riisf_valve_skirt_to_wall
   public :: riisf_surface_leak
   public :: riisf_cells_across
   public :: riisf_valve_swept_volume
@@ -1224,6 +1227,51 @@ module riisf
       integer(int32), intent(inout) :: outline
       integer(riis_status), intent(out) :: status
     end subroutine riisf_surface_orifice
+
+    subroutine riisf_surface_coaptation(surface, reach, leaflet_id, area, edge, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: surface
+      real(c_double), intent(in) :: reach
+      integer(int32), intent(in) :: leaflet_id
+      real(c_double), intent(inout) :: area
+      real(c_double), intent(inout) :: edge
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_coaptation
+
+    subroutine riisf_surface_gap(surface, wall, least, mean, most, missed, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: surface
+      integer(int64), intent(in) :: wall
+      real(c_double), intent(inout) :: least
+      real(c_double), intent(inout) :: mean
+      real(c_double), intent(inout) :: most
+      integer(int32), intent(inout) :: missed
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_gap
+
+    subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, tolerance, scale, rotation_axis, &
+      rotation_angle, translation, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: valve
+      integer(int64), intent(in) :: wall
+      real(c_double), intent(in) :: longest
+      real(c_double), intent(in) :: half_thickness
+      real(c_double), intent(in) :: tolerance
+      real(c_double), intent(in) :: scale
+      real(c_double), intent(in) :: rotation_axis(3)
+      real(c_double), intent(in) :: rotation_angle
+      real(c_double), intent(in) :: translation(3)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_valve_skirt_to_wall
 
     subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
       use, intrinsic :: iso_c_binding, only: c_double

@@ -159,6 +159,9 @@ RIIS_API void riis_valve_destroy(riis_valve **valve);
  *             "non_coronary"), "leaflet_angle" of all three
  *   n_values  3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp); 1 for others
  *   values    (n_values), within the parameter's range; riis_surface_create checks whether the values fit together
+ * "skirt_length" gives any valve except "bileaflet" a skirt: a strip outwards from the attachment, which closes the gap
+ * to the wall (docs/theory.md, "Skirt"). The open state's own value is ignored. It is 0, the default, or 1e-4 to 10 times
+ * the attachment's mean distance from its axis.
  * "opening", 0 to 1, is the coefficient of motion from a closed to an open state. One set of parameters makes
  * both states. The default is 1 (open) for the mitral valve, 0 for others. The aortic valve at 0 has the paper's
  * state, which leaves a hole. A valve from patches has opening 0 only, until riis_valve_set_open_state.
@@ -222,8 +225,8 @@ typedef struct riis_patches {
 } riis_patches;
 RIIS_API riis_status riis_patches_init(riis_patches *patches, int64_t struct_size); /* the defaults */
 
-/* Makes a valve from patches, which it copies. Its only parameter is "opening"; patch_id is the patch's
- * number, from 0.
+/* Makes a valve from patches, which it copies. Its parameters are "opening" and "skirt_length". A skirt continues the
+ * sides v = 0 that only one patch has. patch_id is the patch's number, from 0.
  * Errors: RIIS_INVALID_PARAMETER naming the curve or patch and its value, such as sides that do not meet. */
 RIIS_API riis_status riis_valve_create_from_patches(const riis_patches *patches, riis_valve **valve);
 
@@ -262,7 +265,9 @@ enum {
   RIIS_LEAFLET_POSTERIOR = 1,   /* mitral: the posterior leaflet, all three scallops */
   RIIS_LEAFLET_POSITIVE = 0,    /* bileaflet: the leaflet at x > 0 */
   RIIS_LEAFLET_NEGATIVE = 1,    /* bileaflet: the leaflet at x < 0 */
-  RIIS_LEAFLET_HOUSING = 2      /* bileaflet: the housing's wall, if ring_height is not 0 */
+  RIIS_LEAFLET_HOUSING = 2,     /* bileaflet: the housing's wall, if ring_height is not 0 */
+  RIIS_LEAFLET_SKIRT = 3        /* the skirt of a valve of any kind but bileaflet, if skirt_length is not 0. The skirt of
+                                   a valve from patches has this id or the largest leaflet_id + 1, the larger of both */
 };
 
 /* How triangles of zero area in the caller's arrays are treated. */
@@ -464,7 +469,9 @@ typedef struct riis_triangles {
                                  Mitral, anterior: 0 triangle at the posteromedial commissure, 1 side, 2 middle,
                                  3 mirrored middle, 4 mirrored side, 5 mirrored triangle. Mitral, posterior: 6 side
                                  scallop, 7 half of the middle scallop, 8 mirrored half, 9 mirrored side scallop.
-                                 Bileaflet: 2 * leaflet, plus 0 or 1 for the half; 4 to 7 the ring's quarters */
+                                 Bileaflet: 2 * leaflet, plus 0 or 1 for the half; 4 to 7 the ring's quarters.
+                                 Skirt: the id of the leaflet's patch that it continues, plus the number of these
+                                 ids: 10 mitral, 12 valves with three cusps */
 } riis_triangles;
 /* Gives the triangles of the surface, until its next update or its destruction. */
 RIIS_API riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangles *triangles,
@@ -482,7 +489,7 @@ typedef struct riis_attachment {
 /* Gives the attachment of a valve's surface, until the surface's next update or its destruction. A cusp is attached
  * at the sinus, u = 1, from the root to the commissures. A mitral leaflet is attached at the annulus, v = 0. Patches
  * are attached at the sides v = 0 that only one patch has. A bileaflet valve has no attachment, because pivots hold
- * its leaflets.
+ * its leaflets. A skirt (the parameter "skirt_length") changes nothing, although it continues the leaflets there.
  * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, because nothing tells which of its edges are attached. */
 RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, riis_attachment *attachment,
                                                  int64_t struct_size);
@@ -580,6 +587,36 @@ typedef struct riis_valve_patches {
  * A Coons patch of the sides of a mitral patch, whose bulge is not 0, differs from the valve.
  * Errors: RIIS_INVALID_PARAMETER as riis_surface_create. */
 RIIS_API riis_status riis_valve_get_patches(riis_valve *valve, riis_valve_patches *patches, int64_t struct_size);
+
+/* The gap between the attachment of a valve and a wall. Lengths are in mesh units. */
+typedef struct riis_gap {
+  double least, mean, most; /* of the gap at the ends of the edges; mean is weighted by the edges' lengths. 0 without a
+                               wall at any end */
+  double widest_point[3];   /* the end of an edge with the widest gap */
+  int64_t n_ends;           /* the ends of edges: 2 * riis_attachment.n_edges */
+  int64_t n_without_wall;   /* the ends whose line misses the wall. They count in no other field */
+} riis_gap;
+/* Measures the gap between a valve's attachment and a wall, such as a patient's vessel. The gap is the distance along
+ * the skirt's direction: outwards from the valve's axis and perpendicular to it (docs/theory.md, "Skirt"). Of all
+ * places where that line meets the wall, the nearest counts. The gap is negative if the wall lies inside.
+ *   wall      a surface in the same frame, usually by riis_surface_create_from_arrays
+ *   distance  (2, n_edges): the gap at both ends of each edge of riis_attachment, RIIS_FAR_DISTANCE where the line
+ *             misses the wall. NULL if it is not wanted
+ * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, for one without an attachment, and for an attachment that
+ * encloses no area. */
+RIIS_API riis_status riis_surface_get_gap(const riis_surface *surface, const riis_surface *wall, double *distance,
+                                          riis_gap *gap, int64_t struct_size);
+/* Gives a valve a skirt that reaches a wall, and no farther. It replaces the valve's skirt. At each point of the
+ * attachment of the closed valve, the length is the gap. These lengths stay while the valve opens. The parameter
+ * "skirt_length" becomes the largest of them, before placement. Setting that parameter removes the lengths. Where the gap
+ * is below 1e-4 of the attachment's mean distance from the axis, the length is that limit.
+ *   wall     as in riis_surface_get_gap
+ *   longest  the longest length to accept, mesh units, 1e-50 to 1e50
+ *   options  scale, rotation and translation place the valve, and n_threads is used. NULL stands for the defaults
+ * Errors: RIIS_INVALID_ARGUMENT for a wall that is missed or farther than longest, with the first such point;
+ * RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area. */
+RIIS_API riis_status riis_valve_set_skirt_to_wall(riis_valve *valve, const riis_surface *wall, double longest,
+                                                  const riis_surface_options *options);
 
 /* ---- Crossings: self-intersections, where the surface goes through itself ------------------------------ */
 
@@ -1143,8 +1180,9 @@ RIIS_API riis_status riis_find_passage(const riis_surface *surface, const riis_m
 typedef struct riis_leaflet {
   int64_t n_triangles; /* the number of its triangles that answer queries */
   double area;         /* the area of its triangles */
-  double free_edge;    /* the length of its free edge: the sides v = 1 that only one of its patches has. 0 for a
-                          surface from arrays */
+  double free_edge;    /* the length of its free edge: the sides v = 1 that only one of its patches has. Of a surface
+                          from arrays: the edges that only one of its triangles has, without the outline of
+                          riis_orifice. 0 for a skirt */
   int32_t leaflet_id;  /* as in riis_triangles */
   int32_t reserved;    /* 0 */
 } riis_leaflet;
@@ -1157,12 +1195,16 @@ RIIS_API riis_status riis_surface_get_leaflet(const riis_surface *surface, int64
 
 /* The outline of an orifice. */
 enum {
-  RIIS_OUTLINE_NONE = 0,      /* no disc, and the sides v = 0 that only one patch has enclose no area */
+  RIIS_OUTLINE_NONE = 0,      /* no disc, and the sides v = 0 that only one patch has, or the open edges of a surface
+                                 from arrays or keyframes, enclose no area */
   RIIS_OUTLINE_DISC = 1,      /* the disc of root_radius (three cusps) or radius (bileaflet) about the axis */
-  RIIS_OUTLINE_ATTACHMENT = 2 /* the sides v = 0 that only one patch has: the annulus of the mitral valve */
+  RIIS_OUTLINE_ATTACHMENT = 2, /* the sides v = 0 that only one patch has: the annulus of the mitral valve */
+  RIIS_OUTLINE_BOUNDARY = 3   /* a surface from arrays or keyframes: the longest closed line of edges that only one
+                                 triangle has */
 };
-/* The orifice of a valve: the part of an outline that the triangles do not cover, seen along the valve's axis. The
- * axis is the z axis of the placed valve. Lengths are in mesh units (docs/theory.md, section 15). */
+/* The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis of a
+ * valve is its z axis, placed, and its skirt does not count. For arrays and keyframes it is the vector area of the
+ * outline, towards the side to which normals point. Lengths are in mesh units (docs/theory.md, section 15). */
 typedef struct riis_orifice {
   double area;           /* the area of the orifice. Without an outline only axis and rim_reach differ from 0 */
   double outline_area;   /* the area inside the outline */
@@ -1176,16 +1218,30 @@ typedef struct riis_orifice {
                             0.98 and 0.46 to 0.95 (docs/validation.md) */
   double half_thickness; /* eps of the resistance */
   double radius;         /* the radius of the disc, or of a circle as large as a warped disc; 0 for other outlines */
-  double axis[3];        /* unit vector along the placed valve's z axis, or the normal of a warped disc */
+  double axis[3];        /* unit vector; of a warped disc its normal; 0 for arrays and keyframes without an outline */
   int32_t outline;       /* RIIS_OUTLINE_* */
   int32_t reserved;      /* 0 */
 } riis_orifice;
-/* Measures the orifice of a valve's surface.
+/* Measures the orifice of a surface.
  *   resistance  only half_thickness and rim are used. RIIS_AUTO stands for the surface's half thickness. NULL
- *               stands for the defaults
- * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays or keyframes, which have no axis and no outline. */
+ *               stands for the defaults */
 RIIS_API riis_status riis_surface_get_orifice(const riis_surface *surface, const riis_resistance *resistance,
                                               riis_orifice *orifice, int64_t struct_size);
+
+/* The coaptation of a surface's leaflets: the parts that touch another leaflet. Lengths are in mesh units. */
+typedef struct riis_coaptation {
+  double area;  /* the area of the points of the leaflet's triangles that lie within reach of another leaflet */
+  double edge;  /* the length of the part of its free edge (riis_leaflet) within reach of another leaflet */
+  double reach; /* the distance within which leaflets touch */
+} riis_coaptation;
+/* Measures the coaptation. The bileaflet housing and a skirt are no leaflets, and touch nothing.
+ *   reach       1e-50 to 1e50. RIIS_AUTO stands for the surface's half thickness
+ *   leaflet_id  as in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all leaflets, which counts a contact from
+ *               both sides
+ * Areas are right to 1e-3 of the contact's outline times reach (docs/theory.md, section 15).
+ * Errors: RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks, and for a reach out of range. */
+RIIS_API riis_status riis_surface_get_coaptation(const riis_surface *surface, double reach, int32_t leaflet_id,
+                                                 riis_coaptation *coaptation, int64_t struct_size);
 
 /* Gives the ideal leak of a closed surface: the volume flow drop * (eps / R) * area that a pressure drop causes.
  * The bileaflet housing does not count in the area. The leak in a solver differs from the ideal (docs/solvers.md).
@@ -1254,7 +1310,7 @@ RIIS_API riis_status riis_marks_get_cells_across(const riis_marks *marks, const 
 
 /* A value for an argument leaflet_id. */
 enum {
-  RIIS_ALL_LEAFLETS = -1 /* the sum over all leaflets */
+  RIIS_ALL_LEAFLETS = -1 /* the sum over all leaflets, without a skirt */
 };
 /* Gives the volume that the valve sweeps between two openings, in mesh units cubed: the integral of u_surface . n over
  * surface and time, positive along the normals. A flow displaces less, because blood slips past the leaflets.

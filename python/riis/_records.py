@@ -194,7 +194,7 @@ class LeafletSizes(NamedTuple):
 
 
 class Orifice(NamedTuple):
-    """The area that a valve's triangles leave uncovered, seen along the valve's axis. Lengths are in mesh units."""
+    """The area that a surface's triangles leave uncovered, seen along its axis. Lengths are in mesh units."""
 
     area: float
     outline_area: float  #: area inside the outline
@@ -204,7 +204,26 @@ class Orifice(NamedTuple):
     half_thickness: float  #: eps
     radius: float  #: of the disc; 0 for other outlines
     axis: Reals  #: (3,)
-    outline: Literal["none", "disc", "attachment"]
+    outline: Literal["none", "disc", "attachment", "boundary"]
+
+
+class Coaptation(NamedTuple):
+    """The parts of leaflets that lie within reach of another leaflet. Lengths are in mesh units."""
+
+    area: float
+    edge: float  #: length of free edge
+    reach: float
+
+
+class Gap(NamedTuple):
+    """The gap between a valve's attachment and a wall, along the direction of a skirt. Lengths are in mesh units."""
+
+    least: float
+    mean: float  #: weighted by the edges' lengths
+    most: float
+    widest_point: Reals  #: (3,)
+    distance: Reals  #: (n_edges, 2), at the ends of the edges of ``Surface.attachment``; 1e30 without a wall
+    n_without_wall: int  #: ends whose line misses the wall
 
 
 class CellsAcross(NamedTuple):

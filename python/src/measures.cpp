@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures of a valve for the flow: leaflets, orifice, leak, first passage, cells across and swept volume.
+#include <cstddef>
+#include <vector>
+
 #include "arguments.hpp"
 #include "errors.hpp"
 #include "module.hpp"
@@ -25,9 +28,47 @@ nb::object orifice(Surface &self, nb::handle half_thickness, nb::handle rim) {
   const riis_resistance model = resistance_of(nb::float_(0.0), half_thickness, rim);
   riis_orifice made;
   call_library([&] { return riis_surface_get_orifice(self.handle, &model, &made, sizeof made); });
-  static const char *const outlines[] = {"none", "disc", "attachment"};
+  static const char *const outlines[] = {"none", "disc", "attachment", "boundary"};
   return record("Orifice")(made.area, made.outline_area, made.perimeter, made.effective_area, made.rim_reach,
                            made.half_thickness, made.radius, array_of(made.axis, "float64"), outlines[made.outline]);
+}
+
+std::int32_t leaflet_or_all(nb::handle leaflet_id) {
+  return leaflet_id.is_none() ? std::int32_t{RIIS_ALL_LEAFLETS} : integer32(leaflet_id, "leaflet_id");
+}
+
+nb::object coaptation(Surface &self, nb::handle leaflet_id, nb::handle reach_) {
+  const Reading reading(self.usage, "surface");
+  const std::int32_t id = leaflet_or_all(leaflet_id);
+  const double reach = reach_.is_none() ? RIIS_AUTO : number(reach_, "reach");
+  riis_coaptation made;
+  call_library([&] { return riis_surface_get_coaptation(self.handle, reach, id, &made, sizeof made); });
+  return record("Coaptation")(made.area, made.edge, made.reach);
+}
+
+nb::object gap(Surface &self, nb::handle wall_) {
+  Surface &wall = object<Surface>(wall_, "wall");
+  const Reading reading(self.usage, "surface"), reading_wall(wall.usage, "wall");
+  riis_gap made;
+  riis_attachment held;
+  call_shortly(riis_surface_get_attachment(self.handle, &held, sizeof held));
+  std::vector<double> distance(static_cast<std::size_t>(2 * held.n_edges));
+  call_library([&] { return riis_surface_get_gap(self.handle, wall.handle, distance.data(), &made, sizeof made); });
+  nb::object distances = copy_of(distance.data(), {static_cast<std::size_t>(held.n_edges), 2});
+  return record("Gap")(made.least, made.mean, made.most, array_of(made.widest_point, "float64"), distances,
+                       made.n_without_wall);
+}
+
+void skirt_to_wall(Valve &self, nb::handle wall_, nb::handle longest_, const nb::kwargs &surface_options) {
+  Surface &wall = object<Surface>(wall_, "wall");
+  const Writing writing(self.usage, "valve");
+  const Reading reading_wall(wall.usage, "wall");
+  const double longest = number(longest_, "longest");
+  riis_surface_options options;
+  call_shortly(riis_surface_options_init(&options, sizeof options));
+  set_surface_options(options, surface_options, "skirt_to_wall");
+  call_library([&] { return riis_valve_set_skirt_to_wall(self.handle, wall.handle, longest, &options); });
+  self.has_wall_lengths = true;
 }
 
 double leak(Surface &self, nb::handle drop, nb::handle R, nb::handle half_thickness) {
@@ -37,10 +78,6 @@ double leak(Surface &self, nb::handle drop, nb::handle R, nb::handle half_thickn
   double flow = 0;
   call_library([&] { return riis_surface_get_leak(self.handle, &model, pressure, &flow); });
   return flow;
-}
-
-std::int32_t leaflet_or_all(nb::handle leaflet_id) {
-  return leaflet_id.is_none() ? std::int32_t{RIIS_ALL_LEAFLETS} : integer32(leaflet_id, "leaflet_id");
 }
 
 riis_surface_options sweep_options(nb::handle scale, nb::handle n_threads) {
@@ -127,13 +164,36 @@ void add_measures(nb::module_ &module) {
   add_method(module, "Surface", "leaflets", &leaflets,
              nb::sig("def leaflets(self) -> list[riis._records.LeafletSizes]"),
              "Returns the sizes of each leaflet, ascending by leaflet_id.");
-  add_method(
-      module, "Surface", "orifice", &orifice, nb::kw_only(), nb::arg("half_thickness").none() = nb::none(),
-      nb::arg("rim").none() = "round", nb::sig("def orifice(self, *, " RIIS_RIM_MODEL ") -> riis._records.Orifice"),
-      R"(Measures the orifice of a valve's surface, the area that its triangles leave uncovered, seen along the valve's axis.
+  add_method(module, "Surface", "orifice", &orifice, nb::kw_only(), nb::arg("half_thickness").none() = nb::none(),
+             nb::arg("rim").none() = "round",
+             nb::sig("def orifice(self, *, " RIIS_RIM_MODEL ") -> riis._records.Orifice"),
+             R"(Measures the orifice of a surface, the area that its triangles leave uncovered, seen along its axis.
+
+The outline of a surface from arrays or keyframes is its longest open boundary.
 
 half_thickness  eps of the resistance; None: the surface's half thickness
 rim             'round' or 'cut', as in add_resistance)");
+  add_method(module, "Surface", "coaptation", &coaptation, nb::arg("leaflet_id").none() = nb::none(), nb::kw_only(),
+             nb::arg("reach").none() = nb::none(),
+             nb::sig("def coaptation(self, leaflet_id: int | None = None, *, reach: float | None = None) -> "
+                     "riis._records.Coaptation"),
+             R"(Measures the coaptation of leaflets: the parts of them that lie within reach of another leaflet.
+
+leaflet_id  the leaflet; None: the sum over all leaflets
+reach       the distance within which leaflets touch; None: the surface's half thickness)");
+  add_method(module, "Surface", "gap", &gap, nb::arg("wall").none(),
+             nb::sig("def gap(self, wall: Surface) -> riis._records.Gap"),
+             R"(Measures the gap between the valve's attachment and a wall, along the direction of a skirt.
+
+wall  a surface in the same frame, such as one from arrays)");
+  add_method(module, "Valve", "skirt_to_wall", &skirt_to_wall, nb::arg("wall").none(), nb::arg("longest").none(),
+             nb::arg("options"),
+             nb::sig("def skirt_to_wall(self, wall: Surface, longest: float, **options: typing.Any) -> None"),
+             R"(Gives the valve a skirt that reaches a wall, and no farther.
+
+wall     a surface in the frame of the placed valve
+longest  the longest length to accept, mesh units
+options  options of riis.Surface, of which scale, rotation and translation place the valve)");
   add_method(module, "Surface", "leak", &leak, nb::arg("drop").none(), nb::kw_only(), nb::arg("R").none(),
              nb::arg("half_thickness").none() = nb::none(),
              nb::sig("def leak(self, drop: float, *, R: float, half_thickness: float | None = None) -> float"),

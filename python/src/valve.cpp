@@ -52,6 +52,7 @@ void set(Valve &valve, nb::handle key, nb::handle value) {
     call_shortly(riis_valve_set(valve.handle, name.c_str(), 3, values));
   } else {
     call_shortly(riis_valve_set_scalar(valve.handle, name.c_str(), number(value, name.c_str())));
+    if (name == "skirt_length") valve.has_wall_lengths = false;
   }
 }
 
@@ -112,6 +113,7 @@ Valve *copy(Valve &valve) {
   made->patches = valve.patches;
   made->open = valve.open;
   made->warp = valve.warp;
+  made->has_wall_lengths = valve.has_wall_lengths;
   call_shortly(riis_valve_copy(valve.handle, &made->handle));
   return made.release();
 }
@@ -224,6 +226,9 @@ nb::dict values_that_were_set(Valve &valve) {
 
 // Returns the values from which pickle makes the valve.
 nb::tuple state_of(Valve &valve) {
+  if (valve.has_wall_lengths)
+    raise_status(RIIS_INVALID_ARGUMENT,
+                 "valve: its skirt reaches a wall, and the lengths cannot be pickled: pickle it before skirt_to_wall");
   return nb::make_tuple(valve.kind, values_that_were_set(valve), valve.open, valve.patches, valve.warp);
 }
 
@@ -300,7 +305,7 @@ curve_id     (n_patches, 4) int32: the curves at v = 0, v = 1, u = 0, u = 1, cou
 reversed     (n_patches, 4) int32: 1 if the side runs opposite to its curve
 leaflet_id   (n_patches,) int32, >= 0; default 0
 
-The valve's only parameter is 'opening'. Arrays are copied.)")
+The valve's parameters are 'opening' and 'skirt_length'. Arrays are copied.)")
       .def("__setitem__", &set, nb::arg("name").none(), nb::arg("value").none(),
            nb::sig("def __setitem__(self, name: str, value: float | collections.abc.Sequence[float] | "
                    "numpy.typing.NDArray[numpy.float64]) -> None"),

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Adjacency, leaks, open regions and passages."""
 
+import pickle
+
 import numpy
 import pytest
 
@@ -84,6 +86,48 @@ def test_leaks_regions_and_passages_tell_the_same(grid):
     mask = numpy.ones(n**3, bool)
     mask[20 * n * n : 21 * n * n] = False
     assert riis.find_passage(loose, grid, below, above, mask=mask).state == "none"
+
+
+def test_a_skirt_reaches_a_wall():
+    """The wall is a box around a trileaflet valve. The gap to its sides is known."""
+    corners = numpy.array([[x, y, z] for z in (-4.0, 4.0) for x, y in ((2, 2), (-2, 2), (-2, -2), (2, -2))])
+    faces = numpy.array([[i, (i + 1) % 4, (i + 1) % 4 + 4, i + 4] for i in range(4)])
+    wall = riis.Surface.from_arrays(corners, faces)
+    valve = riis.Valve("trileaflet")
+    bare = riis.Surface(valve)
+    gap = bare.gap(wall)
+    ends = bare.attachment.edges
+    radius, largest = numpy.hypot(ends[..., 0], ends[..., 1]), numpy.abs(ends[..., :2]).max(axis=-1)
+    assert numpy.allclose(gap.distance, radius * (2 / largest - 1), rtol=1e-12)
+    assert gap.least == gap.distance.min() and gap.most == gap.distance.max() and gap.n_without_wall == 0
+    assert gap.least < gap.mean < gap.most and gap.widest_point.shape == (3,)
+    valve.skirt_to_wall(wall, 3.0)
+    assert gap.most - 0.01 < valve["skirt_length"] < 8**0.5 - radius.min()  # a corner lies between two ends of edges
+    reaching = riis.Surface(valve)
+    assert [leaflet.leaflet_id for leaflet in reaching.leaflets()] == [0, 1, 2, 3]
+    assert abs(numpy.abs(reaching.vertices[:, :2]).max() - 2) < 0.02
+    assert reaching.orifice().area == bare.orifice().area
+    assert numpy.array_equal(riis.Surface(valve.copy()).vertices, reaching.vertices)
+    with pytest.raises(riis.InvalidArgumentError, match="cannot be pickled"):
+        pickle.dumps(valve)
+    valve["skirt_length"] = 0.0
+    assert len(riis.Surface(valve).leaflets()) == 3
+    assert pickle.loads(pickle.dumps(valve))["skirt_length"] == 0.0
+
+
+def test_outlines_and_contacts_of_arrays():
+    """Two squares beside each other, a little apart, in the plane z = 0."""
+    square = numpy.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+    xyz = numpy.concatenate([square, square + [1.02, 0, 0]])
+    faces = numpy.array([[0, 1, 2, 3], [4, 5, 6, 7]])
+    surface = riis.Surface.from_arrays(xyz, faces, leaflet_id=numpy.array([0, 1], dtype=numpy.int32))
+    orifice = surface.orifice()
+    assert orifice.outline == "boundary" and abs(orifice.outline_area - 1) < 1e-3
+    assert numpy.allclose(orifice.axis, [0, 0, 1])
+    contact = surface.coaptation(reach=0.1)
+    assert abs(contact.area - 2 * 0.08) < 1e-4 and contact.reach == 0.1
+    assert abs(surface.coaptation(0, reach=0.1).area - 0.08) < 1e-4
+    assert surface.coaptation(reach=0.01).area == 0
 
 
 def test_what_a_valve_means_for_the_flow():

@@ -342,8 +342,16 @@ REFUSED = {
     "from_ids": (TypeError, "from_ids: its dtype is int32; it must be int64",
                  lambda o: riis.find_passage(o.surface, o.mesh, numpy.zeros(1, "i4"), numpy.zeros(1, "i8"))),
     # What a valve means for the flow
-    "orifice of arrays": (Argument, "^surface was made from arrays or keyframes", lambda o: riis.Surface.from_arrays(
-        o.triangle, o.faces).orifice()),
+    "skirt of a bileaflet valve": (riis.InvalidParameterError, "skirt_length' is not a parameter of the bileaflet valve",
+                                   lambda o: riis.Valve("bileaflet", skirt_length=0.1)),
+    "skirt to a wall far away": (Argument, "^wall is not within longest, 1e-09",
+                                 lambda o: riis.Valve().skirt_to_wall(o.surface, 1e-9)),
+    "wall of a skirt": (TypeError, "wall: must be a riis.Surface", lambda o: riis.Valve().skirt_to_wall(None, 1.0)),
+    "longest skirt": (Argument, "^longest is 0", lambda o: riis.Valve().skirt_to_wall(o.surface, 0.0)),
+    "gap of arrays": (Argument, "made from arrays",
+                      lambda o: riis.Surface.from_arrays(o.triangle, o.faces).gap(o.surface)),
+    "leaflet of a coaptation": (Argument, "^leaflet_id is 9", lambda o: o.surface.coaptation(9)),
+    "reach of a coaptation": (Argument, "^reach is 0", lambda o: o.surface.coaptation(reach=0.0)),
     "rim of an orifice": (Argument, "rim: is 'square'", lambda o: o.surface.orifice(rim="square")),
     "half_thickness of an orifice": (Argument, "^half_thickness is 0", lambda o: o.surface.orifice(half_thickness=0.0)),
     "R of a leak": (Argument, "R is 0; it must be from 1e-60 to 1e\\+60", lambda o: o.surface.leak(1.0, R=0.0)),

@@ -239,7 +239,7 @@ def square(z):
 def test_a_valve_comes_from_patches():
     degree, curves = numpy.ones(4, "i4"), numpy.array([[0, 1, 2, 3]], "i4")
     valve = riis.Valve.from_patches(degree, square(0.0), curves, leaflet_id=numpy.array([7], "i4"))
-    assert valve.kind == "patches" and list(valve.keys()) == ["opening"]
+    assert valve.kind == "patches" and list(valve.keys()) == ["opening", "skirt_length"]
     surface = riis.Surface(valve)
     assert numpy.isclose(surface.info.area, 4.0) and set(surface.triangles.leaflet_id) == {7}
     assert surface.closest_point((0, 0, 1)).distance == 1.0

@@ -25,7 +25,7 @@ const std::vector<std::string> case_keys = {"mesh",       "unit",  "half_thickne
 const std::vector<std::string> valve_keys = {
     "name",           "valve",          "surface",       "leaflets",     "parameters", "open_parameters", "opening",
     "half_thickness", "resistance",     "scale",         "surface_unit", "rotate",     "translate",       "tolerance",
-    "flip_normals",   "skip_zero_area", "triangulation", "period",       "warp"};
+    "flip_normals",   "skip_zero_area", "triangulation", "period",       "warp",       "skirt",           "wall"};
 
 class CaseReader {
  public:
@@ -109,6 +109,9 @@ class CaseReader {
     use_placed_valve(options);
     read_placement(values, options);
     if (const auto own = values.at_least_zero("resistance")) options.resistance = own;
+    options.skirt = values.above_zero("skirt");
+    options.wall = file_of(values, "wall");
+    if (!options.wall.empty() && !options.skirt) values.refuse("wall", "it needs \"skirt\", the longest skirt");
     if (options.surface.empty())
       make_valve_of(values, source);
     else
@@ -176,6 +179,7 @@ class CaseReader {
       set_law(values, file.valve(), source);
       set_warp(values, file.valve(), source);
       file.check_opening();
+      set_skirt(source.options, file.valve(), source.subject);
       source.valve = file.take_valve();
       return;
     }
@@ -190,6 +194,7 @@ class CaseReader {
     }
     set_law(values, source.valve.get(), source);
     set_warp(values, source.valve.get(), source);
+    set_skirt(source.options, source.valve.get(), source.subject);
   }
 
   // Reads the warp, and gives it to the valve at the first time.
@@ -226,7 +231,8 @@ class CaseReader {
   }
 
   void make_surface_of(const CaseValues &values, ValveSource &source) {
-    for (const char *key : {"parameters", "open_parameters", "opening", "tolerance", "triangulation", "warp"})
+    for (const char *key :
+         {"parameters", "open_parameters", "opening", "tolerance", "triangulation", "warp", "skirt", "wall"})
       if (values.has(key)) values.refuse(key, "it cannot be combined with \"surface\"");
     Seconds seconds;
     if (!is_motion_file(source.options.surface)) {

@@ -70,6 +70,15 @@ void declare_open_state(Command &command, ValveOptions &options) {
   command.text("--params-open", "FILE.json", "Parameters of the state that the valve opens to", options.params_open);
 }
 
+void declare_skirt(Command &command, ValveOptions &options) {
+  CLI::Option *const skirt =
+      command.value("--skirt", "L", "Length of a skirt to the wall, in the mesh's unit; with --wall, the longest",
+                    [&options](const std::string &text) { options.skirt = parse_positive_finite(text, "--skirt"); });
+  command
+      .text("--wall", "FILE", "A surface in the mesh's frame that the skirt reaches: .vtp, .vtu or .stl", options.wall)
+      ->needs(skirt);
+}
+
 void declare_tolerance(Command &command, ValveOptions &options) {
   command.value("--tolerance", "F", "Largest deviation of triangles from the smooth valve, in half thicknesses",
                 [&options](const std::string &text) {
@@ -84,7 +93,7 @@ void declare_file(Command &command, ValveOptions &options) {
   command.group("Surface");
   CLI::Option *const surface = command.text(
       "--surface", "FILE", "A file in place of a valve: .vtp, .vtu, .stl, or .pvd for a motion", options.surface);
-  for (const char *name : {"--valve", "--opening", "--params", "--params-open", "--set"})
+  for (const char *name : {"--valve", "--opening", "--params", "--params-open", "--set", "--skirt", "--wall"})
     surface->excludes(command.option(name));
   command
       .text("--leaflets", "connected|ARRAY", "Leaflets of --surface: connected pieces, or a cell array",
@@ -262,6 +271,7 @@ void declare_mark(Command command, MarkOptions &options) {
   declare_valve(command, options);
   declare_opening(command, options);
   declare_open_state(command, options);
+  declare_skirt(command, options);
   declare_file(command, options);
   declare_placement(command, options);
   declare_marking(command, options);
@@ -283,6 +293,7 @@ void declare_surface(Command command, MarkOptions &options) {
   declare_valve(command, options);
   declare_opening(command, options);
   declare_open_state(command, options);
+  declare_skirt(command, options);
   declare_file(command, options);
   declare_placement(command, options);
   declare_half_thickness(command, options);
@@ -297,6 +308,7 @@ void declare_crossings(Command command, MarkOptions &options) {
   declare_valve(command, options);
   declare_opening(command, options);
   declare_open_state(command, options);
+  declare_skirt(command, options);
   declare_file(command, options);
   declare_placement(command, options);
   declare_half_thickness(command, options);
@@ -328,6 +340,7 @@ void declare_leaks(Command command, MarkOptions &options) {
   declare_valve(command, options);
   declare_opening(command, options);
   declare_open_state(command, options);
+  declare_skirt(command, options);
   declare_file(command, options);
   declare_placement(command, options);
   command.group("Marking");
@@ -388,10 +401,21 @@ void declare_states(Command command, StatesOptions &options) {
   command.value("--count", "N", "Number of openings (default 101)", [&options](const std::string &text) {
     options.n_states = parse_count(text, "--count", 2, most_states);
   });
+  command.flag("--coaptation", "Also give the area and the length over which leaflets touch", options.has_contacts);
   declare_loudness(command, options);
   declare_valve(command, options);
   declare_open_state(command, options);
+  declare_skirt(command, options);
   declare_tolerance(command, options);
+  CLI::Option *const surface = command.text(
+      "--surface", "FILE", "A file in place of a valve: .vtp, .vtu, .stl, or .pvd, its motion", options.surface);
+  for (const char *name :
+       {"--valve", "--params", "--params-open", "--set", "--skirt", "--wall", "--tolerance", "--count"})
+    surface->excludes(command.option(name));
+  command
+      .text("--leaflets", "connected|ARRAY", "Leaflets of --surface: connected pieces, or a cell array",
+            options.leaflets)
+      ->needs(surface);
   declare_unit(command, options);
   declare_half_thickness(command, options);
 }
@@ -430,6 +454,7 @@ void declare_export(Command command, ExportOptions &options) {
   declare_loudness(command, options);
   declare_valve(command, options);
   declare_open_state(command, options);
+  declare_skirt(command, options);
   declare_tolerance(command, options);
   declare_placement(command, options);
   declare_half_thickness(command, options);

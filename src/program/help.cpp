@@ -106,6 +106,13 @@ opening 0. With --params-open, the other options give the closed state. That fil
 state. An opening in that file has no effect. The paper's aortic valve, at opening 0 with the default parameters, is not
 closed. Seen along its axis, 19 % of a disc of radius 1.2 cm stay open. --valve coapting and --valve trileaflet close.
 )"},
+    {"skirt", "a strip that closes the gap to the wall",
+     R"(
+--skirt L gives a valve a strip of the length L, in the mesh's unit. It leads outwards from the attachment and closes the gap
+to the wall. The parameter skirt_length is the same length in the valve's own unit. With --wall FILE, a surface in the mesh's
+frame and unit, the skirt reaches that wall, and no farther. L is then the longest skirt to accept. The program prints the
+gap. A wall that is missed or farther away is refused. In a case, "skirt" and "wall" are keys of a valve.
+)"},
     {"patches", "a file of curves for a valve of your own",
      R"(
 --valve FILE.json is a valve from patches, which are given by the curves that bound them:
@@ -114,8 +121,8 @@ closed. Seen along its axis, 19 % of a disc of radius 1.2 cm stay open. --valve 
  "patches": [{"v0": "hinge", "v1": "edge", "u0": "left", "u1": "-right", "leaflet": 0}]}
 2, 3 or 4 points control a curve of degree 1, 2 or 3. One point stands for a side that collapses to a point. A minus reverses
 a curve. v0 and v1 run from u0 to u1; u0 and u1 run from v0 to v1. The default of "leaflet" is 0. "open": {"curves": {...}}
-beside "patches" holds all curves at --opening 1. Without it the valve stays at opening 0. The valve's only parameter is
-opening.
+beside "patches" holds all curves at --opening 1. Without it the valve stays at opening 0. The valve's parameters are
+opening and skirt_length.
 )"},
     {"landmarks", "files of riis place, and its report",
      R"(

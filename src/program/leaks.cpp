@@ -307,11 +307,9 @@ void measure_flow(const MarkOptions &options, const MarkedMesh &marked, Report &
   const Stage stage("measuring the band", options.quiet);
   FlowReport &flow = report.flow;
   report.prints_flow = options.measures;
-  if (marked.valve) {
-    riis_orifice orifice;
-    check(riis_surface_get_orifice(marked.surface, nullptr, &orifice, sizeof orifice));
-    if (orifice.outline != RIIS_OUTLINE_NONE) flow.orifice = orifice;
-  }
+  riis_orifice orifice;
+  check(riis_surface_get_orifice(marked.surface, nullptr, &orifice, sizeof orifice));
+  if (orifice.outline != RIIS_OUTLINE_NONE) flow.orifice = orifice;
   if (options.resistance && *options.resistance > 0) {
     riis_resistance how;
     check(riis_resistance_init(&how, sizeof how));

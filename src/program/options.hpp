@@ -27,6 +27,8 @@ struct ValveOptions {
   std::string params, params_open;    // JSON files; "": none
   std::vector<std::string> settings;  // NAME=VALUE, in the order of typing
   std::optional<double> opening;      // from 0 to 1
+  std::optional<double> skirt;        // length of a skirt in the mesh's unit; with a wall, the longest to accept
+  std::string wall;                   // a file with the wall that the skirt reaches; "": none
   riis_surface_options surface_options;
   std::optional<Unit> unit, surface_unit;  // units of the mesh and of the surface's file; they give the scale
   // Tell whether the user gave these values as numbers.
@@ -100,6 +102,7 @@ struct SizeFieldOptions : MarkOptions {
 struct StatesOptions : ValveOptions {
   std::string output;           // the file of the table; "-" is stdout
   std::int32_t n_states = 101;  // number of openings in the table
+  bool has_contacts = false;    // whether the table has the coaptation
 };
 
 struct TimeSpan {

@@ -69,6 +69,7 @@ NamedFiles inputs_of(const ValveOptions &options) {
   return {{"--surface", options.surface},
           {"--params", options.params},
           {"--params-open", options.params_open},
+          {"--wall", options.wall},
           {"--valve", is_valve_file(options.valve) ? options.valve : options.placed}};
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "common/array_view.hpp"
 #include "program/valve_file.hpp"
 
 namespace riis::program {
@@ -41,6 +42,10 @@ std::ostringstream table_stream() {
   std::ostringstream out;
   out.imbue(std::locale::classic());
   return out;
+}
+
+void add_gap(const riis_gap &gap, std::ostringstream &out) {
+  out << "skirt     to the wall, " << gap.least << " to " << gap.most << " away, " << gap.mean << " on average\n";
 }
 
 void add_marks(const Report &report, std::ostringstream &out) {
@@ -108,7 +113,8 @@ void add_flow(const FlowReport &flow, std::ostringstream &out) {
   if (flow.orifice)
     out << "orifice   " << flow.orifice->area << " open, " << flow.orifice->effective_area
         << " effective: the band takes " << flow.orifice->rim_reach << " half thicknesses along a perimeter of "
-        << flow.orifice->perimeter << "\n";
+        << flow.orifice->perimeter
+        << (flow.orifice->outline == RIIS_OUTLINE_BOUNDARY ? "; the outline is the longest open boundary" : "") << "\n";
   if (flow.first) {
     out << "opens     ";
     if (flow.first->state == RIIS_FIRST_PASSAGE_FOUND)
@@ -134,11 +140,9 @@ nlohmann::ordered_json json_of_first(const riis_first_passage &first) {
 
 void add_flow(const FlowReport &flow, nlohmann::ordered_json &json) {
   if (flow.orifice)
-    json["orifice"] = {{"area", flow.orifice->area},
-                       {"outline_area", flow.orifice->outline_area},
-                       {"perimeter", flow.orifice->perimeter},
-                       {"effective_area", flow.orifice->effective_area},
-                       {"rim_reach", flow.orifice->rim_reach}};
+    json["orifice"] = {{"outline", outline_name(flow.orifice->outline)}, {"area", flow.orifice->area},
+                       {"outline_area", flow.orifice->outline_area},     {"perimeter", flow.orifice->perimeter},
+                       {"effective_area", flow.orifice->effective_area}, {"rim_reach", flow.orifice->rim_reach}};
   if (flow.cells)
     json["cells_across"] = {{"least", flow.cells->least},
                             {"mean", flow.cells->mean},
@@ -169,6 +173,11 @@ std::string grouped(int64_t n) {
   std::string digits = std::to_string(n);
   for (std::size_t i = digits.size(); i > 3;) digits.insert(i -= 3, ",");
   return digits;
+}
+
+const char *outline_name(int32_t outline) {
+  static const char *const names[] = {"none", "disc", "attachment", "boundary"};
+  return view(names)[outline];
 }
 
 std::string counted(int64_t n, const char *singular) { return grouped(n) + " " + singular + (n == 1 ? "" : "s"); }
@@ -266,6 +275,10 @@ std::string json_of(const Report &report) {
                                          "n_cells_without_known_edges"};
   if (report.mesh_name.empty())
     for (const char *key : of_marks) json.erase(key);
+  if (report.gap)
+    json["gap"] = {{"least", report.gap->least},   {"mean", report.gap->mean},
+                   {"most", report.gap->most},     {"widest_point", report.gap->widest_point},
+                   {"n_ends", report.gap->n_ends}, {"n_without_wall", report.gap->n_without_wall}};
   if (report.leaks.passage) json["passage"] = json_of_passage(*report.leaks.passage);
   add_flow(report.flow, json);
   if (report.step) {
@@ -296,6 +309,7 @@ std::string table_of(const Report &report) {
   if (!report.opening && report.surface.n_zero_area > 0)
     out << ", " << grouped(report.surface.n_zero_area) << " without area left out";
   out << "\n";
+  if (report.gap) add_gap(*report.gap, out);
   if (!report.mesh_name.empty()) {
     add_marks(report, out);
     add_leaks(report.leaks, out);

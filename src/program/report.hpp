@@ -53,7 +53,7 @@ struct LeakReport {
 
 // Measures of the valve and the mesh that matter for a flow.
 struct FlowReport {
-  std::optional<riis_orifice> orifice;        // set for a valve
+  std::optional<riis_orifice> orifice;        // set if the surface has an outline
   std::optional<riis_cells_across> cells;     // set if the mesh's edges are known
   std::optional<riis_first_passage> first;    // set if the first passage was looked for
   std::optional<double> leak_per_drop, drop;  // set if the user gave a resistance
@@ -75,6 +75,7 @@ struct Report {
   int32_t distance = RIIS_MEASURE_TRIANGLES;
   int64_t n_leaflets = 0;  // number of leaflets that --leaflets found in a file; 0 if it is not printed
   riis_surface_info surface{};
+  std::optional<riis_gap> gap;  // set if a skirt reaches a wall
   riis_mark_stats marks{};
   LeakReport leaks;
   FlowReport flow;
@@ -87,6 +88,8 @@ struct Report {
 
 // These return texts such as "15,745" and "1 node".
 std::string grouped(int64_t n);
+// Returns the name of RIIS_OUTLINE_*.
+const char *outline_name(int32_t outline);
 std::string counted(int64_t n, const char *singular);
 // Returns a text such as "mitral valve, opening 0.5".
 std::string surface_title(const Report &report);

@@ -127,6 +127,7 @@ ExitCode run_single(const MarkOptions &options) {
   check(riis_surface_get_info(surface.get(), &report.surface, sizeof report.surface));
   report.surface_name = valve ? options.valve : options.surface;
   if (valve) report.opening = opening_of(valve);
+  if (valve && !options.wall.empty()) report.gap = gap_to_wall(options, surface.get());
   report.time = options.time;
   if (!options.leaflets.empty()) report.n_leaflets = count_leaflets(surface.get());
   report.seconds.surface = report.surface.seconds_triangles;

@@ -34,23 +34,54 @@ riis_surface_options own_frame(const StatesOptions &options) {
   return own;
 }
 
-// A valve with its surface.
-class OpeningValve {
+// A valve with its surface, or a surface from a file.
+class Measured {
  public:
-  explicit OpeningValve(const StatesOptions &options) : options_(options), valve_(make_valve(options)) {
-    set_opening(0);
-    const riis_surface_options own = own_frame(options);
-    riis_surface *surface = nullptr;
-    check(riis_surface_create(valve_.get(), &own, &surface), subject());
-    surface_.reset(surface);
+  explicit Measured(const StatesOptions &options) : options_(options) {
+    if (options.surface.empty()) {
+      valve_ = make_valve(options);
+      set_opening(0);
+      const riis_surface_options own = own_frame(options);
+      riis_surface *surface = nullptr;
+      check(riis_surface_create(valve_.get(), &own, &surface), subject());
+      surface_.reset(surface);
+      return;
+    }
+    Seconds seconds;
+    MarkOptions as_file;
+    static_cast<ValveOptions &>(as_file) = options;
+    ValveSource source{as_file, nullptr, nullptr};
+    if (is_motion_file(options.surface)) {
+      times_ = times_of_frames(options);
+      keyframes_ = read_keyframes(options, seconds).keyframes;
+      source.options.time = times_.front();
+      surface_ = surface_of_keyframes(source.options, keyframes_.get());
+    } else {
+      source.file = read_surface(options, seconds);
+      surface_ = make_surface(source, FileVelocity::none);
+    }
   }
 
-  void open_to(double opening) {
-    set_opening(opening);
+  // Moves to a place: an opening of a valve, or a time of a surface that moves.
+  void move_to(double place) {
+    if (keyframes_)
+      check(riis_surface_update_from_keyframes(surface_.get(), keyframes_.get(), place, 0, nullptr), options_.surface);
+    if (!valve_) return;
+    set_opening(place);
     check(riis_surface_update(surface_.get(), valve_.get(), nullptr), subject());
   }
 
-  std::string why_closed() { return program::why_closed(valve_.get(), own_frame(options_)); }
+  bool is_valve() const { return valve_ != nullptr; }
+  std::string why_closed() { return valve_ ? program::why_closed(valve_.get(), own_frame(options_)) : ""; }
+
+  // Returns the openings or the times of the table.
+  std::vector<double> places(bool can_open) const {
+    if (!valve_) return keyframes_ ? times_ : std::vector<double>{0};
+    std::vector<double> made{0};
+    for (std::int32_t i = 1; can_open && i < options_.n_states; ++i)
+      made.push_back(static_cast<double>(i) / static_cast<double>(options_.n_states - 1));
+    return made;
+  }
 
   // Returns the name of the parameter that is the disc's radius, or "".
   std::string radius_parameter() const {
@@ -79,21 +110,38 @@ class OpeningValve {
     return made;
   }
 
+  ContactSize contact() const {
+    riis_coaptation made;
+    check(riis_surface_get_coaptation(surface_.get(), RIIS_AUTO, RIIS_ALL_LEAFLETS, &made, sizeof made));
+    return {made.area, made.edge};
+  }
+
  private:
   std::string subject() const { return is_valve_file(options_.valve) ? options_.valve : ""; }
   void set_opening(double opening) { check(riis_valve_set_scalar(valve_.get(), "opening", opening)); }
 
   const StatesOptions &options_;
-  Valve valve_;
+  Valve valve_;  // null for a surface from a file
+  Keyframes keyframes_;
+  std::vector<double> times_;
   Surface surface_;
 };
+
+// Tells whether a leaflet is the valve's skirt, which has the largest id.
+bool is_skirt(const StatesOptions &options, const riis_leaflet &leaflet, const std::vector<riis_leaflet> &leaflets) {
+  if (!options.surface.empty() || options.valve == "bileaflet") return false;
+  if (!is_valve_file(options.valve)) return leaflet.leaflet_id == RIIS_LEAFLET_SKIRT;
+  return options.skirt && &leaflet == &leaflets.back();
+}
 
 std::vector<std::string> names_of_leaflets(const StatesOptions &options, const std::vector<riis_leaflet> &leaflets) {
   const std::vector<const char *> known = leaflet_names(options);
   std::vector<std::string> names;
   for (const riis_leaflet &leaflet : leaflets) {
     const auto at = static_cast<std::size_t>(leaflet.leaflet_id);
-    names.push_back(at < known.size() ? known[at] : "leaflet " + std::to_string(leaflet.leaflet_id));
+    const std::string other =
+        is_skirt(options, leaflet, leaflets) ? "skirt" : "leaflet " + std::to_string(leaflet.leaflet_id);
+    names.push_back(at < known.size() ? known[at] : other);
   }
   return names;
 }
@@ -101,29 +149,35 @@ std::vector<std::string> names_of_leaflets(const StatesOptions &options, const s
 // Tells whether the leaflets are rigid. A rigid leaflet only turns, so its lengths do not change.
 bool is_rigid(const std::string &valve) { return valve == "bileaflet"; }
 
-State state_at(OpeningValve &valve, double opening) {
-  valve.open_to(opening);
-  State state{opening, {}, std::nullopt};
+State state_at(Measured &valve, double place, bool has_contacts) {
+  valve.move_to(place);
+  State state{place, {}, std::nullopt};
   for (const riis_leaflet &leaflet : valve.leaflets()) state.leaflets.push_back({leaflet.free_edge, leaflet.area});
   const riis_orifice orifice = valve.orifice();
   if (orifice.outline != RIIS_OUTLINE_NONE) state.orifice = {orifice.area, orifice.perimeter, orifice.effective_area};
+  if (has_contacts) state.contact = valve.contact();
   return state;
 }
 
 // Returns the closed state's names, ids and disc, which all openings share.
-States frame_of(const StatesOptions &options, OpeningValve &valve) {
-  valve.open_to(0);
+States frame_of(const StatesOptions &options, Measured &valve) {
+  if (valve.is_valve()) valve.move_to(0);
   const std::vector<riis_leaflet> leaflets = valve.leaflets();
   const riis_orifice orifice = valve.orifice();
   States states{{}, names_of_leaflets(options, leaflets), "", "", orifice.outline_area, "", {}, ""};
+  states.is_of_file = !valve.is_valve();
   for (const riis_leaflet &leaflet : leaflets) {
     states.ids.push_back(leaflet.leaflet_id);
-    if (leaflet.free_edge == 0) states.why_no_edges = "a leaflet has no side v = 1 on its rim";
+    if (leaflet.free_edge == 0 && !is_skirt(options, leaflet, leaflets))
+      states.why_no_edges = valve.is_valve() ? "a leaflet has no side v = 1 on its rim"
+                                             : "a leaflet has no open edge besides the outline";
   }
-  if (is_rigid(options.valve)) states.why_no_edges = "the leaflets are rigid";
+  if (valve.is_valve() && is_rigid(options.valve)) states.why_no_edges = "the leaflets are rigid";
   if (orifice.outline == RIIS_OUTLINE_DISC)
     states.disc = "the disc of " + valve.radius_parameter() + " " + shown(orifice.radius);
   if (orifice.outline == RIIS_OUTLINE_ATTACHMENT) states.disc = "the outline of the attachment";
+  if (orifice.outline == RIIS_OUTLINE_BOUNDARY)
+    states.disc = "the longest open boundary, which is taken as the outline,";
   states.reach = shown(orifice.rim_reach) + " half thicknesses of " + shown(orifice.half_thickness);
   return states;
 }
@@ -131,15 +185,16 @@ States frame_of(const StatesOptions &options, OpeningValve &valve) {
 }  // namespace
 
 States measure_states(const StatesOptions &options) {
-  OpeningValve valve(options);
+  Measured valve(options);
   const std::string why_closed = valve.why_closed();
   States states = frame_of(options, valve);
   states.why_closed = why_closed;
-  const std::size_t n = why_closed.empty() ? static_cast<std::size_t>(options.n_states) : 1;
+  const std::vector<double> places = valve.places(why_closed.empty());
+  const std::size_t n = places.size();
   StepProgress progress("measuring the valve", n, options.quiet);
   for (std::size_t i = 0; i < n; ++i) {
     progress.begin(i);
-    states.states.push_back(state_at(valve, n > 1 ? static_cast<double>(i) / static_cast<double>(n - 1) : 0));
+    states.states.push_back(state_at(valve, places[i], options.has_contacts));
     if (!states.states.back().orifice) states.disc.clear();
   }
   return states;
@@ -148,7 +203,7 @@ States measure_states(const StatesOptions &options) {
 void run_states(const StatesOptions &options) {
   const OutputLocks locks = check_outputs(options);
   const States states = measure_states(options);
-  check_shape(options, make_valve(options).get(), !options.params_open.empty());
+  if (!states.is_of_file) check_shape(options, make_valve(options).get(), !options.params_open.empty());
   write_text(options.output, csv_of(states));
   if (options.quiet || options.output == "-") return;
   write_text("-", summary_of(states, options));
@@ -181,12 +236,19 @@ std::string rounded(double value) { return shown(std::round(value * 1e4) / 1e4);
 
 std::string at(const State &state) { return " at " + shown(state.opening); }
 
+// Returns the place of the first state, which is closed if the surface is that of a valve.
+std::string at_first(const States &states) {
+  if (states.is_of_file && states.states.size() == 1) return "";
+  return at(states.states.front());
+}
+
 std::string ratios_of(const States &states, const Value &value) {
   const double closed = value(states.states.front());
-  std::string text = shown(closed) + " when closed";
+  std::string text = shown(closed) + (states.is_of_file ? at_first(states) : " when closed");
   if (states.states.size() == 1) return text;
   const auto [least, most] = extremes_of(states, value);
-  if (value(*most) - value(*least) <= same * closed) return text + ", and at every opening";
+  if (value(*most) - value(*least) <= same * closed)
+    return text + (states.is_of_file ? ", and at every time" : ", and at every opening");
   return text + ", times " + rounded(value(*least) / closed) + at(*least) + " to " + rounded(value(*most) / closed) +
          at(*most);
 }
@@ -218,16 +280,18 @@ class Summary {
 
 void add_leaflets(const States &states, Summary &summary) {
   for (std::size_t i = 0; i < states.names.size(); ++i) {
-    if (states.has_edges()) summary.add(states.names[i], "free edge " + ratios_of(states, edge_of(i)));
-    summary.add(states.has_edges() ? "" : states.names[i], "area " + ratios_of(states, area_of_leaflet(i)));
+    const bool has_edge = states.has_edges() && states.states.front().leaflets[i].edge > 0;
+    if (has_edge) summary.add(states.names[i], "free edge " + ratios_of(states, edge_of(i)));
+    summary.add(has_edge ? "" : states.names[i], "area " + ratios_of(states, area_of_leaflet(i)));
   }
 }
 
 std::string text_of_orifice(const States &states) {
+  if (states.disc.empty() && states.is_of_file) return "not measured: no closed line of open edges encloses an area";
   if (states.disc.empty())
     return "not measured: the valve has no root_radius or radius, and its free sides v = 0 enclose no area along z";
   const Value value = [](const State &state) { return state.orifice->area; };
-  std::string text = rounded(value(states.states.front())) + " at 0";
+  std::string text = rounded(value(states.states.front())) + at_first(states);
   if (states.states.size() > 1) {
     const State *most = extremes_of(states, value).most;
     text += ", largest " + rounded(value(*most)) + at(*most);
@@ -238,12 +302,20 @@ std::string text_of_orifice(const States &states) {
 // Names the areas that the band leaves to the flow.
 std::string text_of_effective(const States &states) {
   const Value value = [](const State &state) { return state.orifice->effective_area; };
-  std::string text = rounded(value(states.states.front())) + " at 0";
+  std::string text = rounded(value(states.states.front())) + at_first(states);
   if (states.states.size() > 1) {
     const State *most = extremes_of(states, value).most;
     text += ", largest " + rounded(value(*most)) + at(*most);
   }
   return text + "; the band's rim takes " + states.reach;
+}
+
+std::string text_of_contact(const States &states) {
+  const State *most = extremes_of(states, [](const State &state) { return state.contact->area; }).most;
+  const ContactSize &first = *states.states.front().contact;
+  std::string text = "area " + rounded(first.area) + ", free edge " + rounded(first.edge) + at_first(states);
+  if (states.states.size() > 1) text += "; largest area " + rounded(most->contact->area) + at(*most);
+  return text;
 }
 
 // Lists the free edges that gain or lose more than a tenth, and the opening at which this begins.
@@ -257,10 +329,11 @@ std::string text_of_changes(const States &states) {
     const auto n = std::count_if(states.states.begin(), states.states.end(), is_beyond);
     if (n == 0) continue;
     const auto first = std::find_if(states.states.begin(), states.states.end(), is_beyond);
-    text += (text.empty() ? "" : ", ") + states.names[i] + " (" + counted(n, "opening") + ", first " +
-            shown(first->opening) + ")";
+    text += (text.empty() ? "" : ", ") + states.names[i] + " (" + counted(n, states.is_of_file ? "time" : "opening") +
+            ", first " + shown(first->opening) + ")";
   }
-  const std::string range = "within 10 % of their closed length";
+  const std::string range =
+      states.is_of_file ? "within 10 % of their first length" : "within 10 % of their closed length";
   return text.empty() ? "all " + range : "not " + range + ": " + text;
 }
 
@@ -280,20 +353,21 @@ std::vector<std::string> columns_of(const States &states) {
 
 std::string cells_of(const LeafletSize &now, const LeafletSize &closed, bool has_edges) {
   std::string text;
-  if (has_edges) text += "," + shortest(now.edge) + "," + shortest(now.edge / closed.edge);
+  if (has_edges) text += "," + shortest(now.edge) + "," + shortest(closed.edge > 0 ? now.edge / closed.edge : 1);
   return text + "," + shortest(now.area) + "," + shortest(now.area / closed.area);
 }
 
 }  // namespace
 
 std::string csv_of(const States &states) {
-  std::string text = "opening";
+  std::string text = states.is_of_file ? "time" : "opening";
   for (const std::string &name : columns_of(states)) {
     const std::string column = "," + name;
     if (states.has_edges()) text += column + "_edge" + column + "_edge_ratio";
     text += column + "_area" + column + "_area_ratio";
   }
   if (!states.disc.empty()) text += ",orifice_area,orifice_perimeter,effective_area";
+  if (states.states.front().contact) text += ",contact_area,contact_edge";
   text += "\n";
   for (const State &state : states.states) {
     text += shortest(state.opening);
@@ -302,6 +376,7 @@ std::string csv_of(const States &states) {
     if (!states.disc.empty())
       text += "," + shortest(state.orifice->area) + "," + shortest(state.orifice->perimeter) + "," +
               shortest(state.orifice->effective_area);
+    if (state.contact) text += "," + shortest(state.contact->area) + "," + shortest(state.contact->edge);
     text += "\n";
   }
   return text;
@@ -310,13 +385,20 @@ std::string csv_of(const States &states) {
 std::string summary_of(const States &states, const StatesOptions &options) {
   const bool can_open = states.why_closed.empty();
   Summary summary(states);
-  summary.add("valve",
-              options.valve + ": " +
-                  (can_open ? counted(static_cast<std::int64_t>(states.states.size()), "opening") + " from 0 to 1"
-                            : "opening 0 alone, because it has no state to open to"));
+  const auto n = static_cast<std::int64_t>(states.states.size());
+  if (states.is_of_file)
+    summary.add("surface",
+                options.surface + (n > 1 ? ": " + counted(n, "time") + " from " + shown(states.states.front().opening) +
+                                               " to " + shown(states.states.back().opening)
+                                         : ""));
+  else
+    summary.add("valve", options.valve + ": " +
+                             (can_open ? counted(n, "opening") + " from 0 to 1"
+                                       : "opening 0 alone, because it has no state to open to"));
   add_leaflets(states, summary);
   summary.add("orifice", text_of_orifice(states));
   if (!states.disc.empty()) summary.add("effective", text_of_effective(states));
+  if (states.states.front().contact) summary.add("contact", text_of_contact(states));
   if (!states.has_edges()) summary.add("edges", "not measured: " + states.why_no_edges);
   if (states.has_edges() && can_open) summary.add("edges", text_of_changes(states));
   summary.add("written", options.output);

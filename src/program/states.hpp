@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Implements `riis states`: free edges, leaflet areas and the orifice of a valve at openings from 0 to 1, in the valve's frame.
+// Implements `riis states`: free edges, leaflet areas, the orifice and the coaptation. A valve is measured at openings from 0 to
+// 1, in its own frame. A surface from a file is measured as it is, or at the times of its frames.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +21,15 @@ struct OrificeSize {
   double area, perimeter, effective_area;  // as in riis_orifice
 };
 
+struct ContactSize {
+  double area, edge;  // as in riis_coaptation, of all leaflets
+};
+
 struct State {
-  double opening;
+  double opening;  // or the time
   std::vector<LeafletSize> leaflets;
   std::optional<OrificeSize> orifice;
+  std::optional<ContactSize> contact{};
 };
 
 struct States {
@@ -35,6 +41,7 @@ struct States {
   std::string reach;          // the distance that the band's rim reaches into the orifice, as text
   std::vector<State> states;  // ascending by opening; the first is closed
   std::string why_closed;     // the library's refusal of other openings; "" if the valve opens
+  bool is_of_file = false;    // whether the states are of a surface from a file, by time
 
   bool has_edges() const { return why_no_edges.empty(); }
 };

@@ -88,7 +88,41 @@ Valve make_kind(const std::string &kind, const std::string &subject) {
 }
 
 Valve make_valve(const ValveOptions &options, OpeningCheck opening) {
-  return is_valve_file(options.valve) ? make_valve_of_file(options, opening) : make_valve_of_kind(options);
+  Valve valve = is_valve_file(options.valve) ? make_valve_of_file(options, opening) : make_valve_of_kind(options);
+  set_skirt(options, valve.get(), "--skirt");
+  return valve;
+}
+
+namespace {
+
+// Reads the wall. It is already in the mesh's frame, so nothing places it.
+Surface read_wall(const ValveOptions &options) {
+  riis_vtk_surface *handle = nullptr;
+  check_read(riis_vtk_surface_read(options.wall.c_str(), nullptr, &handle), options.wall, Content::surface);
+  const SurfaceFile file(handle);
+  ValveOptions as_it_is;
+  as_it_is.surface = options.wall;
+  as_it_is.surface_options.zero_area = RIIS_ZERO_AREA_SKIP;
+  return surface_of_file(as_it_is, file.get(), FileVelocity::none);
+}
+
+}  // namespace
+
+void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string &subject) {
+  if (!options.skirt) return;
+  if (options.wall.empty()) {
+    check(riis_valve_set_scalar(valve, "skirt_length", *options.skirt / options.surface_options.scale), subject);
+    return;
+  }
+  const Surface wall = read_wall(options);
+  check(riis_valve_set_skirt_to_wall(valve, wall.get(), *options.skirt, &options.surface_options), options.wall);
+}
+
+riis_gap gap_to_wall(const ValveOptions &options, const riis_surface *surface) {
+  const Surface wall = read_wall(options);
+  riis_gap gap;
+  check(riis_surface_get_gap(surface, wall.get(), nullptr, &gap, sizeof gap), options.wall);
+  return gap;
 }
 
 double opening_of(const riis_valve *valve) {
@@ -186,6 +220,13 @@ KeyframeFiles read_keyframes(const ValveOptions &options, Seconds &seconds) {
   KeyframeFiles read{nullptr, files_of(motion.get())};
   read.keyframes = keyframes_of(options, motion.get());
   return read;
+}
+
+std::vector<double> times_of_frames(const ValveOptions &options) {
+  const Motion motion = read_motion(options);
+  riis_keyframe_arrays frames;
+  check(riis_vtk_motion_get_frames(motion.get(), &frames, sizeof frames));
+  return {frames.time, frames.time + frames.n_keys};
 }
 
 Surface surface_of_keyframes(const ValveOptions &options, const riis_keyframes *keyframes) {

@@ -34,6 +34,11 @@ enum class OpeningCheck { no, yes };
 // Makes the valve of --valve, --params and the options that belong to them.
 Valve make_valve(const ValveOptions &options, OpeningCheck opening = OpeningCheck::yes);
 double opening_of(const riis_valve *valve);
+// Gives the valve the skirt of --skirt and --wall. Does nothing without --skirt. `subject` begins refusals that are not about the
+// wall.
+void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string &subject);
+// Measures the gap between a valve's surface and the wall of --wall.
+riis_gap gap_to_wall(const ValveOptions &options, const riis_surface *surface);
 Valve copy_of(const riis_valve *valve);
 // Returns the library's reason if the valve cannot open, or "" if it can. With these options, the valve must make a surface at
 // opening 0. The call leaves the valve at opening 1.
@@ -61,6 +66,9 @@ struct KeyframeFiles {
   std::vector<std::string> files;
 };
 KeyframeFiles read_keyframes(const ValveOptions &options, Seconds &seconds);
+
+// Returns the times of the frames.
+std::vector<double> times_of_frames(const ValveOptions &options);
 
 // Makes the surface at options.time, with velocities.
 Surface surface_of_keyframes(const ValveOptions &options, const riis_keyframes *keyframes);

@@ -389,6 +389,19 @@ static void test_structs(void **state) {
   FIELD(riis_orifice, outline, 80, 4);
   FIELD(riis_orifice, reserved, 84, 4);
 
+  SIZE(riis_coaptation, 24);
+  FIELD(riis_coaptation, area, 0, 8);
+  FIELD(riis_coaptation, edge, 8, 8);
+  FIELD(riis_coaptation, reach, 16, 8);
+
+  SIZE(riis_gap, 64);
+  FIELD(riis_gap, least, 0, 8);
+  FIELD(riis_gap, mean, 8, 8);
+  FIELD(riis_gap, most, 16, 8);
+  FIELD(riis_gap, widest_point, 24, 24);
+  FIELD(riis_gap, n_ends, 48, 8);
+  FIELD(riis_gap, n_without_wall, 56, 8);
+
   SIZE(riis_first_passage_options, 32);
   FIELD(riis_first_passage_options, struct_size, 0, 8);
   FIELD(riis_first_passage_options, surface, 8, 8);
@@ -540,6 +553,7 @@ static void test_constants(void **state) {
   assert_int_equal(RIIS_LEAFLET_POSITIVE, 0);
   assert_int_equal(RIIS_LEAFLET_NEGATIVE, 1);
   assert_int_equal(RIIS_LEAFLET_HOUSING, 2);
+  assert_int_equal(RIIS_LEAFLET_SKIRT, 3);
   assert_int_equal(RIIS_ZERO_AREA_REFUSE, 0);
   assert_int_equal(RIIS_ZERO_AREA_SKIP, 1);
   assert_int_equal(RIIS_MEASURE_TRIANGLES, 0);
@@ -590,6 +604,7 @@ static void test_constants(void **state) {
   assert_int_equal(RIIS_OUTLINE_NONE, 0);
   assert_int_equal(RIIS_OUTLINE_DISC, 1);
   assert_int_equal(RIIS_OUTLINE_ATTACHMENT, 2);
+  assert_int_equal(RIIS_OUTLINE_BOUNDARY, 3);
   assert_int_equal(RIIS_FIRST_PASSAGE_FOUND, 0);
   assert_int_equal(RIIS_FIRST_PASSAGE_ALWAYS, 1);
   assert_int_equal(RIIS_FIRST_PASSAGE_NEVER, 2);
@@ -648,6 +663,10 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_surface_update_from_keyframes, int32_t,
             (riis_surface *, const riis_keyframes *, double, double, const riis_surface_options *));
   SIGNATURE(riis_surface_destroy, void, (riis_surface **));
+  SIGNATURE(riis_surface_get_gap, int32_t, (const riis_surface *, const riis_surface *, double *, riis_gap *, int64_t));
+  SIGNATURE(riis_valve_set_skirt_to_wall, int32_t,
+            (riis_valve *, const riis_surface *, double, const riis_surface_options *));
+  SIGNATURE(riis_surface_get_coaptation, int32_t, (const riis_surface *, double, int32_t, riis_coaptation *, int64_t));
   SIGNATURE(riis_surface_get_attachment, int32_t, (const riis_surface *, riis_attachment *, int64_t));
   SIGNATURE(riis_surface_get_info, int32_t, (const riis_surface *, riis_surface_info *, int64_t));
   SIGNATURE(riis_surface_get_triangles, int32_t, (const riis_surface *, riis_triangles *, int64_t));

@@ -17,7 +17,7 @@ static const double pi = 3.14159265358979323846;
 
 /* ---- The table ---- */
 
-enum { most_rows = 128, most_columns = 16 };
+enum { most_rows = 128, most_columns = 32 };
 static struct {
   int n_rows, n_columns;
   char name[most_columns][64];
@@ -367,6 +367,77 @@ static void test_shared_sides(void **state) {
     }
 }
 
+/* ---- Skirts, surfaces from files ---- */
+
+/* Writes a square tube around the z axis, whose sides are 2 away from the axis. */
+static void write_wall(void) {
+  static const double corner[4][2] = {{2, 2}, {-2, 2}, {-2, -2}, {2, -2}};
+  char text[4096] = "solid wall\n";
+  for (int i = 0; i < 4; ++i) {
+    const double *a = corner[i], *b = corner[(i + 1) % 4];
+    for (int k = 0; k < 2; ++k)
+      snprintf(text + strlen(text), sizeof text - strlen(text),
+               "facet normal 0 0 0\nouter loop\nvertex %g %g -5\nvertex %g %g %d\nvertex %g %g 5\nendloop\nendfacet\n",
+               a[0], a[1], b[0], b[1], k ? 5 : -5, k ? a[0] : b[0], k ? a[1] : b[1]);
+  }
+  strcat(text, "endsolid wall\n");
+  scratch_write_text("wall.stl", text);
+}
+
+static void test_skirts_and_files(void **state) {
+  (void)state;
+  write_wall();
+  char wall[256], file[256];
+  snprintf(wall, sizeof wall, "%s", scratch_path("wall.stl"));
+  snprintf(file, sizeof file, "%s", scratch_path("skirt.vtp"));
+  run_program("surface", "--valve", "trileaflet", "--skirt", "2", "--wall", wall, "--output", file, NULL);
+  expect_run_fine(__FILE__, __LINE__);
+  expect_said("skirt     to the wall, 0.7");
+  /* The file has the leaflets' free edges. Its outline is the skirt's outer edge. */
+  RUN_STATES("--surface", file, "--coaptation");
+  assert_int_equal(table.n_rows, 1);
+  assert_true(has_column("time") && !has_column("opening"));
+  CHECK_NEAR(cell(0, "leaflet_0_edge"), 2.5, 1e-6);
+  CHECK_NEAR(cell(0, "orifice_area"), 0, 1e-3);
+  assert_true(cell(0, "contact_edge") > 7.4);
+  expect_said("the longest open boundary, which is taken as the outline,");
+
+  RUN_STATES("--valve", "trileaflet", "--skirt", "0.1", "--coaptation", "--count", "2");
+  CHECK_NEAR(cell(0, "contact_edge"), 7.5, 1e-9);
+  assert_true(cell(1, "contact_edge") < 2 && cell(0, "skirt_area") > 0.5 && cell(0, "contact_area") > 0.1);
+
+  /* Two frames of a mitral valve. */
+  for (int frame = 0; frame < 2; ++frame) {
+    run_program("surface", "--valve", "mitral", "--triangulation", "fixed", "--opening", frame ? "1" : "0.5",
+                "--tolerance", "0.01", "--output", scratch_path(frame ? "b.vtp" : "a.vtp"), NULL);
+    expect_run_fine(__FILE__, __LINE__);
+  }
+  scratch_write_text("motion.pvd",
+                     "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0.25\" file=\"a.vtp\"/>"
+                     "<DataSet timestep=\"0.5\" file=\"b.vtp\"/></Collection></VTKFile>");
+  RUN_STATES("--surface", scratch_path("motion.pvd"));
+  assert_int_equal(table.n_rows, 2);
+  CHECK_NEAR(cell(0, "time"), 0.25, 0);
+  CHECK_NEAR(cell(1, "time"), 0.5, 0);
+  const double orifice = cell(1, "orifice_area");
+  RUN_STATES("--valve", "mitral", "--count", "2");
+  CHECK_NEAR(orifice, cell(1, "orifice_area"), 1e-3 * orifice);
+
+  char csv[256];
+  snprintf(csv, sizeof csv, "%s", scratch_path("no.csv"));
+  RUN_REFUSED(2, "--wall requires --skirt", "states", csv, "--wall", wall);
+  RUN_REFUSED(2, "--surface excludes --skirt", "states", csv, "--surface", file, "--skirt", "1");
+  RUN_REFUSED(2, "--skirt: -1 is not above 0 and finite", "states", csv, "--skirt", "-1");
+  RUN_REFUSED(1, "'skirt_length' is not a parameter of the bileaflet valve", "states", csv, "--valve", "bileaflet",
+              "--skirt", "1");
+  RUN_REFUSED(1, "wall is not within longest, 0.1", "states", csv, "--valve", "trileaflet", "--skirt", "0.1", "--wall",
+              wall);
+  RUN_REFUSED(1, "none.stl", "states", csv, "--skirt", "1", "--wall", scratch_path("none.stl"));
+  RUN_REFUSED(2, "is also the file of --wall", "states", wall, "--valve", "trileaflet", "--skirt", "2", "--wall", wall);
+  scratch_write_text("case.json", "{\"valves\": [{\"valve\": \"trileaflet\", \"wall\": \"wall.stl\"}]}");
+  RUN_REFUSED(1, "it needs \"skirt\"", "mark", file, "--case", scratch_path("case.json"));
+}
+
 /* ---- Refusals ---- */
 
 static void test_refusals(void **state) {
@@ -381,8 +452,7 @@ static void test_refusals(void **state) {
   RUN_REFUSED(2, "OUT is required", "states");
   RUN_REFUSED(2, "in.vtu is one argument too many", "states", csv, scratch_path("in.vtu"));
   RUN_REFUSED(2, "--set opening has no effect: the table has all openings", "states", csv, "--set", "opening=0.5");
-  const char *const others[] = {"--opening=0.5", "--rotate=0,0,1,90", "--threads=1", "--case=a.json",
-                                "--surface=a.vtp"};
+  const char *const others[] = {"--opening=0.5", "--rotate=0,0,1,90", "--threads=1", "--case=a.json"};
   for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i)
     RUN_REFUSED(2, " is not an option", "states", csv, others[i]);
   RUN_REFUSED(2, "is also the file of --valve", "states", scratch_path("flat.json"), "--valve",
@@ -398,9 +468,11 @@ static void test_refusals(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_mitral),         cmocka_unit_test(test_stdout),     cmocka_unit_test(test_aortic),
-      cmocka_unit_test(test_frame_and_unit), cmocka_unit_test(test_prosthesis), cmocka_unit_test(test_collapsed_sides),
-      cmocka_unit_test(test_shared_sides),   cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_mitral),       cmocka_unit_test(test_stdout),
+      cmocka_unit_test(test_aortic),       cmocka_unit_test(test_frame_and_unit),
+      cmocka_unit_test(test_prosthesis),   cmocka_unit_test(test_collapsed_sides),
+      cmocka_unit_test(test_shared_sides), cmocka_unit_test(test_skirts_and_files),
+      cmocka_unit_test(test_refusals),
   };
   return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }

@@ -582,6 +582,8 @@ contains
     type(riis_resistance), target :: listed
     real(c_double), target, allocatable :: coefficient(:), momentum(:, :)
     real(c_double), target :: force(30)
+    type(riis_gap) :: gap
+    type(riis_coaptation) :: contact
     type(riis_attachment) :: attachment
     type(riis_reaction) :: reaction
     integer :: i
@@ -657,6 +659,12 @@ contains
     call check_same_bytes(c_loc(momentum), twin%motion%momentum, 24 * n_nodes, 'resistance times velocity')
     call check(any(coefficient > 0.25d0) .and. any(momentum > -1), 'there is resistance')
     force = [(i, i = 0, 29)]
+    call check_refused(riis_surface_get_gap(moving, moving, gap=gap, struct_size=8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'gap')
+    call check_ok(riis_surface_get_gap(moving, moving, gap=gap, struct_size=c_sizeof(gap)), 'the gap to itself')
+    call check(gap%n_ends > 0 .and. gap%n_without_wall == 0 .and. abs(gap%most) < 1d-12, 'a surface without a gap to itself')
+    call check_refused(riis_valve_set_skirt_to_wall(valve, moving, -1d0), RIIS_INVALID_ARGUMENT, 'longest is -1')
+    call check_ok(riis_surface_get_coaptation(moving, RIIS_AUTO, RIIS_ALL_LEAFLETS, contact, c_sizeof(contact)), 'contact')
+    call check(contact%reach > 0, 'the reach')
     call check_refused(riis_surface_get_attachment(moving, attachment, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'attachment')
     call check_ok(riis_surface_get_attachment(moving, attachment, c_sizeof(attachment)), 'the attachment')
     call check_ok(riis_reaction_init(reaction, c_sizeof(reaction)), 'default reaction')

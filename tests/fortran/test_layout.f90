@@ -42,6 +42,8 @@ program test_layout
   type(riis_passage_ends), target :: pes
   type(riis_leaflet), target :: lf
   type(riis_orifice), target :: orf
+  type(riis_coaptation), target :: coa
+  type(riis_gap), target :: gp
   type(riis_first_passage_options), target :: fpo
   type(riis_first_passage), target :: fp
   type(riis_cells_across), target :: ca
@@ -161,6 +163,10 @@ program test_layout
   call compare('riis_orifice', c_sizeof(orf), c_loc(orf), [at(c_loc(orf%area)), at(c_loc(orf%outline_area)), &
     at(c_loc(orf%perimeter)), at(c_loc(orf%effective_area)), at(c_loc(orf%rim_reach)), at(c_loc(orf%half_thickness)), &
     at(c_loc(orf%radius)), at(c_loc(orf%axis)), at(c_loc(orf%outline)), at(c_loc(orf%reserved))])
+  call compare('riis_coaptation', c_sizeof(coa), c_loc(coa), [at(c_loc(coa%area)), at(c_loc(coa%edge)), &
+    at(c_loc(coa%reach))])
+  call compare('riis_gap', c_sizeof(gp), c_loc(gp), [at(c_loc(gp%least)), at(c_loc(gp%mean)), at(c_loc(gp%most)), &
+    at(c_loc(gp%widest_point)), at(c_loc(gp%n_ends)), at(c_loc(gp%n_without_wall))])
   call compare('riis_first_passage_options', c_sizeof(fpo), c_loc(fpo), [at(c_loc(fpo%struct_size)), &
     at(c_loc(fpo%surface)), at(c_loc(fpo%marking)), at(c_loc(fpo%tolerance))])
   call compare('riis_first_passage', c_sizeof(fp), c_loc(fp), [at(c_loc(fp%opening)), at(c_loc(fp%closed_opening)), &

@@ -10,6 +10,7 @@ program test_measures
   integer(riis_status) :: status
 
   call test_orifices()
+  call test_walls()
   call test_swept_volumes()
   call test_passages()
   call finish()
@@ -65,12 +66,68 @@ contains
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'resistance.R is 0')
     xyz = reshape([0d0, 0d0, 0d0, 1d0, 0d0, 0d0, 0d0, 1d0, 0d0], [3, 3])
     call plate%create_from_arrays(xyz, reshape([1, 2, 3], [3, 1]))
-    call riis_get_orifice(plate, orifice, status=status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'made from arrays or keyframes')
+    call riis_get_orifice(plate, orifice)
+    call check(orifice%outline == RIIS_OUTLINE_BOUNDARY .and. abs(orifice%outline_area - 0.5d0) < 1d-3, 'a boundary')
     call plate%destroy()
     call surface%destroy()
     call valve%destroy()
   end subroutine test_orifices
+
+  ! A square tube stands around a trileaflet valve. Closed cusps touch along their free edges.
+  subroutine test_walls()
+    type(riis_valve) :: valve, prosthesis
+    type(riis_surface) :: surface, wall, empty
+    type(riis_attachment) :: attachment
+    type(riis_leaflet) :: leaflet
+    type(riis_coaptation) :: contact
+    type(riis_gap) :: gap
+    real(c_double) :: xyz(3, 8), length
+    real(c_double), allocatable :: distance(:, :)
+    integer :: ids(3, 8), i
+    do i = 0, 3
+      xyz(:, i + 1) = 3 * [cos(pi / 2 * i), sin(pi / 2 * i), -2d0]
+      xyz(:, i + 5) = 3 * [cos(pi / 2 * i), sin(pi / 2 * i), 2d0]
+      ids(:, 2 * i + 1) = [i + 1, mod(i + 1, 4) + 1, mod(i + 1, 4) + 5]
+      ids(:, 2 * i + 2) = [i + 1, mod(i + 1, 4) + 5, i + 5]
+    end do
+    call wall%create_from_arrays(xyz, ids)
+    call valve%create('trileaflet')
+    call surface%create(valve)
+    call surface%get_attachment(attachment)
+    allocate (distance(2, size(attachment%edges, 3)))
+    call riis_get_gap(surface, wall, gap, distance)
+    call check(abs(minval(distance) - gap%least) < 1d-15 .and. abs(maxval(distance) - gap%most) < 1d-15 .and. &
+      gap%least > 0.8d0 .and. gap%most < 2 .and. gap%n_without_wall == 0, 'the gap')
+    call riis_get_gap(surface, wall, gap, distance(:, 2:), status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'distance(1, :)')
+    call riis_get_gap(surface, wall, gap, distance(:1, :), status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the first extent of distance is 1')
+    call riis_get_gap(wall, wall, gap, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'a gap needs a valve')
+    call riis_get_gap(surface, empty, gap, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the wall was not created')
+    call riis_set_skirt_to_wall(valve, wall, 2d0, scale=1d0, rotation_axis=[0d0, 0d0, 1d0], rotation_angle=0d0, &
+      translation=[0d0, 0d0, 0d0])
+    call valve%get('skirt_length', length)
+    call check(abs(length - gap%most) < 1d-2, 'a skirt to the wall')
+    call riis_set_skirt_to_wall(valve, wall, 1d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'wall is not within longest, 1')
+    call prosthesis%create('bileaflet')
+    call riis_set_skirt_to_wall(prosthesis, wall, 1d0, status=status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'the bileaflet valve has no skirt')
+    call riis_get_leaflet(surface, 2, leaflet)
+    call riis_get_coaptation(surface, contact, leaflet_id=1)
+    call check(abs(contact%edge - leaflet%free_edge) < 1d-12 .and. contact%area > 0 .and. &
+      abs(contact%reach - 0.1d0) < 1d-15, 'contact')
+    call riis_get_coaptation(surface, contact, reach=0.05d0)
+    call check(abs(contact%edge - 3 * leaflet%free_edge) < 1d-9 .and. abs(contact%reach - 0.05d0) < 1d-15, 'contact of all')
+    call riis_get_coaptation(surface, contact, leaflet_id=7, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'leaflet_id is 7')
+    call prosthesis%destroy()
+    call surface%destroy()
+    call wall%destroy()
+    call valve%destroy()
+  end subroutine test_walls
 
   ! The halves of a disc turn, and a triangle translates.
   subroutine test_swept_volumes()

@@ -211,8 +211,8 @@ static void parameters_are_refused_by_name(void **state) {
                 riis_valve_get(valve, "translation", 3, values));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'xq'|not 2", riis_valve_get(valve, "xq", 2, values));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'nothing'", riis_valve_get(valve, "nothing", 1, values));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "parameter_id is -1|0 to 42", riis_valve_get_parameter(valve, -1, NULL, 72));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "parameter_id is 43", riis_valve_get_parameter(valve, 43, NULL, 72));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "parameter_id is -1|0 to 43", riis_valve_get_parameter(valve, -1, NULL, 72));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "parameter_id is 44", riis_valve_get_parameter(valve, 44, NULL, 72));
   /* No refused call changed the valve. */
   CHECK_OK(riis_valve_get(valve, "root_radius", 1, values));
   CHECK_SAME(values[0], 1.29);

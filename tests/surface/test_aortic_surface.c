@@ -307,7 +307,8 @@ static void every_parameter_by_name(void **state) {
                {"non_coronary.bending_angle", 42.75},
                {"non_coronary.bending_power", 2.54},
                {"open_radius_ratio", 0.75},
-               {"commissure_expansion", 0.05}};
+               {"commissure_expansion", 0.05},
+               {"skirt_length", 0}};
   static const struct {
     const char *name;
     double values[3];

@@ -184,7 +184,7 @@ static void open_states_are_built_alike(void **state) {
   CHECK_SAME(info_of(surface).lower[2], 1);
 }
 
-static void opening_is_the_only_parameter(void **state) {
+static void opening_and_skirt_are_the_parameters(void **state) {
   (void)state;
   const shape square = unit_square();
   riis_valve *valve = valve_from(&square), *none = NULL;
@@ -194,7 +194,9 @@ static void opening_is_the_only_parameter(void **state) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'patches' is not a kind of valve", riis_valve_create("patches", &none));
   assert_null(none);
   CHECK_OK(riis_valve_get_n_parameters(valve, &n));
-  assert_int_equal(n, 1);
+  assert_int_equal(n, 2);
+  CHECK_OK(riis_valve_get_parameter(valve, 1, &parameter, sizeof parameter));
+  assert_string_equal(parameter.name, "skirt_length");
   CHECK_OK(riis_valve_get_parameter(valve, 0, &parameter, sizeof parameter));
   assert_string_equal(parameter.name, "opening");
   assert_int_equal(parameter.n_values, 1);
@@ -278,7 +280,7 @@ int main(void) {
       cmocka_unit_test(sides_are_checked),
       cmocka_unit_test(sides_have_to_meet),
       cmocka_unit_test(open_states_are_built_alike),
-      cmocka_unit_test(opening_is_the_only_parameter),
+      cmocka_unit_test(opening_and_skirt_are_the_parameters),
       cmocka_unit_test(patches_without_area_make_no_surface),
       cmocka_unit_test(a_patch_thinner_than_the_tolerance_stays),
       cmocka_unit_test(a_curve_without_a_patch_is_refused),

@@ -329,7 +329,8 @@ static void every_parameter_by_name(void **state) {
                {"translation", 3, {0, 0, -1.2}},
                {"opening", 1, {0}},
                {"open_radius_ratio", 1, {0.8}},
-               {"commissure_expansion", 1, {0.1}}};
+               {"commissure_expansion", 1, {0.1}},
+               {"skirt_length", 1, {0}}};
   const int n_parameters = sizeof table / sizeof *table;
   riis_valve *valve = new_valve("trileaflet");
   int64_t n;

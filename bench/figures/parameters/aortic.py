@@ -231,6 +231,7 @@ def draw(aortic):
     sheet = Sheet("Parameters of the aortic valve", aortic["parameters"], (15, 11.8), CUSP)
     text = "Defaults; three values: right | left | non_coronary cusp. Curves and lengths: the left cusp at its defaults."
     sheet.text(0.30, 1 - 0.27 / 11.8, text, va="center")
+    sheet.skirt(11.8)
     cusp = next(each for each in aortic["cusps"] if each["name"] == CUSP)["own_frame"]
     draw_plan(sheet, cusp)
     draw_section(sheet, cusp)

@@ -282,6 +282,7 @@ def draw(mitral):
     text = "Defaults. u: share of the annulus' length, counter-clockwise from the posterior point; "
     text += "u_pm = 1/2 − anterior_ratio / 2."
     sheet.text(0.30, 1 - 0.27 / 13.7, text, va="center")
+    sheet.skirt(13.7)
     closed, half_open, opened = (Valve(state) for state in mitral["states"])
     draw_annulus(sheet, opened)
     draw_closed(sheet, closed)

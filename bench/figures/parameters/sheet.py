@@ -105,6 +105,12 @@ class Sheet:
     def panel(self, corner, size, title, left_bottom, centimetres):
         return Panel(self, corner, size, title, left_bottom, centimetres)
 
+    def skirt(self, height):
+        """Names the skirt's length at the right of the sheet's first line. The drawings show no skirt."""
+        self.mark_named("skirt_length")
+        text = f"skirt_length {self.value('skirt_length'):g}: no skirt"
+        self.text(0.992, 1 - 0.27 / height, text, va="center", ha="right")
+
     # ------------------------------------------------------------------------------------------------------------ whole
 
     def missing(self):

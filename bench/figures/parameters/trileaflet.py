@@ -121,6 +121,7 @@ def draw(trileaflet):
     sheet = Sheet("Parameters of the trileaflet valve", trileaflet["parameters"], (15, 10.6))
     text = "Defaults. The three cusps are equal. One radius gives length and place of the closed free edges."
     sheet.text(0.33, 1 - 0.27 / 10.6, text, va="center")
+    sheet.skirt(10.6)
     states = trileaflet["states"]
     own = states[0]["own_frame"]
     draw_plan(sheet, own)

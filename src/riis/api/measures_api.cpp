@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks the arguments of the public functions for leaflets, orifice, leak, first passage, cells across and swept volume.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -12,8 +13,10 @@
 #include "base/integer_array.hpp"
 #include "common/array_view.hpp"
 #include "marking/cells_across.hpp"
+#include "surface/coaptation.hpp"
 #include "surface/orifice.hpp"
 #include "surface/swept_volume.hpp"
+#include "surface/wall.hpp"
 
 using riis::check_range;
 using riis::guarded;
@@ -38,16 +41,16 @@ riis_resistance resistance_for(const riis_resistance *resistance, const riis::Su
   return whole;
 }
 
-riis_orifice orifice_of(const riis::Surface &surface, const riis::ValveFrame &frame,
-                        const riis_resistance &resistance) {
+riis_orifice orifice_of(const riis::Surface &surface, const riis_resistance &resistance) {
   const double c = resistance.rim == RIIS_RIM_CUT ? riis::rim_reach_cut : riis::rim_reach_round;
   const double eps = resistance.half_thickness;
+  const riis::ValveFrame *frame = surface.frame() ? &*surface.frame() : nullptr;
   const riis::Orifice found = riis::measure_orifice(surface.triangles(), frame, {c * eps, 0.1 * eps});
-  const riis::Vec3 axis = frame.axis();
-  const bool is_warped = !frame.disc.rim.empty();
-  const double radius = found.outline != RIIS_OUTLINE_DISC ? 0
-                        : is_warped                        ? std::sqrt(found.outline_area / 3.141592653589793)
-                                                           : frame.placement.scale * frame.disc.radius;
+  double radius = 0;
+  if (found.outline == RIIS_OUTLINE_DISC) {
+    const bool is_warped = !frame->disc.rim.empty();
+    radius = is_warped ? std::sqrt(found.outline_area / 3.141592653589793) : frame->placement.scale * frame->disc.radius;
+  }
   return {found.area,
           found.outline_area,
           found.perimeter,
@@ -55,7 +58,7 @@ riis_orifice orifice_of(const riis::Surface &surface, const riis::ValveFrame &fr
           c,
           eps,
           radius,
-          {axis.x, axis.y, axis.z},
+          {found.axis.x, found.axis.y, found.axis.z},
           found.outline,
           0};
 }
@@ -130,13 +133,13 @@ riis_first_passage first_passage(PassageTrials &trials, double tolerance) {
   return found_at(open, closed, passage, RIIS_FIRST_PASSAGE_FOUND);
 }
 
-// Returns the volume of one leaflet, or the sum of all leaflets, after the placement. A message about a missing leaflet names
-// `owner`.
-double placed_volume(const riis::SweptVolumes &volumes, std::int32_t leaflet_id, const char *owner,
+// Returns the volume of one leaflet, or the sum of all leaflets without the skirt, after the placement. `skirt` is -1 without a
+// skirt. A message about a missing leaflet names `owner`.
+double placed_volume(const riis::SweptVolumes &volumes, std::int32_t leaflet_id, std::int32_t skirt, const char *owner,
                      const riis_surface_options &options) {
   double sum = 0;
   for (const auto &[id, volume] : volumes)
-    if (leaflet_id == RIIS_ALL_LEAFLETS || id == leaflet_id) sum += volume;
+    if (leaflet_id == RIIS_ALL_LEAFLETS ? id != skirt : id == leaflet_id) sum += volume;
   if (leaflet_id != RIIS_ALL_LEAFLETS && volumes.count(leaflet_id) == 0)
     riis::fail(RIIS_INVALID_ARGUMENT, "leaflet_id is ", leaflet_id, ", which the ", owner,
                " lack; RIIS_ALL_LEAFLETS, -1, stands for all");
@@ -159,15 +162,14 @@ extern "C" {
 riis_status riis_surface_get_n_leaflets(const riis_surface *surface, int64_t *n_leaflets) {
   return guarded([&] {
     const riis::Surface &content = riis::content_of(surface);
-    const std::vector<riis_leaflet> leaflets = riis::leaflets_of(content.triangles());
-    *require(n_leaflets, "n_leaflets") = riis::view(leaflets).size();
+    *require(n_leaflets, "n_leaflets") = riis::view(content.leaflet_ids()).size();
   });
 }
 
 riis_status riis_surface_get_leaflet(const riis_surface *surface, int64_t leaflet, riis_leaflet *sizes,
                                      int64_t struct_size) {
   return guarded([&] {
-    const std::vector<riis_leaflet> leaflets = riis::leaflets_of(riis::content_of(surface).triangles());
+    const std::vector<riis_leaflet> &leaflets = riis::content_of(surface).leaflets();
     const auto n = riis::view(leaflets).size();
     if (leaflet < 0 || leaflet >= n)
       riis::fail(RIIS_INVALID_ARGUMENT, "leaflet is ", leaflet, "; the surface has ", n, ", from 0");
@@ -182,11 +184,48 @@ riis_status riis_surface_get_orifice(const riis_surface *surface, const riis_res
     const riis_resistance whole = resistance_for(resistance, content);
     riis::check_struct_size<riis_orifice>(struct_size, "orifice");
     require(orifice, "orifice");
-    if (!content.frame())
+    riis::write_struct(orifice, struct_size, "orifice", orifice_of(content, whole));
+  });
+}
+
+riis_status riis_surface_get_coaptation(const riis_surface *surface, double reach, int32_t leaflet_id,
+                                        riis_coaptation *coaptation, int64_t struct_size) {
+  return guarded([&] {
+    const riis::Surface &content = riis::content_of(surface);
+    const double whole = reach == RIIS_AUTO ? content.half_thickness() : reach;
+    check_range("", "reach", whole, 1e-50, 1e50);
+    riis::check_struct_size<riis_coaptation>(struct_size, "coaptation");
+    require(coaptation, "coaptation");
+    const std::vector<std::int32_t> &ids = content.leaflet_ids();
+    if (leaflet_id != RIIS_ALL_LEAFLETS && std::find(ids.begin(), ids.end(), leaflet_id) == ids.end())
+      riis::fail(RIIS_INVALID_ARGUMENT, "leaflet_id is ", leaflet_id,
+                 ", which the surface lacks; RIIS_ALL_LEAFLETS, -1, stands for all");
+    std::vector<std::int32_t> omitted;
+    if (content.frame()) omitted = {content.frame()->housing, content.frame()->skirt};
+    const riis::TriangleSet &triangles = content.triangles();
+    const auto contacts = riis::contacts_of(triangles, riis::free_edge_parts(triangles), whole, omitted,
+                                            riis::threads_for(0, triangles.n_triangles(), riis::triangles_per_thread));
+    riis_coaptation made{0, 0, whole};
+    for (const auto &[id, contact] : contacts)
+      if (leaflet_id == RIIS_ALL_LEAFLETS || id == leaflet_id) made.area += contact.area, made.edge += contact.edge;
+    riis::write_struct(coaptation, struct_size, "coaptation", made);
+  });
+}
+
+riis_status riis_surface_get_gap(const riis_surface *surface, const riis_surface *wall, double *distance, riis_gap *gap,
+                                 int64_t struct_size) {
+  return guarded([&] {
+    const riis::Surface &content = riis::content_of(surface);
+    const riis::Surface &of_wall = require_handle(wall, "wall")->updatable.surface();
+    riis::check_struct_size<riis_gap>(struct_size, "gap");
+    require(gap, "gap");
+    if (!content.triangles().is_of_patches())
       riis::fail(RIIS_INVALID_ARGUMENT,
-                 "surface was made from arrays or keyframes, which have no axis and no outline: an orifice needs one "
-                 "from a valve");
-    riis::write_struct(orifice, struct_size, "orifice", orifice_of(content, *content.frame(), whole));
+                 "surface was made from arrays, which do not tell attached edges from free ones: a gap needs a valve");
+    const riis::Gap made = riis::gap_of(content.attachment(), {of_wall.triangles(), of_wall.scene()},
+                                        riis::threads_for(0, content.attachment().n_edges(), 2048));
+    if (distance) std::copy(made.distance.begin(), made.distance.end(), distance);
+    riis::write_struct(gap, struct_size, "gap", made.measures);
   });
 }
 
@@ -199,7 +238,7 @@ riis_status riis_surface_get_leak(const riis_surface *surface, const riis_resist
     check_range("", "drop", drop, -1e30, 1e30);
     require(flow, "flow");
     const double area =
-        content.frame() ? riis::area_without(content.triangles(), content.frame()->housing) : content.area();
+        content.frame() ? riis::area_without(content.leaflets(), content.frame()->housing) : content.area();
     *flow = drop * (whole.half_thickness / whole.R) * area;
   });
 }
@@ -261,7 +300,7 @@ riis_status riis_valve_get_swept_volume(const riis_valve *valve, double opening_
     const int n_threads =
         riis::threads_for(whole.n_threads, "options.n_threads", triangles_at_all_openings, riis::triangles_per_thread);
     *volume = placed_volume(riis::swept_volumes(content, opening_from, opening_to, n_threads), leaflet_id,
-                            "patches of the valve", whole);
+                            content.skirt_leaflet(), "patches of the valve", whole);
   });
 }
 
@@ -274,7 +313,7 @@ riis_status riis_keyframes_get_swept_volume(const riis_keyframes *keyframes, dou
     const riis_surface_options whole = checked_options(options);
     require(volume, "volume");
     *volume =
-        placed_volume(riis::swept_volumes(frames, time_from, time_to), leaflet_id, "faces of the keyframes", whole);
+        placed_volume(riis::swept_volumes(frames, time_from, time_to), leaflet_id, -1, "faces of the keyframes", whole);
   });
 }
 }

@@ -63,6 +63,8 @@ constexpr std::int64_t first_size_of(const riis_opening_switch *) { return 56; }
 constexpr std::int64_t first_size_of(const riis_opening_switch_state *) { return 72; }
 constexpr std::int64_t first_size_of(const riis_opening_angle *) { return 56; }
 constexpr std::int64_t first_size_of(const riis_opening_angle_state *) { return 64; }
+constexpr std::int64_t first_size_of(const riis_coaptation *) { return 24; }
+constexpr std::int64_t first_size_of(const riis_gap *) { return 64; }
 
 // The size must be that of the first release or a larger multiple of 8, but not larger than the library's own struct.
 template <class Struct>

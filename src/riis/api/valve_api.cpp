@@ -2,8 +2,10 @@
 // Checks the arguments of riis_valve_*. The work is in valve/.
 #include "api/handles.hpp"
 #include "api/structs.hpp"
+#include "api/surface_options.hpp"
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
+#include "surface/wall.hpp"
 #include "valve/user_patches.hpp"
 
 using riis::guarded;
@@ -74,6 +76,28 @@ riis_status riis_valve_is_set(const riis_valve *valve, const char *name, int32_t
 
 riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open) {
   return guarded([&] { require_handle(valve, "valve")->valve.set_open_state(require_handle(open, "open")->valve); });
+}
+
+riis_status riis_valve_set_skirt_to_wall(riis_valve *valve, const riis_surface *wall, double longest,
+                                         const riis_surface_options *options) {
+  return guarded([&] {
+    riis::Valve &content = require_handle(valve, "valve")->valve;
+    const riis::Surface &of_wall = require_handle(wall, "wall")->updatable.surface();
+    riis::check_range("", "longest", longest, 1e-50, 1e50);
+    const riis_surface_options whole = riis::completed(options, "options", riis::default_surface_options);
+    riis::check_options(whole);
+    if (content.kind().skirt_axis == riis::SkirtAxis::none)
+      riis::fail(RIIS_INVALID_PARAMETER, "the ", content.kind().name,
+                 " valve has no skirt: its ring, which ring_height sets, closes the gap to the wall");
+    riis::Valve closed = content;
+    const double zero = 0;
+    closed.set("opening", 1, &zero);
+    closed.set("skirt_length", 1, &zero);
+    const riis::PatchSet patches = closed.make_patches();
+    content.set_skirt_lengths(riis::lengths_to_wall(patches, riis::placement_of(whole),
+                                                    {of_wall.triangles(), of_wall.scene()}, longest,
+                                                    riis::threads_for(whole.n_threads, 1, 1)));
+  });
 }
 
 riis_status riis_patches_init(riis_patches *patches, int64_t struct_size) {

@@ -17,10 +17,7 @@ double area_of(const TriangleSet &set) {
   double area = 0;
   for (std::int64_t first = 0; first < n; first += triangles_per_block) {
     double of_block = 0;
-    for (std::int64_t i = first; i < std::min(n, first + triangles_per_block); ++i) {
-      const auto [a, b, c] = set.corners(i);
-      of_block += 0.5 * length(cross(b - a, c - a));
-    }
+    for (std::int64_t i = first; i < std::min(n, first + triangles_per_block); ++i) of_block += set.area(i);
     area += of_block;
   }
   return area;
@@ -42,6 +39,7 @@ void Surface::make(TriangleSet triangles, double half_thickness, int n_threads) 
   half_thickness_ = half_thickness;
   collect_leaflets(triangles_, leaflet_ids_);
   attachment_.reset();
+  leaflets_.reset();
   area_.store(not_known, std::memory_order_relaxed);
   pseudonormals_.store(nullptr, std::memory_order_relaxed);
   pseudonormals_owner_.reset();
@@ -76,6 +74,12 @@ const Attachment &Surface::attachment() const {
   const std::lock_guard<std::mutex> lock(attachment_mutex_);
   if (!attachment_) attachment_.emplace(attachment_of(triangles_));
   return *attachment_;
+}
+
+const std::vector<riis_leaflet> &Surface::leaflets() const {
+  const std::lock_guard<std::mutex> lock(leaflets_mutex_);
+  if (!leaflets_) leaflets_.emplace(leaflets_of(triangles_));
+  return *leaflets_;
 }
 
 const Pseudonormals &Surface::make_pseudonormals() const {

@@ -53,6 +53,9 @@ class Surface {
   // may call this function at once.
   const Attachment &attachment() const;
 
+  // Returns the leaflets, ascending by id. The first call measures them. Several threads may call this function at once.
+  const std::vector<riis_leaflet> &leaflets() const;
+
   // Returns the other method that measures distances, or null if the triangles' scene measures them.
   const PatchDistance *other_distance() const { return other_distance_.get(); }
   // Bounds by how much the distance to the triangles exceeds a distance that the method returns.
@@ -86,6 +89,8 @@ class Surface {
   mutable std::atomic<const Pseudonormals *> pseudonormals_{nullptr};
   mutable std::mutex attachment_mutex_;
   mutable std::optional<const Attachment> attachment_;
+  mutable std::mutex leaflets_mutex_;
+  mutable std::optional<const std::vector<riis_leaflet>> leaflets_;
 };
 
 }  // namespace riis

@@ -66,7 +66,7 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
     distance = make_distance(patches, {accuracy.measure, accuracy.distance_error}, placement, request.flip_normals);
   // Turns triangles into the scene that answers queries for closest points.
   surface.make(std::move(triangles), request.half_thickness, request.n_threads);
-  surface.is_of_valve({placement, valve.disc(), valve.kind().housing});
+  surface.is_of_valve({placement, valve.disc(), valve.kind().housing, valve.skirt_leaflet()});
   if (motion)
     surface.moved_between(
         {std::move(patches), std::move(*patches_before), placement, moved->placement_before, moved->seconds});

@@ -59,19 +59,21 @@ struct ColumnErrors {
   }
 };
 
-// A patch of arcs on the lines of a plan.
+// A patch of arcs on the lines of a plan, or a skirt at a patch of arcs on the lines of that patch.
 class PlannedArcs {
  public:
   PlannedArcs(const PatchSet &set, const Patch &patch, const PatchPlan &plan, double max_error)
       : set_(set),
         patch_(patch),
         max_error_(max_error),
-        lines_(moved(plan.u, plan.joints, joints_of(set, patch.v0))),
+        is_strip_(patch.skirt_of_arcs != no_patch),
+        lines_(moved(plan.u, plan.joints, joints_of(set, is_strip_ ? patch.v1 : patch.v0))),
         shares_(shares_for(plan.n_parts)),
         base_(set.curve_of(patch.v0), patch.v0.reversed, shares_),
         edge_(set.curve_of(patch.v1), patch.v1.reversed, shares_) {
     offsets_.reserve(shares_.size());
-    for (std::size_t i = 0; i < shares_.size(); ++i)
+    if (is_strip_) offsets_.assign(shares_.size(), Vec3{0, 0, 0});
+    for (std::size_t i = 0; i < shares_.size() && !is_strip_; ++i)
       offsets_.push_back(arc_offset(edge_.point(i) - base_.point(i), base_.tangent(i), patch.bulge));
   }
 
@@ -99,7 +101,8 @@ class PlannedArcs {
       made.u_lines.push_back({lines_[i], lines_[i], lines_[i]});
       made.offsets.push_back(offsets_[at_[i]]);
     }
-    made.offsets.front() = arc_offset(set_, patch_.u0), made.offsets.back() = arc_offset(set_, patch_.u1);
+    if (!is_strip_)
+      made.offsets.front() = arc_offset(set_, patch_.u0), made.offsets.back() = arc_offset(set_, patch_.u1);
     for (std::size_t i = 0; i < errors.size(); ++i) made.errors.push_back(errors[i].offset(n_parts[i]));
     return made;
   }
@@ -124,6 +127,7 @@ class PlannedArcs {
     const double enough = arc_curve_share * max_error_;
     ColumnErrors made{base_.chord_error(i, j, enough), edge_.chord_error(i, j, enough), 0, 0, 0,
                       shares_[j] - shares_[i]};
+    if (is_strip_) return made;
     const Vector<Bezier> &on_base = base_.between(i, j), &on_edge = edge_.between(i, j);
     const Curve &base = set_.curve_of(patch_.v0), &edge = set_.curve_of(patch_.v1);
     if (on_base.size() > 1 || on_edge.size() > 1) {
@@ -155,6 +159,7 @@ class PlannedArcs {
   const PatchSet &set_;
   const Patch &patch_;
   double max_error_;
+  bool is_strip_;  // a skirt, whose v1 is the base of the patch of arcs
   Vector<double> lines_;
   Vector<std::size_t> at_;
   Vector<double> shares_;
@@ -250,19 +255,33 @@ class Planner {
     for (std::size_t i = 0; i < set_.patches.size(); ++i)
       plan_.patches[i].has_arcs =
           std::any_of(states_.begin(), states_.end(), [&](const PatchSet &set) { return set.patches[i].bulge != 0; });
+    // A skirt at a patch of arcs takes the lines of that patch, so that both have the same vertices along their common side.
+    for (std::size_t i = 0; i < set_.patches.size(); ++i)
+      if (patch_of_strip(i) != no_patch) plan_.patches[i].has_arcs = plan_.patches[patch_of_strip(i)].has_arcs;
     plan_families();
     for (std::size_t i = 0; i < set_.patches.size(); ++i) {
-      if (plan_.patches[i].has_arcs)
-        plan_arcs(i);
-      else
+      if (!plan_.patches[i].has_arcs)
         plan_sides(set_.patches[i]);
+      else if (patch_of_strip(i) == no_patch)
+        plan_arcs(i);
     }
+    for (std::size_t i = 0; i < set_.patches.size(); ++i)
+      if (plan_.patches[i].has_arcs && patch_of_strip(i) != no_patch)
+        plan_.patches[i] = plan_.patches[patch_of_strip(i)];
     for (std::size_t i = 0; i < set_.patches.size(); ++i) count(i);
     return std::move(plan_);
   }
 
  private:
   double tightness(const Side &side) const { return tightness_[side.curve]; }
+
+  std::size_t patch_of_strip(std::size_t patch) const { return set_.patches[patch].skirt_of_arcs; }
+  Vector<std::size_t> strips_of(std::size_t patch) const {
+    Vector<std::size_t> strips;
+    for (std::size_t i = 0; i < set_.patches.size(); ++i)
+      if (patch_of_strip(i) == patch) strips.push_back(i);
+    return strips;
+  }
 
   // Gives the four curves of a Coons patch their vertices, and gives the patch its lines.
   void plan_sides(const Patch &patch) {
@@ -519,8 +538,13 @@ class Planner {
     const double of_offset = offset_share * max_error_;
     plan.n_parts.assign(plan.u.size() - 1, most_parts);
     Vector<int> wanted(plan.u.size() - 1, 1);
+    const Vector<std::size_t> strips = strips_of(patch);
     for (const PatchSet &state : states_) {
-      const Vector<ColumnErrors> errors = PlannedArcs(state, state.patches[patch], plan, max_error_).errors();
+      Vector<ColumnErrors> errors = PlannedArcs(state, state.patches[patch], plan, max_error_).errors();
+      for (const std::size_t strip : strips) {
+        const Vector<ColumnErrors> beside = PlannedArcs(state, state.patches[strip], plan, max_error_).errors();
+        for (std::size_t i = 0; i < errors.size(); ++i) errors[i].base = std::max(errors[i].base, beside[i].base);
+      }
       for (std::size_t i = 0; i < errors.size(); ++i) {
         const bool are_chords_near = std::max(errors[i].base, errors[i].edge) <= of_curves;
         while (wanted[i] <= most_parts && !(are_chords_near && errors[i].offset(wanted[i]) <= of_offset))
@@ -533,7 +557,8 @@ class Planner {
   void count(std::size_t patch) {
     const PatchPlan &plan = plan_.patches[patch];
     const std::size_t n_u = plan.has_arcs ? plan.u.size() : plan.lines.u.size();
-    const std::size_t n_v = plan.has_arcs ? plan_.n_rows : plan.lines.v.size();
+    const bool is_strip = patch_of_strip(patch) != no_patch;
+    const std::size_t n_v = !plan.has_arcs ? plan.lines.v.size() : is_strip ? 1 : plan_.n_rows;
     const auto n_images = static_cast<double>(set_.patches[patch].images.size());
     check_count(n_triangles_ += 2 * static_cast<double>(n_u) * static_cast<double>(n_v) * n_images, max_error_);
   }
@@ -591,7 +616,9 @@ class PlannedGrids {
     const Polyline base = planned.base_polyline(errors), edge = planned.edge_polyline(errors);
     const PatchSides sides{&base, &edge, nullptr, nullptr};
     const ArcLines lines = planned.arc_lines(errors, plan.n_parts);
-    QuadGrid made = make_arc_grid(sides, lines, plan_.n_rows);
+    // The strips of a skirt meet along straight lines, which have no vertices between their ends.
+    const std::size_t n_rows = set_.patches[i].skirt_of_arcs == no_patch ? plan_.n_rows : 1;
+    QuadGrid made = make_arc_grid(sides, lines, n_rows);
     if (keeps_lines_) made.lines = lines_of_arc_grid(lines, made);
     return made;
   }

@@ -107,8 +107,9 @@ class GridMaker {
     curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
     parallel_for(view(curves).size(), n_threads_, [&](std::int64_t i, int) {
       const std::size_t at = view(curves)[i];
-      polylines_[at] = max_bend_ > 0 ? make_polyline(set_.curves[at], errors_[at], set_.rates[at], max_bend_)
-                                     : make_polyline(set_.curves[at], errors_[at]);
+      polylines_[at] = max_bend_ > 0 && at < set_.rates.size()
+                           ? make_polyline(set_.curves[at], errors_[at], set_.rates[at], max_bend_)
+                           : make_polyline(set_.curves[at], errors_[at]);
       reversed_[at] = reversed(polylines_[at]);
     });
     for (std::size_t i = first; i < end; ++i) sides_.push_back(sides_of(set_.patches[i]));

@@ -4,42 +4,65 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "common/array_view.hpp"
 #include "geometry/plane_cover.hpp"
+#include "surface/boundary.hpp"
 #include "surface/side_lines.hpp"
 
 namespace riis {
 namespace {
 
-// Projects points along the valve's axis. The projection undoes the rotation and the translation, keeps the scale, and drops z.
+// Projects points along an axis.
 class AlongAxis {
  public:
+  // The axis of a placed valve. The projection undoes the rotation and the translation, keeps the scale, and drops z. A warped
+  // disc is seen along its normal.
   explicit AlongAxis(const ValveFrame &frame)
       : x_axis_(frame.placement.rotation * Vec3{1, 0, 0}),
         y_axis_(frame.placement.rotation * Vec3{0, 1, 0}),
-        translation_(frame.placement.translation) {
+        axis_(frame.axis()),
+        origin_(frame.placement.translation) {
     if (frame.disc.rim.empty()) return;
-    const Vec3 axis = frame.axis();
     // The smaller of both has the better direction across the axis.
-    Vec3 across = cross(axis, std::abs(dot(x_axis_, axis)) < std::abs(dot(y_axis_, axis)) ? x_axis_ : y_axis_);
+    const Vec3 across =
+        cross(axis_, std::abs(dot(x_axis_, axis_)) < std::abs(dot(y_axis_, axis_)) ? x_axis_ : y_axis_);
     y_axis_ = (1 / length(across)) * across;
-    x_axis_ = cross(y_axis_, axis);
+    x_axis_ = cross(y_axis_, axis_);
   }
 
+  // An axis of length 1 through a point.
+  AlongAxis(Vec3 axis, Vec3 origin) : axis_(axis), origin_(origin) {
+    // The coordinate axis that is farthest from being parallel gives the second direction.
+    const double x = std::abs(axis.x), y = std::abs(axis.y), z = std::abs(axis.z);
+    const Vec3 across = cross(axis, x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1});
+    x_axis_ = (1 / length(across)) * across;
+    y_axis_ = cross(axis, x_axis_);
+  }
+
+  Vec3 axis() const { return axis_; }
   // Points far from the origin are rounded more.
-  double rounding() const { return 0x1p-48 * length(translation_); }
+  double rounding() const { return 0x1p-48 * length(origin_); }
 
   PlanePoint operator()(Vec3 p) const {
-    const Vec3 from_origin = p - translation_;
+    const Vec3 from_origin = p - origin_;
     return {dot(x_axis_, from_origin), dot(y_axis_, from_origin)};
   }
 
  private:
-  Vec3 x_axis_, y_axis_, translation_;
+  Vec3 x_axis_{}, y_axis_{}, axis_, origin_;
 };
 
-std::optional<Outline> outline_of(const TriangleSet &set, const ValveFrame &frame, const AlongAxis &seen) {
+// An outline with the axis along which it is seen.
+struct SeenOutline {
+  AlongAxis seen;
+  std::optional<Outline> outline;
+};
+
+SeenOutline outline_of(const TriangleSet &set, const ValveFrame &frame) {
+  const AlongAxis seen(frame);
   const Valve::Disc &disc = frame.disc;
   const double scale = frame.placement.scale;
   std::vector<std::vector<PlanePoint>> lines;
@@ -47,19 +70,76 @@ std::optional<Outline> outline_of(const TriangleSet &set, const ValveFrame &fram
     lines.emplace_back();
     for (const Vec3 &p : disc.rim) lines.back().push_back(seen(place(frame.placement, p)));
     lines.back().push_back(lines.back().front());
-    return closed_outline(lines, seen.rounding());
+    return {seen, closed_outline(lines, seen.rounding())};
   }
-  if (disc.radius > 0) return circle(scale * disc.radius, {scale * disc.x, scale * disc.y});
+  if (disc.radius > 0) return {seen, circle(scale * disc.radius, {scale * disc.x, scale * disc.y})};
   for (const SideLine &side : attached_sides(set)) {
     lines.emplace_back();
     for (const std::int64_t id : side.vertex_id) lines.back().push_back(seen(set.vertex(id)));
   }
-  return closed_outline(lines, seen.rounding());
+  return {seen, closed_outline(lines, seen.rounding())};
 }
 
-double area_of_triangle(const TriangleSet &set, std::int64_t i) {
-  const auto [a, b, c] = set.corners(i);
-  return 0.5 * length(cross(b - a, c - a));
+// Returns the outline that the longest boundary makes, seen along its vector area. Edges run as in their triangles, so the vector
+// area points to the side to which the normals point. Without an outline the axis is 0.
+SeenOutline outline_of_boundary(const TriangleSet &set) {
+  const std::vector<OpenEdge> boundary = longest_boundary(set);
+  double whole = 0;
+  Vec3 centre{0, 0, 0}, area{0, 0, 0};
+  for (const OpenEdge &edge : boundary) {
+    const Vec3 a = set.vertex(edge.from), b = set.vertex(edge.to);
+    const double size = distance(a, b);
+    whole += size, centre = centre + 0.5 * size * (a + b);
+  }
+  if (!(whole > 0)) return {{Vec3{0, 0, 0}, {0, 0, 0}}, std::nullopt};
+  centre = (1 / whole) * centre;
+  for (const OpenEdge &edge : boundary)
+    area = area + 0.5 * cross(set.vertex(edge.from) - centre, set.vertex(edge.to) - centre);
+  const double size = length(area);
+  // A circle of this length encloses whole^2 / (4 pi).
+  if (!(size > 1e-3 * whole * whole)) return {{Vec3{0, 0, 0}, {0, 0, 0}}, std::nullopt};
+  const AlongAxis seen((1 / size) * area, centre);
+  std::vector<PlanePoint> line;
+  for (const OpenEdge &edge : boundary) line.push_back(seen(set.vertex(edge.from)));
+  line.push_back(line.front());
+  return {seen, closed_outline({line}, seen.rounding())};
+}
+
+// Returns the vertices of all triangles except those of one leaflet.
+std::vector<std::int64_t> without_leaflet(const TriangleSet &set, std::int32_t leaflet_id) {
+  std::vector<std::int64_t> kept;
+  kept.reserve(set.vertex_id.size());
+  for (std::int64_t i = 0; i < set.n_triangles(); ++i)
+    if (view(set.leaflet_id)[i] != leaflet_id)
+      kept.insert(kept.end(), set.vertex_id.begin() + 3 * i, set.vertex_id.begin() + 3 * i + 3);
+  return kept;
+}
+
+Orifice measured(const TriangleSet &set, const SeenOutline &from, std::int32_t kind, std::int32_t skirt,
+                 const OrificeLimits &limits) {
+  if (!from.outline) return {0, 0, 0, 0, from.seen.axis(), RIIS_OUTLINE_NONE};
+  std::vector<PlanePoint> vertices;
+  vertices.reserve(set.xyz.size() / 3);
+  for (std::int64_t i = 0; i < set.n_vertices(); ++i) vertices.push_back(from.seen(set.vertex(i)));
+  const Cover cover = cover_of(vertices, skirt < 0 ? set.vertex_id : without_leaflet(set, skirt));
+  const Outline &outline = *from.outline;
+  return {uncovered_area(outline, cover, 0),
+          area_of(outline),
+          uncovered_edge(outline, cover, limits.slit),
+          uncovered_area(outline, cover, limits.reach),
+          from.seen.axis(),
+          kind};
+}
+
+// Returns the open edges of each leaflet that are not on the outline of the orifice. Edges between two leaflets are open.
+std::vector<EdgePart> free_edges_of_arrays(const TriangleSet &set) {
+  std::set<std::pair<std::int64_t, std::int64_t>> on_outline;
+  for (const OpenEdge &edge : longest_boundary(set)) on_outline.emplace(edge.from, edge.to);
+  std::vector<EdgePart> parts;
+  for (const OpenEdge &edge : open_edges(set, true))
+    if (on_outline.count({edge.from, edge.to}) == 0)
+      parts.push_back({view(set.leaflet_id)[edge.triangle], set.vertex(edge.from), set.vertex(edge.to)});
+  return parts;
 }
 
 }  // namespace
@@ -72,17 +152,19 @@ Vec3 ValveFrame::axis() const {
   return placement.rotation * ((1 / length(area)) * area);
 }
 
-Orifice measure_orifice(const TriangleSet &set, const ValveFrame &frame, const OrificeLimits &limits) {
-  const AlongAxis seen(frame);
-  const std::optional<Outline> outline = outline_of(set, frame, seen);
-  if (!outline) return {0, 0, 0, 0, RIIS_OUTLINE_NONE};
-  std::vector<PlanePoint> vertices;
-  vertices.reserve(set.xyz.size() / 3);
-  for (std::int64_t i = 0; i < set.n_vertices(); ++i) vertices.push_back(seen(set.vertex(i)));
-  const Cover cover = cover_of(vertices, set.vertex_id);
-  return {uncovered_area(*outline, cover, 0), area_of(*outline), uncovered_edge(*outline, cover, limits.slit),
-          uncovered_area(*outline, cover, limits.reach),
-          frame.disc.radius > 0 ? RIIS_OUTLINE_DISC : RIIS_OUTLINE_ATTACHMENT};
+Orifice measure_orifice(const TriangleSet &set, const ValveFrame *frame, const OrificeLimits &limits) {
+  if (!frame) return measured(set, outline_of_boundary(set), RIIS_OUTLINE_BOUNDARY, -1, limits);
+  const std::int32_t kind = frame->disc.radius > 0 ? RIIS_OUTLINE_DISC : RIIS_OUTLINE_ATTACHMENT;
+  return measured(set, outline_of(set, *frame), kind, frame->skirt, limits);
+}
+
+std::vector<EdgePart> free_edge_parts(const TriangleSet &set) {
+  if (!set.is_of_patches()) return free_edges_of_arrays(set);
+  std::vector<EdgePart> parts;
+  for (const SideLine &edge : free_edges(set))
+    for (std::size_t k = 1; k < edge.vertex_id.size(); ++k)
+      parts.push_back({edge.leaflet_id, set.vertex(edge.vertex_id[k - 1]), set.vertex(edge.vertex_id[k])});
+  return parts;
 }
 
 std::vector<riis_leaflet> leaflets_of(const TriangleSet &set) {
@@ -91,17 +173,21 @@ std::vector<riis_leaflet> leaflets_of(const TriangleSet &set) {
     const std::int32_t id = view(set.leaflet_id)[i];
     riis_leaflet &leaflet = found.try_emplace(id, riis_leaflet{0, 0, 0, id, 0}).first->second;
     ++leaflet.n_triangles;
-    leaflet.area += area_of_triangle(set, i);
+    leaflet.area += set.area(i);
   }
-  for (const SideLine &edge : free_edges(set)) found.at(edge.leaflet_id).free_edge += length_of(set, edge);
+  if (set.is_of_patches())
+    for (const SideLine &edge : free_edges(set)) found.at(edge.leaflet_id).free_edge += length_of(set, edge);
+  else
+    for (const EdgePart &part : free_edges_of_arrays(set))
+      found.at(part.leaflet_id).free_edge += distance(part.from, part.to);
   std::vector<riis_leaflet> leaflets;
   for (const auto &[id, leaflet] : found) leaflets.push_back(leaflet);
   return leaflets;
 }
 
-double area_without(const TriangleSet &set, std::int32_t leaflet_id) {
+double area_without(const std::vector<riis_leaflet> &leaflets, std::int32_t leaflet_id) {
   double area = 0;
-  for (const riis_leaflet &leaflet : leaflets_of(set))
+  for (const riis_leaflet &leaflet : leaflets)
     if (leaflet.leaflet_id != leaflet_id) area += leaflet.area;
   return area;
 }

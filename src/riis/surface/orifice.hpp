@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the orifice of a valve. The orifice is the part of an outline that the triangles do not cover, seen along the axis.
-// In: the triangles, and the frame of the valve. Out: areas and a perimeter, and the sizes of leaflets.
+// In: the triangles, and the frame of the valve if they come from one. Out: areas and a perimeter, and the sizes of leaflets.
 #pragma once
 
 #include <riis/riis.h>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/placement.hpp"
+#include "surface/coaptation.hpp"
 #include "surface/triangle_set.hpp"
 #include "valve/valve.hpp"
 
@@ -21,11 +22,12 @@ namespace riis {
 inline constexpr double rim_reach_round = 0.84;  // RIIS_RIM_ROUND
 inline constexpr double rim_reach_cut = 0.70;    // RIIS_RIM_CUT
 
-// The placement, the disc and the housing of the valve that a surface was made from.
+// The placement, the disc, the housing and the skirt of the valve that a surface was made from.
 struct ValveFrame {
   Placement placement;
   Valve::Disc disc;      // before placement
   std::int32_t housing;  // the leaflet_id of the housing, or -1 if the valve has no housing
+  std::int32_t skirt;    // the leaflet_id of the skirt, or -1 if the valve has no skirt
 
   // Returns the unit vector along which the orifice is seen: the z axis, or the normal of a warped disc.
   Vec3 axis() const;
@@ -34,6 +36,7 @@ struct ValveFrame {
 // The measured numbers. The caller computes the other fields of riis_orifice from these numbers and the frame.
 struct Orifice {
   double area, outline_area, perimeter, effective_area;
+  Vec3 axis;             // of length 1, or 0 without an axis
   std::int32_t outline;  // RIIS_OUTLINE_*
 };
 
@@ -42,12 +45,16 @@ struct OrificeLimits {
   double slit;   // how far the perimeter's edge is moved inwards
 };
 
-Orifice measure_orifice(const TriangleSet &set, const ValveFrame &frame, const OrificeLimits &limits);
+// The frame is null for triangles from arrays. Then the longest boundary is the outline.
+Orifice measure_orifice(const TriangleSet &set, const ValveFrame *frame, const OrificeLimits &limits);
 
 // Returns the leaflets, ascending by id.
 std::vector<riis_leaflet> leaflets_of(const TriangleSet &set);
 
-// Returns the area of all triangles except the triangles of one leaflet.
-double area_without(const TriangleSet &set, std::int32_t leaflet_id);
+// Returns the straight parts of the leaflets' free edges.
+std::vector<EdgePart> free_edge_parts(const TriangleSet &set);
+
+// Returns the area of all leaflets except one.
+double area_without(const std::vector<riis_leaflet> &leaflets, std::int32_t leaflet_id);
 
 }  // namespace riis

@@ -80,6 +80,11 @@ PlacedBy placed_by(const PatchImage &image, const Placement &placement) {
   return by;
 }
 
+AxisLine placed(const AxisLine &axis, const PatchImage &image, const Placement &placement) {
+  const PatchImage turn{image.mirror, image.rotation, {0, 0, 0}, 0, 0};
+  return {place(placement, place(image, axis.centre)), placement.rotation * place(turn, axis.direction)};
+}
+
 // Makes the triangles of a piece whose vertices are placed.
 class PieceTriangles {
  public:
@@ -208,7 +213,8 @@ Pieces::Pieces(const PatchSet &set, const Triangulation &how, const Vector<Level
     const auto &images = set.patches[i].images;
     for (std::size_t k = 0; k < images.size(); ++k) {
       const Seam *seam = seam_of(set, i, k);
-      pieces_.push_back({i, &images[k], seam ? &images[seam->twin] : nullptr, seam, n_vertices_, n_triangles_});
+      const PatchImage *twin = seam ? &set.patches[seam->patch_of_twin()].images[seam->twin] : nullptr;
+      pieces_.push_back({i, &images[k], twin, seam, n_vertices_, n_triangles_});
       n_triangles_ += grids[i].n_triangles;
       n_vertices_ += grids[i].n_vertices;
       check_count(static_cast<double>(n_triangles_), how.max_error);
@@ -227,9 +233,11 @@ void Pieces::make_patch_vertices() {
   resize(triangles_.uv, 2 * n_vertices_);
   resize(triangles_.velocity, how_.motion ? 3 * n_vertices_ : 0);
   triangles_.patches.clear();
-  for (const Piece &piece : pieces_)
-    triangles_.patches.push_back(
-        {piece.image->patch_id, piece.image->leaflet_id, piece.first_vertex, set_.patches[piece.patch].attached});
+  for (const Piece &piece : pieces_) {
+    const Patch &patch = set_.patches[piece.patch];
+    triangles_.patches.push_back({piece.image->patch_id, piece.image->leaflet_id, piece.first_vertex, patch.attached,
+                                  placed(patch.axis, *piece.image, how_.placement)});
+  }
   of_patches_.resize(grids_.size());
   parallel_for(view(grids_).size(), how_.n_threads, [&](std::int64_t i, int) {
     view(of_patches_)[i] = vertices_of(set_, static_cast<std::size_t>(i), view(grids_)[i], how_.motion);

@@ -25,31 +25,6 @@ std::uint64_t hash(Vec3 p) {
   return h;
 }
 
-// Numbers the positions of all vertices. Vertices with equal coordinates get the same number.
-UnfilledShortVector<std::int32_t> distinct_positions(const TriangleSet &set, std::int64_t &n_positions) {
-  // A hash table of vertices that is at most half full. Each vertex is stored at the first free place, starting at its hash.
-  constexpr std::int32_t none = -1;
-  UnfilledShortVector<std::int32_t> position;
-  resize(position, set.n_vertices());
-  std::size_t size = 16;
-  while (size < 2 * position.size()) size *= 2;
-  Vector<std::int32_t> table(size, none);
-  std::int32_t n = 0;
-  for (std::int64_t i = 0; i < set.n_vertices(); ++i) {
-    const Vec3 p = set.vertex(i);
-    std::size_t at = hash(p) & (size - 1);
-    while (table[at] != none && !(set.vertex(table[at]) == p)) at = (at + 1) & (size - 1);
-    if (table[at] == none) {
-      table[at] = static_cast<std::int32_t>(i);
-      view(position)[i] = n++;
-    } else {
-      view(position)[i] = view(position)[table[at]];
-    }
-  }
-  n_positions = n;
-  return position;
-}
-
 // Computes the third angle from the other two, because an arc tangent is expensive.
 std::array<double, 3> angles_of(const TriangleMeasures &measures, int lane) {
   const double at_a = std::atan2(measures.twice_area[lane], measures.product_at_a[lane]),
@@ -77,6 +52,30 @@ void sort_few(Edge *begin, Edge *end) {
 }
 
 }  // namespace
+
+UnfilledShortVector<std::int32_t> distinct_positions(const TriangleSet &set, std::int64_t &n_positions) {
+  // A hash table of vertices that is at most half full. Each vertex is stored at the first free place from its hash on.
+  constexpr std::int32_t none = -1;
+  UnfilledShortVector<std::int32_t> position;
+  resize(position, set.n_vertices());
+  std::size_t size = 16;
+  while (size < 2 * position.size()) size *= 2;
+  Vector<std::int32_t> table(size, none);
+  std::int32_t n = 0;
+  for (std::int64_t i = 0; i < set.n_vertices(); ++i) {
+    const Vec3 p = set.vertex(i);
+    std::size_t at = hash(p) & (size - 1);
+    while (table[at] != none && !(set.vertex(table[at]) == p)) at = (at + 1) & (size - 1);
+    if (table[at] == none) {
+      table[at] = static_cast<std::int32_t>(i);
+      view(position)[i] = n++;
+    } else {
+      view(position)[i] = view(position)[table[at]];
+    }
+  }
+  n_positions = n;
+  return position;
+}
 
 Vec3 triangle_normal(const std::array<Vec3, 3> &corners) {
   const auto &[a, b, c] = corners;

@@ -15,6 +15,9 @@
 
 namespace riis {
 
+// Numbers the positions of all vertices. Vertices with equal coordinates get the same number.
+UnfilledShortVector<std::int32_t> distinct_positions(const TriangleSet &set, std::int64_t &n_positions);
+
 // Returns the unit normal of a triangle by the right-hand rule.
 Vec3 triangle_normal(const std::array<Vec3, 3> &corners);
 

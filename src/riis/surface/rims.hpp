@@ -11,9 +11,10 @@
 
 namespace riis {
 
-// Bits of an entry of TriangleSet::rim_sides. The last bit marks a side v1 that no other patch of the same leaflet has. This side
-// is a part of the leaflet's free edge, even where closed leaflets meet in it.
-enum PatchRim : std::uint8_t { rim_v0 = 1, rim_v1 = 2, rim_u0 = 4, rim_u1 = 8, free_v1 = 16 };
+// Bits of an entry of TriangleSet::rim_sides. The bit free_v1 marks a side v1 that no other patch of the same leaflet has. This
+// side is a part of the leaflet's free edge, even where closed leaflets meet in it. A skirt has no free edge. The bit `held`
+// marks a patch whose attached side no other patch has, except perhaps a skirt.
+enum PatchRim : std::uint8_t { rim_v0 = 1, rim_v1 = 2, rim_u0 = 4, rim_u1 = 8, free_v1 = 16, held = 32 };
 
 // Returns, for each patch_id, the sides on the rim. Two patches share a side if it is the same curve and their images put it at
 // the same position. A patch shares a side with its own mirror image if the curve lies in the mirror's plane. It shares a side

@@ -6,6 +6,7 @@
 
 #include "common/array_view.hpp"
 #include "surface/rims.hpp"
+#include "valve/skirt.hpp"
 
 namespace riis {
 namespace {
@@ -36,7 +37,8 @@ std::vector<SideLine> sides(const TriangleSet &set, const Choose &choose) {
     const std::int64_t end = i + 1 < n ? view(set.patches)[i + 1].first : set.n_vertices();
     const int side = choose(patch, view(set.rim_sides)[patch.patch_id]);
     if (side == 0) continue;
-    SideLine line{patch.leaflet_id, patch.patch_id, vertices_on(set, patch.first, end, static_cast<PatchRim>(side))};
+    SideLine line{patch.leaflet_id, patch.patch_id, vertices_on(set, patch.first, end, static_cast<PatchRim>(side)),
+                  patch.axis};
     if (length_of(set, line) > 0) lines.push_back(std::move(line));
   }
   std::sort(lines.begin(), lines.end(), [](const SideLine &a, const SideLine &b) { return a.patch_id < b.patch_id; });
@@ -58,8 +60,8 @@ std::vector<SideLine> free_edges(const TriangleSet &set) {
 
 std::vector<SideLine> attached_sides(const TriangleSet &set) {
   return sides(set, [](const VerticesOfPatch &patch, int rim) {
-    if (patch.attached == AttachedSide::none) return 0;
-    return rim & (patch.attached == AttachedSide::v0 ? rim_v0 : rim_u1);
+    if ((rim & held) == 0) return 0;
+    return static_cast<int>(patch.attached == AttachedSide::v0 ? rim_v0 : rim_u1);
   });
 }
 
@@ -70,7 +72,12 @@ Attachment attachment_of(const TriangleSet &set) {
       const std::int64_t from = side.vertex_id[k - 1], to = side.vertex_id[k];
       const Vec3 a = set.vertex(from), b = set.vertex(to);
       if (a == b) continue;
-      for (const double x : {a.x, a.y, a.z, b.x, b.y, b.z}) made.edges.push_back(x);
+      for (const Vec3 end : {a, b}) {
+        const bool is_aimed = !(side.axis.direction == Vec3{0, 0, 0});
+        const Vec3 out = is_aimed ? outwards(side.axis, end) : Vec3{0, 0, 0};
+        for (const double x : {end.x, end.y, end.z}) made.edges.push_back(x);
+        for (const double x : {out.x, out.y, out.z}) made.outwards.push_back(x);
+      }
       made.vertex_id.push_back(from);
       made.vertex_id.push_back(to);
       made.leaflet_id.push_back(side.leaflet_id);

@@ -14,6 +14,7 @@ namespace riis {
 struct SideLine {
   std::int32_t leaflet_id, patch_id;
   Vector<std::int64_t> vertex_id;  // in order along the side; no two vertices have the same parameter
+  AxisLine axis;                   // of the patch, placed
 };
 
 double length_of(const TriangleSet &set, const SideLine &side);
@@ -28,7 +29,8 @@ std::vector<SideLine> attached_sides(const TriangleSet &set);
 // The edges of all attached sides. Their order is that of the patches. The edges of one side follow each other along the side.
 // Edges of length 0 are left out.
 struct Attachment {
-  std::vector<double> edges;             // (3, 2, n_edges)
+  std::vector<double> edges;     // (3, 2, n_edges)
+  std::vector<double> outwards;  // (3, 2, n_edges): the direction of a skirt, of length 1, or 0 without a direction
   std::vector<std::int64_t> vertex_id;   // (2, n_edges)
   std::vector<std::int32_t> leaflet_id;  // (n_edges)
   std::vector<std::int32_t> patch_id;    // (n_edges)

@@ -95,7 +95,8 @@ void add_swept(const PatchSet &from, const PatchSet &to, const Vector<double> &s
 
 Vector<double> even_shares(const PatchSet &set) {
   double n_images = 0;
-  for (const Patch &patch : set.patches) n_images += static_cast<double>(patch.images.size());
+  for (const Patch &patch : set.patches)
+    if (!patch.is_skirt) n_images += static_cast<double>(patch.images.size());  // a skirt changes no leaflet's volume
   const int n = static_cast<int>(std::clamp(std::sqrt(quads_wanted / n_images), double{fewest}, double{most}));
   Vector<double> shares;
   for (int i = 0; i <= n; ++i) shares.push_back(static_cast<double>(i) / n);

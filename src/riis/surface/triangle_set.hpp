@@ -28,6 +28,7 @@ struct VerticesOfPatch {
   std::int32_t patch_id, leaflet_id;
   std::int64_t first;
   AttachedSide attached;
+  AxisLine axis;  // placed
 };
 
 struct TriangleSet {
@@ -69,6 +70,12 @@ struct TriangleSet {
     const std::int64_t *id = vertex_id.data() + 3 * triangle;
     return {vertex(id[0]), vertex(id[1]), vertex(id[2])};
   }
+  double area(std::int64_t triangle) const {
+    const auto [a, b, c] = corners(triangle);
+    return 0.5 * length(cross(b - a, c - a));
+  }
+  // Tells whether the triangles come from the patches of a valve. Otherwise they come from arrays.
+  bool is_of_patches() const { return !uv.empty(); }
 };
 
 // The most triangles that the library accepts. Ids of four bytes could count more, but each triangle takes a few hundred bytes.

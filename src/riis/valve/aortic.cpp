@@ -189,7 +189,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 
 const ValveKind &aortic_valve_kind() {
   // The kind is made when it is first used, and it is never destroyed. So it can be used during the whole life of the process.
-  static const ValveKind &kind = *new ValveKind(make_kind());
+  static const ValveKind &kind = *new ValveKind(with_skirt(make_kind(), SkirtAxis::of_cusp));
   return kind;
 }
 

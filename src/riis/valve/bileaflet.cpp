@@ -45,6 +45,7 @@ ValveKind make_kind() {
   kind.housing = RIIS_LEAFLET_HOUSING;
   kind.absent = {
     {"stj", "its housing has one radius, and no commissures reach a sinotubular junction"},
+    {"skirt_length", "its ring, which ring_height sets, closes the gap to the wall"},
     {"effective_height", "only cusps have it; hinge_height and closed_angle give the rigid leaflets' reach"},
   };
   kind.is_rigid = true;

@@ -378,8 +378,8 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   PatchSet set;
   add_cusps(set, half_cusp(blend(from, to, opening)), rate_at(from, to, opening), equal_places(shift));
   // The cusps meet only at the commissures, where the side u1 of the top patch is one point.
-  sew_equal_cusps(set, top_patch(set) - 1, Seam::end_v1);
-  sew_equal_cusps(set, top_patch(set), Seam::side_u1);
+  sew_equal_cusps(set, top_patch(set) - 1, SeamPlace::corner);
+  sew_equal_cusps(set, top_patch(set), SeamPlace::side_u1);
   return set;
 }
 
@@ -387,7 +387,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 
 const ValveKind &coapting_valve_kind() {
   // The kind is made when it is first used, and it is never destroyed. So it can be used during the whole life of the process.
-  static const ValveKind &kind = *new ValveKind(make_kind());
+  static const ValveKind &kind = *new ValveKind(with_skirt(make_kind(), SkirtAxis::of_cusp));
   return kind;
 }
 

@@ -161,11 +161,11 @@ Vector<CuspPlace> equal_places(Vec3 shift) {
   return places;
 }
 
-void sew_equal_cusps(PatchSet &set, std::size_t patch, Seam::Points points) {
+void sew_equal_cusps(PatchSet &set, std::size_t patch, SeamPlace place) {
   constexpr std::size_t right = 0, left = 1, non_coronary = 2;
   for (const auto &[cusp, before] :
        {std::pair(right, non_coronary), std::pair(left, right), std::pair(non_coronary, left)})
-    set.seams.push_back({patch, 2 * cusp + 1, 2 * before, points});
+    set.seams.push_back({patch, 2 * cusp + 1, 2 * before, place});
 }
 
 }  // namespace riis

@@ -64,6 +64,6 @@ inline std::size_t top_patch(const PatchSet &set) { return set.patches.size() - 
 // Returns the places of three equal cusps: right, left and non-coronary, turned by 0, 120 and -120 degrees and then shifted.
 Vector<CuspPlace> equal_places(Vec3 shift);
 // Sews the images of a patch of three equal cusps together. The half y < 0 of a cusp meets the half y >= 0 of the cusp before it.
-void sew_equal_cusps(PatchSet &set, std::size_t patch, Seam::Points points);
+void sew_equal_cusps(PatchSet &set, std::size_t patch, SeamPlace place);
 
 }  // namespace riis

@@ -321,7 +321,7 @@ std::array<Bezier, 3> half_annulus(const MitralAnnulus &annulus) {
 
 const ValveKind &mitral_valve_kind() {
   // The kind is made when it is first used, and it is never destroyed. So it can be used during the whole life of the process.
-  static const ValveKind &kind = *new ValveKind(make_kind());
+  static const ValveKind &kind = *new ValveKind(with_skirt(make_kind(), SkirtAxis::vertical));
   return kind;
 }
 

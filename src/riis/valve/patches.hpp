@@ -15,6 +15,8 @@ namespace riis {
 
 enum class Mirror { none, in_x, in_y };
 
+inline constexpr std::size_t no_patch = static_cast<std::size_t>(-1);
+
 // The placement of a patch: it may be mirrored, then it is turned, then moved. All images of a patch come from the same
 // operations on the same points. So a patch and its mirror image meet in the mirror's plane to the last bit.
 struct PatchImage {
@@ -45,6 +47,12 @@ struct Side {
 // The side at which tissue or a stent holds a patch, or none.
 enum class AttachedSide : std::uint8_t { none, v0, u1 };
 
+// A line, given by a point and a direction. A skirt leads away from it (valve/skirt.hpp). The direction is 0 if nothing
+// determines it.
+struct AxisLine {
+  Vec3 centre, direction;
+};
+
 // A patch, given by its four sides. Each side is named after the parameter that is constant on it. A curve that two patches
 // share is listed once. So it becomes one polyline, and the patches meet without cracks. S_u x S_v points downstream. Mirror
 // images are turned over, so that this holds for them too.
@@ -55,20 +63,28 @@ struct Patch {
   // (geometry/bulge.hpp), and u0 and u1 must be such arcs.
   double bulge = 0;
   AttachedSide attached = AttachedSide::none;
+  AxisLine axis = {{0, 0, 0},
+                   {0, 0, 1}};  // before an image is placed; the line that a skirt of this patch leads away from
+  bool is_skirt = false;
+  // Unless this is no_patch, the patch is a skirt at the side v0 of that patch. The side is the skirt's v1.
+  std::size_t skirt_of_arcs = no_patch;
 };
 
-// Two images of one patch that have points in common. The image `image` takes these points from the image `twin`, because turning
-// both separately would round differently.
-struct Seam {
-  enum Points : std::uint8_t {
-    side_v1,  // the whole side v1
-    end_v1,   // only the end of the side v1 at u1
-    side_u1,  // the side u1, which is one point
-  };
-  std::size_t patch, image, twin;
-  Points points;
+// The points that two images have in common.
+enum class SeamPlace : std::uint8_t { corner, side_v1, side_u1 };  // the corner is u = v = 1
 
-  bool has(double u, double v) const { return points == side_v1 ? v == 1 : u == 1 && (points == side_u1 || v == 1); }
+// Two images that have points in common, which are the same before both images are placed. They are images of one patch, or of
+// two patches. The image `image` takes these points from the image `twin`, because turning both separately would round
+// differently.
+struct Seam {
+  std::size_t patch, image, twin;
+  SeamPlace place;
+  std::size_t twin_patch = no_patch;  // no_patch: the same patch
+
+  std::size_t patch_of_twin() const { return twin_patch == no_patch ? patch : twin_patch; }
+  bool has(double u, double v) const {
+    return (v == 1 || place == SeamPlace::side_u1) && (u == 1 || place == SeamPlace::side_v1);
+  }
 };
 
 struct PatchSet {
@@ -77,8 +93,8 @@ struct PatchSet {
   Vector<Seam> seams = {};  // at most one for each image
   // Bounds the Hausdorff distance of the patches from the valve's shape. It is not 0 if curves approximate arcs of circles.
   double deviation = 0;
-  // Empty unless the valve blends control points. Otherwise every curve has one piece, and this list has the derivatives of the
-  // pieces' control points with respect to the opening.
+  // Empty unless the valve blends control points. Otherwise this list has the derivatives of the control points of the first
+  // curves with respect to the opening. These curves have one piece each. The curves of a skirt follow them.
   Vector<Bezier> rates = {};
 
   const Curve &curve_of(const Side &side) const { return curves[side.curve]; }

@@ -110,7 +110,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   PatchSet set;
   add_cusps(set, blend(closed_half, open_half, opening), rate(closed_half, open_half), equal_places(shift));
   // At opening 0 the cusps meet along their free edges, otherwise only at the commissures.
-  sew_equal_cusps(set, top_patch(set), opening == 0 ? Seam::side_v1 : Seam::end_v1);
+  sew_equal_cusps(set, top_patch(set), opening == 0 ? SeamPlace::side_v1 : SeamPlace::corner);
   return set;
 }
 
@@ -118,7 +118,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 
 const ValveKind &trileaflet_valve_kind() {
   // The kind is made when it is first used, and it is never destroyed. So it can be used during the whole life of the process.
-  static const ValveKind &kind = *new ValveKind(make_kind());
+  static const ValveKind &kind = *new ValveKind(with_skirt(make_kind(), SkirtAxis::of_cusp));
   return kind;
 }
 

@@ -185,7 +185,7 @@ ValveKind make_kind() {
 }  // namespace
 
 const ValveKind &patches_valve_kind() {
-  static const ValveKind &kind = *new ValveKind(make_kind());
+  static const ValveKind &kind = *new ValveKind(with_skirt(make_kind(), SkirtAxis::boundary));
   return kind;
 }
 

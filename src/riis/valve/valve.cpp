@@ -130,6 +130,7 @@ void Valve::set(std::string_view name, std::int64_t n_values, const double *new_
     for (int k = 0; k < specs[i].n_values; ++k) view(state_.values[i])[k] = new_values[k] / named.factor;
     state_.is_set[i] = 1;
   }
+  if (name == "skirt_length") skirt_lengths_.clear();
   derive();
 }
 
@@ -143,6 +144,7 @@ void Valve::unset(std::string_view name) {
     state_.is_set[i] = 0;
   }
   if (!names_any) fail_unknown(*kind_, name);
+  if (name == "skirt_length") skirt_lengths_.clear();
   derive();
 }
 
@@ -170,6 +172,15 @@ std::size_t Valve::position_of(std::string_view name) const {
            leaflet, name, "'");
     }
   fail_unknown(*kind_, name);
+}
+
+void Valve::set_skirt_lengths(SkirtLengths lengths) {
+  double largest = 0;
+  for (const Vector<double> &of_side : lengths)
+    for (const double length : of_side) largest = std::max(largest, length);
+  skirt_lengths_ = std::move(lengths);
+  state_.values[kind_->skirt_length][0] = largest;
+  state_.is_set[kind_->skirt_length] = 1;
 }
 
 void Valve::get(std::string_view name, std::int64_t n_values, double *out) const {
@@ -259,6 +270,10 @@ void Valve::check_same_but_for_opening(const Valve &other) const {
          kind_->name);
   if (kind_->check_states) kind_->check_states(state_, other.state_, "the valve");
   check_same_state(*kind_, state_, other.state_, "");
+  if (skirt_lengths_ != other.skirt_lengths_)
+    fail(RIIS_INVALID_PARAMETER,
+         "the skirt's lengths to the wall differ from those that the surface's triangulation is ",
+         "fixed for: only opening and placement may move");
   if (open_.has_value() != other.open_.has_value())
     fail(RIIS_INVALID_PARAMETER, "the valve has ", other.open_ ? "an" : "no", " open state", fixed_for,
          other.open_ ? "none" : "one");
@@ -322,6 +337,8 @@ std::uint64_t Valve::shape_digest() const {
   if (open_) digest.add(*kind_, *open_);
   if (warp_) digest.add(warp_->closed);
   if (warp_ && warp_->open) digest.add(*warp_->open);
+  for (const Vector<double> &of_side : skirt_lengths_)
+    for (const double length : of_side) digest.add(length);
   return digest.value();
 }
 
@@ -337,8 +354,11 @@ PatchSet Valve::make_patches(FoldCheck check) const {
     if (open_) check_open_values();
   }
   PatchSet made = kind_->make_patches(state_, open_ ? *open_ : state_, opening());
-  if (!warp_) return made;
-  return warped(made, {warp_->closed, warp_->open ? *warp_->open : warp_->closed, opening()}, check);
+  if (warp_) made = warped(made, {warp_->closed, warp_->open ? *warp_->open : warp_->closed, opening()}, check);
+  // A warp moves the valve's own axis, so the skirt leads away from the attachment's.
+  aim_skirt(made, warp_ && kind_->skirt_axis != SkirtAxis::none ? SkirtAxis::boundary : kind_->skirt_axis);
+  if (has_skirt()) add_skirt(made, state_.values[kind_->skirt_length][0], skirt_lengths_);
+  return made;
 }
 
 PatchSet Valve::make_patches_before(const Valve &before) const {
@@ -377,6 +397,19 @@ Bezier rate(const Bezier &closed, const Bezier &open) {
   Bezier made = closed;
   for (int i = 0; i <= closed.degree; ++i) view(made.control)[i] = view(open.control)[i] - view(closed.control)[i];
   return made;
+}
+
+ValveKind with_skirt(ValveKind kind, SkirtAxis axis) {
+  kind.skirt_axis = axis;
+  kind.skirt_length = kind.parameters.size();
+  kind.parameters.push_back({"skirt_length",
+                             "length",
+                             "length of the skirt that leads outwards from the attachment to the wall; 0: no skirt",
+                             1,
+                             {0},
+                             0,
+                             1e9});
+  return kind;
 }
 
 ParameterSpec opening_spec(const char *description, double default_value) {

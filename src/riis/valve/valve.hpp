@@ -12,6 +12,7 @@
 
 #include "base/recycled.hpp"
 #include "valve/patches.hpp"
+#include "valve/skirt.hpp"
 #include "valve/warp.hpp"
 #include "valve/warped_patches.hpp"
 
@@ -78,7 +79,13 @@ struct ValveKind {
   Vector<AbsentName> absent = {};
   // True for leaflets that a warp would bend although they are stiff.
   bool is_rigid = false;
+  // The line that a skirt leads away from, and the position of the parameter "skirt_length". with_skirt sets both.
+  SkirtAxis skirt_axis = SkirtAxis::none;
+  std::size_t skirt_length = 0;
 };
+
+// Adds the parameter "skirt_length" to a kind.
+ValveKind with_skirt(ValveKind kind, SkirtAxis axis);
 
 // The kinds of valves that are defined by parameters. Each is in a file of its name.
 const ValveKind &aortic_valve_kind();
@@ -125,6 +132,13 @@ class Valve {
   };
   Disc disc() const;
 
+  // Returns whether make_patches adds a skirt, which has the leaflet_id skirt_leaflet, or -1 without a skirt.
+  bool has_skirt() const { return kind_->skirt_axis != SkirtAxis::none && state_.values[kind_->skirt_length][0] != 0; }
+  std::int32_t skirt_leaflet() const { return has_skirt() ? riis::skirt_leaflet(state_.patches) : -1; }
+  // Replaces the skirt by one with these lengths (valve/skirt.hpp). The parameter "skirt_length" becomes the largest of them.
+  // Setting that parameter removes the lengths.
+  void set_skirt_lengths(SkirtLengths lengths);
+
   // Fails unless the other valve equals this valve in everything but the opening and the values of a warp. The message names the
   // first parameter that differs.
   void check_same_but_for_opening(const Valve &other) const;
@@ -156,6 +170,7 @@ class Valve {
   ValveState state_;
   std::optional<ValveState> open_;
   std::optional<Warp> warp_;
+  SkirtLengths skirt_lengths_;  // empty for a skirt of one length
 };
 
 // Blends one number. The result is exact for openings of 0 and 1.

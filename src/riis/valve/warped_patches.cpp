@@ -71,7 +71,7 @@ class Unfolding {
       for (std::size_t k = 0; k < set.patches[i].images.size(); ++k) patches_.push_back(unfolded(i, k));
     }
     for (const Seam &seam : set.seams)
-      sew(patches_[first_image[seam.patch] + seam.image], patches_[first_image[seam.patch] + seam.twin], seam.points);
+      sew(patches_[first_image[seam.patch] + seam.image], patches_[first_image[seam.patch] + seam.twin], seam.place);
   }
 
   Vector<CurveCopy> &copies() { return copies_; }
@@ -124,7 +124,7 @@ class Unfolding {
     // Along a seam, the curve is that of the twin.
     const PatchImage *of_v1 = &image;
     for (const Seam &seam : set_.seams)
-      if (seam.patch == number && seam.image == which && seam.points == Seam::side_v1) of_v1 = &patch.images[seam.twin];
+      if (seam.patch == number && seam.image == which && seam.place == SeamPlace::side_v1) of_v1 = &patch.images[seam.twin];
     const bool is_mirrored = image.mirror != Mirror::none;
     Patch made{side(patch.v0),
                {copy_of(patch.v1.curve, *of_v1), patch.v1.reversed},
@@ -139,11 +139,11 @@ class Unfolding {
   }
 
   // Gives a patch the points of its twin at the seam. They differ by rounding only.
-  void sew(const Patch &patch, const Patch &twin, Seam::Points points) {
+  void sew(const Patch &patch, const Patch &twin, SeamPlace place) {
     const Vec3 corner = end_of(twin.v1, true);
     end_of(patch.v1, true) = corner;
     end_of(patch.u1, true) = corner;
-    if (points != Seam::side_u1) return;
+    if (place != SeamPlace::side_u1) return;
     end_of(patch.v0, true) = corner;
     for (Bezier &piece : copies_[patch.u1.curve].pieces) piece.control.fill(corner);
   }

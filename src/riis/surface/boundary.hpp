@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// The open boundary of triangles: the edges that only one triangle has.
+// In: triangles, whose vertices may be repeated. Out: open edges, and the longest closed line of them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "surface/triangle_set.hpp"
+
+namespace riis {
+
+// An open edge, in the direction in which its triangle has it.
+struct OpenEdge {
+  std::int64_t from, to;  // vertices, each of which stands for all vertices with the same coordinates
+  std::int64_t triangle;  // its position in the set
+};
+
+// Returns the edges that only one triangle has, in the order of the triangles. With by_leaflet, other leaflets' triangles do not
+// count. Where a vertex lies inside the edge of a neighbour, the edges on both sides cancel.
+std::vector<OpenEdge> open_edges(const TriangleSet &set, bool by_leaflet);
+
+// Returns the edges of the longest closed line of open edges, in order. Returns nothing if there is none. Where several lines
+// meet in one vertex, a line goes on at other triangles than those it came along. So the attachments of cusps that meet at
+// commissures are one line, and their free edges are another.
+std::vector<OpenEdge> longest_boundary(const TriangleSet &set);
+
+}  // namespace riis

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The coaptation of leaflets: the parts of them that lie within a distance of another leaflet.
+// In: triangles, free edges, a distance. Out: areas and lengths.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "surface/triangle_set.hpp"
+
+namespace riis {
+
+struct Contact {
+  double area, edge;
+};
+
+// A straight part of a leaflet's free edge.
+struct EdgePart {
+  std::int32_t leaflet_id;
+  Vec3 from, to;
+};
+
+// Returns the contact of each leaflet. Two leaflets touch where a point of one is within `reach` of the other. `parts` has the
+// free edges. The leaflets of `omitted` touch nothing.
+std::map<std::int32_t, Contact> contacts_of(const TriangleSet &set, const std::vector<EdgePart> &parts, double reach,
+                                            const std::vector<std::int32_t> &omitted, int n_threads);
+
+}  // namespace riis

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "valve/skirt.hpp"
+
+#include <riis/riis.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "base/errors.hpp"
+#include "common/array_view.hpp"
+
+namespace riis {
+namespace {
+
+// A skirt of one length has this many parts on each side of a patch. Its outer edge is then right to a thousandth of the length
+// (tests/surface/test_skirt.c).
+constexpr std::size_t n_even_parts = 8;
+
+Vec3 without_placement(const PatchImage &image, Vec3 p) {
+  const Rotation &r = image.rotation;
+  const Vec3 turned{r.row_x.x * p.x + r.row_y.x * p.y + r.row_z.x * p.z,
+                    r.row_x.y * p.x + r.row_y.y * p.y + r.row_z.y * p.z,
+                    r.row_x.z * p.x + r.row_y.z * p.y + r.row_z.z * p.z};
+  return {image.mirror == Mirror::in_x ? -turned.x : turned.x, image.mirror == Mirror::in_y ? -turned.y : turned.y,
+          turned.z};
+}
+
+// Takes evenly spaced points of a curve, with the curve's steps between them.
+template <class Visit>
+void for_points(const Curve &curve, const Visit &visit) {
+  constexpr int n = 8;
+  for (const Bezier &piece : curve.pieces())
+    for (int i = 0; i < n; ++i) {
+      const double t = (i + 0.5) / n;
+      visit(evaluate(piece, t), (1.0 / n) * derivative(piece, t));
+    }
+}
+
+// Returns the line through the centroid of the attachment along its vector area. The direction has length 0 if the attachment
+// encloses no area, and otherwise length 1.
+AxisLine axis_of_attachment(const PatchSet &set, const Vector<HeldSide> &sides) {
+  double whole = 0;
+  Vec3 sum{0, 0, 0};
+  const auto for_all = [&](const auto &visit) {
+    for (const HeldSide &held : sides) {
+      const Curve curve = along(set, held.side);
+      for (const PatchImage &image : set.patches[held.patch].images) {
+        const PatchImage turn{image.mirror, image.rotation, {0, 0, 0}, 0, 0};
+        // Triangles are turned over in a mirror image, and in a patch that a warp made of one. There the sides run the other way.
+        const double sign = points_upstream(image) ? -1 : 1;
+        for_points(curve, [&](Vec3 p, Vec3 step) { visit(place(image, p), sign * place(turn, step)); });
+      }
+    }
+  };
+  for_all([&](Vec3 p, Vec3 step) {
+    const double weight = length(step);
+    whole += weight;
+    sum = sum + weight * p;
+  });
+  if (!(whole > 0)) return {{0, 0, 0}, {0, 0, 0}};
+  const Vec3 centre = (1 / whole) * sum;
+  Vec3 area{0, 0, 0};
+  for_all([&](Vec3 p, Vec3 step) { area = area + 0.5 * cross(p - centre, step); });
+  // A circle of this length has the area whole^2 / (4 pi).
+  const double size = length(area);
+  return {centre, size > 1e-3 * whole * whole ? (1 / size) * area : Vec3{0, 0, 0}};
+}
+
+// Adds the curves and patches of a skirt to a set.
+class SkirtMaker {
+ public:
+  explicit SkirtMaker(PatchSet &set) : set_(set), leaflet_id_(skirt_leaflet(set)) {
+    for (const Patch &patch : set.patches)
+      for (const PatchImage &image : patch.images) n_ids_ = std::max(n_ids_, image.patch_id + 1);
+  }
+
+  // Adds the strip along a side for these images of its patch. `lengths` has the lengths at evenly spaced shares.
+  void add(const HeldSide &held, std::size_t first_image, std::size_t n_images, const Vector<double> &lengths) {
+    const Patch parent = set_.patches[held.patch];
+    const Curve inner = along(set_, held.side), outer = outer_curve(inner, parent, lengths);
+    Patch strip{
+        {add_curve(outer)}, held.side, {line(outer.first(), inner.first())}, {line(outer.last(), inner.last())}, {}};
+    for (std::size_t i = first_image; i < first_image + n_images; ++i) {
+      PatchImage image = parent.images[i];
+      image.leaflet_id = leaflet_id_;
+      image.patch_id += n_ids_;
+      places_[{held.patch, i}] = {set_.patches.size(), strip.images.size()};
+      strip.images.push_back(image);
+    }
+    strip.is_skirt = true;
+    if (parent.bulge != 0) strip.skirt_of_arcs = held.patch;
+    set_.patches.push_back(std::move(strip));
+  }
+
+  // Sews the strips together where their patches are sewn together at the end of their attached sides.
+  void sew() {
+    const Vector<Seam> seams = set_.seams;
+    for (const Seam &seam : seams) {
+      if (set_.patches[seam.patch].attached != AttachedSide::u1) continue;
+      const auto own = places_.find({seam.patch, seam.image}), other = places_.find({seam.patch_of_twin(), seam.twin});
+      if (own == places_.end() || other == places_.end()) continue;
+      set_.seams.push_back({own->second[0], own->second[1], other->second[1], SeamPlace::side_u1, other->second[0]});
+    }
+  }
+
+ private:
+  std::size_t add_curve(const Curve &curve) {
+    set_.curves.push_back(curve);
+    return set_.curves.size() - 1;
+  }
+
+  // Two strips that meet share the line between them.
+  std::size_t line(Vec3 outer, Vec3 inner) {
+    const auto [found, is_new] = lines_.try_emplace({outer.x, outer.y, outer.z, inner.x, inner.y, inner.z}, 0);
+    if (is_new) found->second = add_curve(Bezier::line(outer, inner));
+    return found->second;
+  }
+
+  // Returns the growth of the length at one of the shares, for each step. Between two shares, the length then stays between the
+  // lengths there, so a skirt does not overshoot at a corner of the wall (F. N. Fritsch, R. E. Carlson 1980).
+  static double growth_at(const Vector<double> &lengths, std::size_t i) {
+    const double before = i == 0 ? 0 : lengths[i] - lengths[i - 1];
+    const double after = i + 1 == lengths.size() ? 0 : lengths[i + 1] - lengths[i];
+    if (i == 0) return after;
+    if (i + 1 == lengths.size()) return before;
+    if (!(before * after > 0)) return 0;
+    const double most = 2 * std::min(std::abs(before), std::abs(after)), mean = 0.5 * (before + after);
+    return std::clamp(mean, -most, most);
+  }
+
+  // Each part is the cubic with the exact points and the exact derivatives by the share at both of its ends.
+  static Curve outer_curve(const Curve &inner, const Patch &parent, const Vector<double> &lengths) {
+    const std::size_t n = lengths.size() - 1;
+    const double step = 1 / static_cast<double>(n);
+    const auto point = [&](std::size_t i) {
+      const Vec3 p = i == 0 ? inner.first() : i == n ? inner.last() : inner.at(step * static_cast<double>(i));
+      return p + lengths[i] * outwards(parent.axis, p);
+    };
+    const auto slope = [&](std::size_t i) {
+      const auto [p, tangent] = inner.frame(step * static_cast<double>(i));
+      const Vec3 d = parent.axis.direction, from_axis = p - parent.axis.centre;
+      const Vec3 q = from_axis - dot(from_axis, d) * d, out = outwards(parent.axis, p);
+      const Vec3 along = inner.length() * tangent, across = along - dot(along, d) * d;
+      const Vec3 turn = (1 / length(q)) * (across - dot(across, out) * out);
+      const double growth = growth_at(lengths, i) / step;
+      return along + lengths[i] * turn + growth * out;
+    };
+    Vector<Bezier> pieces;
+    Vec3 from = point(0), from_slope = slope(0);
+    for (std::size_t i = 1; i <= n; ++i) {
+      const Vec3 to = point(i), to_slope = slope(i);
+      pieces.push_back(Bezier::cubic(from, from + (step / 3) * from_slope, to - (step / 3) * to_slope, to));
+      from = to, from_slope = to_slope;
+    }
+    return Curve(std::move(pieces));
+  }
+
+  PatchSet &set_;
+  std::int32_t leaflet_id_, n_ids_ = 0;
+  std::map<std::array<double, 6>, std::size_t> lines_;
+  std::map<std::array<std::size_t, 2>, std::array<std::size_t, 2>> places_;  // strip and image of a patch and its image
+};
+
+}  // namespace
+
+Vec3 outwards(const AxisLine &axis, Vec3 point) {
+  const Vec3 from_axis = point - axis.centre, q = from_axis - dot(from_axis, axis.direction) * axis.direction;
+  const double size = length(q);
+  return size > 0 ? Vec3{q.x / size, q.y / size, q.z / size} : Vec3{0, 0, 0};
+}
+
+double attachment_radius(const PatchSet &set, const Vector<HeldSide> &sides) {
+  if (sides.empty())
+    fail(RIIS_INVALID_PARAMETER,
+         "a skirt needs an attachment, but the valve has none: no side v = 0 belongs to one patch only");
+  double sum = 0;
+  for (const HeldSide &held : sides) {
+    const AxisLine &axis = set.patches[held.patch].axis;
+    if (axis.direction == Vec3{0, 0, 0})
+      fail(RIIS_INVALID_PARAMETER, "a skirt has no direction, because the attachment encloses no area");
+    const Curve &curve = set.curve_of(held.side);
+    for (const double share : {0.0, 0.5, 1.0}) {
+      const Vec3 p = curve.at(share), q = p - axis.centre;
+      const double radius = length(q - dot(q, axis.direction) * axis.direction);
+      if (!(radius > 1e-6 * curve.length()))
+        fail(RIIS_INVALID_PARAMETER, "a skirt has no direction at (", p.x, ", ", p.y, ", ", p.z,
+             "), where the attachment reaches its axis");
+      sum += radius;
+    }
+  }
+  return sum / static_cast<double>(3 * sides.size());
+}
+
+Vector<HeldSide> held_sides(const PatchSet &set) {
+  Vector<std::size_t> n_uses(set.curves.size(), 0);
+  for (const Patch &patch : set.patches)
+    for (const Side &side : {patch.v0, patch.v1, patch.u0, patch.u1}) ++n_uses[side.curve];
+  Vector<HeldSide> sides;
+  for (std::size_t i = 0; i < set.patches.size(); ++i) {
+    const Patch &patch = set.patches[i];
+    if (patch.attached == AttachedSide::none) continue;
+    const Side side = patch.attached == AttachedSide::v0 ? patch.v0 : patch.u1;
+    if (n_uses[side.curve] == 1 && set.curve_of(side).length() > 0) sides.push_back({i, side});
+  }
+  return sides;
+}
+
+void aim_skirt(PatchSet &set, SkirtAxis axis) {
+  if (axis == SkirtAxis::none || axis == SkirtAxis::of_cusp)
+    return;  // patches have the axis of their cusp from the start
+  const Vector<HeldSide> sides = held_sides(set);
+  AxisLine whole = axis_of_attachment(set, sides);
+  if (axis == SkirtAxis::vertical) whole.direction = {0, 0, 1};
+  for (const HeldSide &held : sides) {
+    Patch &patch = set.patches[held.patch];
+    const PatchImage &image = patch.images.front();
+    const PatchImage turn{image.mirror, image.rotation, {0, 0, 0}, 0, 0};
+    patch.axis = {without_placement(turn, whole.centre - image.translation), without_placement(turn, whole.direction)};
+    // A plane of symmetry contains the line. Rounding must not move it, because then mirror images would not meet.
+    for (const PatchImage &other : patch.images) {
+      if (other.mirror == Mirror::in_x) patch.axis.centre.x = patch.axis.direction.x = 0;
+      if (other.mirror == Mirror::in_y) patch.axis.centre.y = patch.axis.direction.y = 0;
+    }
+  }
+}
+
+std::int32_t skirt_leaflet(const PatchSet &set) {
+  std::int32_t id = RIIS_LEAFLET_SKIRT;
+  for (const Patch &patch : set.patches)
+    for (const PatchImage &image : patch.images)
+      if (!patch.is_skirt) id = std::max(id, image.leaflet_id + 1);
+  return id;
+}
+
+void add_skirt(PatchSet &set, double length, const SkirtLengths &lengths) {
+  const Vector<HeldSide> sides = held_sides(set);
+  const double radius = attachment_radius(set, sides);
+  SkirtMaker maker(set);
+  if (lengths.empty()) {
+    if (!(length >= least_skirt * radius && length <= most_skirt * radius))
+      fail(RIIS_INVALID_PARAMETER, "skirt_length is ", length, "; it must be 0, or from ", least_skirt, " to ",
+           most_skirt, " times the mean distance of the attachment from its axis, which is ", radius);
+    const Vector<double> even(n_even_parts + 1, length);
+    for (const HeldSide &held : sides) maker.add(held, 0, set.patches[held.patch].images.size(), even);
+  } else {
+    std::size_t next = 0;
+    for (const HeldSide &held : sides)
+      for (std::size_t i = 0, n = set.patches[held.patch].images.size(); i < n; ++i)
+        maker.add(held, i, 1, lengths[next++]);
+  }
+  maker.sew();
+}
+
+}  // namespace riis

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The skirt of a valve: a strip that leads outwards from the attachment to the wall (docs/theory.md, "Skirt").
+// In: the patches of a valve, the length of the skirt. Out: the same patches and those of the skirt.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/recycled.hpp"
+#include "valve/patches.hpp"
+
+namespace riis {
+
+// The line that a skirt leads away from. The direction is perpendicular to this line.
+enum class SkirtAxis : std::uint8_t {
+  none,      // the kind of valve has no skirt
+  of_cusp,   // the z axis before a patch's image is placed, which is the root's axis
+  vertical,  // the line along z through the centroid of the attachment
+  boundary   // the line through that centroid along the vector area of the attachment
+};
+
+// Gives every attached patch its axis.
+void aim_skirt(PatchSet &set, SkirtAxis axis);
+
+// A side at which a patch is attached, and that is a side of no other patch.
+struct HeldSide {
+  std::size_t patch;
+  Side side;
+};
+// Returns the held sides that have a length, in the order of the patches. The patches must have no skirt yet.
+Vector<HeldSide> held_sides(const PatchSet &set);
+
+// The lengths of a skirt that are not the same everywhere. There is one list for each image of each patch with a held side, in
+// the order of held_sides. It has the lengths at evenly spaced shares of the side's length.
+using SkirtLengths = Vector<Vector<double>>;
+inline constexpr std::size_t n_skirt_parts = 32;  // of each side with such lengths
+
+// Returns the mean distance of the attachment from its axis. Fails with RIIS_INVALID_PARAMETER unless every side has an outward
+// direction.
+double attachment_radius(const PatchSet &set, const Vector<HeldSide> &sides);
+// A skirt is at least and at most this many such distances long.
+inline constexpr double least_skirt = 1e-4, most_skirt = 10;
+
+// Returns the unit vector from the axis through the point, perpendicular to the axis. It is 0 if the point is on the axis.
+Vec3 outwards(const AxisLine &axis, Vec3 point);
+
+// Adds the patches of a skirt. The length is `length` if `lengths` is empty. The patches continue the leaflets outwards, and have
+// the leaflet_id of skirt_leaflet and the patch_id of the leaflet's patch plus the number of these ids. Fails with
+// RIIS_INVALID_PARAMETER if the attachment has no outward direction, and for a length that does not fit its size.
+void add_skirt(PatchSet &set, double length, const SkirtLengths &lengths);
+
+// Returns the leaflet_id that a skirt of these patches has.
+std::int32_t skirt_leaflet(const PatchSet &set);
+
+}  // namespace riis

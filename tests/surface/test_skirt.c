@@ -1,0 +1,715 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Tests the skirt. Its outer edge must lie the length outwards from the attachment, and its inner edge on the attachment. It must
+ * seal a gap to a wall that a valve without a skirt leaves open. It must leave the leaflets, the orifice, the swept volumes and
+ * the attachment as they are. */
+#include <riis/riis.h>
+
+#include "test_support.h"
+
+#include "handles.h"
+#include "searches.h"
+
+#include "random_meshes.h"
+
+#include "flood_fill.h"
+#include "shapes.h"
+
+static double between(double low, double high) { return random_between(&rng, low, high); }
+
+enum { n_skirted = 3 };
+static const char *const skirted[n_skirted] = {"trileaflet", "mitral", "aortic"};
+
+static riis_valve *skirted_valve(int kind, double length, double opening) {
+  riis_valve *valve = new_valve(skirted[kind]);
+  CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", length));
+  CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
+  return valve;
+}
+
+/* Sets sizes at random within a range in which no valve crosses itself. */
+static void set_random_sizes(riis_valve *valve, int kind) {
+  if (kind == 0) CHECK_OK(riis_valve_set_scalar(valve, "leaflet_height", between(1.3, 1.6)));
+  if (kind == 1) {
+    CHECK_OK(riis_valve_set_scalar(valve, "indent_depth", between(0, 0.6)));
+    CHECK_OK(riis_valve_set_scalar(valve, "anterior_horn_height", between(0.2, 1)));
+  }
+  if (kind == 2) CHECK_OK(riis_valve_set_scalar(valve, "open_radius_ratio", between(0.75, 0.85)));
+}
+
+static riis_surface_options random_placement(int32_t triangulation) {
+  riis_surface_options options = surface_options();
+  options.triangulation = triangulation;
+  options.scale = pow(10, between(-2, 1));
+  for (int c = 0; c < 3; ++c)
+    options.rotation_axis[c] = between(-1, 1) + (c == 1 ? 2 : 0),
+    options.translation[c] = options.scale * between(-3, 3);
+  options.rotation_angle = between(-180, 180);
+  return options;
+}
+
+static riis_attachment attachment_of(const riis_surface *surface) {
+  riis_attachment attachment;
+  CHECK_OK(riis_surface_get_attachment(surface, &attachment, sizeof attachment));
+  return attachment;
+}
+
+static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+static double length_of(const double *a) { return sqrt(dot(a, a)); }
+
+static double distance_between(const double *a, const double *b) {
+  const double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  return length_of(d);
+}
+
+static double distance_to_edge(const double *p, const double *a, const double *b) {
+  double ab[3], ap[3];
+  for (int c = 0; c < 3; ++c) ab[c] = b[c] - a[c], ap[c] = p[c] - a[c];
+  const double size = dot(ab, ab), t = size > 0 ? fmin(fmax(dot(ab, ap) / size, 0), 1) : 0;
+  double off[3];
+  for (int c = 0; c < 3; ++c) off[c] = ap[c] - t * ab[c];
+  return length_of(off);
+}
+
+/* The line that skirts lead away from: the axis of the valve's frame or, for the mitral valve, the parallel through the centroid
+ * of the annulus. */
+typedef struct axis_line {
+  double centre[3], direction[3];
+} axis_line;
+
+static axis_line axis_of(const riis_surface *surface, int kind, const riis_surface_options *options) {
+  riis_orifice orifice;
+  CHECK_OK(riis_surface_get_orifice(surface, NULL, &orifice, sizeof orifice));
+  const riis_attachment held = attachment_of(surface);
+  axis_line axis = {{0, 0, 0}, {orifice.axis[0], orifice.axis[1], orifice.axis[2]}};
+  double whole = 0;
+  for (int64_t i = 0; i < held.n_edges; ++i) {
+    const double *a = held.edges + 6 * i, *b = a + 3, size = distance_between(a, b);
+    whole += size;
+    for (int c = 0; c < 3; ++c) axis.centre[c] += 0.5 * size * (a[c] + b[c]);
+  }
+  for (int c = 0; c < 3; ++c) axis.centre[c] = kind == 1 ? axis.centre[c] / whole : options->translation[c];
+  return axis;
+}
+
+static void outwards_from(const axis_line *axis, const double *p, double *out) {
+  double q[3];
+  for (int c = 0; c < 3; ++c) q[c] = p[c] - axis->centre[c];
+  const double along = dot(q, axis->direction);
+  for (int c = 0; c < 3; ++c) q[c] -= along * axis->direction[c];
+  const double size = length_of(q);
+  for (int c = 0; c < 3; ++c) out[c] = q[c] / size;
+}
+
+/* Checks the vertices of both edges of the skirt. */
+static void the_outer_edge_is_the_length_away(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 4 * n_skirted; ++trial) {
+    const int owned_before = n_owned(), kind = trial % n_skirted, is_fixed = trial / n_skirted % 2;
+    const double length = between(0.02, 0.3);
+    riis_valve *valve = skirted_valve(kind, length, trial < 2 * n_skirted ? 0 : between(0, 1));
+    set_random_sizes(valve, kind);
+    riis_surface_options options = random_placement(is_fixed ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
+    options.tolerance = 0.03;
+    const riis_surface *surface = new_surface(valve, &options);
+    const double L = options.scale * length;
+    const double error = 1e-3 * L + 2 * info_of(surface).error_bound, rounding = 1e-13 * options.scale;
+    const axis_line axis = axis_of(surface, kind, &options);
+    const riis_triangles all = triangles_of(surface);
+    const riis_attachment held = attachment_of(surface);
+    double *wanted = own(malloc((size_t)held.n_edges * 6 * sizeof *wanted)); /* the attachment, moved outwards */
+    for (int64_t i = 0; i < 2 * held.n_edges; ++i) {
+      double out[3];
+      outwards_from(&axis, held.edges + 3 * i, out);
+      for (int c = 0; c < 3; ++c) wanted[3 * i + c] = held.edges[3 * i + c] + L * out[c];
+    }
+    int64_t n_outer = 0, n_inner = 0;
+    double worst = 0;
+    for (int64_t t = 0; t < all.n_triangles; ++t)
+      for (int k = 0; k < 3 && all.leaflet_id[t] == RIIS_LEAFLET_SKIRT; ++k) {
+        const int64_t id = all.vertex_id[3 * t + k];
+        const double v = all.uv[2 * id + 1];
+        if (v != 0 && v != 1) continue;
+        double nearest = INFINITY;
+        for (int64_t i = 0; i < held.n_edges; ++i) {
+          const double *edge = (v == 0 ? wanted : held.edges) + 6 * i;
+          nearest = fmin(nearest, distance_to_edge(all.xyz + 3 * id, edge, edge + 3));
+        }
+        if (v == 0) {
+          worst = fmax(worst, nearest), ++n_outer;
+        } else {
+          CHECK_AT_MOST(nearest, rounding);
+          ++n_inner;
+        }
+      }
+    printf("%s %s: outer edge off by %.2g of %.2g\n", skirted[kind], is_fixed ? "fixed" : "adapted", worst, error);
+    CHECK_AT_MOST(worst, error);
+    assert_true(n_outer > 20 && n_inner > 20);
+    /* Every vertex of the attachment is on the inner edge. */
+    for (int64_t i = 0; i < 2 * held.n_edges; ++i) {
+      double nearest = INFINITY;
+      for (int64_t t = 0; t < all.n_triangles; ++t)
+        for (int k = 0; k < 3 && all.leaflet_id[t] == RIIS_LEAFLET_SKIRT; ++k) {
+          const int64_t a = all.vertex_id[3 * t + k], b = all.vertex_id[3 * t + (k + 1) % 3];
+          if (all.uv[2 * a + 1] != 1 || all.uv[2 * b + 1] != 1) continue;
+          nearest = fmin(nearest, distance_to_edge(held.edges + 3 * i, all.xyz + 3 * a, all.xyz + 3 * b));
+        }
+      CHECK_AT_MOST(nearest, rounding);
+    }
+    free_owned_after(owned_before);
+  }
+}
+
+/* The skirt comes after the leaflets, which stay as they are. */
+static void leaflets_stay_as_they_are(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 2 * n_skirted; ++trial) {
+    const int owned_before = n_owned(), kind = trial % n_skirted;
+    const double opening = trial < n_skirted ? 0 : between(0, 1);
+    const uint64_t seed = rng.state;
+    riis_valve *without = skirted_valve(kind, 0, opening);
+    set_random_sizes(without, kind);
+    rng.state = seed;
+    riis_valve *with = skirted_valve(kind, 0.1, opening);
+    set_random_sizes(with, kind);
+    const riis_surface_options options = random_placement(RIIS_TRIANGULATION_ADAPTED);
+    const riis_surface *a = new_surface(without, &options), *b = new_surface(with, &options);
+    const riis_triangles s = triangles_of(a), t = triangles_of(b);
+    assert_true(t.n_triangles > s.n_triangles && t.n_vertices > s.n_vertices);
+    assert_memory_equal(s.xyz, t.xyz, (size_t)s.n_vertices * 3 * sizeof *s.xyz);
+    assert_memory_equal(s.vertex_id, t.vertex_id, (size_t)s.n_triangles * 3 * sizeof *s.vertex_id);
+    assert_memory_equal(s.patch_id, t.patch_id, (size_t)s.n_triangles * sizeof *s.patch_id);
+    for (int64_t i = s.n_triangles; i < t.n_triangles; ++i) assert_int_equal(t.leaflet_id[i], RIIS_LEAFLET_SKIRT);
+    const riis_attachment held_a = attachment_of(a), held_b = attachment_of(b);
+    assert_int_equal(held_a.n_edges, held_b.n_edges);
+    assert_memory_equal(held_a.edges, held_b.edges, (size_t)held_a.n_edges * 6 * sizeof *held_a.edges);
+    riis_orifice o, p;
+    CHECK_OK(riis_surface_get_orifice(a, NULL, &o, sizeof o));
+    CHECK_OK(riis_surface_get_orifice(b, NULL, &p, sizeof p));
+    assert_memory_equal(&o, &p, sizeof o);
+    for (int32_t leaflet = RIIS_ALL_LEAFLETS; leaflet < 1 && opening > 0; ++leaflet) {
+      double volume_a, volume_b;
+      CHECK_OK(riis_valve_get_swept_volume(without, 0, opening, NULL, leaflet, &volume_a));
+      CHECK_OK(riis_valve_get_swept_volume(with, 0, opening, NULL, leaflet, &volume_b));
+      assert_true(volume_a == volume_b);
+    }
+    free_owned_after(owned_before);
+  }
+}
+
+/* Along the attachment, the edges of the leaflets and those of the skirt run in opposite directions. So normals point the same
+ * way on both sides. With a fixed triangulation, each mitral edge belongs to one leaflet and to the skirt, to the last bit. */
+static void the_skirt_continues_the_leaflets(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 4 * n_skirted; ++trial) {
+    const int owned_before = n_owned(), kind = trial % n_skirted, is_fixed = trial / n_skirted % 2;
+    riis_valve *valve = skirted_valve(kind, between(0.05, 0.2), trial < 2 * n_skirted ? 0 : between(0, 1));
+    const riis_surface_options options =
+        random_placement(is_fixed ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
+    const riis_surface *surface = new_surface(valve, &options);
+    const riis_triangles all = triangles_of(surface);
+    const riis_attachment held = attachment_of(surface);
+    for (int64_t i = 0; i < held.n_edges; ++i) {
+      const double *a = held.edges + 6 * i, *b = a + 3;
+      double inside[3], along[3];
+      for (int c = 0; c < 3; ++c) inside[c] = 0.4137 * a[c] + 0.5863 * b[c], along[c] = b[c] - a[c];
+      int n[2] = {0, 0}, n_same = 0; /* of the leaflets, of the skirt */
+      double direction[2] = {0, 0};
+      for (int64_t t = 0; t < all.n_triangles; ++t)
+        for (int k = 0; k < 3; ++k) {
+          const double *p = all.xyz + 3 * all.vertex_id[3 * t + k],
+                       *q = all.xyz + 3 * all.vertex_id[3 * t + (k + 1) % 3];
+          if (distance_to_edge(inside, p, q) > 1e-13 * options.scale) continue;
+          const double pq[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+          const int is_skirt = all.leaflet_id[t] == RIIS_LEAFLET_SKIRT;
+          ++n[is_skirt], direction[is_skirt] = dot(pq, along);
+          n_same += (memcmp(p, a, 3 * sizeof *p) == 0 && memcmp(q, b, 3 * sizeof *q) == 0) ||
+                    (memcmp(p, b, 3 * sizeof *p) == 0 && memcmp(q, a, 3 * sizeof *q) == 0);
+        }
+      assert_true(n[0] == 1 && n[1] == 1 && direction[0] * direction[1] < 0);
+      if (kind == 1 && is_fixed) assert_int_equal(n_same, 2);
+    }
+    free_owned_after(owned_before);
+  }
+}
+
+static void skirts_cross_nothing(void **state) {
+  (void)state;
+  riis_crossings *crossings = NULL;
+  CHECK_OK(riis_crossings_create(&crossings));
+  own(crossings);
+  const int n_trials = is_long_test() ? 100 * n_skirted : n_skirted;
+  for (int trial = 0; trial < n_trials; ++trial) {
+    const int kind = trial % n_skirted;
+    const double length = between(0.05, 0.25);
+    const uint64_t seed = rng.state;
+    for (int i = 0; i <= 10; ++i) {
+      const int owned_before = n_owned();
+      riis_surface_options options = surface_options();
+      options.triangulation = i % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
+      riis_valve *valve = skirted_valve(kind, length, 0.1 * i);
+      rng.state = seed;
+      set_random_sizes(valve, kind);
+      const riis_surface *surface = new_surface(valve, &options);
+      const int32_t *leaflet_id = triangles_of(surface).leaflet_id;
+      riis_crossing_list list;
+      CHECK_OK(riis_find_crossings(surface, NULL, crossings));
+      CHECK_OK(riis_crossings_get_list(crossings, &list, sizeof list));
+      for (int64_t k = 0; k < 2 * list.n_pairs; ++k)
+        assert_int_not_equal(leaflet_id[list.triangle_id[k]], RIIS_LEAFLET_SKIRT);
+      free_owned_after(owned_before);
+    }
+  }
+}
+
+/* Beside the skirt, the side is that of its normals. */
+static void sides_are_right_beside_the_skirt(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 2 * n_skirted; ++trial) {
+    const int owned_before = n_owned(), kind = trial % n_skirted;
+    riis_surface_options options = random_placement(trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
+    const riis_surface *surface =
+        new_surface(skirted_valve(kind, 0.15, trial < n_skirted ? 0 : between(0, 1)), &options);
+    const riis_triangles all = triangles_of(surface);
+    int n = 0;
+    for (int64_t t = 0; t < all.n_triangles; ++t) {
+      if (all.leaflet_id[t] != RIIS_LEAFLET_SKIRT) continue;
+      const double *a = all.xyz + 3 * all.vertex_id[3 * t], *b = all.xyz + 3 * all.vertex_id[3 * t + 1],
+                   *c = all.xyz + 3 * all.vertex_id[3 * t + 2];
+      double ab[3], ac[3], normal[3], middle[3];
+      for (int k = 0; k < 3; ++k) ab[k] = b[k] - a[k], ac[k] = c[k] - a[k], middle[k] = (a[k] + b[k] + c[k]) / 3;
+      for (int k = 0; k < 3; ++k) normal[k] = ab[(k + 1) % 3] * ac[(k + 2) % 3] - ab[(k + 2) % 3] * ac[(k + 1) % 3];
+      const double size = length_of(normal), away = between(0.1, 0.5) * (trial % 2 ? 1 : -1) * 0.02 * options.scale;
+      const riis_closest found = closest_to(surface, middle[0] + away * normal[0] / size,
+                                            middle[1] + away * normal[1] / size, middle[2] + away * normal[2] / size);
+      if (found.leaflet_id != RIIS_LEAFLET_SKIRT) continue;
+      assert_int_equal(found.side, away > 0 ? 1 : -1);
+      ++n;
+    }
+    assert_true(n > 20);
+    free_owned_after(owned_before);
+  }
+}
+
+/* A wall around the z axis through (x, y). At each angle its distance from this axis is that of the attachment plus a gap. */
+enum { n_angles = 720 };
+typedef struct wall_shape {
+  const riis_attachment *held;
+  double x, y, gap, radius[n_angles];
+} wall_shape;
+
+static double radius_of_attachment(const wall_shape *wall, double x, double y) {
+  /* Finds the edge of the attachment that the ray from the axis through (x, y) meets. */
+  double farthest = 0;
+  for (int64_t i = 0; i < wall->held->n_edges; ++i) {
+    const double *e = wall->held->edges + 6 * i;
+    const double ax = e[0] - wall->x, ay = e[1] - wall->y, bx = e[3] - wall->x, by = e[4] - wall->y;
+    const double side_a = x * ay - y * ax, side_b = x * by - y * bx;
+    if (side_a * side_b > 0 || side_a == side_b) continue;
+    const double t = side_a / (side_a - side_b), px = ax + t * (bx - ax), py = ay + t * (by - ay);
+    if (px * x + py * y > 0) farthest = fmax(farthest, hypot(px, py));
+  }
+  return farthest;
+}
+
+static int is_inside(const wall_shape *wall, double x, double y) {
+  const int i = (int)((atan2(y, x) / (2 * acos(-1)) + 0.5) * n_angles);
+  return hypot(x, y) <= wall->radius[i % n_angles] + wall->gap;
+}
+
+static int leaks(const riis_surface *surface, const test_mesh *nodes) {
+  riis_mesh *mesh = mesh_from(nodes);
+  int64_t lowest = 0, highest = 0;
+  for (int64_t i = 0; i < nodes->n; ++i) {
+    if (nodes->xyz[3 * i + 2] < nodes->xyz[3 * lowest + 2]) lowest = i;
+    if (nodes->xyz[3 * i + 2] > nodes->xyz[3 * highest + 2]) highest = i;
+  }
+  riis_passage passage;
+  CHECK_OK(find_passage_between(surface, mesh, NULL, 1, &lowest, 1, &highest, &passage, sizeof passage));
+  free_one_owned(mesh);
+  return passage.state == RIIS_PASSAGE_OPEN;
+}
+
+/* The closed valve stands in a mesh whose wall is a gap away from the attachment. A skirt as long as the gap closes it. */
+static void skirts_seal_gaps(void **state) {
+  (void)state;
+  static const double gaps[4] = {0.05, 0.1, 0.15, 0.2};
+  for (int kind = 0; kind < 2; ++kind)
+    for (int i = 0; i < 4; ++i) {
+      const int owned_before = n_owned();
+      riis_surface_options options = surface_options();
+      options.half_thickness = 0.1;
+      options.triangulation = i % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
+      const riis_surface *bare = new_surface(skirted_valve(kind, 0, 0), &options),
+                         *sealed = new_surface(skirted_valve(kind, gaps[i], 0), &options),
+                         *open = new_surface(skirted_valve(kind, gaps[i], 1), &options);
+      const riis_attachment held = attachment_of(bare);
+      const axis_line axis = axis_of(bare, kind, &options);
+      wall_shape wall = {&held, axis.centre[0], axis.centre[1], gaps[i], {0}};
+      for (int k = 0; k < n_angles; ++k) {
+        const double angle = 2 * acos(-1) * ((k + 0.5) / n_angles - 0.5);
+        wall.radius[k] = radius_of_attachment(&wall, cos(angle), sin(angle));
+      }
+      const riis_surface_info info = info_of(sealed), info_open = info_of(open);
+      const double spacing = between(0.09, 0.1), margin = 0.4;
+      int64_t counts[3];
+      double lower[3], upper[3];
+      for (int c = 0; c < 3; ++c) {
+        lower[c] = fmin(info.lower[c], info_open.lower[c]) - (c == 2 ? margin : 0);
+        upper[c] = fmax(info.upper[c], info_open.upper[c]) + (c == 2 ? margin : 0);
+        counts[c] = 1 + (int64_t)ceil((upper[c] - lower[c]) / spacing);
+      }
+      test_mesh nodes = lattice(counts, lower, upper);
+      uint8_t *wanted = own(malloc((size_t)nodes.n));
+      for (int64_t k = 0; k < nodes.n; ++k) {
+        const double x = nodes.xyz[3 * k] - wall.x, y = nodes.xyz[3 * k + 1] - wall.y;
+        wanted[k] = (uint8_t)is_inside(&wall, x, y);
+      }
+      keep(&nodes, wanted);
+      const int bare_leaks = leaks(bare, &nodes);
+      printf("%s, gap %.2f: %s without a skirt\n", skirted[kind], gaps[i], bare_leaks ? "leaks" : "closed");
+      if (gaps[i] > 0.12) assert_true(bare_leaks); /* more than the half thickness */
+      assert_false(leaks(sealed, &nodes));
+      if (i == 3) assert_true(leaks(open, &nodes));
+      free_owned_after(owned_before);
+    }
+}
+
+/* With a fixed triangulation, a velocity is the displacement of the same vertex divided by the time. */
+static void skirts_move_with_the_attachment(void **state) {
+  (void)state;
+  for (int trial = 0; trial < n_skirted; ++trial) {
+    const int owned_before = n_owned();
+    riis_surface_options options = random_placement(RIIS_TRIANGULATION_FIXED);
+    options.tolerance = 0.005;
+    riis_valve *before = skirted_valve(trial, 0.1, between(0, 0.3)), *now = skirted_valve(trial, 0.1, between(0.7, 1));
+    riis_surface *surface = new_surface(before, &options);
+    const riis_triangles was = triangles_of(surface);
+    double *old = own(malloc((size_t)was.n_vertices * 3 * sizeof *old));
+    memcpy(old, was.xyz, (size_t)was.n_vertices * 3 * sizeof *old);
+    CHECK_OK(riis_surface_update_moving(surface, now, before, 0.1, NULL, NULL));
+    const riis_triangles is = triangles_of(surface);
+    assert_int_equal(is.n_vertices, was.n_vertices);
+    /* Both vertices are on chords, which lie within the tolerance of the smooth valve. */
+    const double error = 2 * info_of(surface).error_bound / 0.1 + info_of(surface).velocity_error_bound;
+    double fastest = 0, worst = 0;
+    for (int64_t t = 0; t < is.n_triangles; ++t)
+      for (int k = 0; k < 3 && is.leaflet_id[t] == RIIS_LEAFLET_SKIRT; ++k) {
+        const int64_t id = is.vertex_id[3 * t + k];
+        double wanted[3];
+        for (int c = 0; c < 3; ++c) wanted[c] = (is.xyz[3 * id + c] - old[3 * id + c]) / 0.1;
+        worst = fmax(worst, distance_between(wanted, is.velocity + 3 * id));
+        fastest = fmax(fastest, length_of(wanted));
+      }
+    printf("%s: fastest %.3g, off by %.3g of at most %.3g\n", skirted[trial], fastest, worst, error);
+    CHECK_AT_MOST(worst, error);
+    CHECK_AT_MOST(worst, 0.3 * fastest);
+    free_owned_after(owned_before);
+  }
+}
+
+/* A wall: a tube with a straight axis, cut by planes from 0 to 1 along it. The sides are triangles, in random diagonals. */
+typedef struct tube_wall {
+  axis_line axis; /* through the middle */
+  double radius, half_length;
+} tube_wall;
+
+static void across(const double *direction, double *x, double *y) {
+  const int least = fabs(direction[0]) < 0.6 ? 0 : 1;
+  double unit[3] = {0, 0, 0};
+  unit[least] = 1;
+  const double along = dot(unit, direction);
+  for (int c = 0; c < 3; ++c) x[c] = unit[c] - along * direction[c];
+  const double size = length_of(x);
+  for (int c = 0; c < 3; ++c) x[c] /= size;
+  for (int c = 0; c < 3; ++c) y[c] = direction[(c + 1) % 3] * x[(c + 2) % 3] - direction[(c + 2) % 3] * x[(c + 1) % 3];
+}
+
+static riis_surface *wall_from(const tube_wall *tube_at) {
+  enum { n_round = 600, n_along = 3 };
+  static double xyz[3 * n_round * n_along];
+  static int32_t ids[6 * n_round * (n_along - 1)];
+  double x[3], y[3];
+  across(tube_at->axis.direction, x, y);
+  int64_t n = 0;
+  for (int j = 0; j < n_along; ++j)
+    for (int i = 0; i < n_round; ++i) {
+      const double angle = 2 * acos(-1) * i / n_round, z = tube_at->half_length * (2.0 * j / (n_along - 1) - 1);
+      for (int c = 0; c < 3; ++c)
+        xyz[3 * (j * n_round + i) + c] = tube_at->axis.centre[c] + z * tube_at->axis.direction[c] +
+                                         tube_at->radius * (cos(angle) * x[c] + sin(angle) * y[c]);
+      if (j + 1 == n_along) continue;
+      const int32_t a = j * n_round + i, b = j * n_round + (i + 1) % n_round, d = a + n_round, e = b + n_round;
+      const int32_t two[2][6] = {{a, b, e, a, e, d}, {a, b, d, b, e, d}};
+      memcpy(ids + 3 * n, two[one_in(2)], sizeof two[0]), n += 2;
+    }
+  const riis_surface_arrays arrays = triangle_arrays(n_round * n_along, xyz, n, ids);
+  return surface_from(&arrays, NULL);
+}
+
+/* Returns where the line p + t d meets a round tube, the nearest of both places. */
+static double distance_to_tube(const tube_wall *wall, const double *p, const double *d) {
+  double q[3], e[3];
+  const double *axis = wall->axis.direction;
+  for (int c = 0; c < 3; ++c) q[c] = p[c] - wall->axis.centre[c], e[c] = d[c];
+  const double along_q = dot(q, axis), along_e = dot(e, axis);
+  for (int c = 0; c < 3; ++c) q[c] -= along_q * axis[c], e[c] -= along_e * axis[c];
+  const double a = dot(e, e), b = dot(q, e), c = dot(q, q) - wall->radius * wall->radius;
+  const double root = sqrt(b * b - a * c), first = (-b - root) / a, second = (-b + root) / a;
+  return fabs(first) < fabs(second) ? first : second;
+}
+
+/* Makes a tube around a placed valve, whose axis is shifted and tilted against the valve's. */
+static tube_wall tube_around(const riis_surface *surface, const axis_line *axis, double scale) {
+  const riis_attachment held = attachment_of(surface);
+  tube_wall made = {*axis, 0, 20 * scale};
+  for (int c = 0; c < 3; ++c) {
+    made.axis.centre[c] += between(-0.05, 0.05) * scale;
+    made.axis.direction[c] += between(-0.05, 0.05);
+  }
+  const double size = length_of(made.axis.direction);
+  for (int c = 0; c < 3; ++c) made.axis.direction[c] /= size;
+  for (int64_t i = 0; i < 2 * held.n_edges; ++i) {
+    double q[3];
+    for (int c = 0; c < 3; ++c) q[c] = held.edges[3 * i + c] - made.axis.centre[c];
+    const double along = dot(q, made.axis.direction);
+    for (int c = 0; c < 3; ++c) q[c] -= along * made.axis.direction[c];
+    made.radius = fmax(made.radius, length_of(q));
+  }
+  made.radius += 0.05 * scale;
+  return made;
+}
+
+static riis_gap gap_between(const riis_surface *surface, const riis_surface *wall, double *distance) {
+  riis_gap gap;
+  memset(&gap, 0x5a, sizeof gap);
+  CHECK_OK(riis_surface_get_gap(surface, wall, distance, &gap, sizeof gap));
+  return gap;
+}
+
+/* The gap to a round tube is the root of a quadratic equation. A skirt to that tube ends on it, and the leaflets stay. */
+static void skirts_reach_walls_and_no_farther(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 2 * n_skirted; ++trial) {
+    const int owned_before = n_owned(), kind = trial % n_skirted;
+    riis_valve *valve = skirted_valve(kind, 0, 0);
+    set_random_sizes(valve, kind);
+    riis_surface_options options = random_placement(trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
+    const double s = options.scale;
+    const riis_surface *bare = new_surface(valve, &options);
+    const axis_line axis = axis_of(bare, kind, &options);
+    const tube_wall round = tube_around(bare, &axis, s);
+    const riis_surface *wall = wall_from(&round);
+    const riis_attachment held = attachment_of(bare);
+    double *distance = own(malloc((size_t)held.n_edges * 2 * sizeof *distance));
+    const riis_gap gap = gap_between(bare, wall, distance);
+    double least = INFINITY, most = -INFINITY, sum = 0, whole = 0;
+    const double facets = 2 * round.radius * 2e-5; /* between the round tube and its facets */
+    for (int64_t i = 0; i < 2 * held.n_edges; ++i) {
+      const double *p = held.edges + 3 * i, *edge = held.edges + 6 * (i / 2);
+      double out[3];
+      outwards_from(&axis, p, out);
+      const double wanted = distance_to_tube(&round, p, out), size = distance_between(edge, edge + 3);
+      if (kind != 2) CHECK_NEAR(distance[i], wanted, facets);
+      least = fmin(least, distance[i]), most = fmax(most, distance[i]), sum += size * distance[i], whole += size;
+    }
+    assert_int_equal(gap.n_ends, 2 * held.n_edges);
+    assert_int_equal(gap.n_without_wall, 0);
+    CHECK_NEAR(gap.least, least, 0);
+    CHECK_NEAR(gap.most, most, 0);
+    CHECK_NEAR(gap.mean, sum / whole, 1e-12 * s);
+    assert_true(gap.least > 0.01 * s);
+
+    CHECK_OK(riis_valve_set_skirt_to_wall(valve, wall, 2 * s, &options));
+    double longest = 0;
+    CHECK_OK(riis_valve_get(valve, "skirt_length", 1, &longest));
+    CHECK_NEAR(longest * s, gap.most, 5e-3 * gap.most); /* at other points than the ends of edges */
+    const riis_surface *reaching = new_surface(valve, &options);
+    const riis_triangles all = triangles_of(reaching);
+    double farthest = 0, worst = 0;
+    for (int64_t t = 0; t < all.n_triangles; ++t)
+      for (int k = 0; k < 3 && all.leaflet_id[t] == RIIS_LEAFLET_SKIRT; ++k) {
+        const int64_t id = all.vertex_id[3 * t + k];
+        const double *p = all.xyz + 3 * id;
+        double q[3];
+        for (int c = 0; c < 3; ++c) q[c] = p[c] - round.axis.centre[c];
+        const double along = dot(q, round.axis.direction);
+        for (int c = 0; c < 3; ++c) q[c] -= along * round.axis.direction[c];
+        const double beyond = length_of(q) - round.radius;
+        farthest = fmax(farthest, beyond);
+        if (all.uv[2 * id + 1] == 0) worst = fmax(worst, fabs(beyond));
+      }
+    const double allowed = info_of(reaching).error_bound + 1e-3 * gap.most + facets;
+    printf("%s: gap %.3g to %.3g, outer edge off the wall by %.2g of %.2g\n", skirted[kind], gap.least, gap.most, worst,
+           allowed);
+    CHECK_AT_MOST(worst, allowed);
+    CHECK_AT_MOST(farthest, allowed);
+    assert_true(all.n_triangles > triangles_of(bare).n_triangles);
+
+    /* The lengths belong to the shape: another skirt is refused by a fixed triangulation, and a copy has the same. */
+    riis_valve *copy = NULL;
+    CHECK_OK(riis_valve_copy(valve, &copy));
+    own(copy);
+    assert_true(is_same_content(reaching, new_surface(copy, &options)));
+    CHECK_OK(riis_valve_set_scalar(copy, "opening", 0.5));
+    CHECK_OK(riis_surface_update((riis_surface *)(uintptr_t)reaching, copy, NULL));
+    CHECK_OK(riis_valve_set_scalar(copy, "skirt_length", longest));
+    if (options.triangulation == RIIS_TRIANGULATION_FIXED)
+      CHECK_REFUSED(RIIS_INVALID_PARAMETER, "the skirt's lengths to the wall differ",
+                    riis_surface_update((riis_surface *)(uintptr_t)reaching, copy, NULL));
+    CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", 0));
+    assert_int_equal(triangles_of(new_surface(valve, &options)).n_triangles, triangles_of(bare).n_triangles);
+    free_owned_after(owned_before);
+  }
+}
+
+/* A funnel of four patches in a tilted frame, attached along a circle. */
+static shape funnel(const double *centre, const double *direction, double radius) {
+  enum { n = 3 };
+  shape made = {0};
+  double x[3], y[3], at[2][n][3], control[4][3];
+  across(direction, x, y);
+  const double step = 2 * acos(-1) / n, reach = 4.0 / 3 * tan(step / 4);
+  for (int level = 0; level < 2; ++level)
+    for (int i = 0; i < n; ++i) {
+      const double r = level ? 0.4 * radius : radius;
+      for (int k = 0; k < 4; ++k) {
+        const double angle = step * (k < 2 ? i : i + 1), turn = k == 1 ? reach : k == 2 ? -reach : 0;
+        for (int c = 0; c < 3; ++c)
+          control[k][c] = centre[c] + (level ? radius : 0) * direction[c] +
+                          r * ((cos(angle) - turn * sin(angle)) * x[c] + (sin(angle) + turn * cos(angle)) * y[c]);
+      }
+      memcpy(at[level][i], control[0], sizeof control[0]);
+      add_curve(&made, 3, control);
+    }
+  for (int i = 0; i < n; ++i) {
+    const double *a = at[0][i], *b = at[1][i];
+    add_line(&made, a[0], a[1], a[2], b[0], b[1], b[2]);
+  }
+  for (int i = 0; i < n; ++i) {
+    add_patch(&made, i, n + i, 2 * n + i, 2 * n + (i + 1) % n);
+    made.leaflet_id[i] = 2 + i;
+  }
+  return made;
+}
+
+/* Patches in any frame get a flat ring, because their attachment is a circle. */
+static void patches_have_skirts_in_any_frame(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 4; ++trial) {
+    const int owned_before = n_owned();
+    const double centre[3] = {between(-5, 5), between(-5, 5), between(-5, 5)}, radius = between(0.5, 2);
+    double direction[3] = {between(-1, 1), between(-1, 1), 1.2};
+    const double size = length_of(direction), length = 0.2 * radius;
+    for (int c = 0; c < 3; ++c) direction[c] /= size;
+    const shape made = funnel(centre, direction, radius);
+    riis_valve *valve = valve_from(&made);
+    CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", length));
+    riis_surface_options options = surface_options();
+    options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
+    options.half_thickness = 0.05 * radius;
+    const riis_surface *surface = new_surface(valve, &options);
+    const riis_triangles all = triangles_of(surface);
+    const double error = info_of(surface).error_bound + 1e-3 * radius;
+    int n = 0;
+    for (int64_t t = 0; t < all.n_triangles; ++t) {
+      if (all.patch_id[t] < 3) continue;
+      assert_int_equal(all.leaflet_id[t], 5);
+      assert_in_range(all.patch_id[t], 3, 5);
+      for (int k = 0; k < 3; ++k, ++n) {
+        const double *p = all.xyz + 3 * all.vertex_id[3 * t + k];
+        double q[3];
+        for (int c = 0; c < 3; ++c) q[c] = p[c] - centre[c];
+        const double along = dot(q, direction);
+        CHECK_NEAR(along, 0, error);
+        CHECK_NEAR(sqrt(dot(q, q) - along * along),
+                   all.uv[2 * all.vertex_id[3 * t + k] + 1] == 1 ? radius : radius + length, error);
+      }
+    }
+    assert_true(n > 30);
+    free_owned_after(owned_before);
+  }
+}
+
+static void wrong_skirts_are_refused(void **state) {
+  (void)state;
+  riis_surface *surface = NULL;
+  riis_valve *trileaflet = new_valve("trileaflet"), *bileaflet = new_valve("bileaflet");
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'skirt_length' is not a parameter of the bileaflet valve|ring_height",
+                riis_valve_set_scalar(bileaflet, "skirt_length", 0.1));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'skirt_length' is -0.1",
+                riis_valve_set_scalar(trileaflet, "skirt_length", -0.1));
+  CHECK_OK(riis_valve_set_scalar(trileaflet, "skirt_length", 1e-6));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "skirt_length is 1e-06|from 1e-04 to 10 times|attachment from its axis",
+                riis_surface_create(trileaflet, NULL, &surface));
+  CHECK_OK(riis_valve_set_scalar(trileaflet, "skirt_length", 20));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "skirt_length is 20", riis_surface_create(trileaflet, NULL, &surface));
+  const shape square = unit_square();
+  riis_valve *flat = valve_from(&square);
+  CHECK_OK(riis_valve_set_scalar(flat, "skirt_length", 0.1));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "the attachment encloses no area", riis_surface_create(flat, NULL, &surface));
+
+  CHECK_OK(riis_valve_set_scalar(trileaflet, "skirt_length", 0));
+  const riis_surface *bare = new_surface(trileaflet, NULL);
+  const tube_wall round = {{{0, 0, 0}, {0, 0, 1}}, 1.5, 5}, low = {{{0, 0, 0}, {0, 0, 1}}, 1.5, 0.5};
+  const riis_surface *wall = wall_from(&round);
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "the bileaflet valve has no skirt|ring_height",
+                riis_valve_set_skirt_to_wall(bileaflet, wall, 1, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve is NULL", riis_valve_set_skirt_to_wall(NULL, wall, 1, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "wall is NULL", riis_valve_set_skirt_to_wall(trileaflet, NULL, 1, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "longest is 0", riis_valve_set_skirt_to_wall(trileaflet, wall, 0, NULL));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "wall is not within longest, 0.1|points of the attachment",
+                riis_valve_set_skirt_to_wall(trileaflet, wall, 0.1, NULL));
+  riis_surface_options options = surface_options();
+  options.scale = 0;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.scale is 0",
+                riis_valve_set_skirt_to_wall(trileaflet, wall, 1, &options));
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "the attachment encloses no area",
+                riis_valve_set_skirt_to_wall((riis_valve_set_scalar(flat, "skirt_length", 0), flat), wall, 1, NULL));
+  const riis_surface *short_wall = wall_from(&low);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "wall is not within longest|it is missed",
+                riis_valve_set_skirt_to_wall(trileaflet, short_wall, 1, NULL));
+  double length = 1;
+  CHECK_OK(riis_valve_get(trileaflet, "skirt_length", 1, &length));
+  CHECK_NEAR(length, 0, 0);
+
+  riis_gap gap;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface is NULL", riis_surface_get_gap(NULL, wall, NULL, &gap, sizeof gap));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "wall is NULL", riis_surface_get_gap(bare, NULL, NULL, &gap, sizeof gap));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "gap is NULL", riis_surface_get_gap(bare, wall, NULL, NULL, sizeof gap));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "gap is 8", riis_surface_get_gap(bare, wall, NULL, &gap, 8));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface was made from arrays|a gap needs a valve",
+                riis_surface_get_gap(wall, wall, NULL, &gap, sizeof gap));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface has no attachment",
+                riis_surface_get_gap(surface_of_kind("bileaflet", NULL), wall, NULL, &gap, sizeof gap));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "encloses no area",
+                riis_surface_get_gap(new_surface(flat, NULL), wall, NULL, &gap, sizeof gap));
+  /* A short wall is missed at the commissures. A narrow wall is inside the attachment. */
+  gap = gap_between(bare, short_wall, NULL);
+  assert_true(gap.n_without_wall > 0 && gap.n_without_wall < gap.n_ends);
+  const tube_wall narrow = {{{0, 0, 0}, {0, 0, 1}}, 0.9, 5};
+  const riis_surface *inside = wall_from(&narrow);
+  gap = gap_between(bare, inside, NULL);
+  assert_true(gap.most < 0);
+  CHECK_OK(riis_valve_set_skirt_to_wall(trileaflet, inside, 1, NULL));
+  CHECK_OK(riis_valve_get(trileaflet, "skirt_length", 1, &length));
+  assert_true(length > 0 && length < 2e-4);
+  new_surface(trileaflet, NULL);
+}
+
+static int start(void **state) {
+  (void)state;
+  rng = random_start("test_skirt");
+  return 0;
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_outer_edge_is_the_length_away), cmocka_unit_test(leaflets_stay_as_they_are),
+      cmocka_unit_test(the_skirt_continues_the_leaflets),  cmocka_unit_test(skirts_cross_nothing),
+      cmocka_unit_test(sides_are_right_beside_the_skirt),  cmocka_unit_test(skirts_seal_gaps),
+      cmocka_unit_test(skirts_move_with_the_attachment),   cmocka_unit_test(skirts_reach_walls_and_no_farther),
+      cmocka_unit_test(patches_have_skirts_in_any_frame),  cmocka_unit_test(wrong_skirts_are_refused),
+  };
+  return cmocka_run_group_tests(tests, start, NULL);
+}
