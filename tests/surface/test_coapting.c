@@ -231,7 +231,7 @@ static point on_patch(const half *of, int patch, double u, double v) {
 
 /* The angle between the tangent planes of both patches along the coaptation line, in degrees. Differences are of second order. */
 static double crease(const half *of, double u) {
-  const double step = 1e-3;
+  const double step = 1e-4;
   const point along = sum(1, on_patch(of, 0, u + step, 1), -1, on_patch(of, 0, u - step, 1));
   point across[2];
   for (int k = 0; k < 2; ++k) {
