@@ -57,8 +57,10 @@ Macro Section // makes a section at height z above the root
     For c In {0 : 2}
       end_x = leaflet_radius[c] * Cos(leaflet_angle[c] * Pi / 180);
       end_y = leaflet_radius[c] * Sin(leaflet_angle[c] * Pi / 180);
-      middle_x = (bending_radius[c] * Cos(bending_angle[c] * Pi / 180) - (1 - s)^2 * root_radius - s^2 * end_x) / (2 * s * (1 - s));
-      middle_y = (bending_radius[c] * Sin(bending_angle[c] * Pi / 180) - s^2 * end_y) / (2 * s * (1 - s));
+      bend_x = bending_radius[c] * Cos(bending_angle[c] * Pi / 180);
+      bend_y = bending_radius[c] * Sin(bending_angle[c] * Pi / 180);
+      middle_x = (bend_x - (1 - s)^2 * root_radius - s^2 * end_x) / (2 * s * (1 - s));
+      middle_y = (bend_y - s^2 * end_y) / (2 * s * (1 - s));
       x = (1 - t)^2 * root_radius + 2 * t * (1 - t) * middle_x + t^2 * end_x;
       y = 2 * t * (1 - t) * middle_y + t^2 * end_y;
       radius[c] = Hypot(x, y);

@@ -12,8 +12,9 @@ build_demo() {
     cmake --build --preset test --parallel "$n_jobs" --target riis_program
 }
 
-# demo_mesh NAME [OPTION...]: makes the mesh of examples/demo/NAME.geo, unless it exists. examples/demo/fill.geo explains why the surface is
-# written to a file first. gmsh runs with one thread, because with more it sometimes left stray cells in the mesh.
+# demo_mesh NAME [OPTION...]: makes the mesh of examples/demo/NAME.geo, unless it exists. The options are gmsh's.
+# examples/demo/fill.geo explains why the surface is written to a file first. gmsh runs with one thread, because with more it
+# sometimes left stray cells in the mesh.
 demo_mesh() {
   local mesh=$build/demo/$1 surface=examples/demo/$1.geo volume=examples/demo/fill.geo
   shift
