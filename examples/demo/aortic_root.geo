@@ -6,7 +6,8 @@
 SetFactory("OpenCASCADE");
 DefineConstant[ paper = 0, coapting = 0 ];
 h = 0.05;
-// Parameters of the valve, with the same names. leaflet_height is that of the commissures. Lists have a number for each cusp: right, left, non-coronary.
+// Parameters of the valve, with the same names. leaflet_height is that of the commissures. Lists have a number for each cusp:
+// right, left, non-coronary.
 If (paper)
   root_radius = 1.29; leaflet_height = 1.02; bending_height = 0.71;
   leaflet_radius[] = {1.365, 1.495, 1.38}; leaflet_angle[] = {61, 58.5, 60.5};
