@@ -6,7 +6,8 @@
 SetFactory("OpenCASCADE");
 DefineConstant[ paper = 0, coapting = 0 ];
 h = 0.05;
-// Parameters of the valve, with the same names. leaflet_height is that of the commissures. Lists have a number for each cusp: right, left, non-coronary.
+// Parameters of the valve, with the same names. leaflet_height is that of the commissures. Lists have a number for each cusp:
+// right, left, non-coronary.
 If (paper)
   root_radius = 1.29; leaflet_height = 1.02; bending_height = 0.71;
   leaflet_radius[] = {1.365, 1.495, 1.38}; leaflet_angle[] = {61, 58.5, 60.5};
@@ -57,8 +58,10 @@ Macro Section // makes a section at height z above the root
     For c In {0 : 2}
       end_x = leaflet_radius[c] * Cos(leaflet_angle[c] * Pi / 180);
       end_y = leaflet_radius[c] * Sin(leaflet_angle[c] * Pi / 180);
-      middle_x = (bending_radius[c] * Cos(bending_angle[c] * Pi / 180) - (1 - s)^2 * root_radius - s^2 * end_x) / (2 * s * (1 - s));
-      middle_y = (bending_radius[c] * Sin(bending_angle[c] * Pi / 180) - s^2 * end_y) / (2 * s * (1 - s));
+      bend_x = bending_radius[c] * Cos(bending_angle[c] * Pi / 180);
+      bend_y = bending_radius[c] * Sin(bending_angle[c] * Pi / 180);
+      middle_x = (bend_x - (1 - s)^2 * root_radius - s^2 * end_x) / (2 * s * (1 - s));
+      middle_y = (bend_y - s^2 * end_y) / (2 * s * (1 - s));
       x = (1 - t)^2 * root_radius + 2 * t * (1 - t) * middle_x + t^2 * end_x;
       y = 2 * t * (1 - t) * middle_y + t^2 * end_y;
       radius[c] = Hypot(x, y);

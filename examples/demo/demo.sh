@@ -102,12 +102,13 @@ demo_beat() {
     orifice_over_time "$1" >"out/$1_orifice.csv"
 }
 
+# The orifice is the third column from the end of a table of states, before its perimeter and the effective area.
 # orifice_over_time VALVE: prints the orifice at the times of the valve's heartbeat, interpolated linearly between the states of
 # its table.
 orifice_over_time() {
   LC_ALL=C awk -F , '
     FNR == 1 { next }
-    FNR == NR { opening[++n] = $1; area[n] = $NF; next }
+    FNR == NR { opening[++n] = $1; area[n] = $(NF - 2); next }
     FNR == 2 { print "time,opening,orifice_area" }
     FNR > 1 {
       for (i = 1; i < n - 1 && $2 > opening[i + 1]; ++i) {}
@@ -142,7 +143,7 @@ demo_row() {
   for opening in "${demo_openings[@]}"; do printf ' %7s' "$(number_of "$1_$opening" n_marked)"; done
   printf '\n  %-27s' '              orifice, cm2'
   for opening in "${demo_openings[@]}"; do
-    LC_ALL=C awk -F , -v opening="$opening" 'FNR > 1 && $1 == opening { printf " %7.1f", $NF }' "out/$1_states.csv"
+    LC_ALL=C awk -F , -v opening="$opening" 'FNR > 1 && $1 == opening { printf " %7.1f", $(NF - 2) }' "out/$1_states.csv"
   done
 }
 

@@ -96,7 +96,8 @@ aortic, coapting and trileaflet valves, and annulus also that of a bileaflet val
 they set.
 
 Some parameters follow from others unless they are set: five sizes each of the trileaflet and the coapting valve, and two
-rotations of the aortic valve. riis params --describe prints these rules after "unless set". riis params prints the present values of all parameters.
+rotations of the aortic valve. riis params --describe prints these rules after "unless set". riis params prints the present
+values of all parameters.
 After such a file was read, all parameters are set, and none follows.
 )"},
     {"opening", "closed and open states",

@@ -150,14 +150,8 @@ void Valve::unset(std::string_view name) {
 
 void Valve::derive() {
   for (std::size_t i = 0; i < kind_->parameters.size(); ++i) {
-    const ParameterSpec &spec = kind_->parameters[i];
-    if (!spec.rule.value || state_.is_set[i]) continue;
-    state_.values[i] = spec.rule.value(state_.values);
-    // Sizes at the ends of their ranges would have others outside of theirs.
-    for (int k = 0; k < spec.n_values; ++k) {
-      double &value = view(state_.values[i])[k];
-      value = std::clamp(value, spec.minimum, spec.maximum);
-    }
+    const ParameterRule &rule = kind_->parameters[i].rule;
+    if (rule.value && !state_.is_set[i]) state_.values[i] = rule.value(state_.values);
   }
 }
 
