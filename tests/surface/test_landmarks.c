@@ -116,8 +116,12 @@ static riis_landmarks landmarks_of(const patient *p) {
 static riis_status try_to_place(riis_valve *valve, const patient *p, const char *held, answer *to) {
   const riis_landmarks landmarks = landmarks_of(p);
   memset(to, 0x5a, sizeof *to);
-  return riis_place(valve, &landmarks, held, to->residual, to->standard_error, to->state, &to->placement,
-                    sizeof to->placement);
+  riis_placement_arrays arrays;
+  CHECK_OK(riis_placement_arrays_init(&arrays, sizeof arrays));
+  arrays.residual = to->residual;
+  arrays.standard_error = to->standard_error;
+  arrays.size_state = to->state;
+  return riis_place(valve, &landmarks, held, &arrays, &to->placement, sizeof to->placement);
 }
 static answer place(riis_valve *valve, const patient *p) {
   answer made;
@@ -555,7 +559,7 @@ static void test_forms_of_input(void **state) {
   single.real_bits = 32;
   single.leaflet_id = NULL;
   riis_placement placement;
-  CHECK_OK(riis_place(other, &single, "", NULL, NULL, NULL, &placement, sizeof placement));
+  CHECK_OK(riis_place(other, &single, "", NULL, &placement, sizeof placement));
   CHECK_NEAR(value(other, "root_radius"), value(one, "root_radius"), 1e-5);
   CHECK_NEAR(placement.rotation_angle, found.placement.rotation_angle, 1e-3);
   /* Once more from the result: the valve's values are the template, and the same sizes come back. */
@@ -679,36 +683,41 @@ static void test_refused_arguments(void **state) {
   riis_placement placement;
   riis_valve *valve = new_valve("trileaflet"), *none = NULL;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "landmarks is NULL", riis_landmarks_init(NULL, sizeof landmarks));
+  riis_placement_arrays arrays;
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "arrays is 24", riis_placement_arrays_init(&arrays, 24));
+  CHECK_OK(riis_placement_arrays_init(&arrays, sizeof arrays));
+  arrays.struct_size = 0;
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "arrays is 0",
+                riis_place(valve, &landmarks, "", &arrays, &placement, sizeof placement));
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "landmarks is 16", riis_landmarks_init(&landmarks, 16));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve is NULL",
-                riis_place(none, &landmarks, "", NULL, NULL, NULL, &placement, sizeof placement));
+                riis_place(none, &landmarks, "", NULL, &placement, sizeof placement));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "landmarks is NULL",
-                riis_place(valve, NULL, "", NULL, NULL, NULL, &placement, sizeof placement));
+                riis_place(valve, NULL, "", NULL, &placement, sizeof placement));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "held is NULL",
-                riis_place(valve, &landmarks, NULL, NULL, NULL, NULL, &placement, sizeof placement));
+                riis_place(valve, &landmarks, NULL, NULL, &placement, sizeof placement));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "placement is NULL",
-                riis_place(valve, &landmarks, "", NULL, NULL, NULL, NULL, sizeof placement));
-  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "placement is 8",
-                riis_place(valve, &landmarks, "", NULL, NULL, NULL, &placement, 8));
+                riis_place(valve, &landmarks, "", NULL, NULL, sizeof placement));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "placement is 8", riis_place(valve, &landmarks, "", NULL, &placement, 8));
   landmarks.role = NULL;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "landmarks.role is NULL",
-                riis_place(valve, &landmarks, "", NULL, NULL, NULL, &placement, sizeof placement));
+                riis_place(valve, &landmarks, "", NULL, &placement, sizeof placement));
   landmarks = landmarks_of(&p);
   landmarks.real_bits = 16;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "landmarks.real_bits is 16",
-                riis_place(valve, &landmarks, "", NULL, NULL, NULL, &placement, sizeof placement));
+                riis_place(valve, &landmarks, "", NULL, &placement, sizeof placement));
   landmarks = landmarks_of(&p);
   landmarks.reserved = 1;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "landmarks.reserved",
-                riis_place(valve, &landmarks, "", NULL, NULL, NULL, &placement, sizeof placement));
+                riis_place(valve, &landmarks, "", NULL, &placement, sizeof placement));
   landmarks = landmarks_of(&p);
   landmarks.stride = 0;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "stride is 0",
-                riis_place(valve, &landmarks, "", NULL, NULL, NULL, &placement, sizeof placement));
+                riis_place(valve, &landmarks, "", NULL, &placement, sizeof placement));
   landmarks = landmarks_of(&p);
   landmarks.y = NULL;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "landmarks.y is NULL",
-                riis_place(valve, &landmarks, "", NULL, NULL, NULL, &placement, sizeof placement));
+                riis_place(valve, &landmarks, "", NULL, &placement, sizeof placement));
   landmarks = landmarks_of(&p);
   const double square[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0};
   const int32_t degree[4] = {1, 1, 1, 1}, curves[4] = {0, 1, 2, 3};
@@ -720,7 +729,7 @@ static void test_refused_arguments(void **state) {
   CHECK_OK(riis_valve_create_from_patches(&patches, &patch_valve));
   own(patch_valve);
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "patches|no landmarks",
-                riis_place(patch_valve, &landmarks, "", NULL, NULL, NULL, &placement, sizeof placement));
+                riis_place(patch_valve, &landmarks, "", NULL, &placement, sizeof placement));
 }
 
 int main(void) {
