@@ -9,7 +9,8 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
     translation, residual, size_state, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_landmarks, riis_placement, riis_status, RIIS_OK, riis_c_string, riis_landmarks_init, riis_place
+  use riis_c, only: riis_landmarks, riis_placement, riis_placement_arrays, riis_status, RIIS_OK, riis_c_string, &
+    riis_landmarks_init, riis_place, riis_placement_arrays_init
   use riis_support, only: c_handle_of, location_of
   implicit none
   integer(int64), intent(in) :: valve                     !< A kind of valve. Unchanged on an error.
@@ -30,6 +31,7 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_landmarks) :: landmarks
   type(riis_placement) :: placement
+  type(riis_placement_arrays) :: arrays
   status = riis_landmarks_init(landmarks, c_sizeof(landmarks))
   if (status /= RIIS_OK) return
   landmarks%n_landmarks = n_landmarks
@@ -44,8 +46,11 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   landmarks%scale = scale
   landmarks%noise = noise
   landmarks%flow = flow
-  status = riis_place(c_handle_of(valve), landmarks, riis_c_string(held), residual, size_state=size_state, &
-    placement=placement, struct_size=c_sizeof(placement))
+  status = riis_placement_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  if (n_landmarks > 0) arrays%residual = location_of(residual)
+  arrays%size_state = location_of(size_state)
+  status = riis_place(c_handle_of(valve), landmarks, riis_c_string(held), arrays, placement, c_sizeof(placement))
   if (status /= RIIS_OK) return
   rotation_axis = placement%rotation_axis
   rotation_angle = placement%rotation_angle

@@ -3,8 +3,8 @@
 module riis_placing
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_loc, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_landmarks, riis_placement, riis_status, RIIS_OK, c_place => riis_place, riis_c_string, &
-    riis_landmarks_init, riis_valve_get_n_parameters
+  use riis_c, only: riis_landmarks, riis_placement, riis_placement_arrays, riis_status, RIIS_OK, c_place => riis_place, &
+    riis_c_string, riis_landmarks_init, riis_placement_arrays_init, riis_valve_get_n_parameters
   use riis_support
   use riis_valves, only: riis_valve
   implicit none
@@ -19,9 +19,10 @@ module riis_placing
 contains
 
   !> Sets a valve's sizes, in centimetres, to those of a patient, and finds its placement. The valve's own values are the
-  !! template: lengths that no landmark bears on keep their proportions. The components of the placement are the arguments of the surface
-  !! with these names. Errors: RIIS_INVALID_ARGUMENT naming landmarks that are missing, in one place, collinear, mirrored or not
-  !! those of a heart valve at this scale; RIIS_INVALID_PARAMETER for a valve from patches and for sizes that do not fit together.
+  !! template: lengths that no landmark bears on keep their proportions. The components of the placement are the arguments of
+  !! the surface with these names. Errors: RIIS_INVALID_ARGUMENT naming landmarks that are missing, in one place, collinear,
+  !! mirrored or not those of a heart valve at this scale; RIIS_INVALID_PARAMETER for a valve from patches and for sizes that do
+  !! not fit together.
   subroutine place(valve, xyz, role, scale, placement, leaflet_id, flow, noise, held, residual, standard_error, &
       size_state, status)
     class(riis_valve), intent(inout) :: valve               !< Must be created; a kind of valve. Unchanged on an error.
@@ -34,11 +35,12 @@ contains
     real(c_double), intent(in), optional :: flow(:)         !< (3), the direction of flow. Default: not known.
     real(c_double), intent(in), optional :: noise           !< Standard deviation of each coordinate. Default 0.03 * scale.
     character(len=*), intent(in), optional :: held          !< Parameters that keep their values, separated by blanks.
-    real(c_double), intent(inout), contiguous, optional :: residual(:) !< (n_landmarks), mesh units.
-    real(c_double), intent(inout), contiguous, optional :: standard_error(:) !< (number of parameters).
-    integer(int32), intent(inout), contiguous, optional :: size_state(:) !< (number of parameters): RIIS_SIZE_*.
+    real(c_double), intent(inout), contiguous, optional, target :: residual(:) !< (n_landmarks), mesh units.
+    real(c_double), intent(inout), contiguous, optional, target :: standard_error(:) !< (number of parameters).
+    integer(int32), intent(inout), contiguous, optional, target :: size_state(:) !< (number of parameters): RIIS_SIZE_*.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_landmarks) :: landmarks
+    type(riis_placement_arrays) :: arrays
     type(strided_points) :: points
     character(len=:, kind=c_char), allocatable :: names
     integer(int64) :: n_parameters
@@ -46,6 +48,7 @@ contains
     code = check_created(valve%c_handle(), 'the valve')
     if (code == RIIS_OK) code = riis_valve_get_n_parameters(valve%c_handle(), n_parameters)
     if (code == RIIS_OK) code = riis_landmarks_init(landmarks, c_sizeof(landmarks))
+    if (code == RIIS_OK) code = riis_placement_arrays_init(arrays, c_sizeof(arrays))
     if (code == RIIS_OK) call points_of(xyz, 'xyz', points, code)
     if (code == RIIS_OK) code = check_size(size(role, kind=int64), points%n, 'role', 'one for each landmark')
     if (present(leaflet_id) .and. code == RIIS_OK) &
@@ -70,7 +73,10 @@ contains
       if (present(flow)) landmarks%flow = flow
       names = riis_c_string('')
       if (present(held)) names = riis_c_string(held)
-      code = c_place(valve%c_handle(), landmarks, names, residual, standard_error, size_state, placement, c_sizeof(placement))
+      if (present(residual) .and. points%n > 0) arrays%residual = c_loc(residual)
+      if (present(standard_error)) arrays%standard_error = c_loc(standard_error)
+      if (present(size_state)) arrays%size_state = c_loc(size_state)
+      code = c_place(valve%c_handle(), landmarks, names, arrays, placement, c_sizeof(placement))
     end if
     call finish(code, status)
   end subroutine place

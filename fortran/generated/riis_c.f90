@@ -667,6 +667,14 @@ module riis_c
     integer(c_int32_t) :: reserved          !< 0
   end type riis_placement
 
+  !> c_null_ptr for arrays that are not wanted
+  type, bind(c) :: riis_placement_arrays
+    integer(c_int64_t) :: struct_size
+    type(c_ptr) :: residual       !< real(c_double), (n_landmarks)
+    type(c_ptr) :: standard_error !< real(c_double), (n_parameters)
+    type(c_ptr) :: size_state     !< integer(c_int32_t), (n_parameters)
+  end type riis_placement_arrays
+
   type, bind(c) :: riis_opening_table
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_keys
@@ -1806,20 +1814,26 @@ module riis_c
       integer(riis_status) :: status
     end function riis_landmarks_init
 
-    !>   held            riis_c_string('') for none
-    !!   residual        (n_landmarks)
-    !!   standard_error  (number of parameters)
-    !!   size_state      (number of parameters)
-    !!   struct_size     c_sizeof(placement)
-    function riis_place(valve, landmarks, held, residual, standard_error, size_state, placement, struct_size) &
-        result(status) bind(c, name='riis_place')
-      import :: c_char, c_double, c_int32_t, c_int64_t, c_ptr, riis_landmarks, riis_placement, riis_status
+    !>   struct_size  c_sizeof(arrays)
+    function riis_placement_arrays_init(arrays, struct_size) result(status) bind(c, name='riis_placement_arrays_init')
+      import :: c_int64_t, riis_placement_arrays, riis_status
+      implicit none
+      type(riis_placement_arrays), intent(inout) :: arrays
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_placement_arrays_init
+
+    !>   held         riis_c_string('') for none
+    !!   arrays       its arrays are written; if left out: none
+    !!   struct_size  c_sizeof(placement)
+    function riis_place(valve, landmarks, held, arrays, placement, struct_size) result(status) &
+        bind(c, name='riis_place')
+      import :: c_char, c_int64_t, c_ptr, riis_landmarks, riis_placement, riis_placement_arrays, riis_status
       implicit none
       type(c_ptr), value :: valve
       type(riis_landmarks), intent(in) :: landmarks
       character(kind=c_char), intent(in) :: held(*)
-      real(c_double), intent(inout), optional :: residual(*), standard_error(*)
-      integer(c_int32_t), intent(inout), optional :: size_state(*)
+      type(riis_placement_arrays), intent(in), optional :: arrays
       type(riis_placement), intent(inout) :: placement
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status

@@ -1392,23 +1392,29 @@ typedef struct riis_placement {
   int32_t n_undetermined;    /* the number of parameters with RIIS_SIZE_UNDETERMINED */
   int32_t reserved;          /* 0 */
 } riis_placement;
+/* The caller's arrays for the results of riis_place. NULL arrays, the default, are not written. */
+typedef struct riis_placement_arrays {
+  int64_t struct_size;       /* set by the init function */
+  double *residual;          /* (n_landmarks): distances from the landmarks to their places, mesh units */
+  double *standard_error;    /* (number of parameters, in the order of riis_valve_get_parameter), in the parameter's
+                                unit; infinite for RIIS_SIZE_TIED, 0 for RIIS_SIZE_KEPT */
+  int32_t *size_state;       /* (number of parameters): RIIS_SIZE_* */
+} riis_placement_arrays;
+RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, int64_t struct_size); /* NULL arrays */
 /* Sets a valve's sizes, in centimetres, to those of a patient, and finds its placement: least squares of the distances
  * between the landmarks and their places on the closed valve (docs/theory.md, section 17). The valve's own values are
  * the template: lengths that no landmark bears on keep their proportions. translation and opening stay.
  * Of an aortic valve, rotations and leaflet angles follow from the landmarks, and a leaflet_power that would make
  * cusps overlap is lowered. The valve may be a kind with any parameters; a valve from patches has no landmarks.
  *   held            names of parameters that keep the valve's values, separated by blanks or commas; "": none
- *   residual        (n_landmarks): distances from the landmarks to their places, mesh units; NULL: not wanted
- *   standard_error  (number of parameters, in the order of riis_valve_get_parameter), in the parameter's unit; infinite
- *                   for RIIS_SIZE_TIED, 0 for RIIS_SIZE_KEPT; NULL: not wanted
- *   size_state      (number of parameters): RIIS_SIZE_*; NULL: not wanted
+ *   arrays          its arrays are written; NULL: not wanted
  * The open state of riis_valve_set_open_state stays as it is.
  * Errors: RIIS_INVALID_ARGUMENT for landmarks that are missing, too many, in one place, collinear, mirrored, not those
  * of a heart valve at this scale, or that do not show the flow; the message names them. RIIS_INVALID_PARAMETER for a
  * valve from patches, an unknown name in held, and sizes that do not fit together. */
 RIIS_API riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const char *held,
-                                double *residual, double *standard_error, int32_t *size_state,
-                                riis_placement *placement, int64_t struct_size);
+                                const riis_placement_arrays *arrays, riis_placement *placement,
+                                int64_t struct_size);
 
 /* ---- Laws of opening: a valve's opening from the time, the pressure difference and the flow ------------ */
 

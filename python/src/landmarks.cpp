@@ -38,10 +38,13 @@ nb::tuple place_landmarks(nb::handle valve_, nb::handle xyz_, nb::handle role_, 
   std::vector<double> residual(n_points), error(n);
   std::vector<std::int32_t> state(n);
   riis_placement at;
-  call_to_write(valve.usage, [&] {
-    return riis_place(valve.handle, &landmarks, held.c_str(), residual.data(), error.data(), state.data(), &at,
-                      sizeof at);
-  });
+  riis_placement_arrays arrays;
+  call_shortly(riis_placement_arrays_init(&arrays, sizeof arrays));
+  arrays.residual = residual.data();
+  arrays.standard_error = error.data();
+  arrays.size_state = state.data();
+  call_to_write(valve.usage,
+                [&] { return riis_place(valve.handle, &landmarks, held.c_str(), &arrays, &at, sizeof at); });
   nb::dict placement;
   placement["scale"] = at.scale;
   placement["rotation_axis"] = nb::make_tuple(at.rotation_axis[0], at.rotation_axis[1], at.rotation_axis[2]);

@@ -124,6 +124,7 @@ LEFT_OUT = {
         "riis_passage_ends_init",
         "riis_first_passage_options_init",
         "riis_landmarks_init",
+        "riis_placement_arrays_init",
         "riis_opening_table_init",
         "riis_opening_times_init",
         "riis_opening_switch_init",

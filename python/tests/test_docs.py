@@ -16,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 def test_the_programs_of_the_document_run(xyz):
     text = (ROOT / "docs/python.md").read_text(encoding="utf-8")
     programs = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-    assert len(programs) == 4  # test_plot.py and test_fit.py cover the last two programs
+    assert len(programs) == 5  # test_plot.py, test_place.py and test_fit.py cover the last three programs
     assert programs[0] in (ROOT / "README.md").read_text(encoding="utf-8")
     names = {"xyz": xyz, "n_steps": 6, "dt": 0.125}
     exec(programs[0], names)

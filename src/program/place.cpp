@@ -173,8 +173,12 @@ Placed place(const PlaceOptions &options) {
   made.residuals.resize(landmarks.names.size());
   std::vector<double> errors(n);
   std::vector<int32_t> states(n);
-  const riis_status status = riis_place(valve, &given, held.c_str(), made.residuals.data(), errors.data(),
-                                        states.data(), &made.placement, sizeof made.placement);
+  riis_placement_arrays arrays;
+  check(riis_placement_arrays_init(&arrays, sizeof arrays));
+  arrays.residual = made.residuals.data();
+  arrays.standard_error = errors.data();
+  arrays.size_state = states.data();
+  const riis_status status = riis_place(valve, &given, held.c_str(), &arrays, &made.placement, sizeof made.placement);
   if (status == RIIS_INVALID_ARGUMENT || status == RIIS_INVALID_PARAMETER)
     throw Refusal{exit_bad_data, options.landmarks + ": " + in_words_of_file(riis_last_error(), landmarks)};
   check(status);

@@ -457,6 +457,12 @@ static void test_structs(void **state) {
   FIELD(riis_placement, n_undetermined, 112, 4);
   FIELD(riis_placement, reserved, 116, 4);
 
+  SIZE(riis_placement_arrays, 32);
+  FIELD(riis_placement_arrays, struct_size, 0, 8);
+  FIELD(riis_placement_arrays, residual, 8, 8);
+  FIELD(riis_placement_arrays, standard_error, 16, 8);
+  FIELD(riis_placement_arrays, size_state, 24, 8);
+
   SIZE(riis_opening_table, 48);
   FIELD(riis_opening_table, struct_size, 0, 8);
   FIELD(riis_opening_table, n_keys, 8, 8);
@@ -751,8 +757,10 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_keyframes_get_swept_volume, int32_t,
             (const riis_keyframes *, double, double, const riis_surface_options *, int32_t, double *));
   SIGNATURE(riis_landmarks_init, int32_t, (riis_landmarks *, int64_t));
-  SIGNATURE(riis_place, int32_t,
-            (riis_valve *, const riis_landmarks *, const char *, double *, double *, int32_t *, riis_placement *, int64_t));
+  SIGNATURE(
+      riis_place, int32_t,
+      (riis_valve *, const riis_landmarks *, const char *, const riis_placement_arrays *, riis_placement *, int64_t));
+  SIGNATURE(riis_placement_arrays_init, int32_t, (riis_placement_arrays *, int64_t));
   SIGNATURE(riis_opening_table_init, int32_t, (riis_opening_table *, int64_t));
   SIGNATURE(riis_opening_from_table, int32_t, (const riis_opening_table *, double, double *, double *));
   SIGNATURE(riis_opening_times_init, int32_t, (riis_opening_times *, int64_t));

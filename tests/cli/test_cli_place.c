@@ -95,7 +95,8 @@ static void report_has_sizes_and_residuals(void **state) {
 
 static void other_commands_take_the_placed_valve(void **state) {
   (void)state;
-  const char *placed = scratch_path("placed.json");
+  char placed[256];
+  snprintf(placed, sizeof placed, "%s", scratch_path("placed.json"));
   RUN_FINE("place", json_of("a.json", "mm", 10, "LPS", 1, ""), "--valve", "trileaflet", "--quiet", "--output", placed,
            "--foam", scratch_path("foam"), "--c", scratch_path("lines.c"), "--fortran", scratch_path("lines.f90"));
   assert_int_equal(program_out[0], 0);

@@ -759,16 +759,20 @@ contains
   subroutine test_landmarks()
     real(c_double), target :: xyz(3, 6)
     integer(c_int32_t), target :: role(6)
-    real(c_double) :: residual(6), radius(1)
+    real(c_double), target :: residual(6)
+    real(c_double) :: radius(1)
     type(c_ptr) :: valve
     type(riis_landmarks) :: landmarks
     type(riis_placement) :: placement
+    type(riis_placement_arrays) :: arrays
     integer :: i
     do i = 1, 6
       xyz(:, i) = [cos(i * acos(-1d0) / 3), sin(i * acos(-1d0) / 3), merge(1.2d0, 0d0, mod(i, 2) == 0)]
       role(i) = merge(RIIS_LANDMARK_COMMISSURE, RIIS_LANDMARK_NADIR, mod(i, 2) == 0)
     end do
     call check_ok(riis_landmarks_init(landmarks, c_sizeof(landmarks)), 'the default landmarks')
+    call check_ok(riis_placement_arrays_init(arrays, c_sizeof(arrays)), 'no arrays')
+    arrays%residual = c_loc(residual)
     landmarks%n_landmarks = 6
     landmarks%x = c_loc(xyz(1, 1))
     landmarks%y = c_loc(xyz(2, 1))
@@ -778,7 +782,7 @@ contains
     landmarks%scale = 1
     valve = c_null_ptr
     call check_ok(riis_valve_create(riis_c_string('trileaflet'), valve), 'a valve to place')
-    call check_ok(riis_place(valve, landmarks, riis_c_string(''), residual, placement=placement, &
+    call check_ok(riis_place(valve, landmarks, riis_c_string(''), arrays, placement=placement, &
       struct_size=c_sizeof(placement)), 'place a valve')
     call check_ok(riis_valve_get(valve, riis_c_string('root_radius'), 1_c_int64_t, radius), 'the radius')
     call check(abs(radius(1) - 1) < 1d-12 .and. all(residual < 1d-12) &

@@ -126,6 +126,59 @@ void set_parameter(Input &in, State &state) {
   }
 }
 
+// Places a valve by landmarks of a trileaflet valve, by points on a circle, or by any points. A refused call changes nothing.
+void place_valve(Input &in, State &state) {
+  ValveSlot &slot = slot_of(in, state);
+  const Given<riis_valve> valve = given(in, state, State::valve, slot.handle);
+  const int n = in.one_in(4) ? in.below(20) : 6;
+  const bool is_ring = in.one_in(3);
+  std::vector<double> xyz(3 * static_cast<std::size_t>(n) + 1);
+  std::vector<std::int32_t> role(static_cast<std::size_t>(n) + 1), leaflet(2 * static_cast<std::size_t>(n) + 1, -1);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
+    const double angle = 6.283185307179586 * static_cast<double>(i) / n, noise = in.byte() / 2560.0;
+    xyz[3 * i] = std::cos(angle) + noise;
+    xyz[3 * i + 1] = std::sin(angle);
+    xyz[3 * i + 2] = is_ring || i % 2 == 0 ? noise : 1.3;
+    role[i] = is_ring ? (i == 0 ? RIIS_LANDMARK_ANTERIOR_HORN : RIIS_LANDMARK_ANNULUS)
+                      : (i % 2 == 0 ? RIIS_LANDMARK_NADIR : RIIS_LANDMARK_COMMISSURE);
+    if (in.one_in(24)) role[i] = in.below(12) - 1;
+    if (in.one_in(24)) xyz[3 * i + static_cast<std::size_t>(in.below(3))] = in.number();
+    if (!is_ring && i % 2 == 0 && in.one_in(2)) leaflet[2 * i] = static_cast<std::int32_t>(i / 2);
+    if (in.one_in(32)) leaflet[2 * i + 1] = in.below(5) - 1;
+  }
+  riis_landmarks landmarks = initialised(in, riis_landmarks_init);
+  landmarks.n_landmarks = in.one_in(32) ? in.below(n + 1) - 1 : n;
+  landmarks.x = mostly(in, xyz.data());
+  landmarks.y = xyz.data() + 1;
+  landmarks.z = xyz.data() + 2;
+  landmarks.stride = 3;
+  landmarks.role = mostly(in, role.data());
+  landmarks.leaflet_id = in.one_in(2) ? leaflet.data() : nullptr;
+  landmarks.scale = in.one_in(16) ? in.number() : 1;
+  if (in.one_in(4)) landmarks.noise = in.number();
+  if (in.one_in(2)) landmarks.flow[2] = in.one_in(4) ? in.number() : 1;
+  std::vector<double> residual(static_cast<std::size_t>(n) + 1, -77.5);
+  riis_placement_arrays arrays = initialised(in, riis_placement_arrays_init);
+  arrays.residual = residual.data();
+  const std::vector<double> before = slot.handle ? values_of(slot.handle) : std::vector<double>{};
+  static const char *const held[] = {
+      "", "", "", "leaflet_height", "root_radius, AP_diameter", "bogus", "leaflet_power"};
+  riis_placement placement;
+  const riis_status status = call(in, [&] {
+    return riis_place(valve.handle, &landmarks, mostly(in, in.one_of(held)), &arrays, &placement,
+                      in.mostly<std::int64_t>(sizeof placement));
+  });
+  if (status == RIIS_OK) {
+    for (int i = 0; i < n; ++i)
+      EXPECT(residual[static_cast<std::size_t>(i)] >= 0 || landmarks.n_landmarks < n, "residual %d", i);
+    values_of(slot.handle);
+  } else {
+    EXPECT(residual[0] == -77.5, "a refused call wrote a residual");
+    if (slot.handle)
+      EXPECT(before == values_of(slot.handle), "a refused call changed a parameter: %s", riis_last_error());
+  }
+}
+
 void read_parameters(Input &in, State &state) {
   ValveSlot &slot = slot_of(in, state);
   const Given<riis_valve> valve = given(in, state, State::valve, slot.handle);

@@ -199,7 +199,8 @@ void (*const calls[])(Input &, State &) = {make_valve,
                                            measure_valve,
                                            destroy_something,
                                            [](Input &in, State &) { call_status_functions(in); },
-                                           [](Input &in, State &) { call_init_functions(in); }};
+                                           [](Input &in, State &) { call_init_functions(in); },
+                                           place_valve};
 
 void log_nothing(void *, std::int32_t level, const char *message) {
   EXPECT(message != nullptr && message[0] != '\0', "level %d", level);

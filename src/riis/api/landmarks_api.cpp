@@ -23,6 +23,8 @@ constexpr double usual_noise = 0.03;
 const riis_landmarks default_landmarks{
     sizeof(riis_landmarks), 0, nullptr, nullptr, nullptr, 1, nullptr, nullptr, RIIS_AUTO, RIIS_AUTO, {0, 0, 0}, 64, 0};
 
+const riis_placement_arrays default_arrays{sizeof(riis_placement_arrays), nullptr, nullptr, nullptr};
+
 riis::Landmarks landmarks_of(const riis_landmarks &given) {
   if (given.n_landmarks < 1 || given.n_landmarks > most_landmarks)
     riis::fail(RIIS_INVALID_ARGUMENT, "landmarks.n_landmarks is ", given.n_landmarks, "; it must be from 1 to ",
@@ -74,12 +76,17 @@ riis_status riis_landmarks_init(riis_landmarks *landmarks, int64_t struct_size) 
   return guarded([&] { riis::init_struct(landmarks, struct_size, "landmarks", default_landmarks); });
 }
 
-riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const char *held, double *residual,
-                       double *standard_error, int32_t *size_state, riis_placement *placement, int64_t struct_size) {
+riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, int64_t struct_size) {
+  return guarded([&] { riis::init_struct(arrays, struct_size, "arrays", default_arrays); });
+}
+
+riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const char *held,
+                       const riis_placement_arrays *arrays, riis_placement *placement, int64_t struct_size) {
   return guarded([&] {
     require_handle(valve, "valve");
     const riis_landmarks whole = riis::completed(require(landmarks, "landmarks"), "landmarks", default_landmarks);
     require(held, "held");
+    const riis_placement_arrays to = riis::completed(arrays, "arrays", default_arrays);
     require(placement, "placement");
     riis::check_struct_size<riis_placement>(struct_size, "placement");
     riis::PlacedValve placed = riis::place_valve(valve->valve, landmarks_of(whole), held);
@@ -89,12 +96,12 @@ riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const
       squares += placed.residuals[i] * placed.residuals[i];
       if (placed.residuals[i] > placed.residuals[worst]) worst = i;
     }
-    const riis::Vec3 axis = placed.rotation_axis, to = placed.translation;
+    const riis::Vec3 axis = placed.rotation_axis, shift = placed.translation;
     riis::write_struct(placement, struct_size, "placement",
                        riis_placement{placed.scale,
                                       {axis.x, axis.y, axis.z},
                                       placed.rotation_angle,
-                                      {to.x, to.y, to.z},
+                                      {shift.x, shift.y, shift.z},
                                       std::sqrt(squares / static_cast<double>(placed.residuals.size())),
                                       placed.residuals[worst],
                                       placed.noise,
@@ -104,9 +111,9 @@ riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const
                                       static_cast<std::int32_t>(std::count(
                                           placed.size_state.begin(), placed.size_state.end(), RIIS_SIZE_UNDETERMINED)),
                                       0});
-    if (residual) std::copy(placed.residuals.begin(), placed.residuals.end(), residual);
-    if (standard_error) std::copy(placed.standard_error.begin(), placed.standard_error.end(), standard_error);
-    if (size_state) std::copy(placed.size_state.begin(), placed.size_state.end(), size_state);
+    if (to.residual) std::copy(placed.residuals.begin(), placed.residuals.end(), to.residual);
+    if (to.standard_error) std::copy(placed.standard_error.begin(), placed.standard_error.end(), to.standard_error);
+    if (to.size_state) std::copy(placed.size_state.begin(), placed.size_state.end(), to.size_state);
     valve->valve = std::move(placed.valve);
   });
 }

@@ -57,6 +57,7 @@ constexpr std::int64_t first_size_of(const riis_first_passage *) { return 72; }
 constexpr std::int64_t first_size_of(const riis_cells_across *) { return 64; }
 constexpr std::int64_t first_size_of(const riis_landmarks *) { return 112; }
 constexpr std::int64_t first_size_of(const riis_placement *) { return 120; }
+constexpr std::int64_t first_size_of(const riis_placement_arrays *) { return 32; }
 constexpr std::int64_t first_size_of(const riis_opening_table *) { return 48; }
 constexpr std::int64_t first_size_of(const riis_opening_times *) { return 64; }
 constexpr std::int64_t first_size_of(const riis_opening_switch *) { return 56; }

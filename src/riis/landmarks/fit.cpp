@@ -21,7 +21,7 @@ constexpr double determined_share = 1.0 / 15;
 class Problem {
  public:
   Problem(const LandmarkModel &model, const Landmarks &landmarks, const Pose &base)
-      : model_(model), landmarks_(landmarks), base_(base), local_(landmarks.list.size()) {
+      : prior_noise(landmarks.noise), model_(model), landmarks_(landmarks), base_(base), local_(landmarks.list.size()) {
     for (std::size_t i = 0; i < model.sizes.size(); ++i) {
       values_.push_back(model.sizes[i].value);
       if (!model.sizes[i].held) free_.push_back(i);
@@ -36,6 +36,7 @@ class Problem {
   }
 
   std::vector<bool> with_prior;  // for each free size: whether it is drawn to its expected value
+  double prior_noise;            // the noise of the landmarks beside which the spread of expected values is weighed
   const std::vector<std::size_t> &free_sizes() const { return free_; }
   std::size_t n_unknowns() const { return free_.size() + 6; }
   std::size_t n_residuals() const {
@@ -67,7 +68,7 @@ class Problem {
     }
     std::size_t row = 3 * offsets_.size();
     for (std::size_t k = 0; k < free_.size(); ++k)
-      if (with_prior[k]) r[row++] = landmarks_.noise * (value_of(k, x) - size(k).expected) / size(k).spread;
+      if (with_prior[k]) r[row++] = prior_noise * (value_of(k, x) - size(k).expected) / size(k).spread;
   }
 
   Minimum minimize(std::vector<double> &x) {
@@ -185,6 +186,22 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   }
   r.resize(problem.n_residuals());
   problem.residuals(x, r);
+  // Exact landmarks show less noise than was stated, and then need less of what is expected.
+  for (int i = 0; i < 4 && minimum.converged && model.n_equations() > n; ++i) {
+    std::vector<double> unused(n_landmarks), before = x;
+    const double seen = std::sqrt(sum_of_squares(problem, unused) / static_cast<double>(model.n_equations() - n));
+    const double noise_before = problem.prior_noise;
+    problem.prior_noise = std::min(landmarks.noise, seen);
+    if (!(problem.prior_noise < 0.5 * noise_before)) {
+      problem.prior_noise = noise_before;
+      break;
+    }
+    if (!problem.minimize(x).converged) {
+      problem.prior_noise = noise_before;
+      x = before;
+    }
+    problem.residuals(x, r);
+  }
 
   LandmarkFit made{problem.pose_at(x), std::vector<double>(n_landmarks), 0, 0, 0};
   const double squares = sum_of_squares(problem, made.residuals);
