@@ -98,9 +98,9 @@ def attachment_and_crossings(n, noise, seed):
             crosses = crosses or riis.find_crossings(surface).n_pairs > 0
         n_crossing += crosses
     together, of_patients = 10.0 * numpy.concatenate(off), [10.0 * numpy.percentile(one, 95) for one in off]
-    print(f"noise {10 * noise:.1f} mm, {n} patients: attachment within {numpy.percentile(together, 95):.2f} mm at 95 % of points, "
-          f"{max(of_patients):.2f} mm in the worst patient, mean {together.mean():.2f} mm, largest {together.max():.2f} mm; "
-          f"{n_crossing} cross at 11 openings")
+    print(f"noise {10 * noise:.1f} mm, {n} patients: attachment within {numpy.percentile(together, 95):.2f} mm "
+          f"at 95 % of points, {max(of_patients):.2f} mm in the worst patient, mean {together.mean():.2f} mm, "
+          f"largest {together.max():.2f} mm; {n_crossing} cross at 11 openings")
 
 
 def mitral_annuli(n, noise, seed, n_landmarks=16):
