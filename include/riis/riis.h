@@ -461,6 +461,100 @@ typedef struct riis_attachment {
 RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, riis_attachment *attachment,
                                                  int64_t struct_size);
 
+/* ---- Warp: a valve that meets a patient's landmarks, and moves with them ------------------------------- */
+
+/* A smooth map of space: it takes landmarks on a valve to landmarks in a patient. The map is affine plus a term |r|^3 for
+ * each landmark (docs/theory.md, "Warp"). Its matrix is factored once, so new targets in each time step cost little. */
+typedef struct riis_warp riis_warp;
+
+/* Options of riis_warp_create. */
+typedef struct riis_warp_options {
+  int64_t struct_size; /* set by the init function */
+  double noise;        /* standard deviation of each coordinate of the targets, 0 to 1e50. The map is smoothed until it
+                          misses the targets by about that much. Default 0: it meets the targets exactly */
+  const riis_surface_options *placement; /* NULL, the default: landmarks and noise are in the valve's own coordinates.
+                          Otherwise they are in the mesh's: scale, rotation and translation of these options place them.
+                          Use the same options for the surface */
+} riis_warp_options;
+/* Fills *options with the defaults. */
+RIIS_API riis_status riis_warp_options_init(riis_warp_options *options, int64_t struct_size);
+
+/* Makes a warp from landmarks on the valve at rest. Until riis_warp_set_targets, it is the identity. If the landmarks lie
+ * nearly in a plane, the map does not follow from them across that plane. It then stretches there as in the plane, and
+ * keeps right angles (riis_warp_info.is_planar).
+ *   sources  3 to 1000 landmarks
+ * Errors: RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also for two landmarks in one place, and for
+ * landmarks on a line. */
+RIIS_API riis_status riis_warp_create(const riis_points *sources, const riis_warp_options *options, riis_warp **warp);
+/* Destroys the warp. Valves that have it keep their copies. */
+RIIS_API void riis_warp_destroy(riis_warp **warp);
+/* Takes the landmarks to these places. The same targets give the same bits, whatever the targets before them.
+ *   targets  as many points as the sources, in their order
+ * Errors: RIIS_INVALID_ARGUMENT naming the point; RIIS_INVALID_PARAMETER for a warp that folds: its determinant is not
+ * above 0 half way from a landmark to the nearest. */
+RIIS_API riis_status riis_warp_set_targets(riis_warp *warp, const riis_points *targets);
+/* Takes the landmarks to their places at a time, from a table of keys in time.
+ *   frames  n_vertices is the number of landmarks. The keys are read during the call only
+ *   time    magnitude at most 1e30
+ * Errors: as riis_warp_set_targets; RIIS_INVALID_ARGUMENT naming the field, key or landmark and its value. */
+RIIS_API riis_status riis_warp_set_targets_at(riis_warp *warp, const riis_keyframe_arrays *frames, double time);
+
+/* A warp's quality, in the units of its landmarks. */
+typedef struct riis_warp_info {
+  int64_t n_landmarks;         /* the number of landmarks */
+  double rms_residual;         /* root mean square of the distances between mapped sources and targets */
+  double largest_residual;     /* the largest of these distances */
+  int64_t largest_landmark_id; /* its landmark */
+  double smoothing;            /* lambda of the smoothing, 0 without noise; infinite if the map is affine */
+  double least_determinant;    /* the least determinant half way from each landmark to its nearest */
+  double least_point[3];       /* where the determinant is least, among the sources */
+  int32_t is_planar;           /* 1 if the landmarks lie nearly in a plane, else 0 */
+  int32_t reserved;            /* 0 */
+} riis_warp_info;
+/* Gives the quality of a warp. */
+RIIS_API riis_status riis_warp_get_info(const riis_warp *warp, riis_warp_info *info, int64_t struct_size);
+/* Maps points, such as the chords of a mitral valve.
+ *   points  in the coordinates of the landmarks
+ *   mapped  (3, n_points); may be the array of the points
+ * Errors: RIIS_INVALID_ARGUMENT naming the point. */
+RIIS_API riis_status riis_warp_map(const riis_warp *warp, const riis_points *points, double *mapped);
+
+/* Warps a valve: its curves are mapped at every opening, before the placement. Its patches stay patches between these
+ * curves, so error bounds, fixed triangulations and velocities hold as for any valve. At opening 0 the map is `closed`, at
+ * opening 1 `open`, and between them (1 - opening) times the former plus opening times the latter. The valve copies both.
+ *   closed  NULL, with `open` NULL, removes the warp
+ *   open    NULL: `closed` serves for all openings
+ * For an annulus that moves, call riis_warp_set_targets and this function in each step, for two valves in turn, and pass
+ * both to riis_surface_update_moving. Both must be warped, or neither. With RIIS_TRIANGULATION_FIXED the warp may move.
+ * A disc that is the outline of the orifice is warped, too. A surface's call refuses a warp that folds at the valve
+ * or turns a part of it over, as RIIS_INVALID_PARAMETER naming the place and the value.
+ * Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`; RIIS_INVALID_PARAMETER for a bileaflet valve, which is rigid. */
+RIIS_API riis_status riis_valve_set_warp(riis_valve *valve, const riis_warp *closed, const riis_warp *open);
+
+/* The curves and patches of a valve at its opening, after a warp and before placement. Where n_pieces equals n_curves, as in
+ * trileaflet and aortic valves and valves from patches, the arrays are those of riis_patches, and make the same shape. */
+typedef struct riis_valve_patches {
+  int64_t n_curves;           /* curves; each is a side of a patch */
+  int64_t n_pieces;           /* Bezier pieces of all curves. Sides of mitral and bileaflet patches may have several */
+  const int64_t *first_piece; /* (n_curves + 1): the pieces of curve i are first_piece[i] to first_piece[i + 1] - 1 */
+  const int32_t *degree;      /* (n_pieces): 2 or 3 */
+  const double *control;      /* (3, sum of all degree + 1): control points, piece after piece */
+  int64_t n_patches;          /* the number of patches */
+  const int32_t *curve_id;    /* (4, n_patches): the curves at v = 0, v = 1, u = 0, u = 1 */
+  const int32_t *reversed;    /* (4, n_patches): 1 if the side runs against its curve, else 0 */
+  const int32_t *leaflet_id;  /* (n_patches): as in riis_triangles */
+  const int32_t *patch_id;    /* (n_patches): as in riis_triangles */
+  const int32_t *attached;    /* (n_patches): the side that is attached, 0 to 3 in the order of curve_id, or -1 */
+  const double *bulge;        /* (n_patches): 0 for a Coons patch. Otherwise the line at each u is an arc from v = 0 to
+                                 v = 1. With the width W and the unit tangent T of the side v = 0, its middle control
+                                 point lies bulge |W| unit(W x T) beside the middle of the straight line */
+} riis_valve_patches;
+/* Gives the curves and patches of a valve at its opening. Points of a side are labelled by their share of its length. All
+ * normals S_u x S_v point as in riis_surface_create. The arrays are valid until the valve's next call that is not const.
+ * A Coons patch of the sides of a mitral patch, whose bulge is not 0, differs from the valve.
+ * Errors: RIIS_INVALID_PARAMETER as riis_surface_create. */
+RIIS_API riis_status riis_valve_get_patches(riis_valve *valve, riis_valve_patches *patches, int64_t struct_size);
+
 /* ---- Crossings: self-intersections, where the surface goes through itself ------------------------------ */
 
 /* Options of riis_find_crossings. */
@@ -1053,8 +1147,8 @@ typedef struct riis_orifice {
   double rim_reach;      /* c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open valves gave 0.70 to
                             0.98 and 0.46 to 0.95 (docs/validation.md) */
   double half_thickness; /* eps of the resistance */
-  double radius;         /* the radius of the disc; 0 for other outlines */
-  double axis[3];        /* unit vector along the placed valve's z axis */
+  double radius;         /* the radius of the disc, or of a circle as large as a warped disc; 0 for other outlines */
+  double axis[3];        /* unit vector along the placed valve's z axis, or the normal of a warped disc */
   int32_t outline;       /* RIIS_OUTLINE_* */
   int32_t reserved;      /* 0 */
 } riis_orifice;

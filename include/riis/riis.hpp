@@ -81,6 +81,7 @@ class Handle {
 using Valve = Handle<riis_valve, riis_valve_destroy>;              // owns a riis_valve
 using Surface = Handle<riis_surface, riis_surface_destroy>;        // owns a riis_surface
 using Keyframes = Handle<riis_keyframes, riis_keyframes_destroy>;  // owns a riis_keyframes
+using Warp = Handle<riis_warp, riis_warp_destroy>;                 // owns a riis_warp
 using Mesh = Handle<riis_mesh, riis_mesh_destroy>;                 // owns a riis_mesh
 using Adjacency = Handle<riis_adjacency, riis_adjacency_destroy>;  // owns a riis_adjacency
 using Marks = Handle<riis_marks, riis_marks_destroy>;              // owns a riis_marks

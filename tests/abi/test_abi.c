@@ -120,6 +120,36 @@ static void test_structs(void **state) {
   FIELD(riis_attachment, leaflet_id, 24, 8);
   FIELD(riis_attachment, patch_id, 32, 8);
 
+  SIZE(riis_warp_options, 24);
+  FIELD(riis_warp_options, struct_size, 0, 8);
+  FIELD(riis_warp_options, noise, 8, 8);
+  FIELD(riis_warp_options, placement, 16, 8);
+
+  SIZE(riis_warp_info, 80);
+  FIELD(riis_warp_info, n_landmarks, 0, 8);
+  FIELD(riis_warp_info, rms_residual, 8, 8);
+  FIELD(riis_warp_info, largest_residual, 16, 8);
+  FIELD(riis_warp_info, largest_landmark_id, 24, 8);
+  FIELD(riis_warp_info, smoothing, 32, 8);
+  FIELD(riis_warp_info, least_determinant, 40, 8);
+  FIELD(riis_warp_info, least_point, 48, 24);
+  FIELD(riis_warp_info, is_planar, 72, 4);
+  FIELD(riis_warp_info, reserved, 76, 4);
+
+  SIZE(riis_valve_patches, 96);
+  FIELD(riis_valve_patches, n_curves, 0, 8);
+  FIELD(riis_valve_patches, n_pieces, 8, 8);
+  FIELD(riis_valve_patches, first_piece, 16, 8);
+  FIELD(riis_valve_patches, degree, 24, 8);
+  FIELD(riis_valve_patches, control, 32, 8);
+  FIELD(riis_valve_patches, n_patches, 40, 8);
+  FIELD(riis_valve_patches, curve_id, 48, 8);
+  FIELD(riis_valve_patches, reversed, 56, 8);
+  FIELD(riis_valve_patches, leaflet_id, 64, 8);
+  FIELD(riis_valve_patches, patch_id, 72, 8);
+  FIELD(riis_valve_patches, attached, 80, 8);
+  FIELD(riis_valve_patches, bulge, 88, 8);
+
   SIZE(riis_triangles, 72);
   FIELD(riis_triangles, n_vertices, 0, 8);
   FIELD(riis_triangles, xyz, 8, 8);
@@ -572,6 +602,15 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_surface_get_attachment, int32_t, (const riis_surface *, riis_attachment *, int64_t));
   SIGNATURE(riis_surface_get_info, int32_t, (const riis_surface *, riis_surface_info *, int64_t));
   SIGNATURE(riis_surface_get_triangles, int32_t, (const riis_surface *, riis_triangles *, int64_t));
+  SIGNATURE(riis_warp_options_init, int32_t, (riis_warp_options *, int64_t));
+  SIGNATURE(riis_warp_create, int32_t, (const riis_points *, const riis_warp_options *, riis_warp **));
+  SIGNATURE(riis_warp_destroy, void, (riis_warp **));
+  SIGNATURE(riis_warp_set_targets, int32_t, (riis_warp *, const riis_points *));
+  SIGNATURE(riis_warp_set_targets_at, int32_t, (riis_warp *, const riis_keyframe_arrays *, double));
+  SIGNATURE(riis_warp_get_info, int32_t, (const riis_warp *, riis_warp_info *, int64_t));
+  SIGNATURE(riis_warp_map, int32_t, (const riis_warp *, const riis_points *, double *));
+  SIGNATURE(riis_valve_set_warp, int32_t, (riis_valve *, const riis_warp *, const riis_warp *));
+  SIGNATURE(riis_valve_get_patches, int32_t, (riis_valve *, riis_valve_patches *, int64_t));
   SIGNATURE(riis_crossing_options_init, int32_t, (riis_crossing_options *, int64_t));
   SIGNATURE(riis_crossings_create, int32_t, (riis_crossings **));
   SIGNATURE(riis_crossings_destroy, void, (riis_crossings **));

@@ -212,6 +212,62 @@ static void a_steady_moving_step_allocates_nothing(void **state) {
 #endif
 }
 
+/* An annulus that moves: new targets for 60 landmarks in each step, for two valves in turn. */
+static void a_steady_warped_step_allocates_nothing(void **state) {
+  (void)state;
+#if defined(COUNTS_ALLOCATIONS)
+  static const char *const kinds[3] = {"trileaflet", "aortic", "mitral"};
+  enum { n = 60 };
+  for (int kind = 0; kind < 3; ++kind)
+    for (int32_t triangulation = RIIS_TRIANGULATION_ADAPTED; triangulation <= RIIS_TRIANGULATION_FIXED;
+         ++triangulation) {
+      const int owned_before = n_owned();
+      riis_valve *valves[2] = {new_valve(kinds[kind]), new_valve(kinds[kind])};
+      riis_surface_options options = surface_options();
+      options.triangulation = triangulation;
+      options.n_threads = 1;
+      double sources[3 * n], targets[3 * n];
+      for (int i = 0; i < n; ++i) {
+        const double angle = 0.7 * i, height = -1 + 2.0 * i / n;
+        sources[3 * i] = 1.5 * cos(angle), sources[3 * i + 1] = 1.5 * sin(angle), sources[3 * i + 2] = height;
+      }
+      riis_points points;
+      CHECK_OK(riis_points_init(&points, sizeof points));
+      points.n_points = n, points.stride = 3;
+      points.x = sources, points.y = sources + 1, points.z = sources + 2;
+      riis_warp *warp = NULL;
+      riis_warp_options of_warp;
+      CHECK_OK(riis_warp_options_init(&of_warp, sizeof of_warp));
+      of_warp.noise = kind == 0 ? 0 : 0.01;
+      CHECK_OK(riis_warp_create(&points, &of_warp, &warp));
+      own(warp);
+      for (int k = 0; k < 2; ++k) CHECK_OK(riis_valve_set_warp(valves[k], warp, NULL));
+      riis_surface *surface = new_surface(valves[0], &options);
+      points.x = targets, points.y = targets + 1, points.z = targets + 2;
+      for (int step = 0; step < 160; ++step) {
+        const double swing = 0.05 * sin(2 * acos(-1) * step / 40);
+        for (int i = 0; i < n; ++i)
+          for (int c = 0; c < 3; ++c)
+            targets[3 * i + c] =
+                sources[3 * i + c] * (1 + swing * (c == 0)) + 0.2 * swing * sources[3 * i] * sources[3 * i];
+        riis_valve *now = valves[step % 2], *before = valves[1 - step % 2];
+        begin_to_count();
+        const riis_status targeted = riis_warp_set_targets(warp, &points);
+        const riis_status warped = riis_valve_set_warp(now, warp, NULL);
+        const riis_status moved = riis_surface_update_moving(surface, now, before, 0.02, NULL, NULL);
+        const int64_t n_allocations = end_to_count();
+        CHECK_OK(targeted);
+        CHECK_OK(warped);
+        CHECK_OK(moved);
+        if (step >= 120) assert_int_equal(n_allocations, 0); /* after three cycles */
+      }
+      free_owned_after(owned_before);
+    }
+#else
+  skip();
+#endif
+}
+
 /* Several threads may need more blocks at once than ever before, but the number of blocks is limited. */
 static void allocations_of_several_threads_do_not_grow(void **state) {
   (void)state;
@@ -235,6 +291,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_steady_step_allocates_nothing),
       cmocka_unit_test(a_steady_moving_step_allocates_nothing),
+      cmocka_unit_test(a_steady_warped_step_allocates_nothing),
       cmocka_unit_test(allocations_of_several_threads_do_not_grow),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -97,6 +97,7 @@ DEFINE_OWN(marks)
 DEFINE_OWN(leaks)
 DEFINE_OWN(crossings)
 DEFINE_OWN(keyframes)
+DEFINE_OWN(warp)
 #undef DEFINE_OWN
 
 /* A test may destroy an object that it owns. */
@@ -108,6 +109,7 @@ DEFINE_OWN(keyframes)
 #define riis_leaks_destroy destroy_and_disown_leaks
 #define riis_crossings_destroy destroy_and_disown_crossings
 #define riis_keyframes_destroy destroy_and_disown_keyframes
+#define riis_warp_destroy destroy_and_disown_warp
 
 /* Records its argument, a handle or memory from malloc, and returns it. */
 #define own(object) \
@@ -120,6 +122,7 @@ DEFINE_OWN(keyframes)
       riis_leaks *: own_leaks,             \
       riis_crossings *: own_crossings,     \
       riis_keyframes *: own_keyframes,     \
+      riis_warp *: own_warp,               \
       void *: own_memory)(object)
 
 /* In a file that includes this one, every test has the teardown. */

@@ -18,7 +18,9 @@
 #include "pipeline/updatable_surface.hpp"
 #include "surface/crossings.hpp"
 #include "surface/keyframes.hpp"
+#include "valve/patch_arrays.hpp"
 #include "valve/valve.hpp"
+#include "valve/warp.hpp"
 
 namespace riis {
 
@@ -32,7 +34,8 @@ enum class HandleKind : std::uint64_t {
   marks = 0x7269697372736c74,
   keyframes = 0x726969736b657966,
   crossings = 0x7269697363726f73,
-  leaks = 0x726969736c65616b
+  leaks = 0x726969736c65616b,
+  warp = 0x7269697377617270
 };
 
 template <HandleKind the_kind>
@@ -62,6 +65,17 @@ void destroy_handle(AnyHandle **handle, const char *argument) noexcept {
 
 struct riis_valve : riis::Handle<riis::HandleKind::valve> {
   riis::Valve valve;
+  riis::PatchArrays arrays = {};  // of the last riis_valve_get_patches
+};
+
+struct riis_warp : riis::Handle<riis::HandleKind::warp> {
+  riis_warp(riis::WarpLandmarks made, const riis::Placement &placed) : landmarks(std::move(made)), placement(placed) {}
+  riis::KeepsMemory keeps_memory;
+  riis::WarpLandmarks landmarks;
+  riis::Placement placement;  // of the caller's coordinates
+  riis::WarpMap map, next_map;
+  riis::WarpQuality quality{};
+  riis::Vector<riis::Vec3> targets;
 };
 
 struct riis_surface : riis::Handle<riis::HandleKind::surface> {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defines the public functions for leaflets, orifice, leak, first passage, cells across and swept volume. They check arguments.
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -42,8 +43,11 @@ riis_orifice orifice_of(const riis::Surface &surface, const riis::ValveFrame &fr
   const double c = resistance.rim == RIIS_RIM_CUT ? riis::rim_reach_cut : riis::rim_reach_round;
   const double eps = resistance.half_thickness;
   const riis::Orifice found = riis::measure_orifice(surface.triangles(), frame, {c * eps, 0.1 * eps});
-  const riis::Vec3 axis = frame.placement.rotation * riis::Vec3{0, 0, 1};
-  const double radius = found.outline == RIIS_OUTLINE_DISC ? frame.placement.scale * frame.disc.radius : 0;
+  const riis::Vec3 axis = frame.axis();
+  const bool is_warped = !frame.disc.rim.empty();
+  const double radius = found.outline != RIIS_OUTLINE_DISC ? 0
+                        : is_warped                        ? std::sqrt(found.outline_area / 3.141592653589793)
+                                                           : frame.placement.scale * frame.disc.radius;
   return {found.area,
           found.outline_area,
           found.perimeter,

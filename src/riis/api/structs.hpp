@@ -26,6 +26,9 @@ constexpr std::int64_t first_size_of(const riis_keyframe_arrays *) { return 56; 
 constexpr std::int64_t first_size_of(const riis_surface_info *) { return 128; }
 constexpr std::int64_t first_size_of(const riis_triangles *) { return 72; }
 constexpr std::int64_t first_size_of(const riis_attachment *) { return 40; }
+constexpr std::int64_t first_size_of(const riis_warp_options *) { return 24; }
+constexpr std::int64_t first_size_of(const riis_warp_info *) { return 80; }
+constexpr std::int64_t first_size_of(const riis_valve_patches *) { return 96; }
 constexpr std::int64_t first_size_of(const riis_crossing_options *) { return 24; }
 constexpr std::int64_t first_size_of(const riis_crossing_list *) { return 112; }
 constexpr std::int64_t first_size_of(const riis_closest *) { return 96; }

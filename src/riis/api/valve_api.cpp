@@ -72,6 +72,27 @@ riis_status riis_valve_create_from_patches(const riis_patches *patches, riis_val
   });
 }
 
+riis_status riis_valve_set_warp(riis_valve *valve, const riis_warp *closed, const riis_warp *open) {
+  return guarded([&] {
+    require_handle(valve, "valve");
+    if (open && !closed)
+      riis::fail(RIIS_INVALID_ARGUMENT,
+                 "open is a warp, but closed is NULL: pass a warp that serves for all openings as closed");
+    valve->valve.set_warp(closed ? &require_handle(closed, "closed")->map : nullptr,
+                          open ? &require_handle(open, "open")->map : nullptr);
+  });
+}
+
+riis_status riis_valve_get_patches(riis_valve *valve, riis_valve_patches *patches, int64_t struct_size) {
+  return guarded([&] {
+    require_handle(valve, "valve");
+    require(patches, "patches");
+    riis::check_struct_size<riis_valve_patches>(struct_size, "patches");
+    valve->arrays = riis::arrays_of(valve->valve.make_patches());
+    riis::write_struct(patches, struct_size, "patches", riis::view_of(valve->arrays));
+  });
+}
+
 riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_t *n_parameters) {
   return guarded([&] {
     require_handle(valve, "valve");

@@ -30,8 +30,7 @@ PlacedPatches::PlacedPatches(const PatchSet &set, double max_error, const Placem
       QuadGrid placed{grid.u, grid.v, {}, {}};
       placed.points.reserve(grid.points.size());
       for (const Vec3 &p : grid.points) placed.points.push_back(place(placement, place(image, p)));
-      patches.push_back(
-          {std::move(placed), image.leaflet_id, image.patch_id, (image.mirror != Mirror::none) != flip_normals});
+      patches.push_back({std::move(placed), image.leaflet_id, image.patch_id, points_upstream(image) != flip_normals});
       errors.push_back(error * placement.scale);
     }
     ++number;

@@ -16,6 +16,8 @@ constexpr int n_openings = 33;
 constexpr int n_between = 7, n_trials = 4;
 // A limit on the number of patches, because the choice keeps the patches of all these openings in memory.
 constexpr std::size_t max_patches = 10'000;
+// A warp may move after the triangles were planned. So the plan of a warped valve takes only this share of the allowed error.
+constexpr double warped_share = 0.6;
 
 PatchSet patches_at(Valve &valve, double opening) {
   valve.set("opening", 1, &opening);
@@ -55,7 +57,7 @@ TriangulationPlan plan_for(Valve valve, double max_error, int n_threads) {
 }  // namespace
 
 FixedTriangulation::FixedTriangulation(const Valve &valve, double max_error, int n_threads)
-    : valve_(valve), plan_(plan_for(valve, max_error, n_threads)) {
+    : valve_(valve), plan_(plan_for(valve, valve.is_warped() ? warped_share * max_error : max_error, n_threads)) {
   free_kept_memory();
 }
 

@@ -26,6 +26,9 @@ struct ValveFrame {
   Placement placement;
   Valve::Disc disc;      // before placement
   std::int32_t housing;  // the leaflet_id of the housing, or -1 if the valve has no housing
+
+  // Returns the unit vector along which the orifice is seen: the z axis, or the normal of a warped disc.
+  Vec3 axis() const;
 };
 
 // The measured numbers. The caller computes the other fields of riis_orifice from these numbers and the frame.

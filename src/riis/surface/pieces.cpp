@@ -138,7 +138,7 @@ class PieceTriangles {
   bool add_triangle(std::int64_t a, std::int64_t b, std::int64_t c) {
     const std::int64_t id_here = next_id_++;
     if (has_zero_area(set_.vertex(a), set_.vertex(b), set_.vertex(c))) return false;
-    if ((piece_.image->mirror != Mirror::none) != flip_normals_) std::swap(b, c);
+    if (points_upstream(*piece_.image) != flip_normals_) std::swap(b, c);
     const std::int64_t at = next_triangle();
     std::int64_t *id = set_.vertex_id.data() + 3 * at;
     id[0] = a, id[1] = b, id[2] = c;

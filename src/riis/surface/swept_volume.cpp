@@ -88,7 +88,7 @@ void add_swept(const PatchSet &from, const PatchSet &to, const Vector<double> &s
       const double volume =
           swept_by_grid(placed(image, points_before), placed(now.images[i], points_now), shares.size());
       // The triangles of a mirror image are turned over, so that their normals point downstream. The sign of the volume changes.
-      sums[image.leaflet_id] += image.mirror == Mirror::none ? volume : -volume;
+      sums[image.leaflet_id] += points_upstream(image) ? -volume : volume;
     }
   }
 }

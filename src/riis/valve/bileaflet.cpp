@@ -42,6 +42,7 @@ ValveKind make_kind() {
     opening_spec("0: closed, to 1: open; the leaflets turn from closed_angle to open_angle", 0),
   }, opening, true, check_values, make_patches, check_states};
   kind.housing = RIIS_LEAFLET_HOUSING;
+  kind.is_rigid = true;
   return kind;
 }
 // clang-format on

@@ -23,7 +23,11 @@ struct PatchImage {
   Vec3 translation;
   std::int32_t leaflet_id;
   std::int32_t patch_id;
+  bool is_turned_over = false;  // S_u x S_v of the patch itself points upstream, because it was once a mirror image
 };
+
+// Returns whether S_u x S_v of the placed patch points upstream, so that its triangles are turned over.
+inline bool points_upstream(const PatchImage &image) { return (image.mirror != Mirror::none) != image.is_turned_over; }
 
 inline Vec3 place(const PatchImage &image, Vec3 p) {
   return image.rotation *

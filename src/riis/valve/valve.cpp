@@ -9,6 +9,7 @@
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
 #include "common/nearest_name.hpp"
+#include "valve/warped_patches.hpp"
 
 namespace riis {
 namespace {
@@ -104,10 +105,25 @@ void Valve::set_open_state(const Valve &open) {
   open_ = ValveState(open.state_);  // copied first, because member-by-member assignment could fail half way
 }
 
+void Valve::set_warp(const WarpMap *closed, const WarpMap *open) {
+  if (kind_->is_rigid && closed)
+    fail(RIIS_INVALID_PARAMETER, "the ", kind_->name,
+         " valve cannot be warped, because its leaflets and its ring are rigid: place it by scale, rotation and "
+         "translation");
+  if (!closed) {
+    warp_.reset();
+    return;
+  }
+  // The copies are made first, because assignment member by member could fail half way. Their memory comes from the last ones.
+  Warp made{*closed, {}};
+  if (open) made.open = *open;
+  warp_ = std::move(made);
+}
+
 Valve::Disc Valve::disc() const {
   constexpr std::string_view shift = "translation";
   Disc disc{0, 0, 0};
-  double n_shifts = 0;
+  double n_shifts = 0, z = 0;
   for (std::size_t i = 0; i < kind_->parameters.size(); ++i) {
     const std::string_view name = kind_->parameters[i].name;
     const std::array<double, 3> &value = state_.values[i];
@@ -116,7 +132,15 @@ Valve::Disc Valve::disc() const {
     ++n_shifts;
     disc.x += (value[0] - disc.x) / n_shifts;
     disc.y += (value[1] - disc.y) / n_shifts;
+    z += (value[2] - z) / n_shifts;
   }
+  if (!warp_ || disc.radius == 0) return disc;
+  const BlendedWarp warp(warp_->closed, warp_->open ? *warp_->open : warp_->closed, opening());
+  constexpr int n_corners = 96;
+  constexpr double turn = 6.283185307179586 / n_corners;
+  const double reach = disc.radius * std::sqrt(turn / std::sin(turn));
+  for (int i = 0; i < n_corners; ++i)
+    disc.rim.push_back(warp.value({disc.x + reach * std::cos(i * turn), disc.y + reach * std::sin(i * turn), z}));
   return disc;
 }
 
@@ -154,10 +178,13 @@ void Valve::check_same_but_for_opening(const Valve &other) const {
     fail(RIIS_INVALID_PARAMETER, "the valve has ", other.open_ ? "an" : "no", " open state", fixed_for,
          other.open_ ? "none" : "one");
   if (open_) check_same_state(*kind_, *open_, *other.open_, " in the open state");
+  if (warp_.has_value() != other.warp_.has_value())
+    fail(RIIS_INVALID_PARAMETER, "the valve has ", other.warp_ ? "a" : "no", " warp", fixed_for,
+         other.warp_ ? "none" : "one");
 }
 
 bool Valve::has_default_shape() const {
-  if (open_ || !state_.patches.curves.empty()) return false;
+  if (open_ || warp_ || !state_.patches.curves.empty()) return false;
   for (std::size_t i = 0; i < kind_->parameters.size(); ++i)
     if (i != kind_->opening && state_.values[i] != kind_->parameters[i].default_values) return false;
   return true;
@@ -190,6 +217,11 @@ class Digest {
         add(static_cast<std::uint64_t>(2 * side->curve + (side->reversed ? 1 : 0)));
     }
   }
+  void add(const WarpMap &map) {
+    add(static_cast<std::uint64_t>(map.source_x.size()));
+    for (const Vector<double> *list : {&map.source_x, &map.source_y, &map.source_z})
+      for (const double x : *list) add(x);
+  }
   std::uint64_t value() const { return digest_ == 0 ? 1 : digest_; }
 
  private:
@@ -203,10 +235,14 @@ std::uint64_t Valve::shape_digest() const {
   for (const char *letter = kind_->name; *letter; ++letter) digest.add(static_cast<std::uint64_t>(*letter));
   digest.add(*kind_, state_);
   if (open_) digest.add(*kind_, *open_);
+  if (warp_) digest.add(warp_->closed);
+  if (warp_ && warp_->open) digest.add(*warp_->open);
   return digest.value();
 }
 
-PatchSet Valve::make_patches() const {
+PatchSet Valve::make_patches() const { return make_patches(FoldCheck::yes); }
+
+PatchSet Valve::make_patches(FoldCheck check) const {
   if (opening() != 0 && !can_open())
     fail(RIIS_INVALID_PARAMETER, "opening is ", opening(), ", but the ", kind_->name,
          " valve has only one state: set its open state with riis_valve_set_open_state");
@@ -214,7 +250,9 @@ PatchSet Valve::make_patches() const {
     kind_->check_values(state_.values);
     if (open_) check_open_values();
   }
-  return kind_->make_patches(state_, open_ ? *open_ : state_, opening());
+  PatchSet made = kind_->make_patches(state_, open_ ? *open_ : state_, opening());
+  if (!warp_) return made;
+  return warped(made, {warp_->closed, warp_->open ? *warp_->open : warp_->closed, opening()}, check);
 }
 
 PatchSet Valve::make_patches_before(const Valve &before) const {
@@ -222,8 +260,12 @@ PatchSet Valve::make_patches_before(const Valve &before) const {
     fail(RIIS_INVALID_PARAMETER, "valve_before is of the kind ", before.kind_->name, ", valve of the kind ",
          kind_->name, ": they must be two states of one valve");
   if (kind_->check_states) kind_->check_states(state_, before.state_, "valve_before");
+  if (warp_.has_value() != before.warp_.has_value())
+    fail(RIIS_INVALID_PARAMETER, "valve_before has ", before.warp_ ? "a" : "no", " warp, but valve has ",
+         warp_ ? "one" : "none", ": for a valve at rest, set a warp whose targets are its landmarks");
   try {
-    return before.make_patches();
+    // The earlier state was the valve's own state once, so its folds were searched for then.
+    return before.make_patches(FoldCheck::no);
   } catch (const Error &error) {
     fail(error.status, "in valve_before: ", error.message.text());
   }

@@ -12,6 +12,8 @@
 
 #include "base/recycled.hpp"
 #include "valve/patches.hpp"
+#include "valve/warp.hpp"
+#include "valve/warped_patches.hpp"
 
 namespace riis {
 
@@ -51,6 +53,8 @@ struct ValveKind {
   bool has_exact_contacts = false;
   // The leaflet_id of a wall that hinges reach into, or -1.
   std::int32_t housing = -1;
+  // True for leaflets that a warp would bend although they are stiff.
+  bool is_rigid = false;
 };
 
 // The kinds of valves that are defined by parameters. Each is in a file of its name.
@@ -77,25 +81,31 @@ class Valve {
   // Uses the other valve's own state as the open state. The other valve must be of the same kind.
   void set_open_state(const Valve &open);
 
+  // Lets a map move the valve's curves at every opening: `closed` at opening 0, `open` at opening 1, and a blend of both between
+  // them. The maps are copied. If `open` is null, `closed` serves for all openings. If both are null, the valve has no warp.
+  void set_warp(const WarpMap *closed, const WarpMap *open);
+  bool is_warped() const { return warp_.has_value(); }
+
   // Returns whether the opening may differ from 0.
   bool can_open() const { return open_ || kind_->opens_by_itself; }
   double opening() const { return state_.values[kind_->opening][0]; }
 
-  // Returns the disc of the root or of the housing about the z axis, or a radius of 0 if the valve has no such parameter. It
-  // does not depend on the opening.
+  // Returns the disc of the root or of the housing about the z axis, or a radius of 0 if the valve has no such parameter. Without
+  // a warp it does not depend on the opening.
   struct Disc {
-    double radius, x, y;  // the centre is the mean translation of the valve or of its leaflets
+    double radius, x, y;    // the centre is the mean translation of the valve or of its leaflets
+    Vector<Vec3> rim = {};  // of a warped valve: the warped corners of a polygon with the disc's area
   };
   Disc disc() const;
 
-  // Fails unless the other valve equals this valve in everything but the opening. The message names the first parameter that
-  // differs.
+  // Fails unless the other valve equals this valve in everything but the opening and the values of a warp. The message names the
+  // first parameter that differs.
   void check_same_but_for_opening(const Valve &other) const;
 
   // Returns whether all parameters but the opening have the kind's defaults.
   bool has_default_shape() const;
-  // Returns a digest of the shape without the opening. It is never 0. Two different shapes practically never have the same
-  // digest.
+  // Returns a digest of the shape without the opening, and of the landmarks of a warp without their targets. It is never 0. Two
+  // different shapes practically never have the same digest.
   std::uint64_t shape_digest() const;
 
   // Makes the patches at the current opening.
@@ -104,11 +114,18 @@ class Valve {
   PatchSet make_patches_before(const Valve &before) const;
 
  private:
+  PatchSet make_patches(FoldCheck check) const;
   void check_open_values() const;
+
+  struct Warp {
+    WarpMap closed;
+    std::optional<WarpMap> open;
+  };
 
   const ValveKind *kind_;
   ValveState state_;
   std::optional<ValveState> open_;
+  std::optional<Warp> warp_;
 };
 
 // Blends one number. The result is exact for openings of 0 and 1.

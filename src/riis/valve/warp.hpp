@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// A smooth map of space from landmarks (docs/theory.md, "Warp"): affine plus a radial function |r|^3 at each landmark.
+// In: landmarks at rest and where they are now. Out: the map's values and derivatives.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/recycled.hpp"
+#include "geometry/vec3.hpp"
+
+namespace riis {
+
+// A map at a point: the value, and its derivatives along x, y and z.
+struct MapAt {
+  Vec3 value, along_x, along_y, along_z;
+
+  Vec3 along(Vec3 direction) const { return direction.x * along_x + direction.y * along_y + direction.z * along_z; }
+  double determinant() const { return dot(cross(along_x, along_y), along_z); }
+};
+
+// The map x -> x + size * (shift + linear * y + sum of weight_i |y - source_i|^3) with y = (x - centre) / size. A map without
+// sources and shift is the identity.
+class WarpMap {
+ public:
+  Vec3 value(Vec3 x) const;
+  MapAt at(Vec3 x) const;
+
+  Vec3 centre{0, 0, 0};
+  double size = 1;
+  Vec3 shift{0, 0, 0};
+  Vec3 linear_x{0, 0, 0}, linear_y{0, 0, 0}, linear_z{0, 0, 0};  // the columns of `linear`
+  // The coordinates of sources and weights lie in arrays of their own, so that the processor handles two at a time. If their
+  // number is odd, a source with the weight 0 follows.
+  Vector<double> source_x, source_y, source_z, weight_x, weight_y, weight_z;
+};
+
+// The map between two states of a valve: (1 - opening) times the map `closed` plus opening times the map `open`.
+class BlendedWarp {
+ public:
+  BlendedWarp(const WarpMap &closed, const WarpMap &open, double opening)
+      : closed_(closed), open_(open), opening_(&closed == &open ? 0 : opening) {}
+
+  Vec3 value(Vec3 x) const;
+  MapAt at(Vec3 x) const;
+  // Returns the map's derivative by the opening.
+  Vec3 rate(Vec3 x) const;
+  bool changes_with_opening() const { return &closed_ != &open_; }
+
+ private:
+  const WarpMap &closed_, &open_;
+  double opening_;
+};
+
+// How well a map meets its targets.
+struct WarpQuality {
+  double rms_residual, largest_residual;  // distances of mapped sources from their targets
+  std::int64_t largest_landmark;
+  double smoothing;          // lambda; infinite if the map is affine
+  double least_determinant;  // half way from each landmark to its nearest
+  Vec3 least_point;          // where the determinant is least
+  std::int64_t least_landmark;
+};
+
+// Landmarks at rest. Their equations are reduced to a tridiagonal matrix once. A map for new targets then takes as many
+// operations as a few products of a matrix and a vector.
+class WarpLandmarks {
+ public:
+  // `noise` is the standard deviation of each coordinate of the targets. It is at least 0. Fails with RIIS_INVALID_ARGUMENT for
+  // too few landmarks, two landmarks in one place, and landmarks on a line. The message calls the array `name`.
+  WarpLandmarks(const Vector<Vec3> &sources, double noise, const char *name);
+
+  std::size_t size() const { return sources_.size(); }
+  const Vector<Vec3> &sources() const { return sources_; }
+  // True if the landmarks are so near a plane that they do not determine an affine map. The map then stretches the direction
+  // across the plane as the landmarks stretch the plane.
+  bool is_planar() const { return is_planar_; }
+
+  // Writes the map to these targets, and its quality. The same targets give the same bits. Does not judge the quality.
+  void fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &quality);
+
+ private:
+  void reduce();
+  void tridiagonalise(Vector<double> &matrix);
+  double solve(double lambda);
+  double smoothing_for_noise();
+
+  Vector<Vec3> sources_;
+  double noise_ = 0;
+  bool is_planar_ = false;
+  Vec3 centre_{0, 0, 0};
+  double size_ = 1;
+  Vec3 axis_[3];                      // principal directions of the sources, the thinnest last
+  std::size_t n_terms_ = 4;           // of the polynomial: 1, and the coordinates along the first axes
+  std::size_t n_free_ = 0;            // the number of landmarks minus n_terms_
+  Vector<Vec3> scaled_;               // (source - centre) / size
+  Vector<double> basis_;              // (n_free_, n): U, columns orthogonal to the polynomials
+  Vector<double> least_squares_;      // (n_terms_, n): gives the polynomial nearest to values
+  Vector<double> of_kernel_;          // (n_terms_, n): the same for values of sums of |r|^3, by their weights
+  Vector<double> diagonal_, beside_;  // of the tridiagonal matrix U^T |r|^3 U
+  // Places half way from a landmark to the nearest. A map that folds between landmarks is steepest there.
+  struct Probe {
+    Vec3 place;
+    std::int64_t landmark;
+  };
+  Vector<Probe> probes_;
+  // Memory of fit().
+  Vector<Vec3> displacement_, reduced_, solution_;
+  Vector<double> pivot_;
+};
+
+}  // namespace riis

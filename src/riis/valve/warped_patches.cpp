@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "valve/warped_patches.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "base/errors.hpp"
+#include "common/array_view.hpp"
+#include "geometry/coons.hpp"
+#include "geometry/curve_points.hpp"
+
+namespace riis {
+namespace {
+
+constexpr std::size_t no_copy = static_cast<std::size_t>(-1);
+// The warped points of a curve are taken at these many even steps of its parameter.
+constexpr int n_curve_steps = 6;
+// A tangent's length may change by this factor at most, apart from the warp's own stretch there.
+constexpr double least_factor = 0.2, most_factor = 5, most_of_missing = 0.5;
+// A patch is searched for folds on a grid of this many cells each way.
+constexpr std::size_t n_fold_cells = 3;
+
+bool is_in_place(const PatchImage &image) {
+  return image.mirror == Mirror::none && image.rotation.row_x == no_rotation.row_x &&
+         image.rotation.row_y == no_rotation.row_y && image.rotation.row_z == no_rotation.row_z &&
+         image.translation == Vec3{0, 0, 0};
+}
+
+template <class Move>
+Bezier moved_by(const Bezier &piece, const Move &move) {
+  Bezier made = piece;
+  for (int i = 0; i <= piece.degree; ++i) view(made.control)[i] = move(view(piece.control)[i]);
+  return made;
+}
+
+bool is_point(const Bezier &piece) {
+  for (int i = 1; i <= piece.degree; ++i)
+    if (!(view(piece.control)[i] == piece.control[0])) return false;
+  return true;
+}
+
+Bezier raised_to_cubic(const Bezier &piece) {
+  if (piece.degree == 3) return piece;
+  const auto &q = piece.control;
+  return Bezier::cubic(q[0], (1.0 / 3) * (q[0] + 2 * q[1]), (1.0 / 3) * (2 * q[1] + q[2]), q[2]);
+}
+
+// A curve as one image has it: placed pieces, and the rate of its first piece if the set has rates.
+struct CurveCopy {
+  std::size_t curve;
+  const PatchImage *image;
+  std::size_t next;  // another copy of the same curve, or no_copy
+  Vector<Bezier> pieces;
+  Bezier rate;
+};
+
+// Collects the copies of curves that the images of a set need.
+class Unfolding {
+ public:
+  explicit Unfolding(const PatchSet &set) : set_(set), first_(set.curves.size(), no_copy) {
+    keeps_numbers_ = std::all_of(set.patches.begin(), set.patches.end(), [](const Patch &patch) {
+      return patch.images.size() == 1 && is_in_place(patch.images.front());
+    });
+    if (keeps_numbers_)
+      for (std::size_t i = 0; i < set.curves.size(); ++i) first_[i] = add(i, nullptr);
+    Vector<std::size_t> first_image;
+    for (std::size_t i = 0; i < set.patches.size(); ++i) {
+      first_image.push_back(patches_.size());
+      for (std::size_t k = 0; k < set.patches[i].images.size(); ++k) patches_.push_back(unfolded(i, k));
+    }
+    for (const Seam &seam : set.seams)
+      sew(patches_[first_image[seam.patch] + seam.image], patches_[first_image[seam.patch] + seam.twin]);
+  }
+
+  Vector<CurveCopy> &copies() { return copies_; }
+  Vector<Patch> &patches() { return patches_; }
+
+ private:
+  std::size_t add(std::size_t curve, const PatchImage *image) {
+    CurveCopy copy{curve, image, first_[curve], {}, {}};
+    for (const Bezier &piece : set_.curves[curve].pieces())
+      copy.pieces.push_back(image ? moved_by(piece, [&](Vec3 p) { return place(*image, p); }) : piece);
+    if (!set_.rates.empty()) {
+      copy.rate = set_.rates[curve];
+      if (image) {
+        const PatchImage turn{image->mirror, image->rotation, {0, 0, 0}, 0, 0};
+        copy.rate = moved_by(copy.rate, [&](Vec3 p) { return place(turn, p); });
+      }
+    }
+    copies_.push_back(std::move(copy));
+    return first_[curve] = copies_.size() - 1;
+  }
+
+  bool has_copy_at(const CurveCopy &copy, const PatchImage &image) const {
+    std::size_t k = 0;
+    for (const Bezier &piece : set_.curves[copy.curve].pieces()) {
+      for (int i = 0; i <= piece.degree; ++i)
+        if (!(place(image, view(piece.control)[i]) == view(copy.pieces[k].control)[i])) return false;
+      ++k;
+    }
+    return true;
+  }
+
+  std::size_t copy_of(std::size_t curve, const PatchImage &image) {
+    if (keeps_numbers_) return first_[curve];
+    for (std::size_t i = first_[curve]; i != no_copy; i = copies_[i].next)
+      if (copies_[i].image == &image || has_copy_at(copies_[i], image)) return i;
+    return add(curve, &image);
+  }
+
+  Vec3 &end_of(const Side &side, bool last) {
+    Vector<Bezier> &pieces = copies_[side.curve].pieces;
+    if (last == side.reversed) return pieces.front().control[0];
+    Bezier &piece = pieces.back();
+    return view(piece.control)[piece.degree];
+  }
+
+  Patch unfolded(std::size_t number, std::size_t which) {
+    const Patch &patch = set_.patches[number];
+    const PatchImage &image = patch.images[which];
+    const auto side = [&](const Side &given) { return Side{copy_of(given.curve, image), given.reversed}; };
+    // Along a seam, the curve is that of the twin.
+    const PatchImage *of_v1 = &image;
+    for (const Seam &seam : set_.seams)
+      if (seam.patch == number && seam.image == which && seam.is_whole_side) of_v1 = &patch.images[seam.twin];
+    const bool is_mirrored = image.mirror != Mirror::none;
+    Patch made{side(patch.v0),
+               {copy_of(patch.v1.curve, *of_v1), patch.v1.reversed},
+               side(patch.u0),
+               side(patch.u1),
+               {},
+               is_mirrored ? -patch.bulge : patch.bulge,
+               patch.attached};
+    made.images.push_back(
+        {Mirror::none, no_rotation, {0, 0, 0}, image.leaflet_id, image.patch_id, is_mirrored != image.is_turned_over});
+    return made;
+  }
+
+  // Gives a patch the corners of its twin at the side v1. They differ by rounding only.
+  void sew(const Patch &patch, const Patch &twin) {
+    const Vec3 corner = end_of(twin.v1, true);
+    end_of(patch.v1, true) = corner;
+    end_of(patch.u1, true) = corner;
+  }
+
+  const PatchSet &set_;
+  bool keeps_numbers_ = false;
+  Vector<std::size_t> first_;
+  Vector<CurveCopy> copies_;
+  Vector<Patch> patches_;
+};
+
+struct EndTangent {
+  Vec3 warped;    // the direction, as long as the warp makes it
+  double factor;  // of that length in the curve itself: 1, or 0 if the curve has no tangent there
+};
+
+// Returns the direction of a curve at the first of these control points. It is the direction of the first control point that
+// differs.
+EndTangent end_tangent(const std::array<Vec3, 4> &control, const MapAt &at) {
+  const double size =
+      distance(control[0], control[1]) + distance(control[1], control[2]) + distance(control[2], control[3]);
+  for (int i = 1; i < 4; ++i) {
+    const Vec3 along = view(control)[i] - control[0];
+    if (length(along) > 1e-9 * size) return {at.along(along), i == 1 ? 1.0 : 0.0};
+  }
+  return {{0, 0, 0}, 0};
+}
+
+double within_limits(double factor, double own) {
+  return own == 0 ? std::clamp(factor, 0.0, most_of_missing) : std::clamp(factor, least_factor, most_factor);
+}
+
+// Returns the cubic with the warped ends and end tangents whose lengths fit the warped points best. The map is known at the ends.
+Bezier warped_piece(const Bezier &given, const MapAt &first, const MapAt &last, const BlendedWarp &warp) {
+  if (is_point(given)) return Bezier::point(first.value);
+  const Bezier cubic = raised_to_cubic(given);
+  const EndTangent a = end_tangent(cubic.control, first), b = end_tangent(cubic.reversed().control, last);
+  double aa = 0, ab = 0, bb = 0, ar = 0, br = 0;
+  for (int k = 1; k < n_curve_steps; ++k) {
+    const double t = static_cast<double>(k) / n_curve_steps, s = 1 - t;
+    const double b0 = s * s * s, b1 = 3 * t * s * s, b2 = 3 * t * t * s, b3 = t * t * t;
+    const Vec3 rest = warp.value(evaluate(cubic, t)) - ((b0 + b1) * first.value + (b2 + b3) * last.value);
+    const Vec3 by_a = b1 * a.warped, by_b = b2 * b.warped;
+    aa += dot(by_a, by_a), ab += dot(by_a, by_b), bb += dot(by_b, by_b);
+    ar += dot(by_a, rest), br += dot(by_b, rest);
+  }
+  double of_a = a.factor, of_b = b.factor;
+  const double determinant = aa * bb - ab * ab;
+  if (determinant > 1e-12 * aa * bb) {
+    of_a = within_limits((ar * bb - br * ab) / determinant, a.factor);
+    of_b = within_limits((br - of_a * ab) / bb, b.factor);
+  }
+  return Bezier::cubic(first.value, first.value + of_a * a.warped, last.value + of_b * b.warped, last.value);
+}
+
+// Returns the cubic through the rates of the warped points at 0, 1/3, 2/3 and 1. The map's derivative is taken as linear between
+// the ends, where it is known. Rates only decide where a curve needs further vertices.
+Bezier warped_rate(const Bezier &curve, const Bezier &rate, const MapAt &first, const MapAt &last,
+                   const BlendedWarp &warp) {
+  if (is_point(rate) && rate.control[0] == Vec3{0, 0, 0} && !warp.changes_with_opening()) return rate;
+  std::array<Vec3, 4> q{};
+  for (int i = 0; i < 4; ++i) {
+    const double t = i / 3.0;
+    const Vec3 x = evaluate(curve, t), of_x = evaluate(rate, t);
+    view(q)[i] = mix(first.along(of_x), last.along(of_x), t) + warp.rate(x);
+  }
+  return Bezier::cubic(q[0], (1.0 / 6) * (18 * q[1] - 5 * q[0] - 9 * q[2] + 2 * q[3]),
+                       (1.0 / 6) * (18 * q[2] - 5 * q[3] - 9 * q[1] + 2 * q[0]), q[3]);
+}
+
+// The map at ends of curves. Several curves end in one place, so the last places are remembered.
+class MapAtEnds {
+ public:
+  explicit MapAtEnds(const BlendedWarp &warp) : warp_(warp) {}
+
+  MapAt operator()(Vec3 p) {
+    for (const Place &place : places_)
+      if (place.p == p) return place.at;
+    const Place made{p, warp_.at(p)};
+    if (places_.size() < n_remembered)
+      places_.push_back(made);
+    else
+      places_[next_++ % n_remembered] = made;
+    return made.at;
+  }
+
+ private:
+  static constexpr std::size_t n_remembered = 64;
+  struct Place {
+    Vec3 p;
+    MapAt at;
+  };
+  const BlendedWarp &warp_;
+  Vector<Place> places_;
+  std::size_t next_ = 0;
+};
+
+// Bends the arcs at the sides of patches of arcs between their warped ends.
+void bend_arcs(PatchSet &set) {
+  Vector<bool> is_bent(set.curves.size(), false);
+  for (const Patch &patch : set.patches) {
+    if (patch.bulge == 0) continue;
+    const Curve base = along(set, patch.v0);
+    for (const bool at_end : {false, true}) {
+      const Side &side = at_end ? patch.u1 : patch.u0;
+      if (is_bent[side.curve]) continue;
+      is_bent[side.curve] = true;
+      const Bezier &arc = set.curves[side.curve].pieces().front();
+      const Vec3 from = side.reversed ? arc.last() : arc.first(), to = side.reversed ? arc.first() : arc.last();
+      const Vec3 offset = arc_offset(to - from, base.frame(at_end ? 1 : 0).tangent, patch.bulge);
+      const Bezier bent = Bezier::quadratic(from, 0.5 * (from + to) + offset, to);
+      set.curves[side.curve] = Curve(side.reversed ? bent.reversed() : bent);
+    }
+  }
+}
+
+// Points of a patch on an even grid of labels u and v.
+class LabelGrid {
+ public:
+  LabelGrid(const PatchSet &set, const Patch &patch) {
+    static const Vector<double> &shares = *new Vector<double>(even_shares());
+    const auto on = [&](const Side &side) { return CurvePoints(set.curve_of(side), side.reversed, shares); };
+    const CurvePoints base = on(patch.v0), edge = on(patch.v1), start = on(patch.u0), end = on(patch.u1);
+    for (std::size_t j = 0; j <= n_fold_cells; ++j)
+      for (std::size_t i = 0; i <= n_fold_cells; ++i) {
+        const double u = shares[i], v = shares[j];
+        Vec3 p = mix(base.point(i), edge.point(i), v);
+        if (patch.bulge != 0)
+          p = p + 2 * v * (1 - v) * arc_offset(edge.point(i) - base.point(i), base.tangent(i), patch.bulge);
+        else
+          p = p + mix(start.point(j), end.point(j), u) -
+              mix(mix(base.point(0), base.point(n_fold_cells), u), mix(edge.point(0), edge.point(n_fold_cells), u), v);
+        points_[j * (n_fold_cells + 1) + i] = p;
+      }
+  }
+
+  const Vec3 &at(std::size_t i, std::size_t j) const { return points_[j * (n_fold_cells + 1) + i]; }
+
+ private:
+  static Vector<double> even_shares() {
+    Vector<double> shares;
+    for (std::size_t i = 0; i <= n_fold_cells; ++i) shares.push_back(static_cast<double>(i) / n_fold_cells);
+    return shares;
+  }
+
+  std::array<Vec3, (n_fold_cells + 1) * (n_fold_cells + 1)> points_;
+};
+
+Vec3 normal_of_cell(const Vec3 &p00, const Vec3 &p10, const Vec3 &p01, const Vec3 &p11) {
+  return cross(p11 - p00, p01 - p10);
+}
+
+// Fails if the warp folds at the patch, or if the warped patch is turned over against the map of the patch. `image` places
+// the patch before the warp.
+void check_folds(const LabelGrid &before, const PatchImage &image, const LabelGrid &now, const BlendedWarp &warp) {
+  std::array<Vec3, (n_fold_cells + 1) * (n_fold_cells + 1)> mapped;
+  for (std::size_t j = 0; j <= n_fold_cells; ++j)
+    for (std::size_t i = 0; i <= n_fold_cells; ++i) {
+      const Vec3 p = place(image, before.at(i, j));
+      const std::size_t k = j * (n_fold_cells + 1) + i;
+      // Neighbouring patches share the nodes at their sides. So the determinant is computed inside only.
+      if (i == 0 || j == 0 || i == n_fold_cells || j == n_fold_cells) {
+        mapped[k] = warp.value(p);
+        continue;
+      }
+      const MapAt at = warp.at(p);
+      if (!(at.determinant() > 0))
+        fail(RIIS_INVALID_PARAMETER, "the warp folds at patch ", image.patch_id, " of leaflet ", image.leaflet_id,
+             ": its determinant is ", at.determinant(), " at (", p.x, ", ", p.y, ", ", p.z,
+             "), in the valve's coordinates; it must be above 0");
+      mapped[k] = at.value;
+    }
+  for (std::size_t j = 0; j < n_fold_cells; ++j)
+    for (std::size_t i = 0; i < n_fold_cells; ++i) {
+      const std::size_t k = j * (n_fold_cells + 1) + i;
+      const Vec3 wanted =
+          normal_of_cell(mapped[k], mapped[k + 1], mapped[k + n_fold_cells + 1], mapped[k + n_fold_cells + 2]);
+      const Vec3 normal = normal_of_cell(now.at(i, j), now.at(i + 1, j), now.at(i, j + 1), now.at(i + 1, j + 1));
+      const double product = dot(wanted, normal), sizes = length(wanted) * length(normal);
+      if (product < 0 && sizes > 0) {
+        const Vec3 p = place(image, before.at(i, j));
+        fail(RIIS_INVALID_PARAMETER, "the warp turns a part of patch ", image.patch_id, " of leaflet ",
+             image.leaflet_id, " over: near (", p.x, ", ", p.y, ", ", p.z,
+             "), in the valve's coordinates, the cosine between the normals is ", product / sizes,
+             "; it must be above 0");
+      }
+    }
+}
+
+PatchSet made_of(Unfolding &unfolding, const PatchSet &set) {
+  PatchSet made{{}, std::move(unfolding.patches())};
+  made.deviation = set.deviation;
+  for (CurveCopy &copy : unfolding.copies()) {
+    made.curves.emplace_back(std::move(copy.pieces));
+    if (!set.rates.empty()) made.rates.push_back(copy.rate);
+  }
+  return made;
+}
+
+}  // namespace
+
+PatchSet without_images(const PatchSet &set) {
+  Unfolding unfolding(set);
+  return made_of(unfolding, set);
+}
+
+PatchSet warped(const PatchSet &set, const BlendedWarp &warp, FoldCheck check) {
+  Unfolding unfolding(set);
+  MapAtEnds at_ends(warp);
+  for (CurveCopy &copy : unfolding.copies()) {
+    MapAt first = at_ends(copy.pieces.front().first());
+    for (Bezier &piece : copy.pieces) {
+      const MapAt last = at_ends(piece.last());
+      if (!set.rates.empty()) copy.rate = warped_rate(piece, copy.rate, first, last, warp);
+      piece = warped_piece(piece, first, last, warp);
+      first = last;
+    }
+  }
+  PatchSet made = made_of(unfolding, set);
+  bend_arcs(made);
+  if (check == FoldCheck::no) return made;
+  std::size_t number = 0;
+  for (const Patch &patch : set.patches) {
+    const LabelGrid before(set, patch);
+    for (const PatchImage &image : patch.images)
+      check_folds(before, image, LabelGrid(made, made.patches[number++]), warp);
+  }
+  return made;
+}
+
+}  // namespace riis
