@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench moving: measures the cost of a valve's velocity, of the fields of the closest points and of the resistance. It
 // compares them with a plain time step on the same nodes in the same run. It does the same for fixed triangulations, coarse and
-// fine, and for the search for crossings. It prints times and bars.
+// fine, and for the search for crossings. It compares a step of an annulus that moves by landmarks with a moving
+// update of the same patches. It prints times and bars.
 //   argv[1]  thousands of nodes instead of a million, for a quick look
 #include <riis/riis.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -141,6 +143,107 @@ class FineSteps {
   int step_ = 0;
 };
 
+// An annulus that moves by landmarks: new targets, a warped valve, and a moving update. The contender has the same patches, which
+// were read out before. So neither of them is symmetric.
+class WarpedSteps {
+ public:
+  WarpedSteps(const char *kind, int n_landmarks) : n_landmarks_(n_landmarks) {
+    riis_surface_options options;
+    check(riis_surface_options_init(&options, sizeof options));
+    options.n_threads = 1;
+    for (int i = 0; i < n_landmarks; ++i) {
+      const double angle = 2.399963 * i, height = -1.2 + 1.2 * i / n_landmarks;
+      for (const double x : {1.25 * std::cos(angle), 1.25 * std::sin(angle), height}) sources_.push_back(x);
+    }
+    riis_warp *warp = nullptr;
+    const riis_points sources = points_of(sources_);
+    check(riis_warp_create(&sources, nullptr, &warp));
+    warp_.reset(warp);
+    for (Valve &valve : valves_) {
+      valve = make_valve(kind);
+      check(riis_valve_set_scalar(valve.get(), "opening", 0.5));
+    }
+    for (int k = 0; k < n_positions; ++k) {
+      targets_.push_back(sources_);
+      for (std::size_t i = 0; i < sources_.size(); i += 3) {
+        const double swing = 0.002 * k, x = sources_[i], y = sources_[i + 1];
+        targets_.back()[i] += swing * x;
+        targets_.back()[i + 1] -= 0.5 * swing * y;
+        targets_.back()[i + 2] += swing * x * y;
+      }
+      set_targets(k);
+      check(riis_valve_set_warp(valves_[0].get(), warp_.get(), nullptr));
+      read_out(valves_[0].get());
+    }
+    check(riis_valve_set_warp(valves_[1].get(), warp_.get(), nullptr));
+    surface_ = make_surface(valves_[0].get(), &options);
+    surface_of_patches_ = make_surface(of_patches_[0].get(), &options);
+  }
+
+  void move() { step_ = (step_ + 1) % n_positions; }
+  void step() {
+    set_targets(step_);
+    valves_[0].swap(valves_[1]);
+    riis_valve *now = valves_[0].get(), *before = valves_[1].get();
+    check(riis_valve_set_warp(now, warp_.get(), nullptr));
+    check(riis_surface_update_moving(surface_.get(), now, before, 1e-3, nullptr, nullptr));
+  }
+  void update_of_patches() {
+    const riis_valve *before = of_patches_[static_cast<std::size_t>((step_ + n_positions - 1) % n_positions)].get();
+    check(riis_surface_update_moving(surface_of_patches_.get(), of_patches_[static_cast<std::size_t>(step_)].get(),
+                                     before, 1e-3, nullptr, nullptr));
+  }
+
+ private:
+  static constexpr int n_positions = 20;
+
+  struct DestroyWarp {
+    void operator()(riis_warp *warp) const { riis_warp_destroy(&warp); }
+  };
+
+  riis_points points_of(const std::vector<double> &xyz) const {
+    riis_points points;
+    check(riis_points_init(&points, sizeof points));
+    points.n_points = n_landmarks_;
+    points.x = xyz.data(), points.y = xyz.data() + 1, points.z = xyz.data() + 2;
+    points.stride = 3;
+    return points;
+  }
+  void set_targets(int k) {
+    const riis_points points = points_of(targets_[static_cast<std::size_t>(k)]);
+    check(riis_warp_set_targets(warp_.get(), &points));
+  }
+  void read_out(riis_valve *valve) {
+    riis_valve_patches read;
+    riis_patches patches;
+    check(riis_valve_get_patches(valve, &read, sizeof read));
+    check(riis_patches_init(&patches, sizeof patches));
+    patches.n_curves = read.n_curves, patches.degree = read.degree, patches.control = read.control;
+    patches.n_patches = read.n_patches, patches.curve_id = read.curve_id, patches.reversed = read.reversed;
+    riis_valve *made = nullptr;
+    check(riis_valve_create_from_patches(&patches, &made));
+    of_patches_.emplace_back(made);
+  }
+
+  int n_landmarks_, step_ = 0;
+  std::vector<double> sources_;
+  std::vector<std::vector<double>> targets_;
+  std::unique_ptr<riis_warp, DestroyWarp> warp_;
+  Valve valves_[2];
+  std::vector<Valve> of_patches_;
+  Surface surface_, surface_of_patches_;
+};
+
+void measure_warps(Contest &contest, Bars &bars, WarpedSteps &steps, const std::string &name) {
+  contest.add(
+      name + ": step", n_turns, [&] { steps.step(); }, [&] { steps.move(); });
+  contest.add(
+      name + ": moving update of the same patches", n_turns, [&] { steps.update_of_patches(); }, [&] { steps.move(); });
+  contest.run();
+  bars.add(name + ": step / moving update of the same patches",
+           contest.ratio(name + ": step", name + ": moving update of the same patches"), Wanted::at_most, 2);
+}
+
 void add(Contest &contest, const std::string &name, MovingSteps &steps, const Contest::Work &work) {
   contest.add(name, n_turns, work, [&steps] { steps.move(); });
 }
@@ -208,6 +311,10 @@ int main(int argc, char **argv) {
   Contest contest;
   Bars bars;
   for (const int valve : {0, 1}) measure(contest, bars, valve, about_n_nodes);
+  for (const int n_landmarks : {30, 200}) {
+    WarpedSteps steps("trileaflet", n_landmarks);
+    measure_warps(contest, bars, steps, "annulus of " + std::to_string(n_landmarks) + " landmarks");
+  }
   std::printf("\n");
   contest.print();
   std::printf("\n");
