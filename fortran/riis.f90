@@ -53,7 +53,7 @@ module riis
   use, intrinsic :: iso_fortran_env, only: int32
   use riis_c, only: riis_status, riis_surface_info, riis_closest, riis_mark_stats, riis_c_text, &
     riis_c_text_length, riis_last_error, riis_band_sums, riis_passage, riis_leaflet, riis_orifice, &
-    riis_first_passage, riis_cells_across, &
+    riis_first_passage, riis_cells_across, riis_warp_info, &
     RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, RIIS_INVALID_PARAMETER, RIIS_INVALID_SURFACE, &
     RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, RIIS_INTERNAL_ERROR, &
     RIIS_LOG_INFO, RIIS_LOG_WARNING, RIIS_LEAFLET_RIGHT, RIIS_LEAFLET_LEFT, RIIS_LEAFLET_NON_CORONARY, &
@@ -70,7 +70,8 @@ module riis
     RIIS_FIRST_PASSAGE_NEVER, RIIS_FIRST_PASSAGE_NONE, RIIS_ALL_LEAFLETS, &
     c_set_log => riis_set_log, c_status_name => riis_status_name, c_version => riis_get_version, &
     c_version_string => riis_version_string
-  use riis_valves, only: riis_valve, riis_parameter_info
+  use riis_warping, only: riis_warp
+  use riis_valves, only: riis_valve, riis_parameter_info, riis_valve_patches
   use riis_frames, only: riis_keyframes
   use riis_surfaces, only: riis_surface, riis_attachment, riis_triangles
   use riis_adjacencies, only: riis_adjacency
@@ -88,7 +89,8 @@ module riis
   public :: riis_valve, riis_parameter_info, riis_surface, riis_surface_info, riis_closest, riis_mesh, riis_adjacency, &
     riis_marks, riis_mark_list, riis_mark_nodes, riis_mark_stats, riis_band_sums, riis_find_leaks, riis_leaks, riis_leak_list, &
     riis_keyframes, riis_label_open_regions, riis_find_passage, riis_passage, riis_find_crossings, riis_crossings, &
-    riis_crossing_list, riis_attachment, riis_triangles, riis_leaflet, riis_orifice, riis_first_passage, riis_cells_across
+    riis_crossing_list, riis_attachment, riis_triangles, riis_leaflet, riis_orifice, riis_first_passage, riis_cells_across, &
+    riis_warp, riis_warp_info, riis_valve_patches
   public :: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_leak, riis_get_cells_across, &
     riis_get_swept_volume, riis_find_first_passage
   public :: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, riis_opening_angle_state, &

@@ -1,13 +1,31 @@
 ! SPDX-License-Identifier: Apache-2.0
 !> Valves: riis_valve_* of riis.h, as a part of module riis.
 module riis_valves
-  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_ptr, c_associated, c_loc, c_null_ptr, c_sizeof
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_ptr, c_associated, c_f_pointer, c_loc, c_null_ptr, &
+    c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c
+  use riis_c, c_valve_patches => riis_valve_patches
   use riis_support
+  use riis_warping, only: riis_warp
   implicit none
   private
-  public :: riis_valve, riis_parameter_info
+  public :: riis_valve, riis_parameter_info, riis_valve_patches
+
+  !> Pointers to the curves and patches of a valve, by riis_valve%get_patches. The valve owns the arrays, which are valid until it
+  !! changes.
+  type :: riis_valve_patches
+    integer(int64), pointer, contiguous :: first_piece(:) => null() !< (n_curves + 1): the pieces of curve i, counted from 0, are
+                                                                 !! first_piece(i) to first_piece(i + 1) - 1, counted from 0.
+    integer(int32), pointer, contiguous :: degree(:) => null()   !< (n_pieces): 2 or 3.
+    real(c_double), pointer, contiguous :: control(:, :) => null() !< (3, sum(degree + 1)): control points, piece after piece.
+    integer(int32), pointer, contiguous :: curve_id(:, :) => null() !< (4, n_patches): the curves at v = 0, v = 1, u = 0, u = 1,
+                                                                 !! counted from 0.
+    integer(int32), pointer, contiguous :: reversed(:, :) => null() !< (4, n_patches): 1 if the side runs against its curve.
+    integer(int32), pointer, contiguous :: leaflet_id(:) => null() !< (n_patches): from 0.
+    integer(int32), pointer, contiguous :: patch_id(:) => null() !< (n_patches): from 0.
+    integer(int32), pointer, contiguous :: attached(:) => null() !< (n_patches): the side that is attached, 0 to 3, or -1.
+    real(c_double), pointer, contiguous :: bulge(:) => null()    !< (n_patches): 0 for a Coons patch, as in riis.h.
+  end type riis_valve_patches
 
   !> The description of a parameter.
   type :: riis_parameter_info
@@ -31,6 +49,8 @@ module riis_valves
     generic :: set => set_scalar, set_vector                            !< Sets a parameter's value or values.
     generic :: get => get_scalar, get_vector                            !< Gets a parameter's value or values.
     procedure, non_overridable :: set_open_state => valve_set_open_state !< Gives the valve an open state.
+    procedure, non_overridable :: set_warp => valve_set_warp            !< Warps the valve, or removes the warp.
+    procedure, non_overridable :: get_patches => valve_get_patches      !< Points to the valve's curves and patches.
     procedure, non_overridable :: n_parameters => valve_n_parameters    !< Returns the number of parameters.
     generic :: parameter => parameter_int32, parameter_int64            !< Describes a parameter.
     procedure, non_overridable :: is_created => valve_is_created        !< Returns whether it was created.
@@ -261,6 +281,55 @@ contains
     if (code == RIIS_OK) code = riis_valve_set_open_state(this%handle, open%handle)
     call finish(code, status)
   end subroutine valve_set_open_state
+
+  !> Warps the valve: its curves are mapped at every opening, before the placement. The valve copies the warps. For an annulus
+  !! that moves, call this in each step, for two valves in turn, and pass both to riis_surface%update_moving. Without arguments it
+  !! removes the warp. Errors: RIIS_INVALID_ARGUMENT for open without closed; RIIS_INVALID_PARAMETER for a bileaflet valve.
+  subroutine valve_set_warp(this, closed, open, status)
+    class(riis_valve), intent(inout) :: this                !< Must be created.
+    class(riis_warp), intent(in), optional :: closed        !< The warp at opening 0. Must be created.
+    class(riis_warp), intent(in), optional :: open          !< The warp at opening 1. Must be created. Default: closed.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(c_ptr) :: handles(2)
+    integer(riis_status) :: code
+    handles = c_null_ptr
+    code = check_created(this%handle, 'the valve')
+    if (present(closed)) then
+      handles(1) = closed%c_handle()
+      if (code == RIIS_OK) code = check_created(handles(1), 'closed')
+    end if
+    if (present(open)) then
+      handles(2) = open%c_handle()
+      if (code == RIIS_OK) code = check_created(handles(2), 'open')
+    end if
+    if (code == RIIS_OK) code = riis_valve_set_warp(this%handle, handles(1), handles(2))
+    call finish(code, status)
+  end subroutine valve_set_warp
+
+  !> Points to the curves and patches of the valve at its opening, after a warp and before placement. Errors:
+  !! RIIS_INVALID_PARAMETER as for a surface.
+  subroutine valve_get_patches(this, patches, status)
+    class(riis_valve), intent(inout) :: this                !< Must be created.
+    type(riis_valve_patches), intent(inout) :: patches      !< Every component is set, on an error to null.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(c_valve_patches) :: made
+    integer(riis_status) :: code
+    patches = riis_valve_patches()
+    code = check_created(this%handle, 'the valve')
+    if (code == RIIS_OK) code = riis_valve_get_patches(this%handle, made, c_sizeof(made))
+    if (code == RIIS_OK) then
+      call c_f_pointer(made%first_piece, patches%first_piece, [made%n_curves + 1])
+      call c_f_pointer(made%degree, patches%degree, [made%n_pieces])
+      call c_f_pointer(made%control, patches%control, [3_int64, sum(int(patches%degree, int64) + 1)])
+      call c_f_pointer(made%curve_id, patches%curve_id, [4_int64, made%n_patches])
+      call c_f_pointer(made%reversed, patches%reversed, [4_int64, made%n_patches])
+      call c_f_pointer(made%leaflet_id, patches%leaflet_id, [made%n_patches])
+      call c_f_pointer(made%patch_id, patches%patch_id, [made%n_patches])
+      call c_f_pointer(made%attached, patches%attached, [made%n_patches])
+      call c_f_pointer(made%bulge, patches%bulge, [made%n_patches])
+    end if
+    call finish(code, status)
+  end subroutine valve_get_patches
 
   !> Returns the number of the valve's parameters, or 0 on an error.
   function valve_n_parameters(this, status) result(n)

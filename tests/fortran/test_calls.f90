@@ -61,6 +61,7 @@ program test_calls
   call test_marking()
   call test_motion()
   call test_keyframes()
+  call test_warp()
   call test_crossings()
   call test_laws()
   call test_mixed_cells()
@@ -733,6 +734,64 @@ contains
     call check(n == 4 .and. all(abs(velocities(3, :) - [2d0, 2d0, 2.5d0, 2d0]) < 1d-14), 'lifted by 1 in half a unit of time')
     call riis_surface_destroy(framed)
   end subroutine test_keyframes
+
+  ! A valve is widened, read out, and made again.
+  subroutine test_warp()
+    type(riis_points) :: points
+    type(riis_warp_options) :: options
+    type(riis_warp_info) :: warp_info
+    type(riis_keyframe_arrays) :: frames
+    type(riis_valve_patches) :: patches
+    real(c_double), target :: sources(3, 6), targets(3, 6), time(1)
+    real(c_double) :: mapped(3, 6)
+    type(c_ptr) :: warp, valve
+    integer(c_int32_t), pointer :: degrees(:)
+    integer :: i
+
+    warp = c_null_ptr
+    valve = c_null_ptr
+    sources = reshape([1d0, 0d0, 0d0, 0d0, 1d0, 0d0, -1d0, 0d0, 0d0, 0d0, -1d0, 0d0, 0d0, 0d0, 1d0, 0d0, 0d0, -1d0], [3, 6])
+    targets = sources
+    targets(:2, :) = 1.25d0 * sources(:2, :)
+    time = 0
+    call check_ok(riis_points_init(points, c_sizeof(points)), 'default points')
+    points%n_points = 6
+    points%stride = 3
+    points%x = c_loc(sources(1, 1))
+    points%y = c_loc(sources(2, 1))
+    points%z = c_loc(sources(3, 1))
+    call check_refused(riis_warp_options_init(options, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'options')
+    call check_ok(riis_warp_options_init(options, c_sizeof(options)), 'default options of a warp')
+    options%noise = -1
+    call check_refused(riis_warp_create(points, options, warp), RIIS_INVALID_ARGUMENT, 'options.noise is -1')
+    call check_ok(riis_warp_create(points, warp=warp), 'create a warp')
+    points%x = c_loc(targets(1, 1))
+    points%y = c_loc(targets(2, 1))
+    points%z = c_loc(targets(3, 1))
+    call check_ok(riis_warp_set_targets(warp, points), 'set its targets')
+    call check_ok(riis_warp_get_info(warp, warp_info, c_sizeof(warp_info)), 'its quality')
+    call check(warp_info%n_landmarks == 6 .and. warp_info%largest_residual < 1d-14, 'targets are met')
+    call check_ok(riis_warp_map(warp, points, mapped), 'map points')
+    call check(all(abs(mapped(:2, :) - 1.25d0 * targets(:2, :)) < 1d-14), 'mapped points')
+    call check_ok(riis_keyframe_arrays_init(frames, c_sizeof(frames)), 'default frames')
+    frames%n_keys = 1
+    frames%n_vertices = 6
+    frames%time = c_loc(time)
+    frames%xyz = c_loc(sources)
+    call check_ok(riis_warp_set_targets_at(warp, frames, 3d0), 'targets from frames')
+    call check_ok(riis_warp_map(warp, points, mapped), 'map points back')
+    call check(all(abs(mapped - targets) < 1d-14), 'the identity')
+    call check_ok(riis_valve_create(riis_c_string('trileaflet'), valve), 'create a valve')
+    call check_refused(riis_valve_set_warp(valve, c_null_ptr, warp), RIIS_INVALID_ARGUMENT, 'closed is NULL')
+    call check_ok(riis_valve_set_warp(valve, warp, c_null_ptr), 'warp the valve')
+    call check_ok(riis_valve_get_patches(valve, patches, c_sizeof(patches)), 'its patches')
+    call check(patches%n_patches == 12 .and. patches%n_pieces == patches%n_curves, 'twelve patches')
+    call c_f_pointer(patches%degree, degrees, [patches%n_pieces])
+    call check(all([(degrees(i) == 2 .or. degrees(i) == 3, i=1, int(patches%n_pieces))]), 'degrees')
+    call riis_warp_destroy(warp)
+    call check(.not. c_associated(warp), 'a destroyed warp is null')
+    call riis_valve_destroy(valve)
+  end subroutine test_warp
 
   subroutine test_laws()
     real(c_double), target :: time(3), openings(3)

@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Tests of module riis: surfaces from frames in time, velocities of the caller's vertices, closest points of a mask and of a list.
+! Tests of module riis: surfaces from frames in time, warps, velocities of the caller's vertices, closest points of a mask and of
+! a list.
 ! The results are compared with closed forms and with riis_c.
 program test_frames
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_loc, c_null_ptr, c_ptr
@@ -23,6 +24,8 @@ program test_frames
   call test_keyframes()
   call test_period()
   call test_bad_keyframes()
+  call test_warps()
+  call test_bad_warps()
   call test_velocities_of_arrays()
   call test_bad_velocities()
   call make_box()
@@ -192,6 +195,150 @@ contains
 
   ! Velocities are given by xyz or by x, y, z, with ids of either kind, when the surface is made and later. The placement turns
   ! the velocities about z and doubles them.
+
+  ! Landmarks on the attachment of a placed valve are widened and lifted. The warped valve is larger by the same factors.
+  subroutine test_warps()
+    type(riis_valve) :: valve, before, again
+    type(riis_warp) :: warp, in_place
+    type(riis_warp_info) :: info
+    type(riis_surface) :: surface, plain
+    type(riis_surface_info) :: sizes(2)
+    type(riis_attachment) :: attachment
+    type(riis_triangles) :: triangles
+    type(riis_valve_patches) :: patches
+    real(c_double), allocatable :: sources(:, :), targets(:, :), mapped(:, :), keys(:, :, :)
+    integer :: i, n
+
+    call valve%create('trileaflet')
+    call valve%set('opening', 0.5d0)
+    call plain%create(valve, scale=10d0, translation=[1d0, 2d0, 3d0])
+    call plain%get_info(sizes(1))
+    call plain%get_attachment(attachment)
+    n = 0
+    allocate (sources(3, 0))
+    do i = 1, size(attachment%edges, 3), 4 ! two lines begin at each root
+      if (is_new(sources, attachment%edges(:, 1, i))) sources = reshape([sources, attachment%edges(:, 1, i)], [3, n + 1])
+      n = size(sources, 2)
+    end do
+    allocate (targets(3, n), mapped(3, n), keys(3, n, 2))
+    targets = 2 * sources
+    call warp%create(sources, scale=10d0, translation=[1d0, 2d0, 3d0])
+    call check(warp%is_created() .and. c_associated(warp%c_handle()), 'a warp')
+    call warp%set_targets(targets)
+    call warp%get_info(info)
+    call check(info%n_landmarks == n .and. info%largest_residual < 1d-11 .and. abs(info%least_determinant - 8) < 1d-9, 'twice')
+    call warp%map(sources, mapped)
+    call check(all(abs(mapped - targets) < 1d-11), 'mapped landmarks')
+    call valve%set_warp(warp)
+    call surface%create(valve, scale=10d0, translation=[1d0, 2d0, 3d0])
+    call surface%get_info(sizes(2))
+    call check(abs(sizes(2)%area - 4 * sizes(1)%area) < 0.02d0 * sizes(2)%area, 'four times the area')
+    call check(all(abs(sizes(2)%upper - 2 * sizes(1)%upper) < 0.2d0), 'twice the size')
+
+    ! The annulus moves up by 1 in half a unit of time.
+    keys(:, :, 1) = targets
+    keys(:, :, 2) = targets
+    keys(3, :, 2) = targets(3, :) + 1
+    call valve%copy(before)
+    call warp%set_targets_at([0d0, 0.5d0], keys, 0.25d0)
+    call valve%set_warp(warp, warp)
+    call surface%update_moving(valve, before, 0.25d0)
+    call surface%get_triangles(triangles)
+    call check(all(abs(triangles%velocity(3, :) - 2) < 1d-9) .and. all(abs(triangles%velocity(:2, :)) < 1d-9), 'moved up')
+    call warp%set_targets_at([0d0, 0.5d0, 1d0], keys(:, :, [1, 2, 1]), 2.25d0, 1d0, int(RIIS_INTERPOLATION_LINEAR, int64))
+    call warp%map(sources(:, :1), mapped(:, :1))
+    call check(abs(mapped(3, 1) - targets(3, 1) - 0.5d0) < 1d-11, 'a period later')
+
+    call valve%set_warp()
+    call surface%update(valve)
+    call surface%get_info(sizes(2))
+    call check(abs(sizes(2)%area - sizes(1)%area) < 1d-12 * sizes(1)%area, 'without a warp')
+    call valve%get_patches(patches)
+    call check(size(patches%curve_id, 2) == 12 .and. all(abs(patches%bulge) <= 0) .and. all(patches%attached >= 2), 'patches')
+    call again%create_from_patches(patches%degree, patches%control, patches%curve_id, patches%reversed == 1, &
+      patches%leaflet_id, 0)
+    call surface%update(again)
+    call surface%get_info(sizes(2))
+    call check(abs(sizes(2)%area - sizes(1)%area) < 0.01d0 * sizes(1)%area, 'the same valve from its patches')
+    call in_place%create(sources, 0.1d0, rotation_axis=[0d0, 0d0, 2d0], rotation_angle=30d0)
+    call in_place%destroy()
+    call warp%destroy()
+    call check(.not. warp%is_created(), 'destroyed')
+    call surface%destroy()
+    call plain%destroy()
+    call valve%destroy()
+    call before%destroy()
+    call again%destroy()
+  end subroutine test_warps
+
+  ! Returns whether a point differs from all others.
+  pure logical function is_new(others, point)
+    real(c_double), intent(in) :: others(:, :), point(3)
+    integer :: k
+    is_new = .true.
+    do k = 1, size(others, 2)
+      is_new = is_new .and. sum(abs(others(:, k) - point)) > 1d-6
+    end do
+  end function is_new
+
+  subroutine test_bad_warps()
+    type(riis_warp) :: warp, empty(2), copies(2)
+    type(riis_warp_info) :: info
+    type(riis_valve) :: valve
+    type(riis_valve_patches) :: patches
+    real(c_double) :: sources(3, 6), mapped(3, 6)
+    sources = reshape([1d0, 0d0, 0d0, 0d0, 1d0, 0d0, -1d0, 0d0, 0d0, 0d0, -1d0, 0d0, 0d0, 0d0, 1d0, 0d0, 0d0, -1d0], [3, 6])
+    copies = empty
+    call warp%set_targets(sources, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the warp was not created, or was destroyed')
+    call warp%set_targets_at([0d0], reshape(sources, [3, 6, 1]), 0d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the warp was not created, or was destroyed')
+    call warp%map(sources, mapped, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the warp was not created, or was destroyed')
+    call warp%get_info(info, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the warp was not created, or was destroyed')
+    call warp%create(sources(:2, :), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the first extent of sources is 2')
+    call warp%create(sources(:, :2), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'sources.n_points is 2')
+    call warp%create(sources(:, [1, 2, 3, 4, 5, 2]), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'landmarks 1 and 5 are in one place')
+    call warp%create(sources(:, [1, 3, 5]) * reshape([1d0, 0d0, 0d0, 1d0, 0d0, 0d0, 0d0, 0d0, 0d0], [3, 3]), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'all 3 landmarks lie on a line')
+    call warp%create(sources, -1d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.noise is -1')
+    call warp%create(sources, scale=0d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.placement.scale is 0')
+    call warp%create(sources, rotation_axis=[1d0], status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of rotation_axis is 1')
+    call warp%create(sources)
+    call warp%create(sources, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the warp was already created')
+    call warp%set_targets(sources(:, :5), status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'targets.n_points is 5')
+    call warp%set_targets(sources(:, [2, 1, 3, 4, 5, 6]), status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'the warp folds near landmark')
+    call warp%set_targets_at([0d0, 1d0], reshape(sources, [3, 6, 1]), 0d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'xyz(1, 1, :)')
+    call warp%set_targets_at([0d0], reshape(sources(:, :5), [3, 5, 1]), 0d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'frames.n_vertices is 5')
+    call warp%map(sources, mapped(:, :5), status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the shape of mapped is (3, 5)')
+    call valve%set_warp(warp, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the valve was not created')
+    call valve%get_patches(patches, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the valve was not created')
+    call valve%create('bileaflet')
+    call valve%set_warp(warp, status=status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'the bileaflet valve cannot be warped')
+    call valve%set_warp(open=warp, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'closed is NULL')
+    call valve%set_warp(empty(1), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'closed was not created')
+    call valve%destroy()
+    call warp%destroy()
+  end subroutine test_bad_warps
+
   subroutine test_velocities_of_arrays()
     type(riis_triangles) :: all_triangles
     type(riis_surface) :: surface

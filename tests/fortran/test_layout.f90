@@ -15,6 +15,9 @@ program test_layout
   type(riis_keyframe_arrays), target :: kas
   type(riis_surface_info), target :: sis
   type(riis_attachment), target :: as
+  type(riis_warp_options), target :: wos
+  type(riis_warp_info), target :: wis
+  type(riis_valve_patches), target :: vps
   type(riis_triangles), target :: ts
   type(riis_crossing_options), target :: cos
   type(riis_crossing_list), target :: cls
@@ -79,6 +82,16 @@ program test_layout
     at(c_loc(sis%largest_leaflet_id))])
   call compare('riis_attachment', c_sizeof(as), c_loc(as), [at(c_loc(as%n_edges)), at(c_loc(as%edges)), &
     at(c_loc(as%vertex_id)), at(c_loc(as%leaflet_id)), at(c_loc(as%patch_id))])
+  call compare('riis_warp_options', c_sizeof(wos), c_loc(wos), [&
+    at(c_loc(wos%struct_size)), at(c_loc(wos%noise)), at(c_loc(wos%placement))])
+  call compare('riis_warp_info', c_sizeof(wis), c_loc(wis), [&
+    at(c_loc(wis%n_landmarks)), at(c_loc(wis%rms_residual)), at(c_loc(wis%largest_residual)), &
+    at(c_loc(wis%largest_landmark_id)), at(c_loc(wis%smoothing)), at(c_loc(wis%least_determinant)), &
+    at(c_loc(wis%least_point)), at(c_loc(wis%is_planar)), at(c_loc(wis%reserved))])
+  call compare('riis_valve_patches', c_sizeof(vps), c_loc(vps), [&
+    at(c_loc(vps%n_curves)), at(c_loc(vps%n_pieces)), at(c_loc(vps%first_piece)), at(c_loc(vps%degree)), &
+    at(c_loc(vps%control)), at(c_loc(vps%n_patches)), at(c_loc(vps%curve_id)), at(c_loc(vps%reversed)), &
+    at(c_loc(vps%leaflet_id)), at(c_loc(vps%patch_id)), at(c_loc(vps%attached)), at(c_loc(vps%bulge))])
   call compare('riis_triangles', c_sizeof(ts), c_loc(ts), [at(c_loc(ts%n_vertices)), at(c_loc(ts%xyz)), &
     at(c_loc(ts%uv)), at(c_loc(ts%velocity)), at(c_loc(ts%n_triangles)), at(c_loc(ts%vertex_id)), &
     at(c_loc(ts%triangle_id)), at(c_loc(ts%leaflet_id)), at(c_loc(ts%patch_id))])
