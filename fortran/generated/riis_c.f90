@@ -251,6 +251,40 @@ module riis_c
     type(c_ptr) :: patch_id   !< integer(c_int32_t), (n_edges)
   end type riis_attachment
 
+  type, bind(c) :: riis_warp_options
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: noise
+    type(c_ptr) :: placement !< type(riis_surface_options), (*), or c_null_ptr; c_loc of a riis_surface_options
+  end type riis_warp_options
+
+  !> A warp's quality, in the units of its landmarks.
+  type, bind(c) :: riis_warp_info
+    integer(c_int64_t) :: n_landmarks         !< the number of landmarks
+    real(c_double) :: rms_residual            !< root mean square of the distances between mapped sources and targets
+    real(c_double) :: largest_residual        !< the largest of these distances
+    integer(c_int64_t) :: largest_landmark_id !< its landmark
+    real(c_double) :: smoothing               !< lambda of the smoothing, 0 without noise; infinite if the map is affine
+    real(c_double) :: least_determinant       !< the least determinant half way from each landmark to its nearest
+    real(c_double) :: least_point(3)          !< where the determinant is least, among the sources
+    integer(c_int32_t) :: is_planar           !< 1 if the landmarks lie nearly in a plane, else 0
+    integer(c_int32_t) :: reserved            !< 0
+  end type riis_warp_info
+
+  type, bind(c) :: riis_valve_patches
+    integer(c_int64_t) :: n_curves
+    integer(c_int64_t) :: n_pieces
+    type(c_ptr) :: first_piece !< integer(c_int64_t), (n_curves + 1), from 0
+    type(c_ptr) :: degree      !< integer(c_int32_t), (n_pieces)
+    type(c_ptr) :: control     !< real(c_double), (3, sum(degree + 1))
+    integer(c_int64_t) :: n_patches
+    type(c_ptr) :: curve_id    !< integer(c_int32_t), (4, n_patches), from 0
+    type(c_ptr) :: reversed    !< integer(c_int32_t), (4, n_patches)
+    type(c_ptr) :: leaflet_id  !< integer(c_int32_t), (n_patches)
+    type(c_ptr) :: patch_id    !< integer(c_int32_t), (n_patches)
+    type(c_ptr) :: attached    !< integer(c_int32_t), (n_patches)
+    type(c_ptr) :: bulge       !< real(c_double), (n_patches)
+  end type riis_valve_patches
+
   type, bind(c) :: riis_crossing_options
     integer(c_int64_t) :: struct_size
     real(c_double) :: depth
@@ -523,8 +557,9 @@ module riis_c
     real(c_double) :: rim_reach      !< c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open valves gave 0.70
                                      !! to 0.98 and 0.46 to 0.95 (docs/validation.md)
     real(c_double) :: half_thickness !< eps of the resistance
-    real(c_double) :: radius         !< the radius of the disc; 0 for other outlines
-    real(c_double) :: axis(3)        !< unit vector along the placed valve's z axis
+    real(c_double) :: radius         !< the radius of the disc, or of a circle as large as a warped disc; 0 for other
+                                     !! outlines
+    real(c_double) :: axis(3)        !< unit vector along the placed valve's z axis, or the normal of a warped disc
     integer(c_int32_t) :: outline    !< RIIS_OUTLINE_*
     integer(c_int32_t) :: reserved   !< 0
   end type riis_orifice
@@ -952,6 +987,89 @@ module riis_c
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
     end function riis_surface_get_attachment
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Warp
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    !>   struct_size  c_sizeof(options)
+    function riis_warp_options_init(options, struct_size) result(status) bind(c, name='riis_warp_options_init')
+      import :: c_int64_t, riis_status, riis_warp_options
+      implicit none
+      type(riis_warp_options), intent(inout) :: options
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_warp_options_init
+
+    !>   options  if left out: all defaults
+    function riis_warp_create(sources, options, warp) result(status) bind(c, name='riis_warp_create')
+      import :: c_ptr, riis_points, riis_status, riis_warp_options
+      implicit none
+      type(riis_points), intent(in) :: sources
+      type(riis_warp_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: warp
+      integer(riis_status) :: status
+    end function riis_warp_create
+
+    subroutine riis_warp_destroy(warp) bind(c, name='riis_warp_destroy')
+      import :: c_ptr
+      implicit none
+      type(c_ptr), intent(inout) :: warp
+    end subroutine riis_warp_destroy
+
+    function riis_warp_set_targets(warp, targets) result(status) bind(c, name='riis_warp_set_targets')
+      import :: c_ptr, riis_points, riis_status
+      implicit none
+      type(c_ptr), value :: warp
+      type(riis_points), intent(in) :: targets
+      integer(riis_status) :: status
+    end function riis_warp_set_targets
+
+    function riis_warp_set_targets_at(warp, frames, time) result(status) bind(c, name='riis_warp_set_targets_at')
+      import :: c_double, c_ptr, riis_keyframe_arrays, riis_status
+      implicit none
+      type(c_ptr), value :: warp
+      type(riis_keyframe_arrays), intent(in) :: frames
+      real(c_double), value :: time
+      integer(riis_status) :: status
+    end function riis_warp_set_targets_at
+
+    !>   struct_size  c_sizeof(info)
+    function riis_warp_get_info(warp, info, struct_size) result(status) bind(c, name='riis_warp_get_info')
+      import :: c_int64_t, c_ptr, riis_status, riis_warp_info
+      implicit none
+      type(c_ptr), value :: warp
+      type(riis_warp_info), intent(inout) :: info
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_warp_get_info
+
+    function riis_warp_map(warp, points, mapped) result(status) bind(c, name='riis_warp_map')
+      import :: c_double, c_ptr, riis_points, riis_status
+      implicit none
+      type(c_ptr), value :: warp
+      type(riis_points), intent(in) :: points
+      real(c_double), intent(inout) :: mapped(*)
+      integer(riis_status) :: status
+    end function riis_warp_map
+
+    function riis_valve_set_warp(valve, closed, open) result(status) bind(c, name='riis_valve_set_warp')
+      import :: c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: valve
+      type(c_ptr), value :: closed, open
+      integer(riis_status) :: status
+    end function riis_valve_set_warp
+
+    !>   struct_size  c_sizeof(patches)
+    function riis_valve_get_patches(valve, patches, struct_size) result(status) bind(c, name='riis_valve_get_patches')
+      import :: c_int64_t, c_ptr, riis_status, riis_valve_patches
+      implicit none
+      type(c_ptr), value :: valve
+      type(riis_valve_patches), intent(inout) :: patches
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_valve_get_patches
 
     ! -----------------------------------------------------------------------------------------------------------------
     ! Crossings
