@@ -48,6 +48,8 @@ from riis._records import (
     Passage,
     SurfaceInfo,
     Triangles,
+    ValvePatches,
+    WarpInfo,
 )
 from riis._riis import (
     FAR_DISTANCE,
@@ -59,6 +61,7 @@ from riis._riis import (
     Mesh,
     Surface,
     Valve,
+    Warp,
     WithinLimit,
     find_crossings,
     find_first_passage,
@@ -139,6 +142,9 @@ __all__ = [
     "UnavailableError",
     "UnknownParameterError",
     "Valve",
+    "ValvePatches",
+    "Warp",
+    "WarpInfo",
     "WithinLimit",
     "animate",
     "find_crossings",

@@ -61,6 +61,33 @@ class Attachment(NamedTuple):
     patch_id: Integers  #: (n,): its patch
 
 
+class ValvePatches(NamedTuple):
+    """The curves and patches of a valve. If every curve has one piece, Valve.from_patches takes these arrays."""
+
+    first_piece: Ids  #: (n_curves + 1,): the pieces of curve i are first_piece[i] to first_piece[i + 1] - 1
+    degree: Integers  #: (n_pieces,): 2 or 3
+    control: Reals  #: (sum of degree + 1, 3): control points, piece after piece
+    curve_id: Integers  #: (n_patches, 4): the curves at v = 0, v = 1, u = 0, u = 1
+    reversed: Integers  #: (n_patches, 4): 1 if the side runs against its curve
+    leaflet_id: Integers  #: (n_patches,)
+    patch_id: Integers  #: (n_patches,)
+    attached: Integers  #: (n_patches,): the side that is attached, 0 to 3 in the order of curve_id, or -1
+    bulge: Reals  #: (n_patches,): 0 for a Coons patch, otherwise the factor of its arcs from v = 0 to v = 1
+
+
+class WarpInfo(NamedTuple):
+    """The quality of a warp, in the units of its landmarks."""
+
+    n_landmarks: int
+    rms_residual: float  #: root mean square of the distances between mapped sources and targets
+    largest_residual: float  #: the largest of these distances
+    largest_landmark_id: int  #: its landmark
+    smoothing: float  #: lambda of the smoothing; 0 without noise, infinite if the map is affine
+    least_determinant: float  #: half way from each landmark to its nearest
+    least_point: Reals  #: (3,): where the determinant is least, among the sources
+    is_planar: bool  #: the landmarks lie nearly in a plane
+
+
 class ClosestPoint(NamedTuple):
     """The closest point of a surface to one point."""
 

@@ -121,12 +121,6 @@ nb::object find_first_passage(nb::handle valve_, nb::handle mesh_, nb::handle fr
 #define RIIS_RIM_MODEL "half_thickness: float | None = None, rim: typing.Literal['round', 'cut'] = 'round'"
 #define RIIS_SWEEP "leaflet_id: int | None = None, scale: float = 1.0"
 
-// Adds a method to a class that another source file defined.
-template <class Function, class... Extra>
-void add_method(nb::module_ &module, const char *type, const char *name, Function function, const Extra &...extra) {
-  nb::cpp_function_def(function, nb::scope(module.attr(type)), nb::name(name), nb::is_method(), extra...);
-}
-
 }  // namespace
 
 void add_measures(nb::module_ &module) {

@@ -24,6 +24,7 @@ NB_MODULE(_riis, module) {
       "Returns the name of a status of the C library.");
   add_log(module);
   add_valve(module);
+  add_warp(module);
   add_keyframes(module);
   add_surface(module);
   add_mesh(module);

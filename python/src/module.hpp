@@ -14,6 +14,14 @@ struct Valve : Handle<riis_valve, riis_valve_destroy> {
   std::string kind;
   // Values that the library does not return: the arguments of from_patches, and a copy of the valve that gave the open state.
   nb::object patches = nb::none(), open = nb::none();
+  nb::object warp = nb::none();  // the states of both warps, or None
+};
+
+struct Warp : Handle<riis_warp, riis_warp_destroy> {
+  static constexpr const char *python_name = "Warp";
+  // Copies of the arguments, from which pickle makes the warp.
+  nb::object sources = nb::none(), placement = nb::none(), targets = nb::none();
+  double noise = 0;
 };
 
 struct Keyframes : Handle<riis_keyframes, riis_keyframes_destroy> {
@@ -74,6 +82,16 @@ struct MarkOptions {
 void set_surface_options(riis_surface_options &options, nb::handle keywords, const char *name);
 // Changes only scale, rotation and translation.
 void set_placement(riis_surface_options &options, nb::handle placement, const char *name);
+
+// Adds a method to a class that another source file defined.
+template <class Function, class... Extra>
+void add_method(nb::module_ &module, const char *type, const char *name, Function function, const Extra &...extra) {
+  nb::cpp_function_def(function, nb::scope(module.attr(type)), nb::name(name), nb::is_method(), extra...);
+}
+
+// Gives a valve the warps whose states these are.
+void warp_as_pickled(nb::handle valve, nb::handle state);
+void add_warp(nb::module_ &module);
 
 void add_valve(nb::module_ &module);
 void add_keyframes(nb::module_ &module);

@@ -92,6 +92,7 @@ Valve *copy(Valve &valve) {
   made->kind = valve.kind;
   made->patches = valve.patches;
   made->open = valve.open;
+  made->warp = valve.warp;
   call_shortly(riis_valve_copy(valve.handle, &made->handle));
   return made.release();
 }
@@ -196,7 +197,9 @@ nb::dict values_of(Valve &valve) {
 }
 
 // Returns the values from which pickle makes the valve.
-nb::tuple state_of(Valve &valve) { return nb::make_tuple(valve.kind, values_of(valve), valve.open, valve.patches); }
+nb::tuple state_of(Valve &valve) {
+  return nb::make_tuple(valve.kind, values_of(valve), valve.open, valve.patches, valve.warp);
+}
 
 void make_from_state(Valve *self, const nb::tuple &state) {
   const nb::object kind = state[0], open = state[2], patches = state[3];
@@ -214,10 +217,12 @@ void make_from_state(Valve *self, const nb::tuple &state) {
     set_open_state(valve, open);
   }
   set_all(valve, nb::cast<nb::dict>(state[1]));
+  warp_as_pickled(made, nb::object(state[4]));
   new (self) Valve();
   self->kind = valve.kind;
   self->patches = valve.patches;
   self->open = valve.open;
+  self->warp = valve.warp;
   self->take(valve);
 }
 

@@ -10,6 +10,7 @@ import pytest
 import riis
 
 Argument = riis.InvalidArgumentError
+Parameter = riis.InvalidParameterError
 
 
 class Objects:
@@ -34,6 +35,10 @@ class Objects:
 @pytest.fixture(scope="module")
 def o():
     return Objects()
+
+
+def corners():
+    return numpy.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
 
 
 def read_only(array):
@@ -304,6 +309,26 @@ REFUSED = {
     "NaN in edges": (Argument, "y of the second point of edge 1 is nan", lambda o: with_points(o).add_reaction(
         o.vectors, o.reals, R=1.0, edges=numpy.array([[[0.0] * 3] * 2, [[0.0] * 3, [0.0, math.nan, 0.0]]]),
         edge_moment=numpy.zeros((2, 3)))),
+    "landmarks in one place": (Argument, "^sources: landmarks 0 and 3 are in one place",
+                               lambda o: riis.Warp(corners()[[0, 1, 2, 0, 3]])),
+    "landmarks on a line": (Argument, "all 3 landmarks lie on a line", lambda o: riis.Warp(numpy.outer([0., 1, 3], [1., 2, 3]))),
+    "too few landmarks": (Argument, "2; it must be from 3 to 1000", lambda o: riis.Warp(corners()[:2])),
+    "NaN in landmarks": (Argument, "z of landmark 0 is nan", lambda o: riis.Warp(corners() * [[1, 1, math.nan]])),
+    "shape of landmarks": (Argument, "sources: its shape", lambda o: riis.Warp(numpy.zeros((4, 2)))),
+    "noise": (Argument, "^noise is -1", lambda o: riis.Warp(corners(), noise=-1.0)),
+    "placement of a warp": (Argument, "scale is 0", lambda o: riis.Warp(corners(), placement={"scale": 0.0})),
+    "number of targets": (Argument, "4, but the warp has 8 landmarks", lambda o: riis.Warp(corners()).set_targets(corners()[:4])),
+    "a fold": (Parameter, "the warp folds near landmark", lambda o: riis.Warp(corners()).set_targets(-corners())),
+    "keys of targets": (Argument, "targets: its shape", lambda o: riis.Warp(corners()).set_targets_at(
+        numpy.zeros(1), corners(), 0.0)),
+    "landmarks of keys": (Argument, "7, but the warp has 8 landmarks", lambda o: riis.Warp(corners()).set_targets_at(
+        numpy.zeros(1), corners()[None, :7].copy(), 0.0)),
+    "mapped points": (Argument, "points: its shape", lambda o: riis.Warp(corners()).map(numpy.zeros(3))),
+    "open without closed": (Argument, "closed is NULL|closed is None", lambda o: riis.Valve("mitral").set_warp(
+        None, riis.Warp(corners()))),
+    "warp of a bileaflet valve": (Parameter, "the bileaflet valve cannot be warped", lambda o: riis.Valve(
+        "bileaflet").set_warp(riis.Warp(corners()))),
+    "type of a warp": (TypeError, "closed: must be a riis.Warp", lambda o: riis.Valve().set_warp(corners())),
     "attachment of arrays": (Argument, "made from arrays",
                              lambda o: riis.Surface.from_arrays(numpy.eye(3), numpy.array([[0, 1, 2]])).attachment),
     "band": (Argument, "(?i)side|rim", lambda o: o.marks.band_sums(o.reals, o.reals, 0.0, 0.1)),

@@ -182,3 +182,47 @@ def test_a_valve_comes_from_patches():
     reversals = numpy.array([[1, 0, 0, 0]], "i4")
     again = riis.Surface(riis.Valve.from_patches(degree, points, curves, reversed=reversals))
     assert numpy.isclose(again.info.area, 4.0)
+
+
+def test_a_warp_moves_a_valve():
+    valve = riis.Valve("trileaflet", opening=0.4)
+    placement = {"scale": 10.0, "rotation_axis": (1, 2, 3), "rotation_angle": 40.0, "translation": (4, 5, 6)}
+    plain = riis.Surface(valve, **placement)
+    sources = numpy.unique(plain.attachment.edges[::4, 0].round(9), axis=0)
+    warp = riis.Warp(sources, placement=placement)
+    assert warp.info.n_landmarks == len(sources) and warp.info.largest_residual < 1e-12 and not warp.info.is_planar
+    assert numpy.allclose(warp.map(sources), sources, rtol=0, atol=1e-12)
+    warp.set_targets(2.0 * sources)
+    assert numpy.allclose(warp.map(plain.vertices), 2.0 * plain.vertices, rtol=0, atol=1e-9)
+    assert abs(warp.info.least_determinant - 8.0) < 1e-9
+    valve.set_warp(warp)
+    twice = riis.Surface(valve, **placement)
+    assert abs(twice.info.area - 4.0 * plain.info.area) < 0.02 * twice.info.area
+    for other in (valve.copy(), pickle.loads(pickle.dumps(valve))):
+        assert numpy.array_equal(riis.Surface(other, **placement).vertices, twice.vertices)
+    again = pickle.loads(pickle.dumps(warp))
+    assert numpy.array_equal(again.map(sources), warp.map(sources))
+    keys = numpy.array([2.0 * sources, 2.0 * sources + [0, 0, 1]])
+    before = valve.copy()
+    warp.set_targets_at(numpy.array([0.0, 0.5]), keys, 0.25)
+    valve.set_warp(warp, warp)
+    twice.update_moving(valve, before, 0.25)
+    assert numpy.allclose(twice.velocities, [0.0, 0.0, 2.0], rtol=0, atol=1e-8)
+    timed = pickle.loads(pickle.dumps(warp))
+    assert numpy.array_equal(timed.map(sources), warp.map(sources))
+    noisy = riis.Warp(sources, noise=0.5)
+    noisy.set_targets(sources + numpy.random.default_rng(1).normal(0.0, 0.5, sources.shape))
+    assert 0.05 < noisy.info.rms_residual < 1.5 and noisy.info.smoothing > 0
+    valve.set_warp()
+    assert numpy.array_equal(riis.Surface(valve, **placement).vertices, plain.vertices)
+
+
+def test_patches_are_read_out():
+    valve = riis.Valve("aortic", opening=0.3)
+    read = valve.read_patches()
+    assert len(read.curve_id) == 12 and len(read.first_piece) == len(read.degree) + 1 and not read.bulge.any()
+    assert sorted(read.patch_id) == list(range(12)) and set(read.attached) == {2, 3}
+    again = riis.Valve.from_patches(read.degree, read.control, read.curve_id, reversed=read.reversed, leaflet_id=read.leaflet_id)
+    assert abs(riis.Surface(again).info.area - riis.Surface(valve).info.area) < 0.05
+    mitral = riis.Valve("mitral").read_patches()
+    assert mitral.bulge.all() and set(mitral.attached) == {0} and len(mitral.curve_id) == 10
