@@ -22,9 +22,9 @@ namespace {
 const std::vector<std::string> case_keys = {"mesh",       "unit",  "half_thickness", "distance_limit",
                                             "resistance", "times", "valves",         "check_leaks"};
 const std::vector<std::string> valve_keys = {
-    "name",      "valve",          "surface",      "leaflets",       "parameters",    "open_parameters",
-    "opening",   "half_thickness", "resistance",   "scale",          "surface_unit",  "rotate",
-    "translate", "tolerance",      "flip_normals", "skip_zero_area", "triangulation", "period"};
+    "name",           "valve",          "surface",       "leaflets",     "parameters", "open_parameters", "opening",
+    "half_thickness", "resistance",     "scale",         "surface_unit", "rotate",     "translate",       "tolerance",
+    "flip_normals",   "skip_zero_area", "triangulation", "period",       "warp"};
 
 class CaseReader {
  public:
@@ -168,6 +168,7 @@ class CaseReader {
       ValveFile file(kind);
       set_parameters_of(values, "parameters", file.valve());
       set_law(values, file.valve(), source);
+      set_warp(values, file.valve(), source);
       file.check_opening();
       source.valve = file.take_valve();
       return;
@@ -181,6 +182,17 @@ class CaseReader {
       source.has_open_state = true;
     }
     set_law(values, source.valve.get(), source);
+    set_warp(values, source.valve.get(), source);
+  }
+
+  // Reads the warp, and gives it to the valve at the first time.
+  void set_warp(const CaseValues &values, riis_valve *valve, ValveSource &source) {
+    if (!values.has("warp")) return;
+    const std::vector<double> &times = all_.options.series.times;
+    source.warp = WarpSource(values, source.options.surface_options);
+    if (times.empty() && source.warp.moves())
+      values.refuse("warp", "landmarks that move need times, in the file or by --times");
+    source.warp.apply(times.empty() ? 0 : times.front(), valve);
   }
 
   // Sets parameters from an object, or from a file if the value is a path.
@@ -207,7 +219,7 @@ class CaseReader {
   }
 
   void make_surface_of(const CaseValues &values, ValveSource &source) {
-    for (const char *key : {"parameters", "open_parameters", "opening", "tolerance", "triangulation"})
+    for (const char *key : {"parameters", "open_parameters", "opening", "tolerance", "triangulation", "warp"})
       if (values.has(key)) values.refuse(key, "it cannot be combined with \"surface\"");
     Seconds seconds;
     if (!is_motion_file(source.options.surface)) {

@@ -132,6 +132,10 @@ A valve has "valve", a kind or a file of patches, or it has "surface", a file. A
   {"times": [0, 0.1, 0.4], "openings": [0, 1, 0], "period": 0.8, "interpolation": "linear"}
   {"opening_start": 0.4, "opening_duration": 0.05, "closing_start": 0.7, "closing_duration": 0.05, "closed": 0, "open": 1,
    "period": 0.8}
+A "warp" takes landmarks on the valve to landmarks in the patient, exactly or smoothed by their noise:
+  {"sources": [[1,0,0], [0,1,0], ...], "targets": [[1.1,0,0], [0,1.2,0], ...], "noise": 0.03, "coordinates": "mesh"}
+With "times", and perhaps "period" and "interpolation", "targets" has an array of points for each time. "open" may have the
+"sources" and "targets" of the open state. With "coordinates": "valve", landmarks are those of the valve before its placement.
 If there are several valves, each one has its own arrays, NAME_marked and so on. riis_K and riis_K_u_surface are sums over
 the valves. Without times there is one mesh, --output marked.vtu.
 )"},

@@ -22,12 +22,13 @@ void set_opening_of(riis_valve *valve, double opening, const std::string &name) 
 }  // namespace
 
 MovingValve::MovingValve(ValveSource &source, double time) : source_(source), result_(new_result()) {
-  is_at_rest_ = !source.keyframes && (!source.valve || source.law.is_constant());
+  is_at_rest_ = !source.keyframes && (!source.valve || (source.law.is_constant() && !source.warp.moves()));
   if (source.keyframes) source.options.time = time;
   if (source.valve) {
     before_ = copy_of(source.valve.get());
     opening_ = source.law.at(time);
     set_opening_of(source.valve.get(), opening_, subject());
+    if (source.warp.moves()) source.warp.apply(time, source.valve.get());
   }
   has_velocities_ = source.file != nullptr;
   surface_ = make_surface(source, FileVelocity::zero);
@@ -38,6 +39,7 @@ void MovingValve::move_to(double time) {
   if (source_.keyframes) return move_to(time, time);
   opening_ = source_.law.at(time);
   set_opening_of(source_.valve.get(), opening_, subject());
+  if (source_.warp.moves()) source_.warp.apply(time, source_.valve.get());
   check(riis_surface_update(surface_.get(), source_.valve.get(), nullptr), subject());
   has_velocities_ = false;
 }
@@ -52,6 +54,10 @@ void MovingValve::move_to(double time, double since) {
   opening_ = source_.law.at(time);
   set_opening_of(source_.valve.get(), opening_, subject());
   set_opening_of(before_.get(), source_.law.at(since), subject());
+  if (source_.warp.moves()) {
+    source_.warp.apply(since, before_.get());
+    source_.warp.apply(time, source_.valve.get());
+  }
   check(riis_surface_update_moving(surface_.get(), source_.valve.get(), before_.get(), time - since, nullptr, nullptr),
         subject());
   has_velocities_ = true;

@@ -10,6 +10,7 @@
 #include "program/opening_law.hpp"
 #include "program/options.hpp"
 #include "program/report.hpp"
+#include "program/warp_source.hpp"
 
 namespace riis::program {
 
@@ -21,6 +22,7 @@ struct ValveSource {
   OpeningLaw law{0.0};
   Keyframes keyframes{};        // the motion of a surface that moves
   bool has_open_state = false;  // whether the user chose an open state
+  WarpSource warp{};            // empty unless the case warps the valve
   std::string subject{};        // begins refusals, such as "case.json: valve 0"; "" for the command line
 };
 

@@ -193,6 +193,54 @@ static void test_surface_at_rest(void **state) {
   assert_true(n_still > 20 && n_moving > 20);
 }
 
+#define LANDMARKS "[[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]"
+
+/* A warp that shifts all landmarks by 0.5 along x does what the placement does. */
+static void test_warp(void **state) {
+  (void)state;
+  static double one[n_box], two[n_box], velocity[3 * n_box];
+  static const char *const shifted =
+      "[[1.5, 0, 0], [-0.5, 0, 0], [0.5, 1, 0], [0.5, -1, 0], [0.5, 0, 1], [0.5, 0, -1]]";
+  char valve[2048];
+  for (int has_open = 0; has_open < 2; ++has_open) {
+    char open[512] = "";
+    if (has_open) snprintf(open, sizeof open, ", \"open\": {\"sources\": " LANDMARKS ", \"targets\": %s}", shifted);
+    snprintf(
+        valve, sizeof valve,
+        "{\"valve\": \"trileaflet\", \"opening\": 0.4, \"rotate\": [0, 0, 1, 90], \"warp\": {\"sources\": " LANDMARKS
+        ", \"targets\": %s, \"noise\": 0.01, \"coordinates\": \"mesh\"%s}}",
+        shifted, open);
+    write_case(valve, "");
+    RUN_FINE("mark", "--case", scratch_path("case.json"), "--output", scratch_path("w.vtu"), "--quiet");
+    RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "trileaflet", "--half-thickness", "0.3", "--opening", "0.4",
+             "--rotate", "0,0,1,90", "--translate", "0.5,0,0", "--output", scratch_path("w1.vtu"), "--quiet");
+    read_array(scratch_path("w.vtu"), "riis_distance", one);
+    assert_int_equal(read_array(scratch_path("w1.vtu"), "riis_distance", two), n_box);
+    for (int i = 0; i < n_box; ++i) assert_true(fabs(one[i] - two[i]) < 0.02);
+  }
+  /* In the valve's own coordinates the shift is turned with the valve, so the valve moves along y. */
+  snprintf(valve, sizeof valve,
+           "{\"valve\": \"trileaflet\", \"opening\": 0.4, \"rotate\": [0, 0, 1, 90], \"warp\": {\"sources\": " LANDMARKS
+           ", \"targets\": [%s, %s, %s], \"times\": [0, 0.2, 0.4], \"period\": 0.4, \"coordinates\": \"valve\"}}",
+           LANDMARKS, shifted, LANDMARKS);
+  write_case(valve, "\"times\": [0.1, 0.15, 0.7],");
+  RUN_FINE("mark", "--case", scratch_path("case.json"), "--output", scratch_path("w.pvd"), "--all-cells", "--quiet");
+  for (int step = 1; step < 3; ++step) {
+    int n_moving = 0;
+    read_array(scratch_path(step == 1 ? "w/w_0001.vtu" : "w/w_0002.vtu"), "riis_marked", one);
+    read_array(scratch_path(step == 1 ? "w/w_0001.vtu" : "w/w_0002.vtu"), "riis_velocity", velocity);
+    /* The last step is from 0.15 to 0.7, which is 0.3 in the period: from a shift of 0.375 to one of 0.25. */
+    const double speed = step == 1 ? 2.5 : (0.25 - 0.375) / 0.55;
+    for (int i = 0; i < n_box; ++i) {
+      if (one[i] == 0) continue;
+      ++n_moving;
+      assert_true(fabs(velocity[3 * i]) < 1e-9);
+      assert_true(fabs(velocity[3 * i + 1] - speed) < 1e-9);
+    }
+    assert_true(n_moving > 20);
+  }
+}
+
 static void expect_case_refused(const char *text, const char *valves, const char *rest) {
   write_case(valves, rest);
   RUN_REFUSED(1, text, "mark", "--case", scratch_path("case.json"), "--output", scratch_path("r.vtu"));
@@ -246,6 +294,31 @@ static void test_refused_cases(void **state) {
                       "{\"valve\": \"aortic\", \"opening\": 0.5,"
                       " \"parameters\": {\"left.leaflet_radius_out\": 5, \"commissure_expansion\": 0.5}}",
                       "");
+#define WARP(rest) "{\"valve\": \"trileaflet\", \"warp\": {" rest "}}"
+#define WARP_OF(rest) WARP("\"sources\": " LANDMARKS ", " rest)
+  expect_case_refused("valve 0: warp: sources: it is missing", WARP(""), "");
+  expect_case_refused("valve 0: warp: targets: it is missing", WARP("\"sources\": " LANDMARKS), "");
+  expect_case_refused("valve 0: warp: sources: point 1, [1,2], is not [x, y, z]",
+                      WARP("\"sources\": [[0, 0, 0], [1, 2]], \"targets\": []"), "");
+  expect_case_refused("valve 0: warp: targets: there are 1 points for 6 sources", WARP_OF("\"targets\": [[1, 2, 3]]"),
+                      "");
+  expect_case_refused("valve 0: warp: \"noize\" is unknown, did you mean \"noise\"?",
+                      WARP_OF("\"targets\": " LANDMARKS ", \"noize\": 1"), "");
+  expect_case_refused("noise: -1 is below 0", WARP_OF("\"targets\": " LANDMARKS ", \"noise\": -1"), "");
+  expect_case_refused("coordinates: \"world\" is none of mesh, valve",
+                      WARP_OF("\"targets\": " LANDMARKS ", \"coordinates\": \"world\""), "");
+  expect_case_refused("period: it needs \"times\"", WARP_OF("\"targets\": " LANDMARKS ", \"period\": 1"), "");
+  expect_case_refused("targets: with \"times\" it must be an array of 2",
+                      WARP_OF("\"targets\": " LANDMARKS ", \"times\": [0, 1]"), "");
+  expect_case_refused("warp: landmarks that move need times",
+                      WARP_OF("\"targets\": [" LANDMARKS ", " LANDMARKS "], \"times\": [0, 1]"), "");
+  expect_case_refused("valve 0: warp: the warp folds near landmark",
+                      WARP_OF("\"targets\": [[1, 0, 0], [-1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 0, 1], [0, 0, -1]]"),
+                      "");
+  expect_case_refused(
+      "landmarks 0 and 2 are in one place",
+      WARP("\"sources\": [[1, 0, 0], [0, 1, 0], [1, 0, 0]], \"targets\": [[1, 0, 0], [0, 1, 0], [1, 0, 0]]"), "");
+  expect_case_refused("warp: it cannot be combined with \"surface\"", "{\"surface\": \"a.stl\", \"warp\": {}}", "");
   expect_case_refused("surface: a surface that moves needs times", "{\"surface\": \"a.pvd\"}", "");
   expect_case_refused("period: it needs a \"surface\" that moves", "{\"surface\": \"a.stl\", \"period\": 1}", "");
   scratch_write_text("case.json", "{\"valves\": [{\"valve\": \"mitral\"}]}");
@@ -279,9 +352,9 @@ static int make_heart(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_ramps),         cmocka_unit_test(test_example),
-      cmocka_unit_test(test_one_time),      cmocka_unit_test(test_surface_at_rest),
-      cmocka_unit_test(test_refused_cases), cmocka_unit_test(test_refused_options),
+      cmocka_unit_test(test_ramps),           cmocka_unit_test(test_example), cmocka_unit_test(test_one_time),
+      cmocka_unit_test(test_surface_at_rest), cmocka_unit_test(test_warp),    cmocka_unit_test(test_refused_cases),
+      cmocka_unit_test(test_refused_options),
   };
   return cmocka_run_group_tests(tests, make_heart, scratch_teardown);
 }

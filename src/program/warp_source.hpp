@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: the warp of a valve in a case file, {"sources": [[x, y, z], ...], "targets": ..., ...}. Out: the warp at a time.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "program/handles.hpp"
+#include "program/json.hpp"
+
+namespace riis::program {
+
+// Landmarks on the valve, and their targets at one time or at several.
+class LandmarkPairs {
+ public:
+  // The landmarks are in the mesh's coordinates if the placement is given, and in the valve's own if it is NULL.
+  LandmarkPairs(const CaseValues &values, double noise, const riis_surface_options *placement);
+
+  bool moves() const { return times_.size() > 1; }
+  // Takes the landmarks to their places at a time, and returns the warp.
+  const riis_warp *at(double time);
+
+ private:
+  std::string subject_;
+  Warp warp_;
+  std::vector<double> times_, targets_;  // one time if the landmarks do not move
+  double period_ = 0;
+  std::int32_t interpolation_ = 0;
+  std::int64_t n_landmarks_ = 0;
+};
+
+// The warp of a valve. Without landmarks the valve has none.
+class WarpSource {
+ public:
+  WarpSource() = default;
+  // Reads the landmarks of both states. `placement` places the valve.
+  WarpSource(const CaseValues &values, const riis_surface_options &placement);
+
+  bool moves() const;
+  // Gives the valve its warp at a time.
+  void apply(double time, riis_valve *valve);
+
+ private:
+  std::string subject_;
+  std::vector<LandmarkPairs> pairs_;  // of the closed state, and of the open state if it has landmarks of its own
+};
+
+}  // namespace riis::program
