@@ -239,6 +239,8 @@ for _record in (
     FirstPassage,
     LeafletSizes,
     Orifice,
+    Coaptation,
+    Gap,
     CellsAcross,
     Crossings,
 ):
