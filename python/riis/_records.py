@@ -269,6 +269,8 @@ for _record in (
     FirstPassage,
     LeafletSizes,
     Orifice,
+    Coaptation,
+    Gap,
     CellsAcross,
     Crossings,
 ):

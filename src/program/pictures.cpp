@@ -65,9 +65,9 @@ void show_leaks(const LeakReport &leaks, riis_vtk_picture_options &how) {
 std::vector<const char *> leaflet_names(const ValveOptions &options) {
   if (!options.surface.empty()) return {};
   if (options.valve == "aortic" || options.valve == "coapting" || options.valve == "trileaflet")
-    return {"right", "left", "non-coronary"};
+    return {"right", "left", "non-coronary", "skirt"};
   if (options.valve == "bileaflet") return {"x > 0", "x < 0", "housing"};
-  if (options.valve == "mitral") return {"anterior", "posterior"};
+  if (options.valve == "mitral") return {"anterior", "posterior", "leaflet 2", "skirt"};
   return {};
 }
 

@@ -115,7 +115,9 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
     return;
   }
   const Surface wall = read_wall(options);
-  check(riis_valve_set_skirt_to_wall(valve, wall.get(), *options.skirt, &options.surface_options), options.wall);
+  const riis_status status = riis_valve_set_skirt_to_wall(valve, wall.get(), *options.skirt, &options.surface_options);
+  if (status == RIIS_INVALID_ARGUMENT) throw Refusal{exit_bad_data, options.wall + ": " + riis_last_error()};
+  check(status, subject);
 }
 
 riis_gap gap_to_wall(const ValveOptions &options, const riis_surface *surface) {

@@ -393,7 +393,12 @@ static void test_skirts_and_files(void **state) {
   run_program("surface", "--valve", "trileaflet", "--skirt", "2", "--wall", wall, "--output", file, NULL);
   expect_run_fine(__FILE__, __LINE__);
   expect_said("skirt     to the wall, 0.7");
-  /* The file has the leaflets' free edges. Its outline is the skirt's outer edge. */
+  /* The outline of that file is the skirt's outer edge. */
+  RUN_STATES("--surface", file);
+  CHECK_NEAR(cell(0, "orifice_area"), 0, 1e-3);
+  /* Without a skirt, a file has the leaflets' free edges. */
+  run_program("surface", "--valve", "trileaflet", "--output", file, NULL);
+  expect_run_fine(__FILE__, __LINE__);
   RUN_STATES("--surface", file, "--coaptation");
   assert_int_equal(table.n_rows, 1);
   assert_true(has_column("time") && !has_column("opening"));
@@ -426,7 +431,7 @@ static void test_skirts_and_files(void **state) {
   char csv[256];
   snprintf(csv, sizeof csv, "%s", scratch_path("no.csv"));
   RUN_REFUSED(2, "--wall requires --skirt", "states", csv, "--wall", wall);
-  RUN_REFUSED(2, "--surface excludes --skirt", "states", csv, "--surface", file, "--skirt", "1");
+  RUN_REFUSED(2, "--skirt excludes --surface", "states", csv, "--surface", file, "--skirt", "1");
   RUN_REFUSED(2, "--skirt: -1 is not above 0 and finite", "states", csv, "--skirt", "-1");
   RUN_REFUSED(1, "'skirt_length' is not a parameter of the bileaflet valve", "states", csv, "--valve", "bileaflet",
               "--skirt", "1");

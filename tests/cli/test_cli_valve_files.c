@@ -117,16 +117,16 @@ static void test_marks(void **state) {
   riis_valve_destroy(&open);
 }
 
-/* Every option that takes parameters accepts the valve's only parameter. */
+/* Every option that takes parameters accepts the valve's parameters. */
 static void test_parameters(void **state) {
   (void)state;
   keep_path();
   write_flap(1, NULL, NULL);
   RUN_FINE("params", "--valve", file);
-  assert_string_equal(program_out, "{\n  \"opening\": 0.0\n}\n");
+  assert_string_equal(program_out, "{\n  \"opening\": 0.0,\n  \"skirt_length\": 0.0\n}\n");
   scratch_write_text("p.json", program_out);
   RUN_FINE("params", "--valve", file, "--params", scratch_path("p.json"), "--opening", "0.25");
-  assert_string_equal(program_out, "{\n  \"opening\": 0.25\n}\n");
+  assert_string_equal(program_out, "{\n  \"opening\": 0.25,\n  \"skirt_length\": 0.0\n}\n");
   scratch_write_text("p.json", program_out);
   riis_valve *valve = flap_by_c(closed_control), *open = flap_by_c(open_control);
   expect_fine(riis_valve_set_open_state(valve, open));
