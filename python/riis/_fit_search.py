@@ -72,41 +72,49 @@ def _is_same(problem: Problem, x: Reals, log_area: float, end: End) -> bool:
     return float(numpy.percentile(found.distance, 90.0)) * pose.scale < _SAME * problem.size
 
 
-def _add(problem: Problem, x: Reals, cost: float, ends: list[End], counts: int, random: numpy.random.Generator) -> End | None:
-    """Adds the end x to ends, or counts it with the end that has the same surface."""
+def _add(problem: Problem, x: Reals, cost: float, ends: list[End], random: numpy.random.Generator) -> End | None:
+    """Adds the end x to ends, or counts it with the end that has the same surface. Returns the latter."""
     seen = problem.at(x)
     if seen is None:
         return None
     same = next((end for end in ends if _is_same(problem, x, seen.log_area, end)), None)
-    pose = problem.pose(x)
-    x = x.copy()
-    probes = _probes(problem, x, random)
-    x[len(problem.names):] = 0.0
-    new = End(cost, pose, x, probes, seen.log_area, counts)
-    if same is not None:
-        if same.cost <= cost:
-            same.n_starts += counts
-            return same
-        new.n_starts += same.n_starts
-        ends.remove(same)
-    ends.append(new)
-    ends.sort(key=lambda end: end.cost)
-    return new
+    if same is None:
+        same = End(numpy.inf, problem.base, x, numpy.zeros((0, 3)), 0.0, 0)
+        ends.append(same)
+    same.n_starts += 1
+    if cost < same.cost:
+        same.cost, same.pose, same.probes, same.log_area = cost, problem.pose(x), _probes(problem, x, random), seen.log_area
+        same.x = x.copy()
+        same.x[len(problem.names):] = 0.0
+        ends.sort(key=lambda end: end.cost)
+    return same
 
 
 def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any_rotation: bool, n_least: int, n_most: int,
            random: numpy.random.Generator) -> tuple[list[End], int]:
-    """Minimizes roughly from one start after the other, until two of them reach the best end. Returns the ends, the best first,
-    with equal noise, and the number of starts."""
+    """Minimizes roughly from one start after the other, until two of them reach the best end. Returns the ends, the best first, and
+    the number of starts."""
     n_names = len(problem.names)
     wide = wide_loss(0.05 * problem.size)
     ends: list[End] = []
     n_done = 0
+    turned: list[End] = []
 
-    def go_down(base: Pose, x: Reals, counts: int) -> None:
+    def go_down(base: Pose, x: Reals) -> None:
         problem.begin(base)
-        x = problem.solve(x, wide, 30, 0.01)
-        _add(problem, x, problem.cost(x, wide), ends, counts, random)
+        x = problem.solve(x, wide, 30, 0.02)
+        x, mixture = problem.refine(problem.rebased(x), 2, 0.1)
+        _add(problem, x, problem.cost(x, mixture.loss(problem.whole)), ends, random)
+
+    def turn() -> None:
+        """Turns the best end by one cusp, and swaps front and back, because a turned valve looks similar."""
+        first = ends[0]
+        turned.append(first)
+        n_before = first.n_starts
+        for angle in numpy.radians((120.0, 240.0, 180.0)):
+            rotation = first.pose.rotation @ matrix_of(numpy.array([0.0, 0.0, angle]))
+            go_down(Pose(rotation, first.pose.move, first.pose.scale), first.x)
+        first.n_starts = n_before  # its own images say nothing about it
 
     for number in range(n_most):
         x, rotations = given.copy(), numpy.eye(3)[None]
@@ -118,33 +126,15 @@ def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any
         base = problem.best_pose(x, rotations, middle, random)
         n_done += 1
         if base is not None:  # None if the values do not fit together
-            go_down(base, x, 1)
+            go_down(base, x)
+        if ends and any_rotation and n_most > 1 and n_done >= n_least:
+            if (ends[0].n_starts >= 2 or n_done == n_most) and all(end is not ends[0] for end in turned):
+                turn()
         if n_done >= n_least and ends and ends[0].n_starts >= 2:
             break
     if not ends:
         raise InvalidArgumentError("valve: no start has a surface; its values clash")
-    if any_rotation and n_most > 1:
-        # A valve looks similar if it is turned by one cusp, or if front and back are swapped. So these rotations are tried.
-        first = ends[0]
-        for angle in numpy.radians((120.0, 240.0, 180.0)):
-            turn = matrix_of(numpy.array([0.0, 0.0, angle]))
-            go_down(Pose(first.pose.rotation @ turn, first.pose.move, first.pose.scale), first.x, 0)
-    return _refined(problem, ends[:_N_ENDS], random), n_done
-
-
-def _refined(problem: Problem, ends: list[End], random: numpy.random.Generator) -> list[End]:
-    """Minimizes each end again with a width from the scatter of its points. Costs are with the noise of the best."""
-    found: list[tuple[float, Reals, Pose, Mixture, int]] = []
-    for end in ends:
-        problem.begin(end.pose)
-        x, mixture = problem.refine(end.x, 3, 0.05)
-        found.append((problem.cost(x, mixture.loss(problem.whole)), x, problem.base, mixture, end.n_starts))
-    _, _, _, mixture, _ = min(found, key=lambda one: one[0])
-    refined: list[End] = []
-    for _, x, base, _, n_starts in found:
-        problem.begin(base)
-        _add(problem, x, problem.cost(x, mixture.loss(problem.whole)), refined, n_starts, random)
-    return refined
+    return ends[:_N_ENDS], n_done
 
 
 def _parts(points: Reals, weights: Reals, n_parts: int) -> Reals:

@@ -16,7 +16,7 @@ KINDS = {
     "mitral": ({"AP_diameter": 0.2, "ALPM_diameter": 0.2, "anterior_length": 0.2, "posterior_scallop_length1": 0.2}, 0.8),
     "bileaflet": ({"radius": 0.2}, 1.0),
 }
-CASES = ("whole", "partial", "partial, said whole", "outliers", "thick", "millimetres")
+CASES = ("whole", "partial", "partial, said whole", "outliers", "thick", "millimetres", "other shape")
 # A size that counts as found is off by at most three standard errors, or by at most these: cm, degrees, 1.
 SMALL = {"length": 0.02, "degree": 2.0, "1": 0.02}
 # However large its standard error, it is off by at most these.
@@ -88,18 +88,22 @@ def part_of(random, surface):
 def patient(seed):
     """Returns the patient of a seed. Kinds and cases take turns."""
     random = numpy.random.default_rng(seed)
-    kind, case = list(KINDS)[seed % len(KINDS)], CASES[seed // len(KINDS) % len(CASES)]
+    kind, case = list(KINDS)[seed % len(KINDS)], CASES[(seed + seed // len(KINDS)) % len(CASES)]
     spreads, most_open = KINDS[kind]
     while True:
         valve = riis.Valve(kind)
         true = {name: valve[name] * random.uniform(1.0 - spread, 1.0 + spread) for name, spread in spreads.items()}
         true["opening"] = random.uniform(0.0, most_open)
+        others = {}
+        if case == "other shape":  # sizes that the fit does not free are not those of the valve that it starts from
+            others = {name: valve[name] * random.uniform(0.95, 1.05) for name, parameter in valve.parameters.items()
+                      if parameter.unit == "length" and parameter.n_values == 1 and name not in true}
         try:
-            surface = riis.Surface(riis.Valve(kind, **true), half_thickness=0.05, tolerance=0.01)
+            surface = riis.Surface(riis.Valve(kind, **true, **others), half_thickness=0.05, tolerance=0.01)
             break
         except riis.Error:  # the sizes do not fit together
             continue
-    noise, n = random.uniform(0.005, 0.05), int(random.integers(400, 1200))
+    noise, n = random.uniform(0.005, 0.05), int(numpy.exp(random.uniform(numpy.log(200.0), numpy.log(1500.0))))
     options = {"free": list(true), "seed": seed}
     if case.startswith("partial"):
         points, _ = points_on(random, surface, n, part_of(random, surface))
