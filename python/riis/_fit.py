@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from riis._errors import InvalidArgumentError
 from riis._fit_problem import FINE, ROUGH, Pose, Problem, axis_and_angle, start_pose, vertex_areas, weighted_median
-from riis._fit_search import RIVAL, End, Judge, Judged, covered, search
+from riis._fit_search import RIVAL, End, Judge, Judged, covered, is_same, probes_of, search
 from riis._records import Parameter
 from riis._riis import Surface, Valve, find_crossings
 
@@ -35,7 +35,7 @@ _LEAST_STARTS, _MOST_STARTS = 4, 32
 _UNITS = {"m": 0.01, "cm": 1.0, "mm": 10.0}
 # A result is doubted beyond these limits.
 _MOST_OUTLIERS = 0.3
-_LEAST_COVERED = 0.8
+_LEAST_COVERED = 0.9
 _MOST_NOISE = 1.25  # times the stated noise
 _MOST_SCATTER = 0.05  # of the valve's size, without a stated noise
 _MOST_MISFIT = 4.0
@@ -422,6 +422,9 @@ def _finish(problem: Problem, ends: list[End], n_done: int, stated: float, n_use
         x = problem.rebased(x)
         loss = mixture.loss(problem.whole)
         base, cost = problem.base, problem.cost(x, loss)
+        fine = problem.at(x)
+        assert fine is not None
+        here = End(cost, base, x, probes_of(problem, x, random), fine.log_area, 0)
         # The ends of the search come again, with the noise of the best.
         found, better = [], None
         for end in others:
@@ -429,6 +432,9 @@ def _finish(problem: Problem, ends: list[End], n_done: int, stated: float, n_use
                 continue
             problem.begin(end.pose)
             z = problem.solve(end.x, loss, 20, 0.01)
+            there = problem.at(z)
+            if there is None or is_same(problem, z, there.log_area, here):
+                continue
             found.append((2.0 * (problem.cost(z, loss) - cost), z, problem.base))
             if found[-1][0] < -0.5:
                 better = z, problem.base, end

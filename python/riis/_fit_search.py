@@ -16,6 +16,8 @@ _N_ROTATIONS = 150
 # Ends are the same surface if nine tenths of one lie within this fraction of the valve's size from the other, and the areas differ
 # by at most this fraction.
 _SAME = 0.02
+# A rough end whose cost for each point exceeds the least by this is not refined.
+_HOPELESS = 0.15
 # At most this many ends are refined.
 _N_ENDS = 4
 # An end is a rival if the likelihood ratio leaves it possible: twice the difference of the logarithms is less than this, which is
@@ -48,7 +50,7 @@ class Judged(NamedTuple):
     better: Reals | None  # unknowns with a lower cost that the profile met
 
 
-def _probes(problem: Problem, x: Reals, random: numpy.random.Generator) -> Reals:
+def probes_of(problem: Problem, x: Reals, random: numpy.random.Generator) -> Reals:
     """Returns points that lie evenly on the surface at x."""
     surface, pose = problem.set_valve(x), problem.pose(x)
     assert surface is not None
@@ -61,7 +63,7 @@ def _probes(problem: Problem, x: Reals, random: numpy.random.Generator) -> Reals
     return numpy.asarray(pose.scale * local @ pose.rotation.T + pose.move)
 
 
-def _is_same(problem: Problem, x: Reals, log_area: float, end: End) -> bool:
+def is_same(problem: Problem, x: Reals, log_area: float, end: End) -> bool:
     if abs(end.log_area - log_area) > _SAME:
         return False
     surface, pose = problem.set_valve(x), problem.pose(x)
@@ -77,13 +79,13 @@ def _add(problem: Problem, x: Reals, cost: float, ends: list[End], random: numpy
     seen = problem.at(x)
     if seen is None:
         return None
-    same = next((end for end in ends if _is_same(problem, x, seen.log_area, end)), None)
+    same = next((end for end in ends if is_same(problem, x, seen.log_area, end)), None)
     if same is None:
         same = End(numpy.inf, problem.base, x, numpy.zeros((0, 3)), 0.0, 0)
         ends.append(same)
     same.n_starts += 1
     if cost < same.cost:
-        same.cost, same.pose, same.probes, same.log_area = cost, problem.pose(x), _probes(problem, x, random), seen.log_area
+        same.cost, same.pose, same.probes, same.log_area = cost, problem.pose(x), probes_of(problem, x, random), seen.log_area
         same.x = x.copy()
         same.x[len(problem.names):] = 0.0
         ends.sort(key=lambda end: end.cost)
@@ -99,10 +101,15 @@ def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any
     ends: list[End] = []
     n_done = 0
     turned: list[End] = []
+    least: list[float] = []  # cost with the wide loss
 
     def go_down(base: Pose, x: Reals) -> None:
         problem.begin(base)
-        x = problem.solve(x, wide, 30, 0.02)
+        x = problem.solve(x, wide, 30, 0.2)
+        cost = problem.cost(x, wide)
+        least.append(min([cost, *least[-1:]]))
+        if cost > least[-1] + _HOPELESS * problem.weights.sum():
+            return
         x, mixture = problem.refine(problem.rebased(x), 2, 0.1)
         _add(problem, x, problem.cost(x, mixture.loss(problem.whole)), ends, random)
 
@@ -255,7 +262,7 @@ def covered(problem: Problem, x: Reals, inlier: Reals, random: numpy.random.Gene
     if len(near) < 6:
         return 0.0
     near = random.permutation(near)[:2000]
-    probes = numpy.vstack([_probes(problem, x, random) for _ in range(2)])
+    probes = numpy.vstack([probes_of(problem, x, random) for _ in range(2)])
 
     def squares(a: Reals, b: Reals) -> Reals:
         return numpy.asarray(((a**2).sum(axis=1)[:, None] + (b**2).sum(axis=1) - 2.0 * a @ b.T).clip(0.0))
