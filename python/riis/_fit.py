@@ -9,14 +9,14 @@ import os
 import shlex
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal, NamedTuple
 
 import numpy
 from numpy.typing import NDArray
 
 from riis._errors import InvalidArgumentError
-from riis._fit_problem import FINE, ROUGH, Pose, Problem, axis_and_angle, start_pose, vertex_areas, weighted_median
+from riis._fit_problem import FINE, ROUGH, Mixture, Pose, Problem, axis_and_angle, start_pose, vertex_areas, weighted_median
 from riis._fit_search import RIVAL, End, Judge, Judged, covered, is_same, probes_of, search
 from riis._records import Parameter
 from riis._riis import Surface, Valve, find_crossings
@@ -30,7 +30,7 @@ _MOVES = ("rotation", "translation", "scale")
 # The rough search uses this number of points.
 _N_ROUGH = 400
 # Without n_starts, a fit has at least and at most this many starts.
-_LEAST_STARTS, _MOST_STARTS = 4, 32
+_LEAST_STARTS, _MOST_STARTS = 4, 24
 # The tables of the kinds are in centimetres.
 _UNITS = {"m": 0.01, "cm": 1.0, "mm": 10.0}
 # A result is doubted beyond these limits.
@@ -294,7 +294,7 @@ def fit(
     *,
     free: Sequence[str],
     placement: Sequence[Literal["rotation", "translation", "scale"]] = ("rotation", "translation"),
-    start: Mapping[str, Any] | Any = None,
+    start: Any = None,
     bounds: Mapping[str, tuple[float, float]] | None = None,
     weights: Reals | None = None,
     whole: bool = True,
@@ -320,7 +320,7 @@ def fit(
                surface, or 1 for other points
     whole      True: the points cover the whole valve, about evenly, so a surface that reaches beyond them is penalized.
                False: they cover a part of it, and nothing pulls back an edge that reaches beyond them
-    n_starts   the largest number of starts; None: 32. The first start has the given values. Others, chosen by seed, have
+    n_starts   the largest number of starts; None: 24. The first start has the given values. Others, chosen by seed, have
                random values within the bounds and, if start has no rotation, any rotation. After at least four starts they
                end when two reached the best fit
     seed       the seed of the random starts
@@ -336,9 +336,9 @@ def fit(
     points, areas = _points_of(points)
     _check_points(points)
     if isinstance(valve, Valve):
-        valve = valve.copy()
+        own = valve.copy()
     elif isinstance(valve, str):
-        valve = Valve(valve)
+        own = Valve(valve)
     else:
         raise TypeError(f"valve: must be a kind or a riis.Valve, not {type(valve).__name__}")
     names, moves = _names_of(free, "free"), _names_of(placement, "placement")
@@ -357,14 +357,15 @@ def fit(
     if not isinstance(whole, bool):
         raise TypeError(f"whole: must be True or False, not {whole!r}")
     given = {} if start is None else start
-    if isinstance(getattr(start, "valve", None), Valve) and hasattr(start, "placement"):
-        if start.valve.kind != valve.kind:
-            raise InvalidArgumentError(f"start: its valve is of the kind {start.valve.kind}, but valve is {valve.kind}")
-        valve, given = start.valve.copy(), start.placement
+    from_start = getattr(start, "valve", None)
+    if isinstance(from_start, Valve):
+        if from_start.kind != own.kind:
+            raise InvalidArgumentError(f"start: its valve is of the kind {from_start.kind}, but valve is {own.kind}")
+        own, given = from_start.copy(), getattr(start, "placement", None)
+    _placed(given)
+    given = _with_unit(unit, given, moves, own.kind)
     place = _placed(given)
-    given = _with_unit(unit, given, moves, valve.kind)
-    place = _placed(given)
-    first = Surface(valve, **place)  # this call refuses a bad placement, and values that do not fit together
+    first = Surface(own, **place)  # this call refuses a bad placement, and values that do not fit together
     pose = start_pose(place)
     used = points[weights > 0.0]
     n_unknowns = len(names) + sum({"rotation": 3, "translation": 3, "scale": 1}[move] for move in moves)
@@ -373,22 +374,22 @@ def fit(
     if "scale" in moves and "scale" not in given:
         pose = Pose(pose.rotation, pose.move, pose.scale * _extent(points, weights) / _extent_of(first))
     size = float(numpy.linalg.norm(first.info.upper - first.info.lower)) * pose.scale / place["scale"]
-    limits = _bounds_of(valve, names, {} if bounds is None else bounds, size / pose.scale)
+    limits = _bounds_of(own, names, {} if bounds is None else bounds, size / pose.scale)
     if "scale" not in moves:
-        _check_unit(points, weights, first, valve, limits, names)
+        _check_unit(points, weights, first, own, limits, names)
     if thick > 0.2 * size:
         raise InvalidArgumentError(f"thickness: is {thick}; it must be at most a fifth of the valve's size, which is {size:.4g}")
     if stated > 0.2 * size:
         raise InvalidArgumentError(f"noise: is {stated}; it must be at most a fifth of the valve's size, which is {size:.4g}")
 
     random = numpy.random.default_rng(seed)
-    problem = Problem(points, weights, valve, names, limits, moves, size, whole, FINE, thick, 0.5 * stated)
+    problem = Problem(points, weights, own, names, limits, moves, size, whole, FINE, thick, 0.5 * stated)
     few = random.permutation(numpy.flatnonzero(weights > 0.0))[:_N_ROUGH]
-    rough = Problem(points[few], weights[few], valve.copy(), names, limits, moves, size, whole, ROUGH, thick, 0.5 * stated)
+    rough = Problem(points[few], weights[few], own.copy(), names, limits, moves, size, whole, ROUGH, thick, 0.5 * stated)
     middle = None
     if "translation" in moves and "translation" not in given:
         middle = numpy.array([weighted_median(column, weights) for column in points.T])
-    shares = (numpy.array([valve[name] for name in names]) - limits[:, 0]) / (limits[:, 1] - limits[:, 0])
+    shares = (numpy.array([own[name] for name in names]) - limits[:, 0]) / (limits[:, 1] - limits[:, 0])
     x = numpy.zeros(problem.n)
     x[: len(names)] = numpy.clip(shares, 0.01, 0.99)
     any_rotation = "rotation" in moves and "rotation_angle" not in given
@@ -417,16 +418,15 @@ def _finish(problem: Problem, ends: list[End], n_done: int, stated: float, n_use
     best, others = ends[0], ends[1:]
     problem.begin(best.pose)
     x, mixture = problem.refine(best.x, 8, 1e-4)
-    found: list[tuple[float, Reals, Pose]] = []
-    for _ in range(3):
+    for attempt in range(4):
         x = problem.rebased(x)
         loss = mixture.loss(problem.whole)
-        base, cost = problem.base, problem.cost(x, loss)
-        fine = problem.at(x)
+        base, cost, fine = problem.base, problem.cost(x, loss), problem.at(x)
         assert fine is not None
         here = End(cost, base, x, probes_of(problem, x, random), fine.log_area, 0)
-        # The ends of the search come again, with the noise of the best.
-        found, better = [], None
+        # The other ends come again, with the noise of the best.
+        found: list[tuple[float, Reals, Pose]] = []
+        better = None
         for end in others:
             if 2.0 * (end.cost - best.cost) > 100.0 * n_used / len(problem.points):
                 continue
@@ -438,20 +438,24 @@ def _finish(problem: Problem, ends: list[End], n_done: int, stated: float, n_use
             found.append((2.0 * (problem.cost(z, loss) - cost), z, problem.base))
             if found[-1][0] < -0.5:
                 better = z, problem.base, end
-        if better is not None:
+        if better is not None and attempt < 3:
+            problem.begin(better[1])
             x, mixture = problem.refine(better[0], 8, 1e-4)
             others = [end for end in ends if end is not better[2]]
             best = better[2]
             continue
         problem.begin(base)
         judged = Judge(problem, x, mixture, stated).judge()
-        if judged.better is None:
+        if judged.better is None or attempt == 3:
             break
         x, mixture = problem.refine(judged.better, 8, 1e-4)
+        there = problem.at(x)
+        if there is not None and not is_same(problem, x, there.log_area, here):
+            best = replace(best, n_starts=0)  # no start has reached this end
     return _result(problem, x, mixture, judged, found, best, n_done, stated, random)
 
 
-def _result(problem: Problem, x: Reals, mixture: Any, judged: Judged, found: list[tuple[float, Reals, Pose]], best: End,
+def _result(problem: Problem, x: Reals, mixture: Mixture, judged: Judged, found: list[tuple[float, Reals, Pose]], best: End,
             n_done: int, stated: float, random: numpy.random.Generator) -> FitResult:
     n_names, names = len(problem.names), problem.names
     base, values, pose = problem.base, problem.values(x), problem.pose(x)

@@ -288,8 +288,9 @@ class Problem:
         seen, pose, columns = self.at(x), self.pose(x), []
         assert seen is not None
         self.set_valve(x)
-        values = dict(self.valve)
-        for name, parameter in self.valve.parameters.items():
+        valve, self.valve = self.valve, self.valve.copy()
+        values = dict(valve)
+        for name, parameter in valve.parameters.items():
             value = values[name]
             if name in self.names or parameter.n_values != 1 or name == "opening" or value == 0.0:
                 continue
@@ -300,6 +301,7 @@ class Problem:
                 if found is not None:
                     columns.append(found[0])
                     break
+        self.valve = valve
         return numpy.array(columns).T.reshape(len(self.points), -1)
 
     def cost(self, x: Reals, loss: Loss) -> float:

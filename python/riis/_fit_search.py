@@ -7,14 +7,15 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy
+from numpy.typing import NDArray
 
 from riis._errors import InvalidArgumentError
 from riis._fit_problem import Mixture, Pose, Problem, Reals, matrix_of, random_rotations, wide_loss
 
 # Each start chooses among this many rotations.
 _N_ROTATIONS = 150
-# Ends are the same surface if nine tenths of one lie within this fraction of the valve's size from the other, and the areas differ
-# by at most this fraction.
+# Ends are the same surface if nine tenths of one lie within this fraction of the valve's size from the other, and the areas
+# differ by at most this fraction.
 _SAME = 0.02
 # A rough end whose cost for each point exceeds the least by this is not refined.
 _HOPELESS = 0.15
@@ -94,8 +95,8 @@ def _add(problem: Problem, x: Reals, cost: float, ends: list[End], random: numpy
 
 def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any_rotation: bool, n_least: int, n_most: int,
            random: numpy.random.Generator) -> tuple[list[End], int]:
-    """Minimizes roughly from one start after the other, until two of them reach the best end. Returns the ends, the best first, and
-    the number of starts."""
+    """Minimizes roughly from one start after the other, until two of them reach the best end. Returns the ends, the best first,
+    and the number of starts."""
     n_names = len(problem.names)
     wide = wide_loss(0.05 * problem.size)
     ends: list[End] = []
@@ -129,6 +130,8 @@ def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any
             x[:n_names] = random.uniform(0.05, 0.95, n_names)
         if number > 0 and any_rotation:
             rotations = random_rotations(random, _N_ROTATIONS)
+        elif number > 0 and middle is not None and not problem.whole:
+            rotations = numpy.repeat(rotations, _N_ROTATIONS // 5, axis=0)  # each has a translation of its own
         problem.begin(pose)
         base = problem.best_pose(x, rotations, middle, random)
         n_done += 1
@@ -144,10 +147,10 @@ def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any
     return ends[:_N_ENDS], n_done
 
 
-def _parts(points: Reals, weights: Reals, n_parts: int) -> Reals:
+def _parts(points: Reals, weights: Reals, n_parts: int) -> NDArray[numpy.int64]:
     """Returns the part of each point. Each part is around a point that is farthest from the earlier ones."""
     first = int(numpy.argmax(weights))
-    nearest, part = numpy.full(len(points), numpy.inf), numpy.zeros(len(points), int)
+    nearest, part = numpy.full(len(points), numpy.inf), numpy.zeros(len(points), numpy.int64)
     for k in range(n_parts):
         length = ((points - points[first]) ** 2).sum(axis=1)
         part[length < nearest] = k
@@ -256,8 +259,6 @@ class Judge:
 
 def covered(problem: Problem, x: Reals, inlier: Reals, random: numpy.random.Generator) -> float:
     """Returns the share of the surface's area with points nearby, compared with the usual gaps between points."""
-    surface, pose = problem.set_valve(x), problem.pose(x)
-    assert surface is not None
     near = problem.points[inlier > 0.5]
     if len(near) < 6:
         return 0.0

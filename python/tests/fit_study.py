@@ -17,6 +17,7 @@ KINDS = {
     "bileaflet": ({"radius": 0.2}, 1.0),
 }
 CASES = ("whole", "partial", "partial, said whole", "outliers", "thick", "millimetres", "other shape")
+WHOLE = ("whole", "outliers", "thick", "millimetres")  # the points cover the valve, and its shape is that of the kind
 # A size that counts as found is off by at most three standard errors, or by at most these: cm, degrees, 1.
 SMALL = {"length": 0.02, "degree": 2.0, "1": 0.02}
 # However large its standard error, it is off by at most these.
@@ -183,6 +184,21 @@ def table(patients):
     return lines
 
 
+def sizes(patients):
+    """Returns the lines of a table with a row for each size of the whole valves."""
+    lines = ["| kind | size | number | undetermined | error, rms | stated, rms | ratio | within 3 stated |", "|---" * 8 + "|"]
+    for kind in KINDS:
+        group = [one for one in patients if one.kind == kind and one.case in WHOLE]
+        for name in group[0].true if group else ():
+            errors = numpy.array([one.found.parameters[name] - one.true[name] for one in group])
+            stated = numpy.array([one.found.standard_errors[name] for one in group])
+            unknown = numpy.array([name in one.found.undetermined for one in group])
+            true, said = (numpy.sqrt(numpy.mean(values[~unknown] ** 2)) for values in (errors, stated))
+            lines.append(f"| {kind} | {name} | {len(group)} | {unknown.sum()} | {true:.4f} | {said:.4f} | {said / true:.1f} | "
+                         f"{numpy.mean(numpy.abs(errors) <= 3.0 * stated):.1%} |")
+    return lines
+
+
 def main(n_patients, first=0):
     patients = []
     for seed in range(first, first + n_patients):
@@ -190,7 +206,7 @@ def main(n_patients, first=0):
         if patients[-1].wrong():
             tell(patients[-1])
     print(f"seeds {first} to {first + n_patients - 1}")
-    print("\n".join(table(patients)))
+    print("\n".join([*table(patients), "", *sizes(patients)]))
 
 
 if __name__ == "__main__":
