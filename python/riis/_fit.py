@@ -17,20 +17,17 @@ from numpy.typing import NDArray
 
 from riis._errors import InvalidArgumentError
 from riis._fit_problem import FINE, ROUGH, Mixture, Pose, Problem, axis_and_angle, start_pose, vertex_areas, weighted_median
-from riis._fit_search import RIVAL, End, Judge, Judged, covered, is_same, probes_of, search
+from riis._fit_search import RIVAL, UNDETERMINED, End, Judge, Judged, covered, is_same, probes_of, search
 from riis._records import Parameter
 from riis._riis import Surface, Valve, find_crossings
 
 Reals = NDArray[numpy.float64]
 
-# An unknown is undetermined if its standard error exceeds this fraction of a reference: the width of its bounds, a radian, the
-# valve's size, or the scale.
-_UNDETERMINED = 0.1
 _MOVES = ("rotation", "translation", "scale")
 # The rough search uses this number of points.
 _N_ROUGH = 400
 # Without n_starts, a fit has at least and at most this many starts.
-_LEAST_STARTS, _MOST_STARTS = 4, 24
+_LEAST_STARTS, _MOST_STARTS = 4, 20
 # The tables of the kinds are in centimetres.
 _UNITS = {"m": 0.01, "cm": 1.0, "mm": 10.0}
 # A result is doubted beyond these limits.
@@ -62,7 +59,7 @@ class FitResult:
     at_bounds: tuple[str, ...]  #: free parameters that ended at a bound
     doubts: tuple[str, ...]  #: reasons to distrust the whole result, each a sentence; empty if there is none
     n_starts: int  #: number of starts
-    n_agreeing: int  #: number of starts that reached this fit
+    n_agreeing: int  #: number of starts that reached this fit, or a fit that turns by a cusp or half a turn led here from
     rivals: tuple[Rival, ...]  #: other fits of similar cost, the best first
     n_crossings: int  #: number of pairs of triangles of the fitted surface that go through each other
     singular_values: Reals  #: of the Jacobian (rows: points, columns: unknowns), descending, in units of the valve's size
@@ -283,8 +280,8 @@ def _check_unit(points: Reals, weights: Reals, surface: Surface, valve: Valve, l
              if valve.parameters[name].unit == "length" and valve[name] > 0.0]
     if here > 2.5 * there * max([1.0, *grown]) or here < there / 40.0:
         raise InvalidArgumentError(
-            f"points: their median distance from their middle is {here:.4g}, that of the valve's surface is {there:.4g}; set unit "
-            "to the points' unit, start['scale'], or bounds"
+            f"points: their median distance from their middle is {here:.4g}, that of the valve's surface is {there:.4g}; set "
+            "unit to the points' unit, start['scale'], or bounds"
         )
 
 
@@ -320,7 +317,7 @@ def fit(
                surface, or 1 for other points
     whole      True: the points cover the whole valve, about evenly, so a surface that reaches beyond them is penalized.
                False: they cover a part of it, and nothing pulls back an edge that reaches beyond them
-    n_starts   the largest number of starts; None: 24. The first start has the given values. Others, chosen by seed, have
+    n_starts   the largest number of starts; None: 20. The first start has the given values. Others, chosen by seed, have
                random values within the bounds and, if start has no rotation, any rotation. After at least four starts they
                end when two reached the best fit
     seed       the seed of the random starts
@@ -423,7 +420,7 @@ def _finish(problem: Problem, ends: list[End], n_done: int, stated: float, n_use
         loss = mixture.loss(problem.whole)
         base, cost, fine = problem.base, problem.cost(x, loss), problem.at(x)
         assert fine is not None
-        here = End(cost, base, x, probes_of(problem, x, random), fine.log_area, 0)
+        here = End(cost, base, x, probes_of(problem, x, random), fine.log_area, 0, 0)
         # The other ends come again, with the noise of the best.
         found: list[tuple[float, Reals, Pose]] = []
         better = None
@@ -478,7 +475,7 @@ def _result(problem: Problem, x: Reals, mixture: Mixture, judged: Judged, found:
     total = problem.weights * inlier
     share = covered(problem, x, inlier * (problem.weights > 0.0), random)
     problem.set_valve(x)
-    undetermined = tuple(dict.fromkeys(name for i, name in enumerate(problem.unknowns) if errors[i] > _UNDETERMINED))
+    undetermined = tuple(dict.fromkeys(name for i, name in enumerate(problem.unknowns) if errors[i] > UNDETERMINED))
     at_bounds = tuple(name for name, at in zip(names, x[:n_names]) if not 1e-3 < at < 1.0 - 1e-3)
     doubts = []
     if best.n_starts < 2:

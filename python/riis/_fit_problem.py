@@ -282,10 +282,10 @@ class Problem:
             at += _N_UNKNOWNS[move]
         return result, area
 
-    def fixed_jacobian(self, x: Reals) -> Reals:
-        """Returns the derivatives of the residuals by the sizes that are not free, for a change by the whole value of a length
-        or ratio, and by a radian of an angle."""
-        seen, pose, columns = self.at(x), self.pose(x), []
+    def fixed_jacobian(self, x: Reals) -> tuple[Reals, Reals]:
+        """Returns the derivatives of the residuals and of log(area) by the sizes that are not free, for a change by the whole
+        value of a length or ratio, and by a radian of an angle."""
+        seen, pose, columns, areas = self.at(x), self.pose(x), [], []
         assert seen is not None
         self.set_valve(x)
         valve, self.valve = self.valve, self.valve.copy()
@@ -300,9 +300,10 @@ class Problem:
                 self.valve.update(**{name: value})
                 if found is not None:
                     columns.append(found[0])
+                    areas.append(found[1])
                     break
         self.valve = valve
-        return numpy.array(columns).T.reshape(len(self.points), -1)
+        return numpy.array(columns).T.reshape(len(self.points), -1), numpy.array(areas)
 
     def cost(self, x: Reals, loss: Loss) -> float:
         """Returns the negative logarithm of the likelihood, up to a constant."""
@@ -378,12 +379,14 @@ class Problem:
                 break
         return x, found
 
-    def best_pose(self, x: Reals, rotations: Reals, middle: Reals | None, random: numpy.random.Generator) -> Pose | None:
+    def best_pose(self, x: Reals, rotations: Reals, middle: Reals | None,
+                  random: numpy.random.Generator | None) -> Pose | None:
         """Turns the base by each rotation, and returns the pose with which the points are closest, or None if the values do not
         fit together.
 
-        middle  a position for the middle of the surface, or for any of its points if the points are not those of the whole
-                valve; None keeps the translation
+        middle  a position for the middle of the surface; None keeps the translation
+        random  if given and the points are not those of the whole valve, the middle is a position for random points of the
+                surface, and any of the three closest poses is returned
         """
         surface = self.set_valve(x)
         if surface is None:
@@ -391,12 +394,13 @@ class Problem:
         areas = vertex_areas(surface.vertices, surface.triangles.vertex_id)
         center = numpy.array([weighted_median(column, areas) for column in surface.vertices.T])
         vertices = surface.vertices
-        few = self.points[:: max(1, len(self.points) // 100)]
+        few = self.points[:: max(1, len(self.points) // 70)]
         poses, local = [], []
-        for k, rotation in enumerate(rotations):
+        anywhere = random if not self.whole else None
+        for rotation in rotations:
             turned = rotation @ self.base.rotation
-            if k % 3 > 0 and not self.whole:
-                center = vertices[random.choice(len(areas), p=areas / areas.sum())]
+            if anywhere is not None:
+                center = vertices[anywhere.choice(len(areas), p=areas / areas.sum())]
             move = self.base.move if middle is None else middle - self.base.scale * turned @ center
             poses.append(Pose(turned, move, self.base.scale))
             local.append((few - move) @ turned / self.base.scale)
@@ -404,7 +408,8 @@ class Problem:
                                        n_threads=1)
         assert found.distance is not None
         squares = (found.distance.reshape(len(poses), -1) * self.base.scale / (0.05 * self.size)) ** 2
-        return poses[int(numpy.argmin(numpy.log1p(squares).mean(axis=1)))]
+        closest = numpy.argsort(numpy.log1p(squares).mean(axis=1))[:3]
+        return poses[closest[0] if anywhere is None else anywhere.choice(closest)]
 
 
 def start_pose(given: dict[str, Any]) -> Pose:

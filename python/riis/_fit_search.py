@@ -24,10 +24,15 @@ _N_ENDS = 4
 # An end is a rival if the likelihood ratio leaves it possible: twice the difference of the logarithms is less than this, which is
 # the square of three standard errors.
 RIVAL = 9.0
+# An unknown is undetermined if its standard error exceeds this fraction of a reference: the width of its bounds, a radian, the
+# valve's size, or the scale.
+UNDETERMINED = 0.1
 # Correlated residuals are judged in this many parts of the valve.
 _N_PARTS = 40
-# Where the residuals do not look random, sizes that are not free may differ from their values by this fraction, or radians.
+# Sizes that are not free differ from their values by at most about this fraction, or radians.
 _FIXED_SPREAD = 0.1
+# The logarithm of a ratio of likelihoods from which such a difference counts.
+_LEAST_EVIDENCE = 1.5
 
 
 @dataclass
@@ -39,7 +44,8 @@ class End:
     x: Reals  # relative to the pose
     probes: Reals  # points of the surface
     log_area: float
-    n_starts: int  # that ended here
+    n_starts: int  # that ended here, or at a fit from which turns led here
+    orbit: int  # ends with the same number lead to each other by turns
 
 
 class Judged(NamedTuple):
@@ -75,22 +81,27 @@ def is_same(problem: Problem, x: Reals, log_area: float, end: End) -> bool:
     return float(numpy.percentile(found.distance, 90.0)) * pose.scale < _SAME * problem.size
 
 
-def _add(problem: Problem, x: Reals, cost: float, ends: list[End], random: numpy.random.Generator) -> End | None:
-    """Adds the end x to ends, or counts it with the end that has the same surface. Returns the latter."""
+def _add(problem: Problem, x: Reals, cost: float, ends: list[End], orbit: int | None, random: numpy.random.Generator) -> None:
+    """Adds the end x to ends, or counts it with the end that has the same surface. It came from a start, or by a turn from an
+    end of an orbit."""
     seen = problem.at(x)
     if seen is None:
-        return None
+        return
     same = next((end for end in ends if is_same(problem, x, seen.log_area, end)), None)
     if same is None:
-        same = End(numpy.inf, problem.base, x, numpy.zeros((0, 3)), 0.0, 0)
+        number = 1 + max((end.orbit for end in ends), default=0)
+        same = End(numpy.inf, problem.base, x, numpy.zeros((0, 3)), 0.0, 0, number if orbit is None else orbit)
         ends.append(same)
-    same.n_starts += 1
+    if orbit is None:
+        same.n_starts += 1
+    else:
+        for end in ends:
+            end.orbit = orbit if end.orbit == same.orbit else end.orbit
     if cost < same.cost:
         same.cost, same.pose, same.probes, same.log_area = cost, problem.pose(x), probes_of(problem, x, random), seen.log_area
         same.x = x.copy()
         same.x[len(problem.names):] = 0.0
         ends.sort(key=lambda end: end.cost)
-    return same
 
 
 def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any_rotation: bool, n_least: int, n_most: int,
@@ -101,10 +112,10 @@ def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any
     wide = wide_loss(0.05 * problem.size)
     ends: list[End] = []
     n_done = 0
-    turned: list[End] = []
+    turned: set[int] = set()  # orbits
     least: list[float] = []  # cost with the wide loss
 
-    def go_down(base: Pose, x: Reals) -> None:
+    def go_down(base: Pose, x: Reals, orbit: int | None = None) -> None:
         problem.begin(base)
         x = problem.solve(x, wide, 30, 0.2)
         cost = problem.cost(x, wide)
@@ -112,17 +123,18 @@ def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any
         if cost > least[-1] + _HOPELESS * problem.weights.sum():
             return
         x, mixture = problem.refine(problem.rebased(x), 2, 0.1)
-        _add(problem, x, problem.cost(x, mixture.loss(problem.whole)), ends, random)
+        _add(problem, x, problem.cost(x, mixture.loss(problem.whole)), ends, orbit, random)
 
     def turn() -> None:
         """Turns the best end by one cusp, and swaps front and back, because a turned valve looks similar."""
-        first = ends[0]
-        turned.append(first)
-        n_before = first.n_starts
+        first, orbit = ends[0], ends[0].orbit
         for angle in numpy.radians((120.0, 240.0, 180.0)):
             rotation = first.pose.rotation @ matrix_of(numpy.array([0.0, 0.0, angle]))
-            go_down(Pose(rotation, first.pose.move, first.pose.scale), first.x)
-        first.n_starts = n_before  # its own images say nothing about it
+            go_down(Pose(rotation, first.pose.move, first.pose.scale), first.x, orbit)
+        turned.add(orbit)
+
+    def n_agreeing(one: End) -> int:
+        return sum(end.n_starts for end in ends if end.orbit == one.orbit)
 
     for number in range(n_most):
         x, rotations = given.copy(), numpy.eye(3)[None]
@@ -133,17 +145,19 @@ def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any
         elif number > 0 and middle is not None and not problem.whole:
             rotations = numpy.repeat(rotations, _N_ROTATIONS // 5, axis=0)  # each has a translation of its own
         problem.begin(pose)
-        base = problem.best_pose(x, rotations, middle, random)
+        base = problem.best_pose(x, rotations, middle, random if number > 0 else None)
         n_done += 1
         if base is not None:  # None if the values do not fit together
             go_down(base, x)
-        if ends and any_rotation and n_most > 1 and n_done >= n_least:
-            if (ends[0].n_starts >= 2 or n_done == n_most) and all(end is not ends[0] for end in turned):
+        if n_done >= n_least and ends:
+            if any_rotation and n_most > 1 and ends[0].orbit not in turned:
                 turn()
-        if n_done >= n_least and ends and ends[0].n_starts >= 2:
-            break
+            if n_agreeing(ends[0]) >= 2:
+                break
     if not ends:
         raise InvalidArgumentError("valve: no start has a surface; its values clash")
+    for end, count in [(end, n_agreeing(end)) for end in ends]:
+        end.n_starts = count
     return ends[:_N_ENDS], n_done
 
 
@@ -202,34 +216,47 @@ class Judge:
             misfit = float((mean**2).sum() / (alone.sum() * mixture.noise**2)) * n_parts / (n_parts - problem.n)
             robust = covariance @ (forces.T @ forces) @ covariance * n_parts / (n_parts - problem.n)
             variances = numpy.maximum(variances, numpy.diag(robust))
-        if misfit > 1.0 + 4.0 * numpy.sqrt(2.0 / max(n_parts - problem.n, 1)):
-            variances = variances + self._of_fixed(precision, jacobian, inlier * share / scatter**2)
+        variances = variances + self._of_fixed(precision, jacobian, inlier, share / scatter**2)
         errors = numpy.where(blind, numpy.inf, numpy.sqrt(variances))
         ratio = numpy.maximum(errors**2 / numpy.diag(covariance), 1.0)
         errors, better = self._profile(errors, covariance, ratio)
         return Judged(errors, s / problem.size, misfit, better)
 
-    def _of_fixed(self, precision: Reals, jacobian: Reals, weights: Reals) -> Reals:
-        """Returns the variances that the unknowns owe to sizes that are not free, whose values are not quite the patient's."""
-        columns = self.problem.fixed_jacobian(self.x) * _FIXED_SPREAD
-        seen = self.problem.at(self.x)
+    def _of_fixed(self, precision: Reals, jacobian: Reals, inlier: Reals, factor: float) -> Reals:
+        """Returns what the squared errors owe to sizes that are not free, if other values of these sizes would fit better than
+        chance allows: the shift of the unknowns in a fit with all sizes, and the variance that this fit adds."""
+        problem, n, weights = self.problem, self.problem.n, inlier * factor
+        seen, (columns, area) = problem.at(self.x), problem.fixed_jacobian(self.x)
+        columns, area = columns * _FIXED_SPREAD, area * _FIXED_SPREAD
         assert seen is not None
+        if columns.shape[1] == 0:
+            return numpy.zeros(n)
         both = numpy.hstack([jacobian, columns])
         full = both.T @ (both * weights[:, None])
-        n = self.problem.n
         full[:n, :n] = precision
-        full[n:, n:] += numpy.eye(columns.shape[1])
-        inverse = numpy.linalg.inv(full)
-        return numpy.asarray(numpy.maximum(numpy.diag(inverse)[:n] - numpy.diag(numpy.linalg.inv(precision)), 0.0))
+        alone = full[n:, n:] - full[n:, :n] @ numpy.linalg.solve(precision, full[:n, n:])
+        n_area = self.mixture.loss(problem.whole).area * problem.weights.sum() * self.mixture.noise**2 * factor
+        pull = -columns.T @ (weights * seen.residual) - n_area * area  # the free unknowns are at rest
+        # The spread of the sizes is the likeliest one, if it is much likelier than none.
+        values, vectors = numpy.linalg.eigh(alone)
+        values, squares = values.clip(0.0), (vectors.T @ pull) ** 2
+        spreads = numpy.logspace(-4.0, 0.0, 41)[:, None]
+        evidence = 0.5 * (spreads * squares / (1.0 + spreads * values) - numpy.log1p(spreads * values)).sum(axis=1)
+        if evidence.max() < _LEAST_EVIDENCE:
+            return numpy.zeros(n)
+        spread = float(spreads[numpy.argmax(evidence), 0])
+        inverse = (vectors * (spread / (1.0 + spread * values))) @ vectors.T
+        shares = numpy.linalg.solve(precision, full[:n, n:])
+        return numpy.asarray((shares @ inverse @ pull) ** 2 + numpy.einsum("ij,jk,ik->i", shares, inverse, shares))
 
     def _profile(self, errors: Reals, covariance: Reals, ratio: Reals) -> tuple[Reals, Reals | None]:
         """Holds each parameter two standard errors away, minimizes over the others, and widens the error where the cost rises
         less than it says."""
         problem, loss = self.problem, self.mixture.loss(self.problem.whole)
         best = problem.cost(self.x, loss)
-        errors = errors.copy()
+        errors, better, least = errors.copy(), None, -1.0
         for i in range(len(problem.names)):
-            if not 3e-3 < errors[i] < 1.0:
+            if not 3e-3 < errors[i] < UNDETERMINED:
                 continue
             linear = errors[i]
             for sign in (1.0, -1.0):
@@ -245,16 +272,16 @@ class Judge:
                     if problem.at(x) is None:
                         x = self.x.copy()
                         x[i] = target
-                    x = problem.solve(x, loss, 10, 0.05, held=i)
+                    x = problem.solve(x, loss, 8, 0.1, held=i)
                     rise = 2.0 * (problem.cost(x, loss) - best)
-                    if rise < -1.0:
-                        return errors, x
+                    if rise < least:
+                        least, better = rise, x
                     wider = moved / numpy.sqrt(max(rise / ratio[i], 0.04))
                     errors[i] = max(errors[i], min(wider, 1.0))
-                    if wider < 1.3 * error or target in (0.0, 1.0):
+                    if wider < 1.3 * error or wider > UNDETERMINED or target in (0.0, 1.0):
                         break
-                    error = min(wider, 0.5)
-        return errors, None
+                    error = wider
+        return errors, better
 
 
 def covered(problem: Problem, x: Reals, inlier: Reals, random: numpy.random.Generator) -> float:
