@@ -27,7 +27,7 @@ _MOVES = ("rotation", "translation", "scale")
 # The rough search uses this number of points.
 _N_ROUGH = 400
 # Without n_starts, a fit has at least and at most this many starts.
-_LEAST_STARTS, _MOST_STARTS = 4, 20
+_LEAST_STARTS, _LEAST_STARTS_OF_PART, _MOST_STARTS = 4, 8, 20
 # The tables of the kinds are in centimetres.
 _UNITS = {"m": 0.01, "cm": 1.0, "mm": 10.0}
 # A result is doubted beyond these limits.
@@ -35,7 +35,6 @@ _MOST_OUTLIERS = 0.3
 _LEAST_COVERED = 0.9
 _MOST_NOISE = 1.25  # times the stated noise
 _MOST_SCATTER = 0.05  # of the valve's size, without a stated noise
-_MOST_MISFIT = 4.0
 
 
 class Rival(NamedTuple):
@@ -318,8 +317,8 @@ def fit(
     whole      True: the points cover the whole valve, about evenly, so a surface that reaches beyond them is penalized.
                False: they cover a part of it, and nothing pulls back an edge that reaches beyond them
     n_starts   the largest number of starts; None: 20. The first start has the given values. Others, chosen by seed, have
-               random values within the bounds and, if start has no rotation, any rotation. After at least four starts they
-               end when two reached the best fit
+               random values within the bounds and, if start has no rotation, any rotation. After at least four
+               starts, or eight for a part of a valve, they end when two reached the best fit
     seed       the seed of the random starts
     noise      the standard deviation of the points from the surface, in the points' unit. Larger residuals are doubted, and
                smaller ones do not reduce the standard errors
@@ -390,7 +389,8 @@ def fit(
     x = numpy.zeros(problem.n)
     x[: len(names)] = numpy.clip(shares, 0.01, 0.99)
     any_rotation = "rotation" in moves and "rotation_angle" not in given
-    ends, n_done = search(rough, pose, x, middle, any_rotation, min(_LEAST_STARTS, n_most), n_most, random)
+    n_least = min(_LEAST_STARTS if whole else _LEAST_STARTS_OF_PART, n_most)
+    ends, n_done = search(rough, pose, x, middle, any_rotation, n_least, n_most, random)
     return _finish(problem, ends, n_done, stated, len(used), random)
 
 
@@ -488,10 +488,13 @@ def _result(problem: Problem, x: Reals, mixture: Mixture, judged: Judged, found:
         doubts.append(f"noise: the residuals scatter by {mixture.noise:.4g}, but the stated noise is {stated:.4g}")
     if stated == 0.0 and mixture.noise > _MOST_SCATTER * problem.size:
         doubts.append(f"noise: the residuals scatter by {mixture.noise:.4g}, and the valve's size is {problem.size:.4g}")
-    if judged.misfit > _MOST_MISFIT:
+    if judged.misfit > judged.most_misfit:
         doubts.append(f"misfit: neighbouring residuals are alike ({judged.misfit:.2g} times as much as at random)")
     if problem.whole and share < _LEAST_COVERED:
         doubts.append(f"cover: the points cover {share:.0%} of this fit; without the whole valve pass whole=False")
+    moves = [name for name in undetermined if name in _MOVES]
+    if moves:
+        doubts.append(f"placement: the points do not determine {', '.join(moves)}, on which the sizes depend")
     if at_bounds:
         doubts.append(f"bounds: {', '.join(at_bounds)} ended at a bound")
     distances = seen.distance

@@ -54,6 +54,7 @@ class Judged(NamedTuple):
     errors: Reals  # of the unknowns
     singular_values: Reals
     misfit: float  # by this factor the scatter of parts of the valve exceeds that of independent points
+    most_misfit: float  # more than this is no chance
     better: Reals | None  # unknowns with a lower cost that the profile met
 
 
@@ -134,6 +135,8 @@ def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any
         turned.add(orbit)
 
     def n_agreeing(one: End) -> int:
+        if not problem.whole:  # a part may fit several cusps, each from starts of its own
+            return one.n_starts
         return sum(end.n_starts for end in ends if end.orbit == one.orbit)
 
     for number in range(n_most):
@@ -205,7 +208,7 @@ class Judge:
         covariance = numpy.linalg.inv(precision)
         # Residuals that are alike in parts of the valve count as fewer points.
         n_parts = int(min(_N_PARTS, n_points / 8.0))
-        misfit = 1.0
+        misfit, most_misfit = 1.0, numpy.inf
         variances = numpy.diag(covariance) * factor
         if n_parts > problem.n + 2:
             part = _parts(seen.local, inlier, n_parts)
@@ -213,6 +216,7 @@ class Judge:
             numpy.add.at(forces, part, (inlier * seen.residual)[:, None] * jacobian * share / scatter**2)
             mean = numpy.bincount(part, inlier * seen.residual, n_parts)
             alone = numpy.bincount(part, inlier**2, n_parts)
+            most_misfit = max(2.0, 1.0 + 5.0 * (2.0 / (n_parts - problem.n)) ** 0.5)
             misfit = float((mean**2).sum() / (alone.sum() * mixture.noise**2)) * n_parts / (n_parts - problem.n)
             robust = covariance @ (forces.T @ forces) @ covariance * n_parts / (n_parts - problem.n)
             variances = numpy.maximum(variances, numpy.diag(robust))
@@ -220,7 +224,7 @@ class Judge:
         errors = numpy.where(blind, numpy.inf, numpy.sqrt(variances))
         ratio = numpy.maximum(errors**2 / numpy.diag(covariance), 1.0)
         errors, better = self._profile(errors, covariance, ratio)
-        return Judged(errors, s / problem.size, misfit, better)
+        return Judged(errors, s / problem.size, misfit, most_misfit, better)
 
     def _of_fixed(self, precision: Reals, jacobian: Reals, inlier: Reals, factor: float) -> Reals:
         """Returns what the squared errors owe to sizes that are not free, if other values of these sizes would fit better than
