@@ -30,7 +30,7 @@ from riis._errors import (
     UnavailableError,
     UnknownParameterError,
 )
-from riis._fit import FitResult, fit
+from riis._fit import FitResult, Rival, fit
 from riis._plot import animate, plot
 from riis._records import (
     BandSums,
@@ -133,6 +133,7 @@ __all__ = [
     "OutOfMemoryError",
     "Parameter",
     "Passage",
+    "Rival",
     "Surface",
     "SurfaceInfo",
     "Triangles",

@@ -204,7 +204,7 @@ def examined(seed):
     return examine(patient(seed))
 
 
-def main(n_patients, first=0):
+def main(n_patients=300, first=1000):
     patients = []
     with multiprocessing.get_context("spawn").Pool() as pool:
         for one in pool.imap(examined, range(first, first + n_patients)):
