@@ -32,7 +32,7 @@ _N_PARTS = 40
 # Sizes that are not free differ from their values by at most about this fraction, or radians.
 _FIXED_SPREAD = 0.1
 # The logarithm of a ratio of likelihoods from which such a difference counts.
-_LEAST_EVIDENCE = 1.5
+_LEAST_EVIDENCE = 4.0
 
 
 @dataclass
