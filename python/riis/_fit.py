@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fits a valve to points, such as those of a segmented image. It uses scipy's least squares on distances to closest points."""
+"""Fits a valve to points, such as those of a segmented image. It maximizes a likelihood of the distances to closest points."""
 
 from __future__ import annotations
 
@@ -9,40 +9,40 @@ import os
 import shlex
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Any, Literal
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal, NamedTuple
 
 import numpy
 from numpy.typing import NDArray
 
 from riis._errors import InvalidArgumentError
-from riis._fit_problem import (
-    FINE,
-    ROUGH,
-    Pose,
-    Problem,
-    axis_and_angle,
-    matrix_of,
-    random_rotations,
-    start_pose,
-    vertex_areas,
-    weighted_median,
-)
+from riis._fit_problem import FINE, ROUGH, Mixture, Pose, Problem, axis_and_angle, start_pose, vertex_areas, weighted_median
+from riis._fit_search import RIVAL, UNDETERMINED, End, Judge, Judged, covered, is_same, probes_of, search
 from riis._records import Parameter
-from riis._riis import Surface, Valve
+from riis._riis import Surface, Valve, find_crossings
 
 Reals = NDArray[numpy.float64]
 
-# An unknown is undetermined if its standard error exceeds this fraction of a reference: the width of its bounds, a radian, the
-# valve's size, or the scale.
-_UNDETERMINED = 0.1
 _MOVES = ("rotation", "translation", "scale")
 # The rough search uses this number of points.
 _N_ROUGH = 400
-# This many results of the rough search are refined, with a width from the scatter of the points.
-_N_ENDS = 3
-# Each further start chooses among this many rotations.
-_N_ROTATIONS = 150
+# Without n_starts, a fit has at least and at most this many starts.
+_LEAST_STARTS, _LEAST_STARTS_OF_PART, _MOST_STARTS = 4, 8, 20
+# The tables of the kinds are in centimetres.
+_UNITS = {"m": 0.01, "cm": 1.0, "mm": 10.0}
+# A result is doubted beyond these limits.
+_MOST_OUTLIERS = 0.3
+_LEAST_COVERED = 0.9
+_MOST_NOISE = 1.25  # times the stated noise
+_MOST_SCATTER = 0.05  # of the valve's size, without a stated noise
+
+
+class Rival(NamedTuple):
+    """Another fit of similar cost. Its surface is not that of the best fit."""
+
+    parameters: dict[str, float]
+    placement: dict[str, Any]
+    excess: float  #: twice the logarithm of the ratio of likelihoods. The best fit is sqrt(excess) standard errors ahead
 
 
 @dataclass(frozen=True)
@@ -52,14 +52,23 @@ class FitResult:
     valve: Valve
     placement: dict[str, Any]  #: scale, rotation_axis, rotation_angle (degrees) and translation
     parameters: dict[str, float]  #: the free parameters
-    standard_errors: dict[str, float]  #: of the free parameters, from the data's scatter; infinite if the data say nothing about
+    standard_errors: dict[str, float]  #: of the free parameters, with misfit and rivals; infinite if the data say nothing about
                                        #: a parameter
     undetermined: tuple[str, ...]  #: free parameters and parts of the placement that the data do not determine
     at_bounds: tuple[str, ...]  #: free parameters that ended at a bound
+    doubts: tuple[str, ...]  #: reasons to distrust the whole result, each a sentence; empty if there is none
+    n_starts: int  #: number of starts
+    n_agreeing: int  #: number of starts that reached this fit, or a fit that turns by a cusp or half a turn led here from
+    rivals: tuple[Rival, ...]  #: other fits of similar cost, the best first
+    n_crossings: int  #: number of pairs of triangles of the fitted surface that go through each other
     singular_values: Reals  #: of the Jacobian (rows: points, columns: unknowns), descending, in units of the valve's size
-    rms: float  #: root mean square of the distances, with the weights below
+    rms: float  #: root mean square of the residuals, with the weights below
+    noise: float  #: standard deviation of the residuals of the points that are no outliers
+    misfit: float  #: the residuals' variance in parts of the valve, by that of independent points; large if the model is wrong
+    outliers: float  #: share of the points that are outliers
+    covered: float  #: share of the fitted surface with points nearby
     percentile95: float  #: 95 % of all points have at most this distance
-    distances: Reals = field(repr=False)  #: (n_points,), of all points
+    distances: Reals = field(repr=False)  #: (n_points,), of all points, to the surface midway between both faces
     weights: Reals = field(repr=False)  #: (n_points,), the caller's weights times a factor from 0 to 1, small for outliers
 
     def report(self) -> str:
@@ -77,9 +86,15 @@ class FitResult:
         moves = [name for name in self.undetermined if name in _MOVES]
         if moves:
             lines.append(f"undetermined in the placement: {', '.join(moves)}")
-        light = int(numpy.count_nonzero(self.weights < 0.25 * self.weights.max()))
         share = f"95 % of {len(self.distances)} points within {self.percentile95:.4f}"
-        lines.append(f"rms {self.rms:.4f}, {share}, {light} with little weight")
+        lines.append(f"rms {self.rms:.4f}, {share}, outliers {self.outliers:.1%}, misfit {self.misfit:.2g}")
+        lines.append(f"{self.n_agreeing} of {self.n_starts} starts reached this fit; points cover {self.covered:.0%} of it")
+        for rival in self.rivals:
+            values = ", ".join(f"{name} {value:.4f}" for name, value in rival.parameters.items())
+            lines.append(f"rival, {rival.excess:.1f} behind: {values or 'another placement'}")
+        crossed = f"crosses itself in {self.n_crossings} pairs of triangles" if self.n_crossings else "does not cross itself"
+        lines.append(f"the fitted surface {crossed}")
+        lines += [f"doubt: {doubt}" for doubt in self.doubts]
         lines.append(f"singular values of the Jacobian: {' '.join(f'{value:.3g}' for value in self.singular_values)}")
         return "\n".join(lines)
 
@@ -220,7 +235,7 @@ def _bounds_of(valve: Valve, free: list[str], given: Any, size: float) -> Reals:
 
 def _placed(start: Any) -> dict[str, Any]:
     if not isinstance(start, Mapping):
-        raise TypeError(f"start: must be a dict of a placement, not {start!r}")
+        raise TypeError(f"start: must be a dict of a placement, or have a valve and a placement, not {start!r}")
     place = {"scale": 1.0, "rotation_axis": (0.0, 0.0, 1.0), "rotation_angle": 0.0, "translation": (0.0, 0.0, 0.0)}
     for name, value in start.items():
         if name not in place:
@@ -229,18 +244,61 @@ def _placed(start: Any) -> dict[str, Any]:
     return place
 
 
+def _length(number: Any, name: str) -> float:
+    """Returns a length, or 0 for None."""
+    if number is None:
+        return 0.0
+    if isinstance(number, bool) or not isinstance(number, (int, float, numpy.integer, numpy.floating)):
+        raise TypeError(f"{name}: must be a number or None, not {number!r}")
+    if not (numpy.isfinite(number) and number > 0.0):
+        raise InvalidArgumentError(f"{name}: is {number}; it must be finite and greater than 0")
+    return float(number)
+
+
+def _with_unit(unit: Any, start: Mapping[str, Any], moves: list[str], kind: str) -> dict[str, Any]:
+    """Returns the start with the scale of a unit."""
+    if unit is None:
+        return dict(start)
+    if not isinstance(unit, str):
+        raise TypeError(f"unit: must be one of {', '.join(_UNITS)}, not {unit!r}")
+    if unit not in _UNITS:
+        raise InvalidArgumentError(f"unit: '{unit}' is not one of {', '.join(_UNITS)}")
+    if kind == "patches":
+        raise InvalidArgumentError(f"unit: is '{unit}', but the lengths of a valve from patches have no known unit")
+    if "scale" in moves:
+        raise InvalidArgumentError(f"unit: '{unit}' sets the scale, which placement frees")
+    if start.get("scale", _UNITS[unit]) != _UNITS[unit]:
+        raise InvalidArgumentError(f"unit: '{unit}' sets the scale to {_UNITS[unit]}, but start sets it to {start['scale']}")
+    return {**start, "scale": _UNITS[unit]}
+
+
+def _check_unit(points: Reals, weights: Reals, surface: Surface, valve: Valve, limits: Reals, names: list[str]) -> None:
+    """Refuses points that are far larger or smaller than the valve can be."""
+    here, there = _extent(points, weights), _extent_of(surface)
+    grown = [limit[1] / valve[name] for name, limit in zip(names, limits)
+             if valve.parameters[name].unit == "length" and valve[name] > 0.0]
+    if here > 2.5 * there * max([1.0, *grown]) or here < there / 40.0:
+        raise InvalidArgumentError(
+            f"points: their median distance from their middle is {here:.4g}, that of the valve's surface is {there:.4g}; set "
+            "unit to the points' unit, start['scale'], or bounds"
+        )
+
+
 def fit(
     points: Any,
     valve: str | Valve,
     *,
     free: Sequence[str],
     placement: Sequence[Literal["rotation", "translation", "scale"]] = ("rotation", "translation"),
-    start: Mapping[str, Any] | None = None,
+    start: Any = None,
     bounds: Mapping[str, tuple[float, float]] | None = None,
     weights: Reals | None = None,
     whole: bool = True,
-    n_starts: int = 8,
+    n_starts: int | None = None,
     seed: int = 0,
+    noise: float | None = None,
+    thickness: float | None = None,
+    unit: Literal["m", "cm", "mm"] | None = None,
 ) -> FitResult:
     """Finds the parameters and the placement that bring a valve closest to points.
 
@@ -250,26 +308,33 @@ def fit(
     placement  which of rotation, translation and scale to fit
     start      a dict of the start values of scale, rotation_axis, rotation_angle and translation. Without a
                translation, the middle of the valve starts at the middle of the points. Without a scale, a free scale
-               starts from their extents
+               starts from their extents. Or an object with such a dict as its placement and with a valve, for instance
+               another result. The first start then has the values of that valve
     bounds     a dict from names in free to (low, high). The others have the bounds of valve.parameters, and lengths
                half to twice the start value
     weights    (n,) float64 >= 0, of the squares of distances. If None: the area around each vertex of a
                surface, or 1 for other points
     whole      True: the points cover the whole valve, about evenly, so a surface that reaches beyond them is penalized.
                False: they cover a part of it, and nothing pulls back an edge that reaches beyond them
-    n_starts   the first start has the given values. Others, chosen by seed, have random values within the bounds and,
-               if start has no rotation, any rotation. The closest fit is returned
+    n_starts   the largest number of starts; None: 20. The first start has the given values. Others, chosen by seed, have
+               random values within the bounds and, if start has no rotation, any rotation. After at least four
+               starts, or eight for a part of a valve, they end when two reached the best fit
     seed       the seed of the random starts
+    noise      the standard deviation of the points from the surface, in the points' unit. Larger residuals are doubted, and
+               smaller ones do not reduce the standard errors
+    thickness  the distance of both faces of a leaflet, if the points lie on both. Residuals are distances from the faces.
+               None: the points lie on the surface
+    unit       the points' unit. The valve's lengths are then in cm, and the placement has the scale 100 cm / m and so on.
+               None: start gives the scale
 
-    Distances are from the points to the surface. Outliers lose weight (Cauchy's loss, with a width from the scatter of the
-    points).
+    The fit maximizes the likelihood of points with normal noise along the surface's normal and with outliers.
     """
     points, areas = _points_of(points)
     _check_points(points)
     if isinstance(valve, Valve):
-        valve = valve.copy()
+        own = valve.copy()
     elif isinstance(valve, str):
-        valve = Valve(valve)
+        own = Valve(valve)
     else:
         raise TypeError(f"valve: must be a kind or a riis.Valve, not {type(valve).__name__}")
     names, moves = _names_of(free, "free"), _names_of(placement, "placement")
@@ -282,12 +347,21 @@ def fit(
         weights = _checked_weights(weights, len(points))
     else:
         weights = numpy.ones(len(points)) if areas is None else areas / (areas.mean() or 1.0)
-    n_starts, seed = _whole(n_starts, "n_starts", 1), _whole(seed, "seed", 0)
+    n_most = _MOST_STARTS if n_starts is None else _whole(n_starts, "n_starts", 1)
+    seed = _whole(seed, "seed", 0)
+    stated, thick = _length(noise, "noise"), _length(thickness, "thickness")
     if not isinstance(whole, bool):
         raise TypeError(f"whole: must be True or False, not {whole!r}")
     given = {} if start is None else start
+    from_start = getattr(start, "valve", None)
+    if isinstance(from_start, Valve):
+        if from_start.kind != own.kind:
+            raise InvalidArgumentError(f"start: its valve is of the kind {from_start.kind}, but valve is {own.kind}")
+        own, given = from_start.copy(), getattr(start, "placement", None)
+    _placed(given)
+    given = _with_unit(unit, given, moves, own.kind)
     place = _placed(given)
-    first = Surface(valve, **place)  # this call refuses a bad placement, and values that do not fit together
+    first = Surface(own, **place)  # this call refuses a bad placement, and values that do not fit together
     pose = start_pose(place)
     used = points[weights > 0.0]
     n_unknowns = len(names) + sum({"rotation": 3, "translation": 3, "scale": 1}[move] for move in moves)
@@ -296,21 +370,28 @@ def fit(
     if "scale" in moves and "scale" not in given:
         pose = Pose(pose.rotation, pose.move, pose.scale * _extent(points, weights) / _extent_of(first))
     size = float(numpy.linalg.norm(first.info.upper - first.info.lower)) * pose.scale / place["scale"]
-    limits = _bounds_of(valve, names, {} if bounds is None else bounds, size / pose.scale)
+    limits = _bounds_of(own, names, {} if bounds is None else bounds, size / pose.scale)
+    if "scale" not in moves:
+        _check_unit(points, weights, first, own, limits, names)
+    if thick > 0.2 * size:
+        raise InvalidArgumentError(f"thickness: is {thick}; it must be at most a fifth of the valve's size, which is {size:.4g}")
+    if stated > 0.2 * size:
+        raise InvalidArgumentError(f"noise: is {stated}; it must be at most a fifth of the valve's size, which is {size:.4g}")
 
     random = numpy.random.default_rng(seed)
-    problem = Problem(points, weights, valve, names, limits, moves, size, whole, FINE)
+    problem = Problem(points, weights, own, names, limits, moves, size, whole, FINE, thick, 0.5 * stated)
     few = random.permutation(numpy.flatnonzero(weights > 0.0))[:_N_ROUGH]
-    rough = Problem(points[few], weights[few], valve.copy(), names, limits, moves, size, whole, ROUGH)
+    rough = Problem(points[few], weights[few], own.copy(), names, limits, moves, size, whole, ROUGH, thick, 0.5 * stated)
     middle = None
     if "translation" in moves and "translation" not in given:
         middle = numpy.array([weighted_median(column, weights) for column in points.T])
-    shares = (numpy.array([valve[name] for name in names]) - limits[:, 0]) / (limits[:, 1] - limits[:, 0])
+    shares = (numpy.array([own[name] for name in names]) - limits[:, 0]) / (limits[:, 1] - limits[:, 0])
     x = numpy.zeros(problem.n)
     x[: len(names)] = numpy.clip(shares, 0.01, 0.99)
-    base, x = _search(rough, pose, x, middle, "rotation" in moves and "rotation_angle" not in given, n_starts, random)
-    problem.begin(base)
-    return _result(problem, problem.refine(x, 8))
+    any_rotation = "rotation" in moves and "rotation_angle" not in given
+    n_least = min(_LEAST_STARTS if whole else _LEAST_STARTS_OF_PART, n_most)
+    ends, n_done = search(rough, pose, x, middle, any_rotation, n_least, n_most, random)
+    return _finish(problem, ends, n_done, stated, len(used), random)
 
 
 def _extent(points: Reals, weights: Reals) -> float:
@@ -323,81 +404,118 @@ def _extent_of(surface: Surface) -> float:
     return _extent(surface.vertices, vertex_areas(surface.vertices, surface.triangles.vertex_id))
 
 
-def _search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any_rotation: bool, n_starts: int,
-            random: numpy.random.Generator) -> tuple[Pose, Reals]:
-    """Minimizes roughly from every start. Returns the base and the unknowns of the best result."""
-    n_names = len(problem.names)
-    width = 0.05 * problem.size
-    ends: list[tuple[float, Pose, Reals]] = []
-
-    def go_down(base: Pose, x: Reals) -> None:
-        problem.begin(base)
-        x = problem.solve(x, width, 30, 1e-4)
-        ends.append((problem.loss(x, width), problem.pose(x), numpy.append(x[:n_names], numpy.zeros(problem.n - n_names))))
-        ends.sort(key=lambda end: end[0])
-
-    for number in range(n_starts):
-        x, rotations = given.copy(), numpy.eye(3)[None]
-        if number > 0:
-            x[:n_names] = random.uniform(0.05, 0.95, n_names)
-            if any_rotation:
-                rotations = random_rotations(random, _N_ROTATIONS)
-        problem.begin(pose)
-        base = problem.best_rotation(x, rotations, middle)
-        if base is not None:  # None if the values do not fit together
-            go_down(base, x)
-    if not ends:
-        raise InvalidArgumentError("valve: no start has a surface; its values clash")
-    if any_rotation and n_starts > 1:
-        # A valve looks similar if it is turned by one cusp, or if front and back are swapped. So these rotations are tried.
-        _, found, x = ends[0]
-        for angle in numpy.radians((120.0, 240.0, 180.0)):
-            turn = matrix_of(numpy.array([0.0, 0.0, angle]))
-            go_down(Pose(found.rotation @ turn, found.move, found.scale), x)
-    best: list[tuple[float, Pose, Reals]] = []
-    for _, base, x in ends[:_N_ENDS]:
-        problem.begin(base)
-        x = problem.refine(x, 2)
-        best.append((problem.noise, problem.pose(x), numpy.append(x[:n_names], numpy.zeros(problem.n - n_names))))
-    noise = min(end[0] for end in best)
-
-    def rank(end: tuple[float, Pose, Reals]) -> float:
-        problem.begin(end[1])
-        return problem.merit(end[2], noise)
-
-    _, base, x = min(best, key=rank)
-    return base, x
-
-
-def _result(problem: Problem, x: Reals) -> FitResult:
-    seen, width, weights = problem.at(x), 3.0 * problem.noise, problem.weights
-    assert seen is not None
-    distances = numpy.abs(seen.distance)
-    robust = 1.0 / (1.0 + weights * (distances / width) ** 2)
-    jacobian = problem.jacobian(x) * numpy.sqrt(numpy.append(robust, 1.0))[:, None]
-    surface, pose = problem.set_valve(x), problem.pose(x)  # the last derivative changed the valve, so this restores it
-    assert surface is not None
-    total = weights * robust
-    n_free = total.sum() ** 2 / (total**2).sum() - problem.n
-    variance = float(total @ distances**2) / total.sum() * (1.0 + problem.n / max(1.0, n_free))
-    variance = max(variance, (pose.scale * surface.info.error_bound) ** 2)  # the fit cannot be more accurate than the triangles
-    _, s, v = numpy.linalg.svd(jacobian, full_matrices=False)
-    kept = s > max(1e-6 * s.max(), 1e-12 * problem.size)
-    covariance = (v[kept].T / s[kept] ** 2) @ v[kept] * variance
-    blind = (v[~kept] ** 2).sum(axis=0) > 1e-6
-    errors = numpy.where(blind, numpy.inf, numpy.sqrt(numpy.diag(covariance)))
+def _placement_of(pose: Pose) -> dict[str, Any]:
     axis, angle = axis_and_angle(pose.rotation)
-    n_names = len(problem.names)
+    return {"scale": pose.scale, "rotation_axis": axis, "rotation_angle": angle, "translation": tuple(pose.move.tolist())}
+
+
+def _finish(problem: Problem, ends: list[End], n_done: int, stated: float, n_used: int,
+            random: numpy.random.Generator) -> FitResult:
+    """Minimizes finely from the best ends, and judges the best of them."""
+    best, others = ends[0], ends[1:]
+    problem.begin(best.pose)
+    x, mixture = problem.refine(best.x, 8, 1e-4)
+    for attempt in range(4):
+        x = problem.rebased(x)
+        loss = mixture.loss(problem.whole)
+        base, cost, fine = problem.base, problem.cost(x, loss), problem.at(x)
+        assert fine is not None
+        here = End(cost, base, x, probes_of(problem, x, random), fine.log_area, 0, 0)
+        # The other ends come again, with the noise of the best.
+        found: list[tuple[float, Reals, Pose]] = []
+        better = None
+        for end in others:
+            if 2.0 * (end.cost - best.cost) > 100.0 * n_used / len(problem.points):
+                continue
+            problem.begin(end.pose)
+            z = problem.solve(end.x, loss, 20, 0.01)
+            there = problem.at(z)
+            if there is None or is_same(problem, z, there.log_area, here):
+                continue
+            found.append((2.0 * (problem.cost(z, loss) - cost), z, problem.base))
+            if found[-1][0] < -0.5:
+                better = z, problem.base, end
+        if better is not None and attempt < 3:
+            problem.begin(better[1])
+            x, mixture = problem.refine(better[0], 8, 1e-4)
+            others = [end for end in ends if end is not better[2]]
+            best = better[2]
+            continue
+        problem.begin(base)
+        judged = Judge(problem, x, mixture, stated).judge()
+        if judged.better is None or attempt == 3:
+            break
+        x, mixture = problem.refine(judged.better, 8, 1e-4)
+        there = problem.at(x)
+        if there is not None and not is_same(problem, x, there.log_area, here):
+            best = replace(best, n_starts=0)  # no start has reached this end
+    return _result(problem, x, mixture, judged, found, best, n_done, stated, random)
+
+
+def _result(problem: Problem, x: Reals, mixture: Mixture, judged: Judged, found: list[tuple[float, Reals, Pose]], best: End,
+            n_done: int, stated: float, random: numpy.random.Generator) -> FitResult:
+    n_names, names = len(problem.names), problem.names
+    base, values, pose = problem.base, problem.values(x), problem.pose(x)
     span = problem.bounds[:, 1] - problem.bounds[:, 0]
+    errors = judged.errors.copy()
+    rivals = []
+    for excess, z, other in sorted(found, key=lambda one: one[0]):
+        excess = max(excess, 0.0) / max(judged.misfit, 1.0)
+        problem.begin(other)
+        there = problem.values(z)
+        if excess < RIVAL:
+            rivals.append(Rival(dict(zip(names, there.tolist())), _placement_of(problem.pose(z)), excess))
+            # Three standard errors reach a rival at the limit, and one reaches a rival of the same cost.
+            errors[:n_names] = numpy.maximum(errors[:n_names], numpy.abs(there - values) / span / max(1.0, excess**0.5))
+    problem.begin(base)
+    seen = problem.at(x)
+    surface = problem.set_valve(x)
+    assert seen is not None and surface is not None
+    inlier = mixture.inlier(seen.residual)
+    total = problem.weights * inlier
+    share = covered(problem, x, inlier * (problem.weights > 0.0), random)
+    problem.set_valve(x)
+    undetermined = tuple(dict.fromkeys(name for i, name in enumerate(problem.unknowns) if errors[i] > UNDETERMINED))
+    at_bounds = tuple(name for name, at in zip(names, x[:n_names]) if not 1e-3 < at < 1.0 - 1e-3)
+    doubts = []
+    if best.n_starts < 2:
+        doubts.append(f"starts: {best.n_starts} of {n_done} starts reached this fit; two that agree are needed")
+    if rivals:
+        doubts.append(f"rivals: {len(rivals)} other fits have a similar cost")
+    if mixture.outliers > _MOST_OUTLIERS:
+        doubts.append(f"outliers: {mixture.outliers:.0%} of the points are not on this fit")
+    if stated > 0.0 and mixture.noise > _MOST_NOISE * stated:
+        doubts.append(f"noise: the residuals scatter by {mixture.noise:.4g}, but the stated noise is {stated:.4g}")
+    if stated == 0.0 and mixture.noise > _MOST_SCATTER * problem.size:
+        doubts.append(f"noise: the residuals scatter by {mixture.noise:.4g}, and the valve's size is {problem.size:.4g}")
+    if judged.misfit > judged.most_misfit:
+        doubts.append(f"misfit: neighbouring residuals are alike ({judged.misfit:.2g} times as much as at random)")
+    if problem.whole and share < _LEAST_COVERED:
+        doubts.append(f"cover: the points cover {share:.0%} of this fit; without the whole valve pass whole=False")
+    moves = [name for name in undetermined if name in _MOVES]
+    if moves:
+        doubts.append(f"placement: the points do not determine {', '.join(moves)}, on which the sizes depend")
+    if at_bounds:
+        doubts.append(f"bounds: {', '.join(at_bounds)} ended at a bound")
+    distances = seen.distance
     return FitResult(
         valve=problem.valve,
-        placement={"scale": pose.scale, "rotation_axis": axis, "rotation_angle": angle, "translation": tuple(pose.move.tolist())},
-        parameters=dict(zip(problem.names, problem.values(x).tolist())),
-        standard_errors={name: float(errors[i] * span[i]) for i, name in enumerate(problem.names)},
-        undetermined=tuple(dict.fromkeys(name for i, name in enumerate(problem.unknowns) if errors[i] > _UNDETERMINED)),
-        at_bounds=tuple(name for name, share in zip(problem.names, x[:n_names]) if not 1e-3 < share < 1.0 - 1e-3),
-        singular_values=s / problem.size,
-        rms=float(numpy.sqrt(total @ distances**2 / total.sum())),
+        placement=_placement_of(pose),
+        parameters=dict(zip(names, values.tolist())),
+        standard_errors={name: float(errors[i] * span[i]) for i, name in enumerate(names)},
+        undetermined=undetermined,
+        at_bounds=at_bounds,
+        doubts=tuple(doubts),
+        n_starts=n_done,
+        n_agreeing=best.n_starts,
+        rivals=tuple(rivals),
+        n_crossings=int(find_crossings(surface, n_threads=1).n_pairs),
+        singular_values=judged.singular_values,
+        rms=float(numpy.sqrt(total @ seen.residual**2 / total.sum())),
+        noise=mixture.noise,
+        misfit=judged.misfit,
+        outliers=mixture.outliers,
+        covered=share,
         percentile95=float(numpy.percentile(distances, 95.0)),
         distances=distances,
         weights=total,

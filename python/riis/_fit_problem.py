@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The least squares behind riis.fit: residuals, their derivatives, and the search from one start."""
+"""The likelihood behind riis.fit: residuals, their derivatives, and the search from one start."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -16,12 +17,9 @@ Reals = NDArray[numpy.float64]
 
 # Triangles lie within this distance of the smooth valve, as a fraction of the valve's size.
 FINE, ROUGH = 5e-4, 2e-3
-# The step of finite differences, as a fraction of a parameter's bounds. With a smaller step, changes of the triangulation would
-# disturb the difference.
-_STEP = 2e-3
-# The residuals of values that do not fit together, in units of the valve's size. They are far larger than any distance to a valve
-# near the points.
-_CLASH = 10.0
+# The step of finite differences, as a fraction of a parameter's bounds. It is so small that a moved valve almost always has the
+# same triangles.
+_STEP = 1e-5
 # Threads are used for more points than this. A fit makes many small surfaces, each in a few milliseconds. For these, threads cost
 # more than they gain.
 _MANY = 20_000
@@ -87,13 +85,58 @@ class Pose:
 
 
 class Seen(NamedTuple):
-    """The points' positions relative to a valve. The directions keep signed distances smooth if points change sides."""
+    """The points' positions relative to a valve."""
 
-    difference: Reals  # (n, 3), from the closest points
-    direction: Reals  # (n, 3), unit vectors on the side of the normals
-    distance: Reals  # (n,), signed, along the directions
+    residual: Reals  # (n,), distances; with a thickness their difference to half of it
+    direction: Reals  # (n, 3), unit vectors along which the residual grows
+    distance: Reals  # (n,), at least 0
     local: Reals  # (n, 3), the closest points in the valve's frame
     log_area: float
+    corners: NDArray[numpy.int64]  # (n, 3), the vertices of the triangles of the closest points
+    barycentric: Reals  # (n, 3)
+    vertices: Reals  # (n_vertices, 3), of the surface in the valve's frame
+    triangles: NDArray[numpy.int64]  # (n_triangles, 3)
+
+
+class Loss(NamedTuple):
+    """The negative logarithm of the density of a residual. It is concave in the residual's square, so weighted least squares
+    never raise it."""
+
+    value: Callable[[Reals], Reals]
+    weight: Callable[[Reals], Reals]  # the derivative by half of the residual's square
+    area: float  # weight of log(area) for each point
+
+
+def wide_loss(width: float) -> Loss:
+    """Returns Cauchy's loss, whose tails let a search begin far from the points."""
+    return Loss(
+        lambda r: numpy.asarray(numpy.log1p((r / width) ** 2)), lambda r: 2.0 / width**2 / (1.0 + (r / width) ** 2), 0.0)
+
+
+@dataclass(frozen=True)
+class Mixture:
+    """Points with normal noise along the normal, and a share of outliers whose distances are uniformly distributed."""
+
+    noise: float
+    outliers: float  # their share
+    reach: float  # the largest residual of an outlier
+
+    def inlier(self, r: Reals) -> Reals:
+        """Returns the probability that a point is no outlier."""
+        normal = (1.0 - self.outliers) * numpy.exp(-0.5 * (r / self.noise) ** 2) / (numpy.sqrt(2.0 * numpy.pi) * self.noise)
+        return numpy.asarray(normal / (normal + 0.5 * self.outliers / self.reach))
+
+    def value(self, r: Reals) -> Reals:
+        """Returns the negative logarithm of the density."""
+        normal = (1.0 - self.outliers) * numpy.exp(-0.5 * (r / self.noise) ** 2) / (numpy.sqrt(2.0 * numpy.pi) * self.noise)
+        return numpy.asarray(-numpy.log(normal + 0.5 * self.outliers / self.reach))
+
+    def loss(self, whole: bool) -> Loss:
+        # If points lie evenly over the whole valve, each has the probability density 1 / area. So the logarithm of their
+        # likelihood contains the term -n log(area). The rest of the likelihood is biased near an edge: noise moves points beyond
+        # the edge, and these pull it outwards by n noise^2 / (4 area) per length. A quarter of the area's term pulls the edge
+        # inwards by the same amount, so edges stay where they are.
+        return Loss(self.value, lambda r: self.inlier(r) / self.noise**2, 0.25 * (1.0 - self.outliers) if whole else 0.0)
 
 
 class Problem:
@@ -104,23 +147,30 @@ class Problem:
     """
 
     def __init__(self, points: Reals, weights: Reals, valve: Valve, names: list[str], bounds: Reals, moves: list[str],
-                 size: float, whole: bool, tolerance: float) -> None:
-        self.points, self.weights, self.root_weights = points, weights, numpy.sqrt(weights)
+                 size: float, whole: bool, tolerance: float, thickness: float, least_noise: float) -> None:
+        self.points, self.weights = points, weights
         self.valve, self.names, self.bounds, self.moves, self.size, self.whole = valve, names, bounds, moves, size, whole
-        self.tolerance = tolerance
+        self.tolerance, self.thickness, self.least_noise = tolerance, thickness, least_noise
         self.unknowns = list(names)
         for move in moves:
             self.unknowns += [move] * _N_UNKNOWNS[move]
         self.n = len(self.unknowns)
+        self.low, self.high = numpy.full(self.n, -numpy.inf), numpy.full(self.n, numpy.inf)
+        self.low[: len(names)], self.high[: len(names)] = 0.0, 1.0
         self.base = Pose(numpy.eye(3), numpy.zeros(3), 1.0)
-        self.noise = 0.0  # noise of the points, for the residual of the area
-        self.log_area = 0.0  # log_area at the beginning of a search
         self.surface: Surface | None = None
         self.last: tuple[bytes, Seen | None] | None = None
 
     def begin(self, base: Pose) -> None:
         """Sets the pose to which placements are relative."""
         self.base, self.last = base, None
+
+    def rebased(self, x: Reals) -> Reals:
+        """Begins with the pose of x. Returns the unknowns of the same valve there."""
+        self.begin(self.pose(x))
+        x = x.copy()
+        x[len(self.names):] = 0.0
+        return x
 
     def values(self, x: Reals) -> Reals:
         """Returns the parameters."""
@@ -153,158 +203,213 @@ class Problem:
             return None
         return self.surface
 
-    def look(self, x: Reals) -> tuple[Reals, Reals, Reals, float] | None:
-        """Returns points minus closest points, normals, closest points in the valve's frame, and the logarithm of the area."""
+    def look(self, x: Reals) -> Seen | None:
+        """Computes the points' positions relative to the valve at x. Returns None if its values do not fit together."""
         surface, pose = self.set_valve(x), self.pose(x)
         if surface is None:
             return None
         local = numpy.ascontiguousarray((self.points - pose.move) @ pose.rotation / pose.scale)
         n_threads = 0 if len(local) >= _MANY else 1
-        found = surface.closest_points(local, triangle_id=False, leaflet_id=False, n_threads=n_threads)
-        assert found.point is not None and found.normal is not None
-        area = float(numpy.log(surface.info.area * pose.scale**2)) if self.whole else 0.0
-        return pose.scale * (local - found.point) @ pose.rotation.T, found.normal @ pose.rotation.T, found.point, area
+        found = surface.closest_points(local, barycentric=True, leaflet_id=False, n_threads=n_threads)
+        assert found.point is not None and found.normal is not None and found.distance is not None
+        assert found.barycentric is not None and found.triangle_id is not None
+        triangles = surface.triangles
+        row = numpy.searchsorted(triangles.triangle_id, found.triangle_id)
+        difference, length = local - found.point, found.distance
+        near = length * pose.scale < 1e-9 * self.size
+        direction = numpy.where(near[:, None], found.normal, difference / numpy.where(near, 1.0, length)[:, None])
+        length = length * pose.scale
+        if self.thickness > 0.0:
+            residual = length - 0.5 * self.thickness
+        else:  # signed distances stay smooth if points change sides
+            sign = numpy.where(numpy.einsum("ij,ij->i", direction, found.normal) < 0.0, -1.0, 1.0)
+            direction, residual = direction * sign[:, None], length * sign
+        area = float(numpy.log(surface.info.area * pose.scale**2))
+        return Seen(residual, direction @ pose.rotation.T, length, found.point, area, triangles.vertex_id[row],
+                    found.barycentric, surface.vertices.copy(), triangles.vertex_id.copy())
 
     def at(self, x: Reals) -> Seen | None:
         """Returns the points' positions relative to the valve at x, computed only once."""
         key = x.tobytes()
         if self.last is None or self.last[0] != key:
-            found, seen = self.look(x), None
-            if found is not None:
-                difference, normal, local, area = found
-                length = numpy.linalg.norm(difference, axis=1)
-                near = length < 1e-9 * self.size
-                direction = numpy.where(near[:, None], normal, difference / numpy.where(near, 1.0, length)[:, None])
-                sign = numpy.where(numpy.einsum("ij,ij->i", direction, normal) < 0.0, -1.0, 1.0)
-                seen = Seen(difference, direction * sign[:, None], length * sign, local, area)
-            self.last = key, seen
+            self.last = key, self.look(x)
         return self.last[1]
 
-    # The last residual concerns the area. If points lie evenly over the whole valve, each has the probability density 1 / area.
-    # So the logarithm of their likelihood contains the term -n log(area). Half the sum of squares is the rest of the likelihood,
-    # times noise^2. It is biased near an edge: noise moves points beyond the edge, and these pull it outwards by n noise^2 / (4
-    # area) per length. A quarter of the area's term pulls the edge inwards by the same amount, so edges stay where they are. Half
-    # the square of this residual is n noise^2 / 4 (log(area) + constant). The constant keeps the root real.
-    _CONSTANT = 4.0
+    def change(self, seen: Seen, x: Reals, step: float, pose: Pose, others: dict[str, float]) -> tuple[Reals, float] | None:
+        """Returns the derivatives of the residuals and of log(area) along a step of x and of other parameters. A closest point
+        moves with its place on the surface, because its sliding along the surface does not change the distance."""
+        try:
+            self.valve.update(**others)
+            surface = self.set_valve(x)
+        except Error:
+            return None
+        if surface is None or not numpy.array_equal(surface.triangles.vertex_id, seen.triangles):
+            return None
+        moved = numpy.einsum("ij,ijk->ik", seen.barycentric, (surface.vertices - seen.vertices)[seen.corners]) / step
+        area = (float(numpy.log(surface.info.area * self.base_scale(x) ** 2)) - seen.log_area) / step
+        return -pose.scale * numpy.einsum("ij,ij->i", moved @ pose.rotation.T, seen.direction), area
 
-    def _area_factor(self) -> float:
-        return float(numpy.sqrt(0.5 * self.weights.sum())) * self.noise if self.whole else 0.0
+    def base_scale(self, x: Reals) -> float:
+        """Returns the scale of the placement."""
+        return self.motion(x)[2] * self.base.scale
 
-    def _area_root(self, log_area: float) -> float:
-        return float(numpy.sqrt(max(self._CONSTANT + log_area - self.log_area, 1e-3)))
-
-    def residuals(self, x: Reals) -> Reals:
-        """Returns the residuals of the points and the residual of the area."""
+    def jacobian(self, x: Reals) -> tuple[Reals, Reals]:
+        """Returns the derivatives of the residuals and of log(area): by differences for parameters, exactly for the placement."""
         seen = self.at(x)
-        if seen is None:
-            return numpy.full(len(self.points) + 1, _CLASH * self.size)
-        return numpy.append(self.root_weights * seen.distance, self._area_factor() * self._area_root(seen.log_area))
-
-    def jacobian(self, x: Reals) -> Reals:
-        """Returns the derivatives of the residuals: by differences for parameters, exactly for the placement."""
-        seen = self.at(x)
-        result = numpy.zeros((len(self.points) + 1, self.n))
-        if seen is None:
-            return result
-        area = self._area_factor() * 0.5 / self._area_root(seen.log_area)
+        assert seen is not None
+        result, area = numpy.zeros((len(self.points), self.n)), numpy.zeros(self.n)
+        pose = self.pose(x)
         for i in range(len(self.names)):
             for step in (_STEP, -_STEP) if x[i] < 0.5 else (-_STEP, _STEP):
                 moved = x.copy()
                 moved[i] += step
-                other = self.look(moved)
-                if other is not None:  # if this side is not possible, tries the other side
-                    along = numpy.einsum("ij,ij->i", other[0], seen.direction)
-                    result[:-1, i] = self.root_weights * (along - seen.distance) / step
-                    result[-1, i] = area * (other[3] - seen.log_area) / step
+                found = self.change(seen, moved, step, pose, {})
+                if found is not None:  # if this side is not possible, tries the other side
+                    result[:, i], area[i] = found
                     break
-        at, pose = len(self.names), self.pose(x)
-        turned = pose.scale * seen.local @ pose.rotation.T
-        weighted = self.root_weights[:, None] * seen.direction
+        at, turned = len(self.names), pose.scale * seen.local @ pose.rotation.T
         vector = self.motion(x)[0]
         for move in self.moves:
             if move == "translation":
-                result[:-1, at : at + 3] = -weighted * self.size
+                result[:, at : at + 3] = -seen.direction * self.size
             elif move == "rotation":
                 for k, step in enumerate(1e-6 * numpy.eye(3)):
                     change = (matrix_of(vector + step) - matrix_of(vector - step)) / 2e-6 @ matrix_of(vector).T
-                    result[:-1, at + k] = -numpy.einsum("ij,ij->i", weighted, turned @ change.T)
+                    result[:, at + k] = -numpy.einsum("ij,ij->i", seen.direction, turned @ change.T)
             else:
-                result[:-1, at] = -numpy.einsum("ij,ij->i", weighted, turned)
-                result[-1, at] = 2.0 * area
+                result[:, at] = -numpy.einsum("ij,ij->i", seen.direction, turned)
+                area[at] = 2.0
             at += _N_UNKNOWNS[move]
-        return result
+        return result, area
 
-    def scatter(self, x: Reals) -> float:
-        """Returns the standard deviation of the normal noise that would have the same median of distances. Outliers hardly
-        change the median."""
-        seen = self.at(x)
+    def fixed_jacobian(self, x: Reals) -> tuple[Reals, Reals]:
+        """Returns the derivatives of the residuals and of log(area) by the sizes that are not free, for a change by the whole
+        value of a length or ratio, and by a radian of an angle."""
+        seen, pose, columns, areas = self.at(x), self.pose(x), [], []
         assert seen is not None
-        return max(1.4826 * weighted_median(numpy.abs(seen.distance), self.weights), 1e-4 * self.size)
+        self.set_valve(x)
+        valve, self.valve = self.valve, self.valve.copy()
+        values = dict(valve)
+        for name, parameter in valve.parameters.items():
+            value = values[name]
+            if name in self.names or parameter.n_values != 1 or name == "opening" or value == 0.0:
+                continue
+            whole = numpy.degrees(1.0) if parameter.unit == "degree" else value
+            for step in (_STEP, -_STEP):
+                found = self.change(seen, x, step, pose, {name: value + step * whole})
+                self.valve.update(**{name: value})
+                if found is not None:
+                    columns.append(found[0])
+                    areas.append(found[1])
+                    break
+        self.valve = valve
+        return numpy.array(columns).T.reshape(len(self.points), -1), numpy.array(areas)
 
-    def loss(self, x: Reals, width: float) -> float:
-        """Returns the loss of the points' residuals for a given width."""
-        return float(numpy.log1p((self.residuals(x)[:-1] / width) ** 2).sum())
-
-    def merit(self, x: Reals, noise: float) -> float:
-        """Returns the cost that solve minimizes, for a given noise."""
-        seen, width = self.at(x), 3.0 * noise
+    def cost(self, x: Reals, loss: Loss) -> float:
+        """Returns the negative logarithm of the likelihood, up to a constant."""
+        seen = self.at(x)
         if seen is None:
             return numpy.inf
-        return width**2 * self.loss(x, width) + 0.5 * float(self.weights.sum()) * noise**2 * seen.log_area
+        return float(self.weights @ loss.value(seen.residual)) + loss.area * float(self.weights.sum()) * seen.log_area
 
-    def solve(self, x: Reals, width: float, n_steps: int, change: float) -> Reals:
-        """Minimizes from x until x or the cost changes by less than `change`. Residuals beyond the width lose weight."""
-        from scipy.optimize import least_squares
-
+    def normal_equations(self, x: Reals, loss: Loss) -> tuple[Reals, Reals]:
+        """Returns the gradient of the cost and the matrix of its Gauss-Newton model."""
         seen = self.at(x)
         assert seen is not None
-        self.log_area = seen.log_area
+        jacobian, area = self.jacobian(x)
+        weighted = (self.weights * loss.weight(seen.residual))[:, None] * jacobian
+        n_area = loss.area * float(self.weights.sum())
+        # The matrix of the area's term: edges are as uncertain as a quarter of the term says.
+        return weighted.T @ seen.residual + n_area * area, jacobian.T @ weighted + 0.125 * n_area * numpy.outer(area, area)
 
-        def loss(z: Reals) -> Reals:
-            rho = numpy.array([numpy.log1p(z), 1.0 / (1.0 + z), -1.0 / (1.0 + z) ** 2])
-            rho[:, -1] = z[-1], 1.0, 0.0
-            return rho
-
-        low, high = numpy.full(self.n, -numpy.inf), numpy.full(self.n, numpy.inf)
-        low[: len(self.names)], high[: len(self.names)] = 0.0, 1.0
-        result = least_squares(
-            self.residuals, x, self.jacobian, bounds=(low, high), loss=loss, f_scale=width, max_nfev=n_steps, ftol=change,
-            xtol=change, gtol=1e-10,
-        )
-        return numpy.asarray(result.x)
-
-    def refine(self, x: Reals, n_rounds: int) -> Reals:
-        """Minimizes again with a width that follows the scatter of the points."""
-        for _ in range(n_rounds):
-            self.noise = self.scatter(x)
-            before, x = x, self.solve(x, 3.0 * self.noise, 60, 1e-6)
-            if numpy.abs(x - before).max() < 1e-4:
+    def solve(self, x: Reals, loss: Loss, n_steps: int, change: float, held: int | None = None) -> Reals:
+        """Minimizes the cost from x by Levenberg and Marquardt's steps, until the cost changes by less than `change` (of a
+        likelihood's logarithm). An unknown that is held does not move."""
+        damping, cost = 1e-3, self.cost(x, loss)
+        for _ in range(n_steps):
+            if self.at(x) is None:
+                return x
+            gradient, matrix = self.normal_equations(x, loss)
+            free = ~(((x <= self.low) & (gradient > 0.0)) | ((x >= self.high) & (gradient < 0.0)))
+            if held is not None:
+                free[held] = False
+            diagonal = numpy.diag(matrix)[free]
+            gain, done = 0.0, True
+            for _ in range(8):
+                extra = damping * diagonal + 1e-9 * max(float(diagonal.max(initial=0.0)), 1e-300)
+                step = numpy.zeros(self.n)
+                step[free] = -numpy.linalg.solve(matrix[numpy.ix_(free, free)] + numpy.diag(extra), gradient[free])
+                length = numpy.abs(step).max()
+                trial = numpy.clip(x + step * min(1.0, 0.3 / max(length, 1e-300)), self.low, self.high)
+                kept = self.last
+                new = self.cost(trial, loss)
+                if new < cost:
+                    gain, done = cost - new, length < 1e-7
+                    x, cost, damping = trial, new, max(0.2 * damping, 1e-7)
+                    break
+                self.last = kept
+                damping = max(damping, 1e-4) * 8.0
+            if done or gain < change:
                 break
-        self.noise = self.scatter(x)
         return x
 
-    def best_rotation(self, x: Reals, rotations: Reals, middle: Reals | None) -> Pose | None:
+    def mixture(self, x: Reals, start: Mixture | None = None) -> Mixture:
+        """Returns the noise and the share of outliers that make the residuals most likely (expectation and maximization)."""
+        seen = self.at(x)
+        assert seen is not None
+        r, total = seen.residual, float(self.weights.sum())
+        least = max(self.least_noise, 1e-4 * self.size)
+        found = start or Mixture(max(1.4826 * weighted_median(numpy.abs(r), self.weights), least), 0.1, 0.25 * self.size)
+        for _ in range(40):
+            inlier = self.weights * found.inlier(r)
+            n_in = float(inlier.sum())
+            noise = max(float(numpy.sqrt(inlier @ r**2 / max(n_in, 1e-300))), least)
+            found, before = Mixture(noise, float(numpy.clip(1.0 - n_in / total, 0.002, 0.6)), found.reach), found
+            if abs(found.noise - before.noise) < 1e-4 * noise:
+                break
+        return found
+
+    def refine(self, x: Reals, n_rounds: int, change: float) -> tuple[Reals, Mixture]:
+        """Minimizes again with the noise and the share of outliers at the end of each round."""
+        found = self.mixture(x)
+        for _ in range(n_rounds):
+            before, x = found, self.solve(x, found.loss(self.whole), 30, change)
+            found = self.mixture(x)
+            if abs(found.noise - before.noise) < 0.01 * before.noise:
+                break
+        return x, found
+
+    def best_pose(self, x: Reals, rotations: Reals, middle: Reals | None,
+                  random: numpy.random.Generator | None) -> Pose | None:
         """Turns the base by each rotation, and returns the pose with which the points are closest, or None if the values do not
         fit together.
 
-        middle  the position for the middle of the surface; None keeps the translation
+        middle  a position for the middle of the surface; None keeps the translation
+        random  if given and the points are not those of the whole valve, the middle is a position for random points of the
+                surface, and any of the three closest poses is returned
         """
         surface = self.set_valve(x)
         if surface is None:
             return None
         areas = vertex_areas(surface.vertices, surface.triangles.vertex_id)
         center = numpy.array([weighted_median(column, areas) for column in surface.vertices.T])
-        few = self.points[:: max(1, len(self.points) // 200)]
+        vertices = surface.vertices
+        few = self.points[:: max(1, len(self.points) // 70)]
         poses, local = [], []
+        anywhere = random if not self.whole else None
         for rotation in rotations:
             turned = rotation @ self.base.rotation
+            if anywhere is not None:
+                center = vertices[anywhere.choice(len(areas), p=areas / areas.sum())]
             move = self.base.move if middle is None else middle - self.base.scale * turned @ center
             poses.append(Pose(turned, move, self.base.scale))
             local.append((few - move) @ turned / self.base.scale)
-        found = surface.closest_points(numpy.concatenate(local), point=False, normal=False, triangle_id=False, leaflet_id=False)
+        found = surface.closest_points(numpy.concatenate(local), point=False, normal=False, triangle_id=False, leaflet_id=False,
+                                       n_threads=1)
         assert found.distance is not None
         squares = (found.distance.reshape(len(poses), -1) * self.base.scale / (0.05 * self.size)) ** 2
-        return poses[int(numpy.argmin(numpy.log1p(squares).mean(axis=1)))]
+        closest = numpy.argsort(numpy.log1p(squares).mean(axis=1))[:3]
+        return poses[closest[0] if anywhere is None else anywhere.choice(closest)]
 
 
 def start_pose(given: dict[str, Any]) -> Pose:

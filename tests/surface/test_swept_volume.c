@@ -156,7 +156,7 @@ static void squares_sweep_boxes(void **state) {
     random_placement(&options);
     options.flip_normals = trial % 2;
     const double from = between(0, 1), to = between(0, 1), size = pow(options.scale, 3);
-    CHECK_NEAR(swept(valve, from, to, &options, 0), (trial % 2 ? -1 : 1) * size * (to - from) * shift[2], 1e-13 * size);
+    CHECK_NEAR(swept(valve, from, to, &options, 0), (trial % 2 ? -1 : 1) * size * (to - from) * shift[2], 1e-12 * size);
     free_one_owned(valve), free_one_owned(open);
   }
 }

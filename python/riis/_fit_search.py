@@ -1,0 +1,308 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The starts of riis.fit, their ends, and the standard errors of the best end."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from riis._errors import InvalidArgumentError
+from riis._fit_problem import Mixture, Pose, Problem, Reals, matrix_of, random_rotations, wide_loss
+
+# Each start chooses among this many rotations.
+_N_ROTATIONS = 150
+# Ends are the same surface if nine tenths of one lie within this fraction of the valve's size from the other, and the areas
+# differ by at most this fraction.
+_SAME = 0.02
+# A rough end whose cost for each point exceeds the least by this is not refined.
+_HOPELESS = 0.15
+# At most this many ends are refined.
+_N_ENDS = 4
+# An end is a rival if the likelihood ratio leaves it possible: twice the difference of the logarithms is less than this, which is
+# the square of three standard errors.
+RIVAL = 9.0
+# An unknown is undetermined if its standard error exceeds this fraction of a reference: the width of its bounds, a radian, the
+# valve's size, or the scale.
+UNDETERMINED = 0.1
+# Correlated residuals are judged in this many parts of the valve.
+_N_PARTS = 40
+# Sizes that are not free differ from their values by at most about this fraction, or radians.
+_FIXED_SPREAD = 0.1
+# The logarithm of a ratio of likelihoods from which such a difference counts.
+_LEAST_EVIDENCE = 4.0
+
+
+@dataclass
+class End:
+    """An end of the search from one or more starts."""
+
+    cost: float
+    pose: Pose
+    x: Reals  # relative to the pose
+    probes: Reals  # points of the surface
+    log_area: float
+    n_starts: int  # that ended here, or at a fit from which turns led here
+    orbit: int  # ends with the same number lead to each other by turns
+
+
+class Judged(NamedTuple):
+    """The standard errors of the best end."""
+
+    errors: Reals  # of the unknowns
+    singular_values: Reals
+    misfit: float  # by this factor the scatter of parts of the valve exceeds that of independent points
+    most_misfit: float  # more than this is no chance
+    better: Reals | None  # unknowns with a lower cost that the profile met
+
+
+def probes_of(problem: Problem, x: Reals, random: numpy.random.Generator) -> Reals:
+    """Returns points that lie evenly on the surface at x."""
+    surface, pose = problem.set_valve(x), problem.pose(x)
+    assert surface is not None
+    triangles, vertices = surface.triangles.vertex_id, surface.vertices
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    area = numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1)
+    chosen = random.choice(len(area), 150, p=area / area.sum())
+    shares = random.dirichlet((1.0, 1.0, 1.0), 150)
+    local = shares[:, :1] * a[chosen] + shares[:, 1:2] * b[chosen] + shares[:, 2:] * c[chosen]
+    return numpy.asarray(pose.scale * local @ pose.rotation.T + pose.move)
+
+
+def is_same(problem: Problem, x: Reals, log_area: float, end: End) -> bool:
+    if abs(end.log_area - log_area) > _SAME:
+        return False
+    surface, pose = problem.set_valve(x), problem.pose(x)
+    assert surface is not None
+    local = numpy.ascontiguousarray((end.probes - pose.move) @ pose.rotation / pose.scale)
+    found = surface.closest_points(local, point=False, normal=False, triangle_id=False, leaflet_id=False, n_threads=1)
+    assert found.distance is not None
+    return float(numpy.percentile(found.distance, 90.0)) * pose.scale < _SAME * problem.size
+
+
+def _add(problem: Problem, x: Reals, cost: float, ends: list[End], orbit: int | None, random: numpy.random.Generator) -> None:
+    """Adds the end x to ends, or counts it with the end that has the same surface. It came from a start, or by a turn from an
+    end of an orbit."""
+    seen = problem.at(x)
+    if seen is None:
+        return
+    same = next((end for end in ends if is_same(problem, x, seen.log_area, end)), None)
+    if same is None:
+        number = 1 + max((end.orbit for end in ends), default=0)
+        same = End(numpy.inf, problem.base, x, numpy.zeros((0, 3)), 0.0, 0, number if orbit is None else orbit)
+        ends.append(same)
+    if orbit is None:
+        same.n_starts += 1
+    else:
+        for end in ends:
+            end.orbit = orbit if end.orbit == same.orbit else end.orbit
+    if cost < same.cost:
+        same.cost, same.pose, same.probes, same.log_area = cost, problem.pose(x), probes_of(problem, x, random), seen.log_area
+        same.x = x.copy()
+        same.x[len(problem.names):] = 0.0
+        ends.sort(key=lambda end: end.cost)
+
+
+def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any_rotation: bool, n_least: int, n_most: int,
+           random: numpy.random.Generator) -> tuple[list[End], int]:
+    """Minimizes roughly from one start after the other, until two of them reach the best end. Returns the ends, the best first,
+    and the number of starts."""
+    n_names = len(problem.names)
+    wide = wide_loss(0.05 * problem.size)
+    ends: list[End] = []
+    n_done = 0
+    turned: set[int] = set()  # orbits
+    least: list[float] = []  # cost with the wide loss
+
+    def go_down(base: Pose, x: Reals, orbit: int | None = None) -> None:
+        problem.begin(base)
+        x = problem.solve(x, wide, 30, 0.2)
+        cost = problem.cost(x, wide)
+        least.append(min([cost, *least[-1:]]))
+        if cost > least[-1] + _HOPELESS * problem.weights.sum():
+            return
+        x, mixture = problem.refine(problem.rebased(x), 2, 0.1)
+        _add(problem, x, problem.cost(x, mixture.loss(problem.whole)), ends, orbit, random)
+
+    def turn() -> None:
+        """Turns the best end by one cusp, and swaps front and back, because a turned valve looks similar."""
+        first, orbit = ends[0], ends[0].orbit
+        for angle in numpy.radians((120.0, 240.0, 180.0)):
+            rotation = first.pose.rotation @ matrix_of(numpy.array([0.0, 0.0, angle]))
+            go_down(Pose(rotation, first.pose.move, first.pose.scale), first.x, orbit)
+        turned.add(orbit)
+
+    def n_agreeing(one: End) -> int:
+        if not problem.whole:  # a part may fit several cusps, each from starts of its own
+            return one.n_starts
+        return sum(end.n_starts for end in ends if end.orbit == one.orbit)
+
+    for number in range(n_most):
+        x, rotations = given.copy(), numpy.eye(3)[None]
+        if number > 0:
+            x[:n_names] = random.uniform(0.05, 0.95, n_names)
+        if number > 0 and any_rotation:
+            rotations = random_rotations(random, _N_ROTATIONS)
+        elif number > 0 and middle is not None and not problem.whole:
+            rotations = numpy.repeat(rotations, _N_ROTATIONS // 5, axis=0)  # each has a translation of its own
+        problem.begin(pose)
+        base = problem.best_pose(x, rotations, middle, random if number > 0 else None)
+        n_done += 1
+        if base is not None:  # None if the values do not fit together
+            go_down(base, x)
+        if n_done >= n_least and ends:
+            if any_rotation and n_most > 1 and ends[0].orbit not in turned:
+                turn()
+            if n_agreeing(ends[0]) >= 2:
+                break
+    if not ends:
+        raise InvalidArgumentError("valve: no start has a surface; its values clash")
+    for end, count in [(end, n_agreeing(end)) for end in ends]:
+        end.n_starts = count
+    return ends[:_N_ENDS], n_done
+
+
+def _parts(points: Reals, weights: Reals, n_parts: int) -> NDArray[numpy.int64]:
+    """Returns the part of each point. Each part is around a point that is farthest from the earlier ones."""
+    first = int(numpy.argmax(weights))
+    nearest, part = numpy.full(len(points), numpy.inf), numpy.zeros(len(points), numpy.int64)
+    for k in range(n_parts):
+        length = ((points - points[first]) ** 2).sum(axis=1)
+        part[length < nearest] = k
+        nearest = numpy.minimum(nearest, length)
+        first = int(numpy.argmax(numpy.where(weights > 0.0, nearest, -1.0)))
+    return part
+
+
+@dataclass
+class Judge:
+    """Computes the standard errors at the minimum x of a problem."""
+
+    problem: Problem
+    x: Reals
+    mixture: Mixture
+    noise: float  # that the caller states, or 0
+
+    def judge(self) -> Judged:
+        problem, mixture = self.problem, self.mixture
+        seen = problem.at(self.x)
+        assert seen is not None
+        loss = mixture.loss(problem.whole)
+        jacobian, area = problem.jacobian(self.x)
+        inlier = problem.weights * mixture.inlier(seen.residual)
+        n_points = inlier.sum() ** 2 / max((inlier**2).sum(), 1e-300)
+        share = n_points / inlier.sum()  # of an independent point in a unit of weight
+        rows = numpy.vstack([jacobian * numpy.sqrt(inlier)[:, None], numpy.sqrt(
+            0.125 * loss.area * problem.weights.sum()) * mixture.noise * area])
+        _, s, v = numpy.linalg.svd(rows, full_matrices=False)
+        blind = (v[s <= max(1e-6 * s.max(), 1e-12 * problem.size)] ** 2).sum(axis=0) > 1e-6
+        surface, pose = problem.set_valve(self.x), problem.pose(self.x)
+        assert surface is not None
+        # The scatter is at least the stated noise, and the fit cannot be more accurate than the triangles.
+        scatter = max(mixture.noise, self.noise, pose.scale * surface.info.error_bound)
+        n_spare = n_points - problem.n
+        factor = n_points / (n_spare - 2.0) if n_spare > 3.0 else n_points  # the variance of Student's distribution
+        precision = rows.T @ rows * share / scatter**2 + numpy.eye(problem.n)  # everything is known to about its range
+        covariance = numpy.linalg.inv(precision)
+        # Residuals that are alike in parts of the valve count as fewer points.
+        n_parts = int(min(_N_PARTS, n_points / 8.0))
+        misfit, most_misfit = 1.0, numpy.inf
+        variances = numpy.diag(covariance) * factor
+        if n_parts > problem.n + 2:
+            part = _parts(seen.local, inlier, n_parts)
+            forces = numpy.zeros((n_parts, problem.n))
+            numpy.add.at(forces, part, (inlier * seen.residual)[:, None] * jacobian * share / scatter**2)
+            mean = numpy.bincount(part, inlier * seen.residual, n_parts)
+            alone = numpy.bincount(part, inlier**2, n_parts)
+            most_misfit = max(2.0, 1.0 + 5.0 * (2.0 / (n_parts - problem.n)) ** 0.5)
+            misfit = float((mean**2).sum() / (alone.sum() * mixture.noise**2)) * n_parts / (n_parts - problem.n)
+            robust = covariance @ (forces.T @ forces) @ covariance * n_parts / (n_parts - problem.n)
+            variances = numpy.maximum(variances, numpy.diag(robust))
+        variances = variances + self._of_fixed(precision, jacobian, inlier, share / scatter**2)
+        errors = numpy.where(blind, numpy.inf, numpy.sqrt(variances))
+        ratio = numpy.maximum(errors**2 / numpy.diag(covariance), 1.0)
+        errors, better = self._profile(errors, covariance, ratio)
+        return Judged(errors, s / problem.size, misfit, most_misfit, better)
+
+    def _of_fixed(self, precision: Reals, jacobian: Reals, inlier: Reals, factor: float) -> Reals:
+        """Returns what the squared errors owe to sizes that are not free, if other values of these sizes would fit better than
+        chance allows: the shift of the unknowns in a fit with all sizes, and the variance that this fit adds."""
+        problem, n, weights = self.problem, self.problem.n, inlier * factor
+        seen, (columns, area) = problem.at(self.x), problem.fixed_jacobian(self.x)
+        columns, area = columns * _FIXED_SPREAD, area * _FIXED_SPREAD
+        assert seen is not None
+        if columns.shape[1] == 0:
+            return numpy.zeros(n)
+        both = numpy.hstack([jacobian, columns])
+        full = both.T @ (both * weights[:, None])
+        full[:n, :n] = precision
+        alone = full[n:, n:] - full[n:, :n] @ numpy.linalg.solve(precision, full[:n, n:])
+        n_area = self.mixture.loss(problem.whole).area * problem.weights.sum() * self.mixture.noise**2 * factor
+        pull = -columns.T @ (weights * seen.residual) - n_area * area  # the free unknowns are at rest
+        # The spread of the sizes is the likeliest one, if it is much likelier than none.
+        values, vectors = numpy.linalg.eigh(alone)
+        values, squares = values.clip(0.0), (vectors.T @ pull) ** 2
+        spreads = numpy.logspace(-4.0, 0.0, 41)[:, None]
+        evidence = 0.5 * (spreads * squares / (1.0 + spreads * values) - numpy.log1p(spreads * values)).sum(axis=1)
+        if evidence.max() < _LEAST_EVIDENCE:
+            return numpy.zeros(n)
+        spread = float(spreads[numpy.argmax(evidence), 0])
+        inverse = (vectors * (spread / (1.0 + spread * values))) @ vectors.T
+        shares = numpy.linalg.solve(precision, full[:n, n:])
+        return numpy.asarray((shares @ inverse @ pull) ** 2 + numpy.einsum("ij,jk,ik->i", shares, inverse, shares))
+
+    def _profile(self, errors: Reals, covariance: Reals, ratio: Reals) -> tuple[Reals, Reals | None]:
+        """Holds each parameter two standard errors away, minimizes over the others, and widens the error where the cost rises
+        less than it says."""
+        problem, loss = self.problem, self.mixture.loss(self.problem.whole)
+        best = problem.cost(self.x, loss)
+        errors, better, least = errors.copy(), None, -1.0
+        for i in range(len(problem.names)):
+            if not 3e-3 < errors[i] < UNDETERMINED:
+                continue
+            linear = errors[i]
+            for sign in (1.0, -1.0):
+                error = linear
+                for _ in range(3):
+                    target = float(numpy.clip(self.x[i] + sign * 2.0 * error, 0.0, 1.0))
+                    moved = abs(target - self.x[i])
+                    if moved < 0.5 * linear:
+                        break
+                    x = self.x + covariance[:, i] / covariance[i, i] * (target - self.x[i])
+                    x = numpy.clip(x, problem.low, problem.high)
+                    x[i] = target
+                    if problem.at(x) is None:
+                        x = self.x.copy()
+                        x[i] = target
+                    x = problem.solve(x, loss, 8, 0.1, held=i)
+                    rise = 2.0 * (problem.cost(x, loss) - best)
+                    if rise < least:
+                        least, better = rise, x
+                    wider = moved / numpy.sqrt(max(rise / ratio[i], 0.04))
+                    errors[i] = max(errors[i], min(wider, 1.0))
+                    if wider < 1.3 * error or wider > UNDETERMINED or target in (0.0, 1.0):
+                        break
+                    error = wider
+        return errors, better
+
+
+def covered(problem: Problem, x: Reals, inlier: Reals, random: numpy.random.Generator) -> float:
+    """Returns the share of the surface's area with points nearby, compared with the usual gaps between points."""
+    near = problem.points[inlier > 0.5]
+    if len(near) < 6:
+        return 0.0
+    near = random.permutation(near)[:2000]
+    probes = numpy.vstack([probes_of(problem, x, random) for _ in range(2)])
+
+    def squares(a: Reals, b: Reals) -> Reals:
+        return numpy.asarray(((a**2).sum(axis=1)[:, None] + (b**2).sum(axis=1) - 2.0 * a @ b.T).clip(0.0))
+
+    center = near.mean(axis=0)
+    few = near[:200] - center
+    fourth = numpy.sqrt(numpy.partition(squares(few, near - center), 4, axis=1)[:, 4])
+    gap = 2.0 * float(numpy.median(fourth)) + 0.5 * problem.thickness
+    least = numpy.sqrt(squares(probes - center, near - center).min(axis=1))
+    return float((least < gap).mean())
+
