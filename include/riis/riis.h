@@ -1336,9 +1336,9 @@ RIIS_API riis_status riis_keyframes_get_swept_volume(const riis_keyframes *keyfr
 
 /* What a landmark marks. Landmarks are those of the closed valve. */
 enum {
-  RIIS_LANDMARK_COMMISSURE = 0,     /* aortic, trileaflet: the top of the attachment between two cusps; 3 of them */
-  RIIS_LANDMARK_NADIR = 1,          /* aortic, trileaflet: the lowest point of a cusp's attachment; 3 of them */
-  RIIS_LANDMARK_COAPTATION = 2,     /* aortic, trileaflet: where the closed cusps meet; at most 1. The valve's axis
+  RIIS_LANDMARK_COMMISSURE = 0,     /* three cusps: the top of the attachment between two of them; exactly 3 */
+  RIIS_LANDMARK_NADIR = 1,          /* three cusps: the lowest point of a cusp's attachment; exactly 3 */
+  RIIS_LANDMARK_COAPTATION = 2,     /* three cusps: where the closed cusps meet; at most 1. The valve's axis
                                        passes it; its height is not used */
   RIIS_LANDMARK_ANNULUS = 3,        /* mitral: a point of the annulus; 4 or more, in their order around it.
                                        bileaflet: a point of the housing's circle at mid-height; 3 or more */
@@ -1358,7 +1358,7 @@ typedef struct riis_landmarks {
   const int32_t *role;       /* (n_landmarks): RIIS_LANDMARK_* */
   const int32_t *leaflet_id; /* (2, n_landmarks): of a nadir, its cusp and -1; of a commissure, its two cusps, in any
                                 order. -1 and -1: not known. NULL: all -1. Enough of an aortic valve's must be known
-                                to name all. Without names, cusp 0 of a trileaflet valve is at the first nadir */
+                                to name all. Without names, cusp 0 of three equal cusps is at the first nadir */
   double scale;              /* mesh units in a centimetre: 10 for millimetres, 1, or 0.01 for metres. Must be set */
   double noise;              /* the scatter of the landmarks, each coordinate's standard deviation, mesh units, >= 0.
                                 Default RIIS_AUTO: 0.03 * scale */

@@ -29,7 +29,8 @@ struct Order {
 struct EqualCusps {
   const char *kind, *radius, *commissure_radius, *height;
 };
-constexpr EqualCusps equal_cusps[] = {{"trileaflet", "root_radius", "leaflet_radius_out", "leaflet_height"}};
+constexpr EqualCusps equal_cusps[] = {{"trileaflet", "root_radius", "leaflet_radius_out", "leaflet_height"},
+                                      {"coapting", "root_radius", "commissure_radius", "commissure_height"}};
 
 Vec3 turned(double radius, double degrees, double height) {
   const auto [sine, cosine] = sine_cosine_degrees(degrees);
@@ -293,12 +294,15 @@ void set_proportion(const Valve &own, Valve &valve, const std::string &name, dou
   valve.set(name, 1, std::array{value_of(own, name) / own_measure * measure}.data());
 }
 
-void finish_equal(const Valve &own, Valve &valve) {
+// Sizes that follow by a rule of the valve are left to it.
+void finish_trileaflet(const Valve &own, Valve &valve) {
   const auto middle_radius = [](const Valve &of) {
     return 0.5 * (value_of(of, "root_radius") + value_of(of, "leaflet_radius_out"));
   };
-  set_proportion(own, valve, "bending_height", value_of(own, "leaflet_height"), value_of(valve, "leaflet_height"));
-  set_proportion(own, valve, "bending_radius_out", middle_radius(own), middle_radius(valve));
+  if (own.is_set("bending_height"))
+    set_proportion(own, valve, "bending_height", value_of(own, "leaflet_height"), value_of(valve, "leaflet_height"));
+  if (own.is_set("bending_radius_out"))
+    set_proportion(own, valve, "bending_radius_out", middle_radius(own), middle_radius(valve));
 }
 
 void finish_aortic(const Valve &own, Valve &valve) {
@@ -366,7 +370,7 @@ KindOfLandmarks cusp_landmarks(const Valve &valve, const Landmarks &landmarks) {
     made.model = std::move(model);
     made.starts = {start_of(landmarks, frame, by, {0, 120, 240})};
     made.size_name = names->radius;
-    made.finish = finish_equal;
+    if (std::strcmp(kind, "trileaflet") == 0) made.finish = finish_trileaflet;
   }
   made.model->radius = R;
   return made;

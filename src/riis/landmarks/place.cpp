@@ -26,7 +26,7 @@ namespace {
 
 KindOfLandmarks landmarks_of_kind(const Valve &valve, const Landmarks &landmarks) {
   const std::string_view kind = valve.kind().name;
-  if (kind == "trileaflet" || kind == "aortic") return cusp_landmarks(valve, landmarks);
+  if (kind == "trileaflet" || kind == "coapting" || kind == "aortic") return cusp_landmarks(valve, landmarks);
   if (kind == "mitral") return mitral_landmarks(valve, landmarks);
   if (kind == "bileaflet") return bileaflet_landmarks(valve, landmarks);
   fail(RIIS_INVALID_PARAMETER, "a valve of the kind ", kind, " has no landmarks");
@@ -112,8 +112,9 @@ PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::str
   for (const FittedSize &size : model.sizes)
     if (size.name == of_kind.size_name) size_now = size.value;
   const double grown = size_now / value_of(valve, of_kind.size_name);
+  // Lengths that follow by a rule of the valve grow by themselves.
   for (const ParameterSpec &spec : specs) {
-    if (!grows(spec)) continue;
+    if (!grows(spec) || (spec.rule.value && !valve.is_set(spec.name))) continue;
     double values[3] = {0, 0, 0};
     valve.get(spec.name, spec.n_values, values);
     for (double &value : values) value *= grown;

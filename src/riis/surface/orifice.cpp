@@ -27,8 +27,7 @@ class AlongAxis {
         origin_(frame.placement.translation) {
     if (frame.disc.rim.empty()) return;
     // The smaller of both has the better direction across the axis.
-    const Vec3 across =
-        cross(axis_, std::abs(dot(x_axis_, axis_)) < std::abs(dot(y_axis_, axis_)) ? x_axis_ : y_axis_);
+    const Vec3 across = cross(axis_, std::abs(dot(x_axis_, axis_)) < std::abs(dot(y_axis_, axis_)) ? x_axis_ : y_axis_);
     y_axis_ = (1 / length(across)) * across;
     x_axis_ = cross(y_axis_, axis_);
   }

@@ -124,7 +124,8 @@ class Unfolding {
     // Along a seam, the curve is that of the twin.
     const PatchImage *of_v1 = &image;
     for (const Seam &seam : set_.seams)
-      if (seam.patch == number && seam.image == which && seam.place == SeamPlace::side_v1) of_v1 = &patch.images[seam.twin];
+      if (seam.patch == number && seam.image == which && seam.place == SeamPlace::side_v1)
+        of_v1 = &patch.images[seam.twin];
     const bool is_mirrored = image.mirror != Mirror::none;
     Patch made{side(patch.v0),
                {copy_of(patch.v1.curve, *of_v1), patch.v1.reversed},
