@@ -229,6 +229,31 @@ static void test_exact_trileaflet(void **state) {
   }
 }
 
+/* A coapting valve has the same landmarks. The sizes that follow from these stay tied to them. */
+static void test_exact_coapting(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 20; ++trial) {
+    const double R = between(1, 1.4), Rc = R * between(0.95, 1.05), h = 1.4 * Rc * between(0.97, 1.05);
+    patient p = trileaflet(R, Rc, h);
+    place_patient(&p, scales[trial % 3]);
+    shuffle(&p);
+    riis_valve *valve = new_valve("coapting");
+    const answer found = place(valve, &p);
+    CHECK_NEAR(value(valve, "root_radius"), R, 1e-9);
+    CHECK_NEAR(value(valve, "commissure_radius"), Rc, 1e-9);
+    CHECK_NEAR(value(valve, "commissure_height"), h, 1e-9);
+    CHECK_NEAR(value(valve, "coaptation_height"), 0.3 * Rc, 1e-9);
+    CHECK_NEAR(value(valve, "gap"), 0.016 * Rc, 1e-9);
+    CHECK_AT_MOST(found.placement.worst, 1e-9 * p.scale);
+    assert_int_equal(found.placement.n_undetermined, 0);
+    assert_int_equal(found.state[position(valve, "gap")], RIIS_SIZE_TIED);
+    int32_t is_set = -1;
+    CHECK_OK(riis_valve_is_set(valve, "gap", &is_set));
+    assert_int_equal(is_set, 0);
+    check_on_surface(valve, &p, &found, 0.01);
+  }
+}
+
 /* The accuracy for a population of patients. Errors are in millimetres. */
 typedef struct accuracy {
   double size[3], rms, worst, axis, covered;
@@ -737,6 +762,7 @@ static void test_refused_arguments(void **state) {
 int main(void) {
   rng = random_start("test_landmarks");
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_exact_trileaflet), cmocka_unit_test(test_noisy_trileaflet),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_exact_coapting), cmocka_unit_test(test_noisy_trileaflet),
                                      cmocka_unit_test(test_exact_aortic),     cmocka_unit_test(test_exact_mitral),
                                      cmocka_unit_test(test_saddle),           cmocka_unit_test(test_noisy_mitral),
                                      cmocka_unit_test(test_exact_bileaflet),  cmocka_unit_test(test_held_sizes),
