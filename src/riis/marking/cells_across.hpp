@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimates how many mesh edges fit across the band: the band's thickness divided by the shortest, the mean and the longest length
-// of the mesh edges that have a marked node.
+// Estimates how many mesh edges fit across the band: the band's thickness divided by the shortest, the mean and the longest
+// length of the mesh edges that have a marked node.
 // In: a marking, the mesh with its adjacency. Out: counts and lengths.
 #pragma once
 
