@@ -145,6 +145,7 @@ MarkOptions finish_leaks(const Command &command, MarkOptions options) {
 
 SizeFieldOptions finish_size_field(const Command &command, SizeFieldOptions options) {
   const bool has_cycle = !options.series.cycle.empty();
+  use_placed_valve(options);
   check_opening(options);
   check_open_state(options);
   if (options.series.case_file.empty()) {

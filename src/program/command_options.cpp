@@ -375,6 +375,7 @@ void declare_size_field(Command command, SizeFieldOptions &options) {
   declare_valve(command, options);
   declare_opening(command, options);
   declare_open_state(command, options);
+  declare_skirt(command, options);
   declare_file(command, options);
   declare_placement(command, options);
   declare_half_thickness(command, options);
@@ -390,7 +391,7 @@ void declare_size_field(Command command, SizeFieldOptions &options) {
        {"--surface", "--leaflets",      "--valve",         "--opening",        "--params",         "--params-open",
         "--set",     "--tolerance",     "--triangulation", "--skip-zero-area", "--flip-normals",   "--scale",
         "--unit",    "--surface-unit",  "--rotate",        "--translate",      "--half-thickness", "--cycle",
-        "--period",  "--interpolation", "--time",          "--count"})
+        "--period",  "--interpolation", "--time",          "--count",          "--skirt",          "--wall"})
     command.option(name)->excludes(all_of_it);
   for (const char *name : {"--opening", "--time", "--count"}) command.option(name)->excludes(times);
 }
@@ -485,7 +486,8 @@ void declare_place(Command command, PlaceOptions &options) {
   command.value("--flow", "X,Y,Z", "Direction of flow through the valve, in the mesh's axes",
                 [&options](const std::string &text) { options.flow = parse_list(text, "--flow", 3, "X,Y,Z"); });
   command.group("Valve");
-  command.text("--valve", "KIND", "aortic, mitral, trileaflet or bileaflet (default that of the file)", options.valve);
+  command.text("--valve", "KIND", "aortic, coapting, mitral, trileaflet or bileaflet (default that of the file)",
+               options.valve);
   command.text("--params", "FILE.json", "Parameters whose proportions the valve has", options.params);
   command
       .values("--set", "NAME=VALUE", "Set and keep one parameter, in cm; may be repeated",
