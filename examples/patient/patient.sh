@@ -1,0 +1,131 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
+# The steps of ./run patient, which reads this file: follow docs/patient.md as a reader would, and check its claims; or take
+# random patients the same way. The steps use $build, $demo_packages, build_demo, thousands, install_missing and step of `run` and of
+# examples/demo/demo.sh.
+
+patient_folder=out/patient
+patient_openings=(0 0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1)
+
+# patient [N]
+patient() {
+  if (($# > 1)) || [[ ! ${1:-1} =~ ^[1-9][0-9]?$ ]]; then
+    echo "./run patient: '$*' is not a number of patients from 1 to 99" >&2
+    exit 2
+  fi
+  packages=("${demo_packages[@]}" python3)
+  install_missing
+  step "compile the program" build_demo
+  if (($# == 0)); then
+    step "follow docs/patient.md" python3 -B tests/docs/run_tutorial.py check docs/patient.md "$patient_folder" \
+      "$PWD/$build/bin" "$PWD"
+    patient_checks
+    return
+  fi
+  random_patients "$1"
+}
+
+# of_patient FOLDER FILE KEY: prints a number or a word of a file of stats.
+of_patient() {
+  local value
+  value=$(sed -n -E 's/^ *"'"$3"'": "?([^",]*)"?,?$/\1/p' "$1/$2.json" | head -n 1)
+  [[ $value ]] || { echo "$1/$2.json lacks $3" >&2; exit 1; }
+  printf '%s' "$value"
+}
+
+# leaking_edges FOLDER: prints the number of leaking edges at all openings.
+leaking_edges() {
+  local opening sum=0
+  for opening in "${patient_openings[@]}"; do sum=$((sum + $(of_patient "$1" "state_$opening" n_leaking_edges))); done
+  printf '%s' "$sum"
+}
+
+# seconds_to_marks FOLDER: prints the time from the landmarks' file to the check that the closed valve seals.
+seconds_to_marks() {
+  LC_ALL=C awk -v from="$(stat -c %.Y "$1/landmarks.mrk.json")" -v to="$(stat -c %.Y "$1/closed.json")" \
+    'BEGIN { printf "%.0f", to - from }'
+}
+
+# patient_claim CLAIM COMMAND...: prints the claim and whether it holds, which the command says.
+patient_claim() {
+  local text=$1
+  shift
+  if "$@"; then
+    printf '  %-5s %s\n' yes "$text"
+  else
+    printf '  %-5s %s\n' NO "$text"
+    patient_failed=1
+  fi
+}
+
+# patient_checks: checks what docs/patient.md claims. Returns 1 if a claim does not hold.
+patient_checks() {
+  local folder=$patient_folder graded uniform leaking crossings closed open
+  patient_failed=0
+  graded=$(of_patient "$folder" closed n_nodes)
+  uniform=$(of_patient "$folder" uniform n_nodes)
+  leaking=$(leaking_edges "$folder")
+  crossings=$(of_patient "$folder" crossings n_pairs)
+  closed=$(of_patient "$folder" closed state)
+  open=$(of_patient "$folder" open state)
+  echo
+  patient_claim "$(thousands <<<"$graded") nodes of the graded mesh are at most a quarter of $(thousands <<<"$uniform")" \
+    test $((4 * graded)) -le "$uniform"
+  patient_claim "no edge leaks at 11 openings: $leaking do" test "$leaking" -eq 0
+  patient_claim "no leaflets go through each other at 101 openings: $crossings pairs of triangles do" test "$crossings" -eq 0
+  patient_claim "the closed valve seals: the passage is $closed" test "$closed" = closed
+  patient_claim "blood passes the open valve: the passage is $open" test "$open" = open
+  printf '\n  From landmarks to sealed marks: %s s. Files and pictures: %s/\n' "$(seconds_to_marks "$folder")" "$folder"
+  return "$patient_failed"
+}
+
+# random_patients N: takes N random patients from landmarks to marks, prints a table, and puts pictures of the closed valves into
+# one. Returns 1 if a valve does not seal or does not open, if its leaflets go through each other, or if an edge leaks.
+random_patients() {
+  local folder=out/patients seed row inputs=() tiles='' layout='' n=0
+  patient_failed=0
+  rm -rf "$folder"
+  for seed in $(seq "$1"); do
+    step "patient $seed" random_patient "$seed" "$folder/$seed"
+    inputs+=(-i "$folder/$seed/closed.png")
+    tiles+="[$n]crop=iw/2:0.8*ih:iw/2:0.1*ih,scale=320:-1[t$n];"
+    layout+="|$((n % 5 * 320))_$((n / 5 * 256))"
+    n=$((n + 1))
+  done
+  printf '\n  seed  residual, rms mm   nodes  closed  open   leaking edges  crossings  seconds\n'
+  for seed in $(seq "$1"); do
+    row=$folder/$seed
+    printf '  %4s  %16.2f  %6s  %-6s  %-5s  %13s  %9s  %7s\n' "$seed" "$(of_patient "$row" placed rms)" \
+      "$(of_patient "$row" closed n_nodes | thousands)" "$(of_patient "$row" closed state)" "$(of_patient "$row" open state)" \
+      "$(leaking_edges "$row")" "$(of_patient "$row" crossings n_pairs)" "$(seconds_to_marks "$row")"
+    [[ $(of_patient "$row" closed state) = closed && $(of_patient "$row" open state) = open &&
+      $(leaking_edges "$row") -eq 0 && $(of_patient "$row" crossings n_pairs) -eq 0 ]] || patient_failed=1
+  done
+  if ((n > 1)); then
+    ffmpeg -y -loglevel error "${inputs[@]}" -filter_complex \
+      "$tiles$(printf '[t%d]' $(seq 0 $((n - 1))))xstack=inputs=$n:layout=${layout:1}:fill=white" -frames:v 1 "$folder/closed.png"
+    printf '\n  All closed valves: %s/closed.png\n' "$folder"
+  fi
+  return "$patient_failed"
+}
+
+# random_patient SEED FOLDER: the commands of docs/patient.md for a random patient. Sinuses are deeper here, so the skirt is
+# longer. The edges are shorter in the band, because gmsh makes some of them longer than the field says.
+random_patient() {
+  local here=$PWD riis=$PWD/$build/bin/riis from to opening
+  mkdir -p "$2" && cd "$2" || return
+  cp "$here"/examples/patient/*.geo "$here/examples/demo/fill.geo" . &&
+    python3 -B "$here/examples/patient/make_patient.py" . --random --seed "$1" &&
+    { read -r from && read -r to; } <sides.txt &&
+    "$riis" place landmarks.mrk.json --valve coapting --set skirt_length=0.6 --output placed.json &&
+    "$riis" size-field valve.dat --valve placed.json --largest-edge 5 --band-edge 0.85 --quiet &&
+    gmsh -2 -nt 1 -format msh2 -o surface.msh surface.geo edges.geo &&
+    gmsh -3 -nt 1 -format vtk -o graded.vtk surface.msh edges.geo fill.geo &&
+    "$riis" check leaks graded.vtk --valve placed.json --opening 0 "--between=$from" "$to" --stats closed.json &&
+    "$riis" check leaks graded.vtk --valve placed.json --opening 1 "--between=$from" "$to" --stats open.json || return
+  for opening in "${patient_openings[@]}"; do
+    "$riis" mark graded.vtk --valve placed.json --opening "$opening" --stats "state_$opening.json" || return
+  done
+  "$riis" check crossings --valve placed.json --stats crossings.json &&
+    xvfb-run -a -s "-screen 0 1600x1200x24" "$riis" mark graded.vtk --valve placed.json --opening 0 --picture closed.png --quiet
+}
