@@ -1,8 +1,8 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
 # The steps of ./run patient, which reads this file: follow docs/patient.md as a reader would, and check its claims; or take
-# random patients the same way. The steps use $build, $demo_packages, build_demo, thousands, install_missing and step of `run` and of
-# examples/demo/demo.sh.
+# random patients the same way. The steps use $build, $demo_packages, build_demo, thousands, install_missing and step of `run`
+# and of examples/demo/demo.sh.
 
 patient_folder=out/patient
 patient_openings=(0 0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1)
