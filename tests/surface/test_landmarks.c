@@ -761,12 +761,12 @@ static void test_refused_arguments(void **state) {
 
 int main(void) {
   rng = random_start("test_landmarks");
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_exact_trileaflet), cmocka_unit_test(test_noisy_trileaflet),
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_exact_coapting), cmocka_unit_test(test_noisy_trileaflet),
-                                     cmocka_unit_test(test_exact_aortic),     cmocka_unit_test(test_exact_mitral),
-                                     cmocka_unit_test(test_saddle),           cmocka_unit_test(test_noisy_mitral),
-                                     cmocka_unit_test(test_exact_bileaflet),  cmocka_unit_test(test_held_sizes),
-                                     cmocka_unit_test(test_forms_of_input),   cmocka_unit_test(test_refused_cusps),
-                                     cmocka_unit_test(test_refused_annuli),   cmocka_unit_test(test_refused_arguments)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_exact_trileaflet), cmocka_unit_test(test_exact_coapting),
+                                     cmocka_unit_test(test_noisy_trileaflet), cmocka_unit_test(test_exact_aortic),
+                                     cmocka_unit_test(test_exact_mitral),     cmocka_unit_test(test_saddle),
+                                     cmocka_unit_test(test_noisy_mitral),     cmocka_unit_test(test_exact_bileaflet),
+                                     cmocka_unit_test(test_held_sizes),       cmocka_unit_test(test_forms_of_input),
+                                     cmocka_unit_test(test_refused_cusps),    cmocka_unit_test(test_refused_annuli),
+                                     cmocka_unit_test(test_refused_arguments)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
