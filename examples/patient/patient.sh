@@ -82,14 +82,15 @@ patient_checks() {
 # random_patients N: takes N random patients from landmarks to marks, prints a table, and puts pictures of the closed valves into
 # one. Returns 1 if a valve does not seal or does not open, if its leaflets go through each other, or if an edge leaks.
 random_patients() {
-  local folder=out/patients seed row inputs=() tiles='' layout='' n=0
+  local folder=out/patients seed row place inputs=() tiles='' layout='' n=0
   patient_failed=0
   rm -rf "$folder"
   for seed in $(seq "$1"); do
     step "patient $seed" random_patient "$seed" "$folder/$seed"
     inputs+=(-i "$folder/$seed/closed.png")
     tiles+="[$n]crop=iw/2:0.8*ih:iw/2:0.1*ih,scale=320:-1[t$n];"
-    layout+="|$((n % 5 * 320))_$((n / 5 * 256))"
+    place=$((n / 5))
+    layout+="|$((n % 5 * 320))_$((place * 256))"
     n=$((n + 1))
   done
   printf '\n  seed  residual, rms mm   nodes  closed  open   leaking edges  crossings  seconds\n'

@@ -122,6 +122,13 @@ static void other_commands_take_the_placed_valve(void **state) {
   RUN_FINE("mark", "--case", scratch_path("case.json"), "--output", scratch_path("by_case.vtu"));
   assert_true(scratch_is_same("by_options.vtu", "by_case.vtu"));
   scratch_write_text("case.json",
+                     "{\"unit\": \"cm\", \"valves\": [{\"valve\": \"placed.json\", \"opening\": 0, "
+                     "\"parameters\": {\"skirt_length\": 0.2}}]}");
+  RUN_FINE("size-field", scratch_path("by_case.dat"), "--case", scratch_path("case.json"), "--spacing", "0.2");
+  RUN_FINE("size-field", scratch_path("by_options.dat"), "--valve", placed, "--unit", "cm", "--opening", "0", "--skirt",
+           "0.2", "--spacing", "0.2");
+  assert_true(scratch_is_same("by_options.dat", "by_case.dat"));
+  scratch_write_text("case.json",
                      "{\"mesh\": \"in.vtu\", \"valves\": [{\"valve\": \"placed.json\", \"translate\": [1, 0, 0]}]}");
   RUN_REFUSED(1, "translate: it has no effect, because the placement is in", "mark", "--case",
               scratch_path("case.json"), "--output", scratch_path("by_case.vtu"));
