@@ -36,8 +36,8 @@ contains
   subroutine test_known_valve()
     type(riis_valve) :: valve
     type(riis_placement) :: placement
-    real(c_double) :: residual(6), errors(16), found(3), wide(4, 12)
-    integer(int32) :: states(16), cusps(2, 6)
+    real(c_double) :: residual(6), errors(17), found(3), wide(4, 12)
+    integer(int32) :: states(17), cusps(2, 6)
     call valve%create('trileaflet')
     cusps = -1
     cusps(1, 1:3) = [RIIS_LEAFLET_RIGHT, RIIS_LEAFLET_LEFT, RIIS_LEAFLET_NON_CORONARY]

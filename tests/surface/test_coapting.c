@@ -656,7 +656,7 @@ static void every_parameter_by_name(void **state) {
   riis_valve *valve = new_valve("coapting");
   int64_t n;
   CHECK_OK(riis_valve_get_n_parameters(valve, &n));
-  assert_int_equal(n, n_sizes + 2);
+  assert_int_equal(n, n_sizes + 3); /* the translation, the opening and the length of a skirt */
   riis_surface *half_open = new_surface(valve_at("coapting", 0.5), NULL);
   for (int i = 0; i < n_sizes; ++i) {
     riis_parameter parameter;
