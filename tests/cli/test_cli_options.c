@@ -73,7 +73,7 @@ static void test_topics(void **state) {
     ++n;
   }
   free(list);
-  assert_int_equal(n, 18);
+  assert_int_equal(n, 20);
   RUN_FINE("help", "status");
   const char *statuses[] = {"0  fine", "1  bad data", "2  wrong usage", "3  no node is marked", "4  with --strict"};
   for (size_t i = 0; i < sizeof statuses / sizeof statuses[0]; ++i) expect_printed(statuses[i]);

@@ -121,7 +121,7 @@ class Fields(Planted):
         self.assertIn("       AT(n_threads), AT(instructions), AT(planted), AT(other), AT(last))\n", self.text(LAYOUTS))
 
     def test_the_order_is_that_of_the_header(self):
-        self.plant(HEADER, "  int64_t n_curves; ", "  int64_t planted;\n  int64_t n_curves; ")
+        self.plant(HEADER, "  int64_t n_curves;          /* 1 to", "  int64_t planted;\n  int64_t n_curves;          /* 1 to")
         self.writes()
         self.assertIn(":: struct_size\n    integer(c_int64_t) :: planted\n    integer(c_int64_t) :: n_curves\n",
                       self.text(MODULE))
@@ -355,7 +355,7 @@ class Words(Planted):
         self.refused(entry, "riis_planted  text\n\n" + entry, f"TABLE: {HEADER} has no riis_planted")
         self.refused(entry, f"{entry}  planted  required (*)\n", f"riis_valve_get of {HEADER} has no planted")
         self.refused("  RIIS_LOG_*  ", "  RIIS_PLANTED_*  ", f"TABLE: omit from riisf.h of {HEADER} has no RIIS_PLANTED_*")
-        self.refused("  degree       ", "  planted      ", f"riis_patches of {HEADER} has no planted")
+        self.refused("  degree       (n_curves)", "  planted      (n_curves)", f"riis_patches of {HEADER} has no planted")
 
     def test_words_that_do_not_suit(self):
         csr = "  csr      optional  "

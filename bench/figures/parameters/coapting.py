@@ -153,6 +153,7 @@ def draw(coapting):
     sheet = Sheet("Parameters of the coapting valve", coapting["parameters"], (15, 10.6))
     text = "Defaults. The three cusps are equal. Sizes that are not set follow from root_radius."
     sheet.text(0.33, 1 - 0.27 / 10.6, text, va="center")
+    sheet.skirt(10.6)
     states = coapting["states"]
     own = states[0]["own_frame"]
     draw_plan(sheet, own)
