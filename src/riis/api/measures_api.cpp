@@ -49,7 +49,8 @@ riis_orifice orifice_of(const riis::Surface &surface, const riis_resistance &res
   double radius = 0;
   if (found.outline == RIIS_OUTLINE_DISC) {
     const bool is_warped = !frame->disc.rim.empty();
-    radius = is_warped ? std::sqrt(found.outline_area / 3.141592653589793) : frame->placement.scale * frame->disc.radius;
+    radius =
+        is_warped ? std::sqrt(found.outline_area / 3.141592653589793) : frame->placement.scale * frame->disc.radius;
   }
   return {found.area,
           found.outline_area,
