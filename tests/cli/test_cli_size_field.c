@@ -167,8 +167,8 @@ static void refusals(void **state) {
   RUN_REFUSED(2, "--growth: 0 is not above 0", "size-field", "-", "--growth", "0");
   RUN_REFUSED(2, "--growth: nan is not above 0", "size-field", "-", "--growth", "nan");
   RUN_REFUSED(2, "--band-edge: -1 is not above 0", "size-field", "-", "--band-edge", "-1");
-  RUN_REFUSED(2, "--largest-edge: 0.05 is below the edge length in the band, 0.09", "size-field", "-",
-              "--largest-edge", "0.05");
+  RUN_REFUSED(2, "--largest-edge: 0.05 is below the edge length in the band, 0.09", "size-field", "-", "--largest-edge",
+              "0.05");
   RUN_REFUSED(2, "--spacing: the grid would have ", "size-field", "-", "--spacing", "1e-4");
   RUN_REFUSED(2, "--spacing: inf is not above 0 and finite", "size-field", "-", "--spacing", "inf");
   RUN_REFUSED(2, "--count: 1 is not from 2 to 100001", "size-field", "-", "--count", "1");
