@@ -65,7 +65,7 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
 
 // Returns the rotation whose columns are unit vectors along x, y and z. `x` is first made perpendicular to z.
 Rotation rotation_to(Vec3 x, Vec3 z);
-Rotation transposed(const Rotation &rotation);
+Rotation transposed(const Rotation &a);
 Rotation operator*(const Rotation &a, const Rotation &b);
 inline Vec3 unit(Vec3 a) { return (1 / length(a)) * a; }
 

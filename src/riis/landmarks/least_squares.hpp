@@ -33,7 +33,7 @@ std::vector<double> normal_matrix(const Residuals &residuals, std::size_t n_resi
 struct Eigen {
   std::vector<double> values, vectors;
 };
-Eigen symmetric_eigen(std::vector<double> matrix, std::size_t n);
+Eigen symmetric_eigen(std::vector<double> a, std::size_t n);
 
 // Returns the inverse of J^T J. An entry of its diagonal is infinite if the unknown takes part in a combination of unknowns that
 // the residuals do not depend on; then the other entries of its row and column are 0.
