@@ -60,6 +60,8 @@ void check(const ExportOptions &options) {
 
 void check(const ParamsOptions &options) { check_valve(options); }
 
+void check(const PlaceOptions &options) { EXPECT(!options.landmarks.empty(), "no file of landmarks"); }
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t size) {
