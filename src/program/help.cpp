@@ -130,7 +130,8 @@ opening and skirt_length.
 {"valve": "aortic", "unit": "mm", "axes": "LPS",
  "landmarks": {"nadir_right": [1,2,3], "nadir_left": [...], "nadir_non_coronary": [...],
                "commissure_left_right": [...], "commissure_left_non": [...], "commissure_right_non": [...]}}
-trileaflet  3 commissures and 3 nadirs, with names as above or as lists: "nadir": [[1,2,3], ...]; perhaps coaptation
+coapting    3 commissures and 3 nadirs, with names as above or as lists: "nadir": [[1,2,3], ...]; perhaps coaptation
+trileaflet  the same
 aortic      the same; the names must say which cusp is which
 mitral      "annulus": 4 points or more in their order around it, anterior_horn; perhaps posterior_horn, 2 trigone,
             posteromedial_commissure and anterolateral_commissure. 16 annulus points determine the sizes, 8 do not
