@@ -93,6 +93,7 @@ void make_valve_of_patches(Input &in, State &state);
 void set_parameter(Input &in, State &state);
 void read_parameters(Input &in, State &state);
 void place_valve(Input &in, State &state);
+void warp_valve(Input &in, State &state);
 void set_open_state(Input &in, State &state);
 void make_surface(Input &in, State &state);
 void move_surface(Input &in, State &state);

@@ -179,6 +179,59 @@ void place_valve(Input &in, State &state) {
   }
 }
 
+// Warps a valve by landmarks on a ring around it, or by any points, and reads its patches. Then gives it a skirt to a wall.
+void warp_valve(Input &in, State &state) {
+  ValveSlot &slot = slot_of(in, state);
+  const Given<riis_valve> valve = given(in, state, State::valve, slot.handle);
+  const std::size_t n = in.one_in(4) ? static_cast<std::size_t>(in.below(12)) : 6;
+  std::vector<double> from(3 * n + 1), to(3 * n + 1), mapped(3 * n + 1, -77.5);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double angle = 6.283185307179586 * static_cast<double>(i) / static_cast<double>(n);
+    const double at[] = {std::cos(angle), std::sin(angle), i % 2 == 0 ? 0.0 : 1.3};
+    for (std::size_t k = 0; k < 3; ++k) {
+      from[3 * i + k] = in.one_in(32) ? in.number() : at[k];
+      to[3 * i + k] = in.one_in(32) ? in.number() : at[k] + in.byte() / 2560.0;
+    }
+  }
+  riis_points points = initialised(in, riis_points_init);
+  points.n_points = in.one_in(32) ? in.below(14) - 1 : static_cast<std::int64_t>(n);
+  if (points.n_points > static_cast<std::int64_t>(n)) points.n_points = static_cast<std::int64_t>(n);
+  points.stride = 3;
+  const auto at = [&](const std::vector<double> &xyz) {
+    points.x = mostly(in, xyz.data());
+    points.y = xyz.data() + 1;
+    points.z = xyz.data() + 2;
+  };
+  riis_warp_options options = initialised(in, riis_warp_options_init);
+  if (in.one_in(4)) options.noise = in.number();
+  at(from);
+  riis_warp *warp = made_by<riis_warp>(in, [&](riis_warp **made) {
+    return riis_warp_create(mostly(in, &points), in.one_in(2) ? &options : nullptr, made);
+  });
+  if (!warp) return;
+  at(to);
+  static_cast<void>(call(in, [&] { return riis_warp_set_targets(warp, mostly(in, &points)); }));
+  riis_warp_info info;
+  EXPECT_OK(riis_warp_get_info(warp, &info, sizeof info));
+  EXPECT(info.least_determinant > 0 && info.rms_residual >= 0, "determinant %g", info.least_determinant);
+  at(from);
+  if (call(in, [&] { return riis_warp_map(warp, &points, mostly(in, mapped.data())); }) != RIIS_OK)
+    EXPECT(mapped[0] == -77.5, "a refused map was written");
+  riis_status status =
+      call(in, [&] { return riis_valve_set_warp(valve.handle, mostly(in, warp), in.one_in(4) ? warp : nullptr); });
+  if (!valve.is_right) EXPECT(status == RIIS_INVALID_ARGUMENT, "%d", status);
+  riis_warp_destroy(&warp);
+  EXPECT(warp == nullptr, "a destroyed warp is not NULL");
+  riis_valve_patches patches;
+  status =
+      call(in, [&] { return riis_valve_get_patches(valve.handle, &patches, in.mostly<std::int64_t>(sizeof patches)); });
+  if (status == RIIS_OK) EXPECT(patches.n_patches > 0 && patches.n_pieces >= patches.n_curves, "no patches");
+  const Given<riis_surface> wall = given(in, state, State::surface, state.surfaces[in.slot()]);
+  const double longest = in.number();
+  static_cast<void>(
+      call(in, [&] { return riis_valve_set_skirt_to_wall(valve.handle, wall.handle, longest, nullptr); }));
+}
+
 void read_parameters(Input &in, State &state) {
   ValveSlot &slot = slot_of(in, state);
   const Given<riis_valve> valve = given(in, state, State::valve, slot.handle);

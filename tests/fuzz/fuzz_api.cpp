@@ -200,7 +200,8 @@ void (*const calls[])(Input &, State &) = {make_valve,
                                            destroy_something,
                                            [](Input &in, State &) { call_status_functions(in); },
                                            [](Input &in, State &) { call_init_functions(in); },
-                                           place_valve};
+                                           place_valve,
+                                           warp_valve};
 
 void log_nothing(void *, std::int32_t level, const char *message) {
   EXPECT(message != nullptr && message[0] != '\0', "level %d", level);
@@ -214,6 +215,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t siz
   fuzz::State state;
   riis_set_log(in.one_in(4) ? fuzz::log_nothing : nullptr, nullptr);
   constexpr int n_calls = static_cast<int>(sizeof fuzz::calls / sizeof *fuzz::calls);
-  for (int i = 0; i < 45 && !in.is_used_up(); ++i) fuzz::calls[(in.byte() + i) % n_calls](in, state);
+  for (int i = 0; i < 48 && !in.is_used_up(); ++i) fuzz::calls[(in.byte() + i) % n_calls](in, state);
   return 0;
 }
