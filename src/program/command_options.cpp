@@ -154,6 +154,17 @@ void declare_half_thickness(Command &command, ValveOptions &options) {
                 });
 }
 
+// Declares all options that determine a placed surface and its half thickness.
+void declare_placed_valve(Command &command, ValveOptions &options) {
+  declare_valve(command, options);
+  declare_opening(command, options);
+  declare_open_state(command, options);
+  declare_skirt(command, options);
+  declare_file(command, options);
+  declare_placement(command, options);
+  declare_half_thickness(command, options);
+}
+
 // Declares --threads. The option applies to the search for nodes and to the search for crossings.
 void declare_threads(Command &command, MarkOptions &options) {
   command.value("--threads", "N", "Number of threads (default as many as have work)",
@@ -290,13 +301,7 @@ void declare_mark(Command command, MarkOptions &options) {
 
 void declare_surface(Command command, MarkOptions &options) {
   options.surface_output_option = "--output";
-  declare_valve(command, options);
-  declare_opening(command, options);
-  declare_open_state(command, options);
-  declare_skirt(command, options);
-  declare_file(command, options);
-  declare_placement(command, options);
-  declare_half_thickness(command, options);
+  declare_placed_valve(command, options);
   command.group("Output");
   command.text("--output", "OUT.vtp", "Write the placed triangles", options.surface_output);
   declare_pictures(command, options);
@@ -305,13 +310,7 @@ void declare_surface(Command command, MarkOptions &options) {
 
 void declare_crossings(Command command, MarkOptions &options) {
   options.check_crossing = true;
-  declare_valve(command, options);
-  declare_opening(command, options);
-  declare_open_state(command, options);
-  declare_skirt(command, options);
-  declare_file(command, options);
-  declare_placement(command, options);
-  declare_half_thickness(command, options);
+  declare_placed_valve(command, options);
   declare_threads(command, options);
   declare_stats(command, options);
   declare_loudness(command, options);
@@ -372,13 +371,7 @@ void declare_size_field(Command command, SizeFieldOptions &options) {
   });
   declare_threads(command, options);
   declare_loudness(command, options);
-  declare_valve(command, options);
-  declare_opening(command, options);
-  declare_open_state(command, options);
-  declare_skirt(command, options);
-  declare_file(command, options);
-  declare_placement(command, options);
-  declare_half_thickness(command, options);
+  declare_placed_valve(command, options);
   SeriesOptions &series = options.series;
   command.group("Motion in time, and several valves");
   CLI::Option *const times =

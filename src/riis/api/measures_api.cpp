@@ -9,6 +9,7 @@
 #include "api/handles.hpp"
 #include "api/structs.hpp"
 #include "api/surface_options.hpp"
+#include "base/constants.hpp"
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
 #include "common/array_view.hpp"
@@ -49,8 +50,7 @@ riis_orifice orifice_of(const riis::Surface &surface, const riis_resistance &res
   double radius = 0;
   if (found.outline == RIIS_OUTLINE_DISC) {
     const bool is_warped = !frame->disc.rim.empty();
-    radius =
-        is_warped ? std::sqrt(found.outline_area / 3.141592653589793) : frame->placement.scale * frame->disc.radius;
+    radius = is_warped ? std::sqrt(found.outline_area / riis::pi) : frame->placement.scale * frame->disc.radius;
   }
   return {found.area,
           found.outline_area,
