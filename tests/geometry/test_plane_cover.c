@@ -2,6 +2,7 @@
  *
  * Tests the area and the edge of the uncovered part of an outline, against closed forms and against counts of points. */
 #include "plane_cover_shim.h"
+#include "sanitized.h"
 #include "test_support.h"
 
 static const double pi = 3.14159265358979323846;
@@ -32,7 +33,7 @@ static void test_ring(void **state) {
   enum { m = 90 };
   random_source random = random_start("test_plane_cover");
   static double corners[2 * m][6];
-  for (int turn = 0; turn < 20; ++turn) {
+  for (int turn = 0; turn < fewer_if_sanitized(8); ++turn) {
     const double centre[2] = {random_between(&random, -2, 2), random_between(&random, -2, 2)};
     const double radius = random_between(&random, 0.5, 2), hole = radius * random_between(&random, 0.2, 0.9);
     const double first = random_between(&random, 0, 2 * pi), step = 2 * pi / m;
@@ -58,7 +59,7 @@ static void test_ring(void **state) {
 static void test_half(void **state) {
   (void)state;
   random_source random = random_start("test_plane_cover");
-  for (int turn = 0; turn < 100; ++turn) {
+  for (int turn = 0; turn < fewer_if_sanitized(60); ++turn) {
     const double centre[2] = {random_between(&random, -2, 2), random_between(&random, -2, 2)};
     const double radius = 1.1, angle = turn < 4 ? turn * pi / 2 : random_between(&random, 0, 2 * pi);
     const double up = turn % 2 ? random_between(&random, -0.5, 0.5) : 0; /* distance from the centre to the edge */
@@ -133,7 +134,7 @@ static void test_growing(void **state) {
   static int64_t ids[3 * 2 * m];
   random_source random = random_start("test_plane_cover");
   const double step = 2 * pi / m;
-  for (int turn = 0; turn < 20; ++turn) {
+  for (int turn = 0; turn < fewer_if_sanitized(8); ++turn) {
     const double centre[2] = {random_between(&random, -2, 2), random_between(&random, -2, 2)};
     const double radius = random_between(&random, 0.5, 2), size = radius * random_between(&random, 0.3, 0.7);
     const double reach = size * random_between(&random, 0.05, 0.3), first = random_between(&random, 0, 2 * pi);
@@ -161,7 +162,7 @@ static void test_growing_square(void **state) {
   (void)state;
   random_source random = random_start("test_plane_cover");
   const int64_t ids[6] = {0, 1, 2, 0, 2, 3};
-  for (int turn = 0; turn < 40; ++turn) {
+  for (int turn = 0; turn < fewer_if_sanitized(24); ++turn) {
     const double centre[2] = {random_between(&random, -2, 2), random_between(&random, -2, 2)};
     const double half = 0.5, reach = turn % 3 ? random_between(&random, 0.01, 0.2) : 0;
     const double angle = turn < 4 ? turn * pi / 4 : random_between(&random, 0, 2 * pi);

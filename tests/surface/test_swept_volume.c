@@ -7,6 +7,7 @@
 
 #include "handles.h"
 
+#include "sanitized.h"
 #include "shapes.h"
 
 static random_source rng;
@@ -28,6 +29,7 @@ static void set(riis_valve *valve, const char *name, double value) {
 
 enum { n_kinds = 5 };
 static const char *const kinds[n_kinds] = {"aortic", "mitral", "trileaflet", "bileaflet", "coapting"};
+static int n_trials(void) { return is_sanitized() ? n_kinds : 2 * n_kinds; }
 
 /* A valve of a kind with some parameters of its own. */
 static riis_valve *random_valve(int kind) {
@@ -91,7 +93,7 @@ static double by_steps(riis_valve *valve, double from, double to, const riis_sur
 
 static void volumes_are_sums_over_steps(void **state) {
   (void)state;
-  for (int trial = 0; trial < 2 * n_kinds; ++trial) {
+  for (int trial = 0; trial < n_trials(); ++trial) {
     riis_valve *valve = random_valve(trial % n_kinds);
     riis_surface_options options = surface_options();
     if (trial >= n_kinds) random_placement(&options);
@@ -163,7 +165,7 @@ static void squares_sweep_boxes(void **state) {
 
 static void volumes_are_conserved(void **state) {
   (void)state;
-  for (int trial = 0; trial < 2 * n_kinds + 2; ++trial) {
+  for (int trial = 0; trial < n_trials() + 2; ++trial) {
     riis_valve *valve = random_valve(trial % n_kinds);
     const double a = between(0, 1), b = between(0, 1), c = between(0, 1);
     riis_surface_options options = surface_options(), placed = surface_options();
@@ -245,7 +247,7 @@ static double volume_at(const riis_keyframes *keyframes, double time) {
 /* The volume that a closed surface sweeps is the change of the volume inside it. */
 static void closed_frames_sweep_what_they_gain(void **state) {
   (void)state;
-  for (int trial = 0; trial < 40; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(40); ++trial) {
     const double time[n_keys] = {-1, 0.5, 2, 3};
     double xyz[n_keys][12];
     const int is_cubic = trial % 2, repeats = trial / 2 % 2;

@@ -57,7 +57,8 @@ double x_at(const PlanePoint &a, const PlanePoint &b, double y) {
 double length_along(double dx, double dy, bool counts_equal) {
   const double across = std::abs(dy), beside = std::abs(dx);
   if (across < beside || (across == beside && !counts_equal)) return 0;
-  return std::hypot(dx, dy) / across;
+  const double slope = beside / across;
+  return std::sqrt(1 + slope * slope);
 }
 
 // Calls visit(i, x) for each line that the edge meets. A line through the upper end does not count. The x does not depend on the
