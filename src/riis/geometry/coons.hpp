@@ -11,8 +11,8 @@
 
 namespace riis {
 
-// Each side of a patch is named after the parameter that is constant on it. side_v0 and side_v1 run along u, side_u0 and side_u1
-// run along v. A collapsed side has length 0.
+// Each side of a patch is named after the parameter that is constant on it. side_v0 and side_v1 run along u, and side_u0 and
+// side_u1 run along v. A collapsed side has length 0.
 struct PatchSides {
   const Polyline *side_v0, *side_v1, *side_u0, *side_u1;
 };
@@ -89,7 +89,7 @@ QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size
 
 // A linear function is at0 at 0 and at1 at 1. Returns the larger of its values at `from` and `to`.
 double larger_mix(double at0, double at1, double from, double to);
-// Returns the largest value of 2 v (1-v) between two v.
+// Returns the largest value of 2 v (1-v) between two values of v.
 double largest_arc_weight(double from, double to);
 
 // Returns the member `middle` of all lines.

@@ -116,7 +116,8 @@ class Covered {
     for (std::int64_t i = lines_.first_from(centre[1] - radius); i < end; ++i) {
       const double y = lines_.y(i) - centre[1];
       const double half = std::sqrt(std::max(0.0, (radius - y) * (radius + y)));
-      const double along = length_along(y, half, counts_equal_);  // the circle runs across its radius (half, y)
+      const double along = length_along(y, half, counts_equal_);  // the circle runs at right angles to its radius
+                                                                  // (half, y)
       widen(i, {centre[0] - half, along});
       widen(i, {centre[0] + half, along});
     }

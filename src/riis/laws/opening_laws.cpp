@@ -20,7 +20,8 @@ constexpr double degree = pi / 180;
 void check_time(double time) { check_range("", "time", time, -largest, largest); }
 
 // Rises from 0 at x = 0 to 1 at x = 1. Its first two derivatives are 0 at both ends, so neither the valve's velocity nor its
-// acceleration jumps. Just below x = 1 the polynomial rounds to more than 1, but no valve accepts an opening above 1.
+// acceleration jumps. Just below x = 1 the polynomial may round to more than 1. The result is limited to 1, because no valve
+// accepts an opening above 1.
 double ramp(double x) { return x <= 0 ? 0 : x >= 1 ? 1 : std::min(1.0, x * x * x * (10 + x * (-15 + 6 * x))); }
 double ramp_rate(double x) { return x <= 0 || x >= 1 ? 0 : 30 * x * x * (1 - x) * (1 - x); }
 

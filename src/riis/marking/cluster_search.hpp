@@ -51,8 +51,9 @@ struct ClusterScratch {
   void prepare(int n_threads);
 };
 
-// Returns false if single precision cannot separate near from far. This happens if the limit, the mesh or its distance from the
-// surface is about a million times the surface's size. It also happens if the mesh is extremely small compared with the surface.
+// Returns false if single precision cannot separate near nodes from far ones. This happens if the limit, the mesh or its distance
+// from the surface is about a million times the surface's size. It also happens if the mesh is extremely small compared with the
+// surface.
 bool separates_in_single_precision(const SearchRequest &request, const Clusters &clusters);
 
 // The clusters must belong to the request's mesh, and separates_in_single_precision must hold. `kernels` must be those of the

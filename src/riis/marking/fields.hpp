@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A field is data about a node's closest point that a solver's force needs besides the distance.
-// In: nodes within the limit, each with the closest triangle that the search found. Out: an array for each requested field.
+// Computes fields. A field is a number or vector at a node's closest point, such as the velocity, which a solver's force needs
+// besides the distance. In: nodes within the limit, each with the closest triangle that the search found. Out: an array for each
+// requested field.
 #pragma once
 
 #include <cstdint>

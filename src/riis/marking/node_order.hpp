@@ -28,8 +28,8 @@ inline Vec3 node_at(const StridedPoints &nodes, std::int64_t i) {
   return checked_point(nodes, i, "node", RIIS_INVALID_MESH);
 }
 
-// The frame of a mesh's coordinates: (x - centre) * scale. The scale is a power of two that brings them between -1 and 1. A
-// coordinate far outside becomes 2 or -2, which single precision can hold.
+// The frame of a mesh's nodes: it takes a coordinate x to (x - centre) * scale. The scale is a power of two that brings all
+// coordinates between -1 and 1. A coordinate far outside becomes 2 or -2, which single precision can hold.
 struct NodeFrame {
   Vec3 centre{0, 0, 0};
   double scale = 1;
@@ -83,8 +83,8 @@ template <class Node>
 using NodeItems = UnfilledVector<NodeItem<Node>>;
 
 // Sorts nodes so that near nodes follow each other. Each pass counts the nodes of a part in bins along the longest axis of its
-// box. Then it cuts the part, first into whole clusters and later into whole leaves. The items move from one array to the other
-// and back.
+// box. Then it cuts the part, in early passes between clusters and in later passes between leaves. The items move from one array
+// to the other and back.
 template <class Node>
 class NodeSorter {
  public:

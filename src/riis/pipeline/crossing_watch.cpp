@@ -10,8 +10,8 @@
 namespace riis {
 namespace {
 
-// Depths in half thicknesses. Pairs count if they are at least least_depth deep, which is the default of riis_find_crossings. A
-// pair as deep as least_deepest cannot come from rounding.
+// Both depths are in half thicknesses. A pair counts if its depth is at least least_depth, the default of riis_find_crossings. A
+// depth of least_deepest cannot come from rounding.
 constexpr double least_depth = 1e-6, least_deepest = 1e-3;
 
 // Returns the depth up to which triangles of leaflets may cross although the leaflets only touch (docs/theory.md, section 16).

@@ -82,7 +82,7 @@ struct Shape {
 };
 
 Shape blended(const ValveState &closed, const ValveState &open, double at) {
-  // A value that is equal in both states is not blended. So a housing that does not move is the same to the last bit.
+  // Returns a value that is equal in both states without blending it. So a housing that does not move keeps its bits.
   const auto both = [&](Parameter parameter) {
     const double from = closed.values[parameter][0], to = open.values[parameter][0];
     return from == to ? from : blend(from, to, at);
@@ -128,7 +128,7 @@ constexpr int n_pieces = 8;
 double arc_deviation(double whole_angle) {
   const double quarter = 0.25 * whole_angle / n_pieces;
   const double sine = std::sin(quarter), cosine = std::cos(quarter);
-  constexpr double rounding = 1e-3;  // of the bound itself
+  constexpr double rounding = 1e-3;  // a margin for the bound's own rounding, as a share of the bound
   return (1 + rounding) * (2.0 / 27.0) * std::pow(sine, 6) / (cosine * cosine);
 }
 
@@ -148,7 +148,7 @@ Curve make_arc(double circle_radius, double whole_angle, double last_x, double l
   Vector<Bezier> pieces;
   for (int i = 0; i < n_pieces; ++i) {
     const Point from = on_circle(i), to = on_circle(i + 1);
-    // The direction of the circle is the radius turned by 90 degrees.
+    // The circle's tangent is the radius turned by 90 degrees.
     pieces.push_back(Bezier::cubic(placed(from.x, from.y), placed(from.x - reach * from.y, from.y + reach * from.x),
                                    placed(to.x + reach * to.y, to.y - reach * to.x), placed(to.x, to.y)));
   }

@@ -20,8 +20,8 @@ namespace riis {
 
 using ParameterValues = Vector<std::array<double, 3>>;  // one entry for each spec
 
-// The value of a parameter that was not set, from other parameters' values. These come earlier in the list of parameters, so
-// they are known already.
+// Computes the value of a parameter that was not set from other parameters' values. Those parameters come earlier in the list, so
+// their values are known already.
 struct ParameterRule {
   const char *text;  // such as "0.5 leaflet_height"
   std::array<double, 3> (*value)(const ParameterValues &values);
@@ -77,7 +77,7 @@ struct ValveKind {
   // The leaflet_id of a wall that hinges reach into, or -1.
   std::int32_t housing = -1;
   Vector<AbsentName> absent = {};
-  // True for leaflets that a warp would bend although they are stiff.
+  // True if the leaflets are stiff. A warp would bend them.
   bool is_rigid = false;
   // The line that a skirt leads away from, and the position of the parameter "skirt_length". with_skirt sets both.
   SkirtAxis skirt_axis = SkirtAxis::none;

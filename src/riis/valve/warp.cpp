@@ -16,12 +16,12 @@
 namespace riis {
 namespace {
 
-// Sources count as planar if their rms distance from the plane is below this share of the largest rms extent, ...
+// Sources count as planar if their rms distance from their mean plane is below this share of their largest rms extent.
 constexpr double thinnest_share = 0.05;
-// ... or if noise would change the stretch across the plane by more than this.
+// Sources also count as planar if noise would change the stretch across the plane by more than this.
 constexpr double largest_stretch_error = 0.1;
-// The map follows a part of the noise, so its residuals are smaller than the noise. Of shares from 0.3 to 1, the attachments of
-// random patients were nearest with 0.5 to 0.7 (docs/theory.md, "Warp").
+// The share of the noise that the residuals should have. It is below 1, because the map follows a part of the noise. The
+// attachments of random patients were met best with shares from 0.5 to 0.7 (docs/theory.md, "Warp").
 constexpr double residual_share = 0.6;
 constexpr double line_share = 1e-6, same_place_share = 1e-6;
 
@@ -183,7 +183,7 @@ WarpLandmarks::WarpLandmarks(const Vector<Vec3> &sources, double noise, const ch
       fail(RIIS_INVALID_ARGUMENT, name, ": landmarks ", std::min(i, nearest), " and ", std::max(i, nearest),
            " are in one place, (", sources_[i].x, ", ", sources_[i].y, ", ", sources_[i].z, ")");
     nearest_to.push_back(nearest);
-    // Two landmarks that are nearest to each other have one place between them.
+    // If two landmarks are each other's nearest, the place between them is taken once.
     if (nearest > i || nearest_to[nearest] != i)
       probes_.push_back({0.5 * (sources_[i] + sources_[nearest]), static_cast<std::int64_t>(i)});
   }

@@ -57,7 +57,7 @@ struct WarpQuality {
   double rms_residual, largest_residual;  // distances of mapped sources from their targets
   std::int64_t largest_landmark;
   double smoothing;          // lambda; infinite if the map is affine
-  double least_determinant;  // half way from each landmark to its nearest
+  double least_determinant;  // the least of the determinants at the places half way from each landmark to its nearest
   Vec3 least_point;          // where the determinant is least
   std::int64_t least_landmark;
 };
