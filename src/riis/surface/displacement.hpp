@@ -28,9 +28,9 @@ struct MovedPatch {
 };
 
 // The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. Both states are
-// evaluated on the smooth patches: on the sides directly, and inside by the same combination of the sides. Only (u,v) identifies
-// a point in both states, so the triangles may change in between. The result is exactly 0 if neither the sides nor the bulge
-// changed.
+// evaluated on the smooth patches: on the sides directly, and inside by the same combination of the sides. A point is identified
+// in both states by (u,v) alone, so the two states may have different triangles. The result is exactly 0 if neither the sides nor
+// the bulge changed.
 class PatchMotion {
  public:
   // The grid must have been made with its lines kept.

@@ -32,7 +32,7 @@ Vector<double> joints_of(const PatchSet &set, const Side &side) {
   return joints;
 }
 
-// Moves lines along with the joints between which they lie. If the number of joints changed, the lines stay.
+// Moves each line with the two joints between which it lies. If the number of joints changed, no line moves.
 Vector<double> moved(const Vector<double> &lines, const Vector<double> &from, const Vector<double> &to) {
   Vector<double> made = lines;
   if (from.empty() || from.size() != to.size()) return made;
@@ -91,7 +91,7 @@ class PlannedArcs {
     return polyline(edge_, set_.curve_of(patch_.v1), errors, &ColumnErrors::edge);
   }
 
-  // At both ends, the neighbouring patches have exactly the same offsets.
+  // The offsets at both ends are taken from the sides, so that neighbouring patches have the same bits.
   ArcLines arc_lines(const Vector<ColumnErrors> &errors, const Vector<int> &n_parts) const {
     ArcLines made;
     made.u_lines.reserve(lines_.size());
@@ -108,7 +108,7 @@ class PlannedArcs {
   }
 
  private:
-  // Returns the shares of the lines and of the points between them. Records in at_ the positions of the lines.
+  // Returns the shares of the lines and of the points between them. Stores the positions of the lines in at_.
   Vector<double> shares_for(const Vector<int> &n_parts) {
     Vector<double> shares;
     at_.reserve(lines_.size());
@@ -203,7 +203,7 @@ Vector<double> segments(const Needs &needs, double most) {
   return made;
 }
 
-// Does the same, and also makes the errors of the segments as equal as the positions allow.
+// Takes as few positions as segments() does, but makes the errors of the segments as equal as the positions allow.
 Vector<double> balanced_segments(const Needs &needs, double most) {
   Vector<double> made = segments(needs, most);
   double low = 0, high = most;
@@ -217,14 +217,14 @@ Vector<double> balanced_segments(const Needs &needs, double most) {
   return made;
 }
 
-// Needs come from narrow steps, and errors of wide segments are bounded a little less closely. So some of the allowed error is
-// held back.
+// Needs are computed on narrow steps, but the error of a wide segment is bounded a little less closely. So lines are chosen for
+// this share of the allowed error only.
 constexpr double most_of_allowed = 0.9;
-// Needs are computed on steps. The number of steps is this factor times the largest number of segments of a curve, within these
-// limits.
+// The number of steps on which needs are computed is steps_per_segment times the largest number of segments of a curve. It stays
+// between least_steps and most_steps.
 constexpr int steps_per_segment = 4;
 constexpr std::size_t least_steps = 64, most_steps = 4096;
-// Only one of this many states decides how many steps each line needs. Later every state checks the lines.
+// To save time, the needs come from one in this many states only. Later the lines are checked in every state.
 constexpr std::size_t states_per_need = 4;
 
 // Halves those steps of a list that are too large. `is_too_large` has an entry for each step.
@@ -292,7 +292,8 @@ class Planner {
   }
 
   // Curves at opposite sides of Coons patches, and at the opposite sides of their neighbours, form a family. If they have the
-  // same vertices, the patches have few lines. Each curve runs with the first curve of its family or against it.
+  // same vertices, the patches have few lines. Each curve runs either in the direction of the first curve of its family or
+  // against it.
   struct Family {
     Vector<std::size_t> curves;
     Vector<bool> runs_against;
@@ -355,7 +356,7 @@ class Planner {
       std::size_t n_steps = least_steps;
       for (const std::size_t curve : family.curves)
         n_steps = std::max(n_steps, steps_per_segment * rough_number_of_segments(curve));
-      if (n_steps > most_steps) continue;  // the tolerance is so small that curves are halved from end to end instead
+      if (n_steps > most_steps) continue;  // for so small a tolerance, all parts of the curves are halved instead
       while ((n_steps & (n_steps - 1)) != 0) n_steps += n_steps & -n_steps;
       for (std::size_t k = 0; k < family.curves.size(); ++k)
         needs.push_back(needs_of(family.curves[k], family.runs_against[k], n_steps));

@@ -23,8 +23,8 @@ struct PatchPlan {
   Vector<int> n_parts;  // the number of parts between two lines; O is evaluated at the ends of the parts
 };
 
-// The numbering of curves that the sides of patches use. The numbering may depend on the opening: closed mitral leaflets share
-// curves that are separate in open ones.
+// The numbering of curves that the sides of patches use. A set of patches may number its curves differently at each opening. For
+// example, closed mitral leaflets share curves that are separate in open leaflets.
 class CurveNumbering {
  public:
   explicit CurveNumbering(const PatchSet &set);

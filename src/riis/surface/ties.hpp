@@ -14,7 +14,8 @@ namespace riis {
 
 struct TieRule {
   const std::int32_t *leaflet_id = nullptr, *patch_id = nullptr;  // for each triangle; null if ties are not wanted
-  // Distances count as equal up to these differences: the first for two leaflets, the second for two patches of one leaflet.
+  // Two distances count as equal if they differ by at most these: of_leaflets for two leaflets, of_patches for two patches of one
+  // leaflet.
   double of_leaflets = 0, of_patches = 0;
 
   bool is_tie(const ClosestTriangle &closest, const ClosestTriangle &other) const {

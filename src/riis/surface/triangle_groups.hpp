@@ -23,7 +23,7 @@ struct Frame {
   Vec3 operator()(Vec3 p) const { return scale * (p - centre); }
 };
 
-// These two round to single precision, towards minus and plus infinity.
+// round_down rounds to single precision towards minus infinity, and round_up towards plus infinity.
 float round_down(double x);
 float round_up(double x);
 

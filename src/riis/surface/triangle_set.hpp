@@ -23,7 +23,7 @@ struct Grouping {
   bool operator==(const Grouping &other) const { return order == other.order && end == other.end; }
 };
 
-// The vertices of a patch of a valve: those from `first` on, up to the first vertex of the next patch.
+// The vertices of a patch of a valve. They begin at `first` and end before the first vertex of the next patch.
 struct VerticesOfPatch {
   std::int32_t patch_id, leaflet_id;
   std::int64_t first;

@@ -123,7 +123,8 @@ AlongCurve along(const CurveRange &on) {
           least >= tight_share * first && by_itself <= 1 - tight_share};
 }
 
-// Returns bounds that follow from each state by itself. They serve a range on which the two states have different pieces.
+// Returns bounds from each state by itself. They serve a range on which the states lie on different pieces and cannot be
+// compared.
 AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
   const auto of = [](Both a, Both b) { return Both{larger(a.size, b.size), a.size + b.size}; };
   return {of(now.length, before.length),
@@ -279,13 +280,14 @@ Vector<double> off_linear(const TwoCurves &curves, const Vector<GridLine> &lines
     for (std::size_t i = from; i < to; ++i) {
       const AlongCurve on = side.between(i);
       const double second = side.is_same_piece(i) ? on.second_of_point().change : on.size_now + on.size_before;
-      // Green's function of linear interpolation is at most x (width - x) / width. Its integral is at most width squared / 8.
+      // The error of linear interpolation is the integral of Green's function times the second derivative. Green's function is at
+      // most x (width - x) / width, and its integral is at most width squared / 8.
       const double x0 = shares.all()[i] - start, x1 = shares.all()[i + 1] - start, x = std::clamp(0.5 * width, x0, x1);
       error += (x1 - x0) * x * (width - x) / width * second;
       largest = larger(largest, second);
     }
     error = std::min(error, off_line(width, largest));
-    // No point of a curve is farther from the curve's chord than the curve is long.
+    // This bound always holds: no point of a curve is farther from the chord than the curve is long.
     if (!(error <= both_lengths * width)) error = both_lengths * width;
     const auto shift = [&](const GridLine &line) { return both_lengths * std::abs(line.*t - line.middle); };
     made.push_back(error + larger(shift(lines[k]), shift(lines[k + 1])));
@@ -383,7 +385,7 @@ Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, con
         passed += on_base.width(i) * 2 * of_factor.size * on.first.size;
       }
     }
-    // O' jumps at a joint, so the bound there uses the first derivative.
+    // O' jumps at a joint, so the bound for such a range uses the first derivative.
     double error = has_joint || passed > 0 ? 0.5 * width * first + passed : off_line(width, second);
     const double at_most = 4 * of_factor.size * largest;  // bounds |O| and its linear interpolation, in both states
     if (!(error <= at_most)) error = at_most;

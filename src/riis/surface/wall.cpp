@@ -20,8 +20,8 @@ struct Start {
   Vec3 point, direction;
 };
 
-// Returns where the line point + t * direction meets a triangle. The signs of the three volumes are opposite numbers in two
-// triangles with a common edge, so the line cannot slip through between them.
+// Returns where the line point + t * direction meets a triangle. Two triangles with a common edge compute the volume for that
+// edge with opposite signs. So the line cannot slip through between them.
 std::optional<double> meets(const std::array<Vec3, 3> &corners, Vec3 point, Vec3 direction) {
   const auto [a, b, c] = corners;
   const Vec3 oa = a - point, ob = b - point, oc = c - point;
