@@ -14,8 +14,8 @@ class Option;
 
 namespace riis::program {
 
-// Declares options of a command. CLI11 passes on the text as typed. The numbers are parsed by this program, independently of the
-// locale.
+// Declares options of a command. CLI11 passes on each value as text. This program parses the numbers itself, so that they do not
+// depend on the locale.
 class Command {
  public:
   explicit Command(CLI::App *app) : app_(app) {}

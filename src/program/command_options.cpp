@@ -208,7 +208,7 @@ void declare_loudness(Command &command, ValveOptions &options) {
   command.flag("--strict", "Exit with status 4 if there was a warning", options.strict);
 }
 
-// --view is declared after --picture. So CLI11 passes the views after the pictures, whose number is then known.
+// --view is declared after --picture, so CLI11 passes the pictures first. Their number is then known when the views are read.
 void declare_pictures(Command &command, MarkOptions &options) {
   CLI::Option *const pictures =
       command

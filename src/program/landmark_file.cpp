@@ -67,7 +67,8 @@ std::int32_t take_cusp(std::string &text) {
   return -1;
 }
 
-// Reads a name: the word of a role, then perhaps a number, or for a nadir a cusp, for a commissure two cusps.
+// Reads a name: the word of a role, and perhaps more. A number may follow, or one cusp after a nadir, or two cusps after a
+// commissure.
 std::optional<Place> place_of_name(const std::string &name) {
   const std::string text = plain(name);
   for (const RoleWord &known : role_words) {
@@ -114,7 +115,7 @@ class Collector {
     file_.xyz.insert(file_.xyz.end(), point.begin(), point.end());
   }
 
-  // Checks the whole, and takes the direction of flow from its two points.
+  // Checks the landmarks as a whole, and takes the direction of flow from its two points.
   void finish() {
     if (file_.names.empty()) refuse_file(file_.path, "holds no landmarks");
     if (ends_.empty()) return;

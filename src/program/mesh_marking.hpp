@@ -47,7 +47,7 @@ class ResistanceSum {
   bool has_any_ = false;
 };
 
-// --steps measures the cost of a time step of a moving valve, in a mesh that is prepared for many markings.
+// Measures, for --steps, the cost of a time step of a moving valve in a mesh that is prepared for many markings.
 
 // Moves the opening back and forth between 0 and 1, and marks the nodes of the file after each step. Afterwards the valve has
 // its old opening. Other surfaces and marks do not change. Throws a Refusal for a valve that cannot move.

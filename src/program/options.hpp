@@ -31,9 +31,9 @@ struct ValveOptions {
   std::string wall;                   // a file with the wall that the skirt reaches; "": none
   riis_surface_options surface_options;
   std::optional<Unit> unit, surface_unit;  // units of the mesh and of the surface's file; they give the scale
-  // Tell whether the user gave these values as numbers.
+  // These members tell whether the user gave the values as numbers.
   bool has_scale = false, has_half_thickness = false, has_tolerance = false;
-  std::int32_t n_threads = 0;  // 0: as many as there is work for
+  std::int32_t n_threads = 0;  // 0: the library chooses by the amount of work
   bool quiet = false;
   bool strict = false;  // a warning changes the exit status
 };

@@ -103,7 +103,7 @@ struct Grid {
   std::array<std::int64_t, 3> n;
 
   std::int64_t n_points() const { return n[0] * n[1] * n[2]; }
-  // The points in gmsh's order: z runs fastest.
+  // The grid's points are in gmsh's order, in which z runs fastest.
   std::vector<double> points() const {
     std::vector<double> xyz;
     xyz.reserve(static_cast<std::size_t>(3 * n_points()));

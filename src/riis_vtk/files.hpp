@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks files, reads them as bytes, lines and words, and writes files under a temporary name. VTK does the rest. This header
-// also has the names of the arrays in files.
+// Checks files, reads them as bytes, lines and words, and writes files under a temporary name. VTK itself reads and writes the
+// formats. This header also has the names of the arrays in files.
 #pragma once
 
 #include <charconv>

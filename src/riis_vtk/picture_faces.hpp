@@ -16,7 +16,8 @@ class vtkUnstructuredGrid;
 
 namespace riis::vtk {
 
-// The dimensions of a grid's cells. In a grid with volumes, flat cells only repeat its boundary. So they are not drawn.
+// The dimensions of a grid's cells. In a grid with volumes, flat cells are not drawn, because they only repeat the grid's
+// boundary.
 class CellDimensions {
  public:
   explicit CellDimensions(vtkUnstructuredGrid *grid);

@@ -31,7 +31,7 @@ struct Faces {
 // Returns the positions of all points, (3, n).
 std::vector<double> coordinates_of(vtkPointSet *data);
 
-// The cell array with the leaflet ids of the faces.
+// Names the cell array with the leaflet ids of the faces.
 struct LeafletArray {
   // `given` is the caller's name for the array. NULL means riis_leaflet, which may be missing.
   explicit LeafletArray(const char *given) : name(given ? given : leaflet_array), is_required(given != nullptr) {}

@@ -15,7 +15,7 @@
 namespace riis::vtk {
 namespace {
 
-// This limit leaves room for the reason in the core's message.
+// The limit on a path's length leaves room for the reason in the core's message.
 constexpr std::size_t longest_path = 250;
 
 // Returns the useful part of a message of VTK. The message is "ERROR: In FILE, line N\nvtkClass (0xADDRESS): message\n\n", and
