@@ -18,18 +18,19 @@
  *
  * These rules hold for every function:
  *
- * - Units: lengths have one unit of the caller's choice, angles are in degrees. The valves' default lengths are in
+ * - Units: lengths have one unit of the caller's choice, and angles are in degrees. The valves' default lengths are in
  *   centimetres; a placement's scale turns them into the mesh's unit (0.01 for metres).
  * - Ids: values called *_id count from 0, also in messages. If a struct has a field index_base, the ids in it
  *   count from that base, 0 (default) or 1. A field id_bits gives the ids' width: 32 (default) or 64.
- * - Points: point i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e60. stride is
- *   at least 1, in numbers: 1 for separate arrays, 3 for xyz(3,n) with y = x + 1, z = x + 2. A field real_bits
- *   gives the numbers' width: 64 (default) or 32. Without this field they are doubles. The same holds for vectors.
+ * - Points: point i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e60. stride counts
+ *   numbers and is at least 1: it is 1 for separate arrays, and 3 for xyz(3,n) with y = x + 1, z = x + 2. A field
+ *   real_bits gives the numbers' width: 64 (default) or 32. Without this field they are doubles. The same holds for
+ *   vectors.
  * - Order: the first argument is the object that the function is named after. Then come arguments that the call
  *   reads, then options, then arguments that it writes. Functions with `get` in their names return content.
- * - Status: a function that can fail returns a riis_status; 0 is success. With a positive status the call has
- *   changed nothing, and pointers from earlier calls stay valid. After a negative status, an object that the call
- *   was to write can only be destroyed. riis_last_error() has the message. No function aborts, prints or throws.
+ * - Status: a function that can fail returns a riis_status; 0 is success. If the status is positive, the call has
+ *   changed nothing, and pointers from earlier calls stay valid. If it is negative, an object that the call should have
+ *   written can only be destroyed. riis_last_error() has the message. No function aborts, prints or throws.
  * - Errors of any function: RIIS_INVALID_ARGUMENT for a NULL that is not allowed and for an argument or field out
  *   of range, RIIS_INVALID_STRUCT_SIZE for a struct of a wrong size, RIIS_OUT_OF_MEMORY.
  * - Handles: a new object is the last argument, written only on success. A destroy function takes a handle's
@@ -48,8 +49,8 @@
  *   in the calling thread's affinity mask. By default, a part of a call with little work takes one thread.
  *   OMP_NUM_THREADS and omp_set_num_threads have no effect. With n_threads 1, no thread is started. If the
  *   system refuses a thread or its memory, OpenMP and TBB end the process (docs/building.md).
- * - fork(): if the library has used several threads, a child process may use only 1, and 0 means 1 there. More are
- *   refused as RIIS_UNAVAILABLE. A child makes no surfaces if another thread was inside the library at the fork.
+ * - fork(): if the library has used several threads, a child process may use only 1, and 0 means 1 there. More threads
+ *   are refused as RIIS_UNAVAILABLE. A child cannot make surfaces if another thread was inside the library at the fork.
  * - Environment: calls, and log functions within them, run with the default floating-point environment. Each call
  *   restores the caller's environment at its end. The caller's OpenMP and TBB settings are not changed.
  *
@@ -62,7 +63,7 @@
 
 #include <stdint.h>
 
-#define RIIS_VERSION_MAJOR 1 /* of this header; grows with a change that breaks compiled callers */
+#define RIIS_VERSION_MAJOR 1 /* version of this header; grows with a change that breaks compiled callers */
 #define RIIS_VERSION_MINOR 0 /* grows with an addition */
 #define RIIS_VERSION_PATCH 0 /* grows with a correction */
 
@@ -160,8 +161,8 @@ RIIS_API void riis_valve_destroy(riis_valve **valve);
  *   n_values  3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp); 1 for others
  *   values    (n_values), within the parameter's range; riis_surface_create checks whether the values fit together
  * "skirt_length" gives any valve except "bileaflet" a skirt: a strip outwards from the attachment, which closes the gap
- * to the wall (docs/theory.md, "Skirt"). The open state's own value is ignored. It is 0, the default, or 1e-4 to 10 times
- * the attachment's mean distance from its axis.
+ * to the wall (docs/theory.md, "Skirt"). The open state's own value is ignored. "skirt_length" is 0, the default, or
+ * 1e-4 to 10 times the attachment's mean distance from its axis.
  * "opening", 0 to 1, is the coefficient of motion from a closed to an open state. One set of parameters makes
  * both states. The default is 1 (open) for the mitral valve, 0 for others. The aortic valve at 0 has the paper's
  * state, which leaves a hole. A valve from patches has opening 0 only, until riis_valve_set_open_state.
@@ -512,19 +513,19 @@ typedef struct riis_warp_options {
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_warp_options_init(riis_warp_options *options, int64_t struct_size);
 
-/* Makes a warp from landmarks on the valve at rest. Until riis_warp_set_targets, it is the identity. If the landmarks lie
- * nearly in a plane, the map does not follow from them across that plane. It then stretches there as in the plane, and
- * keeps right angles (riis_warp_info.is_planar).
+/* Makes a warp from landmarks on the valve at rest. Until riis_warp_set_targets, it is the identity. If the landmarks
+ * lie nearly in a plane, they do not determine the map across that plane. The map then stretches that direction as it
+ * stretches the plane, and keeps it at right angles (riis_warp_info.is_planar).
  *   sources  3 to 1000 landmarks
  * Errors: RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also for two landmarks in one place, and for
  * landmarks on a line. */
 RIIS_API riis_status riis_warp_create(const riis_points *sources, const riis_warp_options *options, riis_warp **warp);
 /* Destroys the warp. Valves that have it keep their copies. */
 RIIS_API void riis_warp_destroy(riis_warp **warp);
-/* Takes the landmarks to these places. The same targets give the same bits, whatever the targets before them.
+/* Takes the landmarks to these places. The same targets give the same bits, even after other targets.
  *   targets  as many points as the sources, in their order
- * Errors: RIIS_INVALID_ARGUMENT naming the point; RIIS_INVALID_PARAMETER for a warp that folds: its determinant is not
- * above 0 half way from a landmark to the nearest. */
+ * Errors: RIIS_INVALID_ARGUMENT naming the point; RIIS_INVALID_PARAMETER for a warp that folds: half way from some
+ * landmark to the nearest other one, its determinant is not above 0. */
 RIIS_API riis_status riis_warp_set_targets(riis_warp *warp, const riis_points *targets);
 /* Takes the landmarks to their places at a time, from a table of keys in time.
  *   frames  n_vertices is the number of landmarks. The keys are read during the call only

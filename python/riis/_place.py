@@ -341,7 +341,7 @@ def place(
     held       names of parameters that keep the valve's values
 
     The valve is copied. Raises InvalidArgumentError naming landmarks that are missing, in one place, collinear, mirrored, or not
-    those of a heart valve in this unit.
+    of the size of a heart valve in this unit.
     """
     read = _read(landmarks)
     is_file = not isinstance(landmarks, Mapping)

@@ -104,8 +104,8 @@ def attachment_and_crossings(n, noise, seed):
 
 
 def mitral_annuli(n, noise, seed, n_landmarks=16):
-    """The annulus of random patients, closed and open, each with its own landmarks. The patient's annulus is the model's by an
-    affine map with a bend."""
+    """The annulus of random patients, closed and open, each with its own landmarks. The patient's annulus is the model's annulus
+    after an affine map and a bend."""
     random = numpy.random.default_rng(seed)
     off, n_crossing = [], 0
     for _ in range(n):
