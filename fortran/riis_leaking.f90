@@ -74,7 +74,7 @@ contains
     call finish(code, status)
   end subroutine find_leaks_logical
 
-  !> Does the same with a mask of bytes. Only a section that is not contiguous is copied.
+  !> Implements riis_find_leaks for a mask of bytes. Only a section that is not contiguous is copied.
   subroutine find_leaks_int8(surface, mesh, marks, leaks, node_mask, n_threads, status)
     class(riis_surface), intent(in) :: surface              !< The surface of the marking.
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
@@ -89,7 +89,7 @@ contains
     call finish(code, status)
   end subroutine find_leaks_int8
 
-  !> Does the same with a mask of integers, which is copied.
+  !> Implements riis_find_leaks for a mask of integers, which is copied.
   subroutine find_leaks_int32(surface, mesh, marks, leaks, node_mask, n_threads, status)
     class(riis_surface), intent(in) :: surface              !< The surface of the marking.
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.

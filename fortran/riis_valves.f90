@@ -147,7 +147,7 @@ contains
     call finish(code, status)
   end subroutine valve_from_patches_int32
 
-  !> Does the same for integer(int64). These arrays are copied.
+  !> Implements %create_from_patches for integer(int64). These arrays are copied.
   subroutine valve_from_patches_int64(this, degree, control, curve_id, reversed, leaflet_id, index_base, status)
     class(riis_valve), intent(inout) :: this                     !< Must be empty.
     integer(int64), intent(in) :: degree(:)                      !< (n_curves).

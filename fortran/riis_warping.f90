@@ -97,7 +97,7 @@ contains
     points%z = c_loc(xyz(3, 1))
   end subroutine get_points
 
-  !> Takes the landmarks to these places. The same targets give the same bits, whatever the targets before them. Errors:
+  !> Takes the landmarks to these places. The same targets give the same bits, even after other targets. Errors:
   !! RIIS_INVALID_ARGUMENT naming the landmark; RIIS_INVALID_PARAMETER for a warp that folds, with the place and the determinant.
   subroutine warp_set_targets(this, targets, status)
     class(riis_warp), intent(inout) :: this                 !< Must be created.

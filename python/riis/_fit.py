@@ -492,7 +492,7 @@ def _result(problem: Problem, x: Reals, mixture: Mixture, judged: Judged, found:
     if judged.misfit > judged.most_misfit:
         doubts.append(f"misfit: neighbouring residuals are alike ({judged.misfit:.2g} times as much as at random)")
     if problem.whole and share < _LEAST_COVERED:
-        doubts.append(f"cover: the points cover {share:.0%} of this fit; without the whole valve pass whole=False")
+        doubts.append(f"cover: the points cover {share:.0%} of this fit; for points on a part of a valve pass whole=False")
     moves = [name for name in undetermined if name in _MOVES]
     if moves:
         doubts.append(f"placement: the points do not determine {', '.join(moves)}, on which the sizes depend")
