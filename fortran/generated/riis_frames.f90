@@ -58,7 +58,7 @@ contains
     call finish(code, status)
   end subroutine keyframes_create_int32
 
-  !> Does the same for integer(int64).
+  !> Implements %create for integer(int64).
   subroutine keyframes_create_int64(this, time, xyz, vertex_ids, leaflet_id, index_base, period, interpolation, status)
     class(riis_keyframes), intent(inout) :: this            !< Must be empty.
     real(c_double), intent(in), contiguous, target :: time(:) !< (n_keys), 1 to 1,000,000, strictly ascending, magnitude at
