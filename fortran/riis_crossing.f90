@@ -44,7 +44,7 @@ module riis_crossing
     module procedure find_crossings
   end interface riis_find_crossings
 
-  ! Empty pointers get these targets, so that their size can be taken.
+  ! A pointer without entries gets one of these targets, because the size of a null pointer is not defined.
   real(c_double), target, save :: no_reals(0), no_points(3, 0)
   integer(int64), target, save :: no_pairs(2, 0)
 
@@ -124,7 +124,7 @@ contains
     call riis_crossings_destroy(this%handle)
   end subroutine crossings_destroy
 
-  !> Stops the program unless both are empty.
+  !> Stops the program unless both objects are empty.
   impure elemental subroutine crossings_assign(left, right)
     class(riis_crossings), intent(inout) :: left            !< Must be empty.
     class(riis_crossings), intent(in) :: right              !< Must be empty.

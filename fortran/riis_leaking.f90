@@ -47,7 +47,7 @@ module riis_leaking
     module procedure find_leaks_int32
   end interface riis_find_leaks
 
-  ! Empty pointers get this target, so that their size can be taken.
+  ! A pointer without entries gets this target, because the size of a null pointer is not defined.
   real(c_double), target, save :: no_reals(0)
   integer(int64), target, save :: no_edges(2, 0)
 

@@ -172,7 +172,7 @@ contains
     end if
   end subroutine valve_from_patches_int64
 
-  ! Checks that there are as many entries as the library will read.
+  ! Checks that each array has as many entries as the library will read.
   function check_patches(degree, control, curve_id, reversed, leaflet_id) result(code)
     integer(int32), intent(in) :: degree(:)
     real(c_double), intent(in) :: control(:, :)

@@ -37,8 +37,8 @@ contains
     class(riis_warp), intent(inout) :: this                 !< Must be empty.
     real(c_double), intent(in), contiguous, target :: sources(:, :) !< (3, n): 3 to 1000 landmarks.
     real(c_double), intent(in), optional :: noise           !< Standard deviation of each coordinate of the targets, >= 0. The map
-                                                            !! is smoothed until it misses them by about that much. Default 0:
-                                                            !! the map meets the targets exactly.
+                                                            !! is smoothed until it misses the targets by about that much. Default
+                                                            !! 0: the map meets the targets exactly.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12. Default 1.
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), at least 1e-50 long. Default (0, 0, 1).
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees. Default 0.

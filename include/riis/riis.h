@@ -273,8 +273,8 @@ enum {
 
 /* How triangles of zero area in the caller's arrays are treated. */
 enum {
-  RIIS_ZERO_AREA_REFUSE = 0, /* refuse them: RIIS_INVALID_SURFACE naming the first */
-  RIIS_ZERO_AREA_SKIP = 1    /* skip them, count them, log a warning; other triangles keep their ids */
+  RIIS_ZERO_AREA_REFUSE = 0, /* refuse the surface: RIIS_INVALID_SURFACE naming the first such triangle */
+  RIIS_ZERO_AREA_SKIP = 1    /* skip and count such triangles, and log a warning; other triangles keep their ids */
 };
 
 /* How the distance of a point to the surface is measured (paper, 4.1). Sampling and minimisation are for comparison
@@ -537,7 +537,7 @@ RIIS_API riis_status riis_warp_set_targets_at(riis_warp *warp, const riis_keyfra
 typedef struct riis_warp_info {
   int64_t n_landmarks;         /* the number of landmarks */
   double rms_residual;         /* root mean square of the distances between mapped sources and targets */
-  double largest_residual;     /* the largest of these distances */
+  double largest_residual;     /* the largest distance between a mapped source and its target */
   int64_t largest_landmark_id; /* its landmark */
   double smoothing;            /* lambda of the smoothing, 0 without noise; infinite if the map is affine */
   double least_determinant;    /* the least determinant half way from each landmark to its nearest */
@@ -660,7 +660,7 @@ typedef struct riis_crossing_list {
   double deepest_depth;       /* the depth of the deepest pair, which is the first one of equally deep pairs */
   double deepest_point[3];    /* the point of the deepest pair */
   int64_t deepest_triangle_id[2]; /* the triangles of the deepest pair */
-  int32_t deepest_leaflet_id[2];  /* the leaflets of these triangles */
+  int32_t deepest_leaflet_id[2];  /* the leaflets of the deepest pair's triangles */
   double seconds;             /* wall time of riis_find_crossings */
 } riis_crossing_list;
 /* Gives the pairs of the last riis_find_crossings, until the next riis_find_crossings with these crossings. */
@@ -847,7 +847,7 @@ enum {
                                  extent, and for distances by sampling or minimisation */
   RIIS_SEARCH_EXHAUSTIVE = 1, /* queries every node (paper, algorithm "Exhaustive node iteration") */
   RIIS_SEARCH_NEIGHBOR = 2,   /* walks from marked nodes to their neighbours (paper, algorithm "Recursive
-                                 neighbor search") and proves that all other nodes are far, or queries them. The
+                                 neighbor search") and queries every other node that it cannot prove to be far. The
                                  mesh must have an adjacency, which need not be connected */
   RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm to the letter, for comparison: it misses nodes that are not
                                  connected to its one starting node. The mesh must have an adjacency */
@@ -1296,7 +1296,7 @@ RIIS_API riis_status riis_find_first_passage(const riis_valve *valve, const riis
 /* The number of mesh edges across the band, from the lengths of the mesh edges with a marked node. */
 typedef struct riis_cells_across {
   double least, mean, most; /* 2 * half_thickness over the longest, the mean and the shortest length */
-  double shortest_edge, mean_edge, longest_edge; /* the lengths of these edges */
+  double shortest_edge, mean_edge, longest_edge; /* the lengths of the mesh edges with a marked node */
   double half_thickness; /* the half thickness of the marking */
   int64_t n_edges;       /* edges with at least one marked node. If it is 0, only half_thickness differs from 0 */
 } riis_cells_across;

@@ -31,7 +31,7 @@ UNDETERMINED = 0.1
 _N_PARTS = 40
 # Sizes that are not free differ from the patient's by at most about this fraction of a length, or this number of radians.
 _FIXED_SPREAD = 0.1
-# Such a difference counts if the logarithm of the ratio of likelihoods is at least this.
+# A difference of a size that is not free counts if the logarithm of the ratio of likelihoods is at least this.
 _LEAST_EVIDENCE = 4.0
 
 
@@ -83,8 +83,8 @@ def is_same(problem: Problem, x: Reals, log_area: float, end: End) -> bool:
 
 
 def _add(problem: Problem, x: Reals, cost: float, ends: list[End], orbit: int | None, random: numpy.random.Generator) -> None:
-    """Adds the end x to ends, or counts it with the end that has the same surface. It came from a start, or by a turn from an
-    end of an orbit."""
+    """Adds the end x to ends, or counts it with the end that has the same surface. The end x came from a start, or from an end of
+    an orbit by a turn."""
     seen = problem.at(x)
     if seen is None:
         return
@@ -227,8 +227,9 @@ class Judge:
         return Judged(errors, s / problem.size, misfit, most_misfit, better)
 
     def _of_fixed(self, precision: Reals, jacobian: Reals, inlier: Reals, factor: float) -> Reals:
-        """Returns what the squared errors owe to sizes that are not free, if other values of these sizes would fit better than
-        chance allows: the shift of the unknowns in a fit with all sizes, and the variance that this fit adds."""
+        """Returns the share of the squared errors that comes from sizes that are not free. It is 0 unless other values of these
+        sizes would fit better than chance allows. It consists of the shift of the unknowns in a fit with all sizes, and of the
+        variance that this fit adds."""
         problem, n, weights = self.problem, self.problem.n, inlier * factor
         seen, (columns, area) = problem.at(self.x), problem.fixed_jacobian(self.x)
         columns, area = columns * _FIXED_SPREAD, area * _FIXED_SPREAD

@@ -90,7 +90,7 @@ void add_method(nb::module_ &module, const char *type, const char *name, Functio
   nb::cpp_function_def(function, nb::scope(module.attr(type)), nb::name(name), nb::is_method(), extra...);
 }
 
-// Gives a valve the warps whose states these are.
+// Gives a valve the warps that these pickled states describe.
 void warp_as_pickled(nb::handle valve, nb::handle state);
 void add_warp(nb::module_ &module);
 

@@ -82,7 +82,7 @@ void set_all(Valve &valve, const nb::dict &parameters) {
   for (const auto [name, value] : parameters) set(valve, name, value);
 }
 
-// Takes the same arguments as dict.update.
+// Sets parameters from the same arguments as dict.update.
 void update(Valve &valve, nb::handle other, const nb::kwargs &parameters) {
   nb::dict all;
   if (!other.is_none()) {

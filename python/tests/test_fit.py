@@ -97,7 +97,7 @@ def test_vertices_of_surfaces_count_by_their_area():
     pyvista = pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
     data = surface.to_pyvista()
     again = riis.fit(data, "trileaflet", **arguments)
-    assert again.parameters == found.parameters  # the same points and weights
+    assert again.parameters == found.parameters  # both fits have the same points and weights
     single = pyvista.PolyData(numpy.array(surface.vertices, numpy.float32))  # only the points, all with weight 1
     alike = riis.fit(single, "trileaflet", **arguments)
     assert abs(alike.parameters["leaflet_height"] - 1.3) < 0.01 and numpy.ptp(alike.weights) < numpy.ptp(found.weights)

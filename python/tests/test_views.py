@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Arrays are read-only, keep their memory alive, and do not change, whatever is called later."""
+"""Arrays are read-only, keep their memory alive, and do not change in later calls."""
 
 import gc
 import os

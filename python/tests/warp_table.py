@@ -147,7 +147,7 @@ def ordered(edges):
 
 
 def sealing(n, seed):
-    """Counts valves that seal a mesh of their root when closed, and let it pass at 0.3."""
+    """Counts valves that seal a mesh of their root when closed, and leave a passage at opening 0.3."""
     random = numpy.random.default_rng(seed)
     spacing, n_sealed, n_open = 0.1, 0, 0
     axis = numpy.arange(-1.2, 1.21, spacing)

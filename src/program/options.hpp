@@ -55,7 +55,7 @@ struct SeriesOptions {
   bool all_cells = false;
 };
 
-// Two points that the valve should separate, and the words for refusing them.
+// Two points that the valve should separate, and their texts for messages.
 struct LeakCheck {
   double from[3], to[3];
   std::string subject;

@@ -381,7 +381,7 @@ OutputLocks::OutputLocks(const std::vector<std::string> &paths) {
   try {
     for (const std::string &path : paths) {
       const std::string lock = lock_of(path);
-      // Outputs with long names may have the same lock.
+      // A lock may serve several outputs with long names, because only the ends of such names are used.
       if (std::find(held.begin(), held.end(), lock) != held.end()) continue;
       const int file = take(path, lock);
       if (file < 0) continue;

@@ -124,7 +124,7 @@ class SweptSurface {
 
   void add(double time) {
     valve_.move_to(time);
-    // At the same opening a valve has the same triangles.
+    // An opening that occurs again is skipped, because the valve has the same triangles there.
     if (!valve_.source().keyframes && !openings_.insert(valve_.opening()).second) return;
     const riis_triangles triangles = triangles_of(valve_.surface());
     const std::int64_t before = view(xyz_).size() / 3;

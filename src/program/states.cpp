@@ -29,7 +29,7 @@ namespace {
 constexpr double fine_tolerance = 0.01;
 
 riis_surface_options own_frame(const StatesOptions &options) {
-  riis_surface_options own = options.surface_options;  // the scale is the command's only placement
+  riis_surface_options own = options.surface_options;  // this command places a valve by the scale only
   if (!options.has_tolerance) own.tolerance = fine_tolerance;
   return own;
 }

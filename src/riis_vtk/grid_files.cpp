@@ -113,8 +113,8 @@ void check_cell_sizes(const std::string &path, vtkUnstructuredGrid *grid) {
   fail_file(path, "cell ", cell, " has broken polyhedron faces");
 }
 
-// Checks a polyhedron's faces. At the cell's location, the array has the number of faces, followed by the size and the points of
-// each face.
+// Checks a polyhedron's faces. From the cell's location on, VTK's array of faces has the number of faces, and then the size and
+// the points of each face.
 void check_polyhedron(const std::string &path, vtkIdType cell_id, vtkIdType location, vtkIdTypeArray *faces,
                       vtkIdType n_points) {
   const vtkIdType n_values = faces->GetNumberOfValues();

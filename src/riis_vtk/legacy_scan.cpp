@@ -120,7 +120,8 @@ class Scan {
 
   std::string_view line() { return take_line(rest_); }
 
-  // Returns the next word unchanged, or "" at the end of the file. VTK would read a longer word as two words.
+  // Returns the next word unchanged, or "" at the end of the file. Refuses a word of more than 255 characters, because VTK would
+  // read it as two words.
   std::string_view word_as_it_is() {
     constexpr std::size_t longest = 255;
     const std::string_view text = take_word(rest_);

@@ -44,7 +44,7 @@ struct LeafletArray {
 // only used in messages.
 Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &wanted);
 
-// Returns a number for each vertex, which is below the number of vertices. Two vertices have the same number if and only if
+// Returns a number for each vertex, from 0 to the number of vertices minus 1. Two vertices have the same number if and only if
 // their coordinates are exactly equal.
 std::vector<std::size_t> places_of(const Faces &faces);
 

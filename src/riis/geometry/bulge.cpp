@@ -195,7 +195,7 @@ double Bulge::sampled_error(const Curve &base, const Curve &edge, double u0, dou
   return off_line + between;
 }
 
-// Bounds |jump of O' at u|, the difference between both sides.
+// Bounds the size of the jump of O' at u, which is the difference between its values on both sides.
 double Bulge::jump(double u) const {
   const IntervalVector w = IntervalVector::of(edge_.at(u) - base_.at(u));
   const auto beside = [&](bool after) {

@@ -24,7 +24,8 @@ Polyline make_polyline(const Vector<Vec3> &points);
 // the curve's length, not of the polyline's length as in the paper. So the vertex is the curve's point at that t for any
 // tolerance.
 Polyline make_polyline(const Curve &curve, double max_error);
-// Also keeps the estimated distance of the velocity from linear within max_bend on each segment.
+// Makes the polyline of a curve that moves. It also keeps the estimated distance of the velocity from linear within max_bend on
+// each segment.
 Polyline make_polyline(const Curve &curve, double max_error, const Bezier &velocity, double max_bend);
 
 // Returns the same polyline in the opposite direction.

@@ -292,7 +292,7 @@ Pose start_of(const Landmarks &landmarks, const Frame &frame, Vec3 shift, const 
   return {rotation, frame.middle - rotation * shift};
 }
 
-// Sets lengths that belong to both radii, and the height of the bending curve. Names are the same in all kinds with cusps.
+// Sets a parameter so that its ratio to a measure of the valve is that of the template, `own`.
 void set_proportion(const Valve &own, Valve &valve, const std::string &name, double own_measure, double measure) {
   valve.set(name, 1, std::array{value_of(own, name) / own_measure * measure}.data());
 }

@@ -14,8 +14,9 @@ namespace {
 constexpr double difference_step = 1e-5;
 // The iteration ends if a step is shorter than this share of `size`.
 constexpr double negligible_step = 1e-13;
-// It also ends if the sum of squares falls by less than this share of itself. The unknowns are then a thousandth of their
-// standard errors from their ends. Residuals that can vanish fall much faster until only rounding is left.
+// The iteration also ends if the sum of squares falls by less than this share of itself. The unknowns are then within a
+// thousandth of their standard errors of their final values. If residuals can vanish, the sum falls much faster, until only
+// rounding is left.
 constexpr double negligible_decrease = 1e-9;
 constexpr int most_iterations = 400;
 

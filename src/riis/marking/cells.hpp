@@ -71,7 +71,7 @@ struct CellNodes {
   std::int64_t nodes_per_cell, base, first_offset;
 
   std::int64_t begin(std::int64_t cell) const { return offsets ? offsets[cell] - first_offset : cell * nodes_per_cell; }
-  // Returns the node at a position in these lists.
+  // Returns the node at a position in the cells' lists.
   std::int64_t node_at(std::int64_t position) const { return ids[position] - base; }
   void prefetch(std::int64_t position) const { __builtin_prefetch(ids + position); }
 };

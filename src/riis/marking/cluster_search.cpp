@@ -312,7 +312,7 @@ void ClusterScratch::prepare(int n_threads) {
     thread.items.clear();
     thread.near_groups.clear();
     thread.leaf_bits.clear();
-    // There is room to spare, because the kernels write whole registers.
+    // The arrays get more room than they need, because the kernels write whole registers.
     constexpr std::int64_t room = room_for_pairs + 16;
     resize(thread.pair_nodes, room);
     resize(thread.pair_triangles, room);

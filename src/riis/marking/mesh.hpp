@@ -48,7 +48,7 @@ class Mesh {
     has_edges_.store(false, std::memory_order_relaxed);
   }
 
-  // These two set new coordinates of the same nodes, or other nodes. A different number of nodes removes the adjacency.
+  // Both functions set new coordinates of the same nodes, or other nodes. A different number of nodes removes the adjacency.
   void borrow_nodes(const StridedPoints &nodes, const Bounds &bounds);
   // If this function fails, the mesh keeps its nodes.
   template <class Real>

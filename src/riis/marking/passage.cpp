@@ -124,7 +124,8 @@ class Opening {
     return made;
   }
 
-  // Returns the edges to nodes that are not open, if the rows of these nodes lack the edges. Most adjacencies have no such edges.
+  // Returns the edges to nodes that are not open, if the rows of these nodes lack the edges. Most adjacencies are symmetric and
+  // have no such edges.
   std::vector<OneWayEdge> one_way_edges() {
     constexpr std::int64_t rows_per_task = 4096;
     std::vector<std::vector<OneWayEdge>> by_thread;

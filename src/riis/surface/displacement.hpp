@@ -43,8 +43,8 @@ class PatchMotion {
     return at(column_[i] + (static_cast<std::size_t>(column) << (column_levels_[i] - level)),
               row_[j] + (static_cast<std::size_t>(row) << (row_levels_[j] - level)));
   }
-  // Returns the same displacement, but interpolated linearly along a side between the vertices that the neighbouring quad also
-  // has. So the displacement does not jump between neighbouring quads.
+  // Returns the displacement inside a quad, but interpolated linearly along a side between the vertices that the neighbouring
+  // quad also has. So the displacement does not jump between neighbouring quads.
   Vec3 without_jumps(std::size_t i, std::size_t j, int column, int row) const;
 
   // Returns how far the offset O of a patch of arcs (geometry/bulge.hpp) has moved on each of its lines.

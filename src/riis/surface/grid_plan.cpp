@@ -348,7 +348,7 @@ class Planner {
     return shares;
   }
 
-  // Gives each curve those lines of its family that it needs at first. The function `vertices` adds lines later.
+  // Gives each curve a first choice of its family's lines. The function `vertices` adds lines later.
   void plan_families() {
     first_shares_.assign(set_.curves.size(), {0, 1});
     for (const Family &family : families()) {
@@ -463,8 +463,8 @@ class Planner {
     return first;
   }
 
-  // Adds lines until base, edge and O are nearly linear between them at every opening. Then takes the fewest parts for O that
-  // are enough.
+  // Adds lines until base, edge and O are nearly linear between them at every opening. Then chooses the smallest sufficient
+  // number of parts for O.
   void plan_arcs(std::size_t patch) {
     PatchPlan &plan = plan_.patches[patch];
     plan.joints = joints(patch);

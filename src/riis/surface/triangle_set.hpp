@@ -86,7 +86,7 @@ inline bool has_zero_area(Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 ab = b - a, ac = c - a, bc = c - b;
   const double longest_sq = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
   if (!(longest_sq >= min_edge * min_edge)) return true;
-  // Edges from 1e-60 to 1e60 cause neither underflow nor overflow here.
+  // For edges from 1e-60 to 1e60, these products neither underflow nor overflow.
   const Vec3 twice_area = cross(ab, ac);
   return !(dot(twice_area, twice_area) > 1e-24 * longest_sq * longest_sq);
 }

@@ -54,7 +54,7 @@ struct CurveRange {
   double width;                      // of the range, in u
 };
 
-// Bounds for a curve on such a range: its unit tangent with the first and second derivative by u, and the length of the whole
+// Bounds for a curve on a range of u: its unit tangent with the first and second derivative by u, and the length of the whole
 // curve.
 struct AlongCurve {
   Both length, value, first, second;
@@ -96,8 +96,8 @@ AlongCurve along(const CurveRange &on) {
     const Both unknown{infinity, infinity};
     return {length, unknown, unknown, unknown, infinity, infinity, false};
   }
-  // At the same u, the parameters of the two states differ by at most `shift`. It is the difference at the ends, plus the growth
-  // in between that the rates dt/du = length / |B'| allow.
+  // At the same u, the parameters of the two states differ by at most `shift`. `shift` is the difference at the ends, plus the
+  // growth in between that the rates dt/du = length / |B'| allow.
   const Derivatives change = changes_on(*on.now, *on.before, from, to);
   const double at_ends = larger(std::abs(on.t_now[0] - on.t_before[0]), std::abs(on.t_now[1] - on.t_before[1]));
   const double half = 0.5 * on.width, rate_change = length.change / least + whole * change.first / (least * least);
@@ -107,7 +107,8 @@ AlongCurve along(const CurveRange &on) {
   const Both d1{first, change.first + second * shift}, d2{second, change.second + third * shift},
       d3{third, change.third};
   const Both inverse_speed = inverse(least, d1.change), t_first = length * inverse_speed;
-  const Both tangent{1, d1.change / least}, across{1, tangent.change};  // across: the projection along the tangent
+  const Both tangent{1, d1.change / least}, across{1, tangent.change};  // `across` bounds the projection along the
+                                                                        // tangent
   const Both inverse_sq = inverse_speed * inverse_speed;
   const Both bent = length * inverse_sq * across * d2;
   const Both inverse_speed_first = inverse_sq * tangent * d2 * t_first;

@@ -41,7 +41,7 @@ std::vector<std::optional<double>> distances_along(const Wall &wall, const std::
   return made;
 }
 
-// Two sides that meet have the same length in their common point. Otherwise rounding would part them.
+// Gives two sides that meet the same length in their common point, because rounding could make the lengths differ.
 void make_common(const std::vector<Vec3> &points, double tolerance, const std::vector<double *> &lengths) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

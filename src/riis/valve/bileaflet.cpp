@@ -124,7 +124,8 @@ class Turn {
 // Every arc has this many pieces. A quarter of a circle is then accurate to 1e-9 of its radius.
 constexpr int n_pieces = 8;
 
-// Bounds the distance of such an arc from its circle, in radii. For a piece of the angle a, it is 2/27 sin^6(a/4) / cos^2(a/4).
+// Bounds the distance of an arc's pieces from the circle, in radii. For a piece of the angle a, the distance is 2/27 sin^6(a/4) /
+// cos^2(a/4).
 double arc_deviation(double whole_angle) {
   const double quarter = 0.25 * whole_angle / n_pieces;
   const double sine = std::sin(quarter), cosine = std::cos(quarter);

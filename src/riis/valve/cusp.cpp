@@ -156,7 +156,7 @@ Vector<CuspPlace> equal_places(Vec3 shift) {
   constexpr double turns[3] = {0, 120, -120};
   Vector<CuspPlace> places;
   for (std::int32_t cusp = 0; cusp < 3; ++cusp)
-    // Adding 0 turns -0 into 0, so that the cusps have the same bits where they meet on the axis.
+    // Adds 0, which turns -0 into 0, so that the cusps have the same bits where they meet on the axis.
     places.push_back({rotation_xyz({0, 0, view(turns)[cusp]}), shift + Vec3{0, 0, 0}, cusp});
   return places;
 }

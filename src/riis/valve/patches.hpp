@@ -94,8 +94,8 @@ struct PatchSet {
   Vector<Seam> seams = {};  // at most one for each image
   // Bounds the Hausdorff distance of the patches from the valve's shape. It is not 0 if curves approximate arcs of circles.
   double deviation = 0;
-  // Empty unless the valve blends control points. Otherwise this list has the derivatives of the control points of the first
-  // curves with respect to the opening. These curves have one piece each. The curves of a skirt follow them.
+  // The derivatives of control points with respect to the opening, or nothing if the valve does not blend control points. The
+  // list serves the first curves, which have one piece each. The curves of a skirt come after these and have no entry.
   Vector<Bezier> rates = {};
 
   const Curve &curve_of(const Side &side) const { return curves[side.curve]; }

@@ -76,7 +76,7 @@ class WarpLandmarks {
   // across the plane as the landmarks stretch the plane.
   bool is_planar() const { return is_planar_; }
 
-  // Writes the map to these targets, and its quality. The same targets give the same bits. Does not judge the quality.
+  // Writes the map to these targets, and its quality. The same targets give the same bits. Accepts a map of any quality.
   void fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &quality);
 
  private:
@@ -98,7 +98,7 @@ class WarpLandmarks {
   Vector<double> least_squares_;      // (n_terms_, n): gives the polynomial nearest to values
   Vector<double> of_kernel_;          // (n_terms_, n): the same for values of sums of |r|^3, by their weights
   Vector<double> diagonal_, beside_;  // of the tridiagonal matrix U^T |r|^3 U
-  // Places half way from a landmark to the nearest. A map that folds between landmarks is steepest there.
+  // The places half way from each landmark to its nearest. A map that folds between landmarks changes most there.
   struct Probe {
     Vec3 place;
     std::int64_t landmark;
