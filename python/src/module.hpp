@@ -15,7 +15,7 @@ struct Valve : Handle<riis_valve, riis_valve_destroy> {
   // Values that the library does not return: the arguments of from_patches, and a copy of the valve that gave the open state.
   nb::object patches = nb::none(), open = nb::none();
   nb::object warp = nb::none();   // the states of both warps, or None
-  bool has_wall_lengths = false;  // of a skirt to a wall
+  bool has_wall_lengths = false;  // whether its skirt has lengths to a wall
 };
 
 struct Warp : Handle<riis_warp, riis_warp_destroy> {

@@ -379,7 +379,7 @@ def test_a_larger_scatter_than_the_stated_noise_is_doubted():
     found, low, high = (riis.fit(points, start, noise=noise, **options) for noise in (0.03, 0.01, 0.09))
     assert found.doubts == high.doubts == () and [doubt[:5] for doubt in low.doubts] == ["noise"]
     assert low.doubts[0] in low.report() and "stated noise is 0.01" in low.doubts[0]
-    assert high.standard_errors["opening"] > 2.0 * found.standard_errors["opening"]  # as large as the noise implies
+    assert high.standard_errors["opening"] > 2.0 * found.standard_errors["opening"]  # the stated noise widens the errors
 
 
 def test_a_wrong_model_is_doubted_and_widens_the_errors():

@@ -41,7 +41,7 @@ struct PassageReport {
 };
 
 struct LeakReport {
-  riis_leak_list found{};             // its numbers only; its pointers are no longer valid
+  riis_leak_list found{};             // only its numbers are valid, not its pointers
   std::vector<int64_t> edges;         // (2, found.n_edges)
   double closing_half_thickness = 0;  // for the user to type; 0 if none was found
   int64_t n_volume_cells = 0;
@@ -62,7 +62,7 @@ struct FlowReport {
 struct CrossingReport {
   int n_openings = 0;             // number of openings checked, or 0 if only the given surface was checked
   std::optional<double> opening;  // the opening at which a crossing was found
-  riis_crossing_list found{};     // its numbers only; its pointers are no longer valid
+  riis_crossing_list found{};     // only its numbers are valid, not its pointers
 };
 
 struct Report {

@@ -25,7 +25,7 @@ struct Situation {
   int64_t n_nodes, n_marked;
   Box mesh, surface;
   double median_edge;  // 0 if unknown
-  double area;         // of the surface
+  double area;         // area of the surface
   double half_thickness;
 };
 

@@ -106,8 +106,8 @@ class ReplacingFile {
   void commit(const std::string &closing);
 
  private:
-  std::string path_;   // as the caller gave it
-  std::string place_;  // with links resolved, so that a link stays and its target is replaced or made
+  std::string path_;   // the path as the caller gave it
+  std::string place_;  // the path with links resolved, so that a link stays and its target is replaced or made
   std::string temporary_;
 };
 

@@ -176,7 +176,7 @@ void SurfacePanel::show(vtkPolyData *surface) {
 }
 
 void SurfacePanel::look(const View &view, const Sight &sight) {
-  constexpr double behind = 0.01;  // as a share of the panel's half height
+  constexpr double behind = 0.01;  // distance of the lines behind the faces, in half heights of the panel
   move_away(rims_, view, behind * sight.shown[1].half());
 }
 

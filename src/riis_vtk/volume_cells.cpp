@@ -272,8 +272,8 @@ class CellEdges {
   vtkUnstructuredGrid *grid_;
   vtkDataArray *degrees_;  // the orders of cells of higher order; may be NULL
   vtkNew<vtkIdList> faces_;
-  std::vector<Edge> edges_;                                   // of a polyhedron
-  std::map<std::array<int, 4>, std::vector<Edge>> lattices_;  // by the type and the three orders
+  std::vector<Edge> edges_;                                   // edges of a polyhedron
+  std::map<std::array<int, 4>, std::vector<Edge>> lattices_;  // edges of lattices, by the type and the three orders
 };
 
 double distance_between(vtkUnstructuredGrid *grid, vtkIdType a, vtkIdType b) {

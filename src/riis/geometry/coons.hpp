@@ -49,8 +49,8 @@ struct QuadGrid {
 
 // Vectors on the four sides of a patch, one for each end of a grid line.
 struct SideVectors {
-  Vector<Vec3> v0, v1;  // on the lines u
-  Vector<Vec3> u0, u1;  // on the lines v; the first and the last are corners and are not read
+  Vector<Vec3> v0, v1;  // vectors at the ends of the lines u
+  Vector<Vec3> u0, u1;  // vectors at the ends of the lines v; the first and the last, at corners, are not read
 };
 
 // Returns the Coons combination of vectors on the sides, which may be points or displacements. The order is that of
@@ -69,7 +69,7 @@ QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines);
 struct ArcLines {
   Vector<GridLine> u_lines;
   Vector<Vec3> offsets;   // O on each line
-  Vector<double> errors;  // for each two neighbouring lines, a bound on O's distance from linear
+  Vector<double> errors;  // for each pair of neighbouring lines, a bound on O's distance from linear
   double largest_offset() const;
 };
 

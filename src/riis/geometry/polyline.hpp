@@ -11,7 +11,7 @@ namespace riis {
 
 struct Polyline {
   Vector<Vec3> points;    // at least 1
-  Vector<double> t;       // of every point, ascending from 0 to 1; a single 0 if the length is 0
+  Vector<double> t;       // t of every point, ascending from 0 to 1; a single 0 if the length is 0
   Vector<double> errors;  // for every segment, a bound on its distance at equal t from the curve that it replaces
   double length;          // the length of that curve
 };

@@ -19,7 +19,7 @@ struct FittedSize {
   std::string name;
   double value;             // where the fit begins, and its result
   double reach;             // centimetres by which the valve moves if the parameter grows by 1
-  double minimum, maximum;  // of the value
+  double minimum, maximum;  // limits of the value
   double expected, spread;  // the value that the valve's proportions give, and its spread between people
   bool held = false;        // keeps its value
   // Results:
@@ -32,7 +32,7 @@ class LandmarkModel {
  public:
   virtual ~LandmarkModel() = default;
   std::vector<FittedSize> sizes;
-  double radius = 0;  // of the valve, for steps and thresholds
+  double radius = 0;  // radius of the valve, for steps and thresholds
 
   // An offset of a landmark from its place on the valve. Several offsets of one landmark share its weight.
   struct Offset {
@@ -56,9 +56,9 @@ struct Pose {
 struct LandmarkFit {
   Pose pose;
   std::vector<double> residuals;  // one for each landmark: the length of its longest offset, in centimetres
-  double noise;                   // on which standard errors rest, in centimetres
+  double noise;                   // the noise on which standard errors rest, in centimetres
   double rotation_error;          // degrees
-  double position_error;          // of the landmarks' mean, in centimetres
+  double position_error;          // standard error of the landmarks' mean, in centimetres
 };
 
 // Changes the model's sizes. Begins at each of the poses, with the model's values, and keeps the better end.

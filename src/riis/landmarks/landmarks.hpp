@@ -20,7 +20,7 @@ struct Landmark {
 
 struct Landmarks {
   std::vector<Landmark> list;
-  Vec3 mean;       // of all landmarks, in mesh units
+  Vec3 mean;       // mean of all landmarks, in mesh units
   double scale;    // mesh units in a centimetre
   double noise;    // centimetres
   bool has_noise;  // whether the caller stated it

@@ -36,7 +36,7 @@ struct ClusterScratch {
     std::vector<NodeBounds> lower_bounds;  // for each group near a leaf, bounds of the leaf's nodes
     std::vector<std::int32_t> pair_nodes, pair_triangles;
     std::vector<double> pair_decided;      // squares of distances
-    std::vector<ClosestTriangle> closest;  // of a cluster's nodes
+    std::vector<ClosestTriangle> closest;  // closest triangles of a cluster's nodes
     std::int64_t n_queries = 0;
 
     float *room_for_bounds(std::size_t n_groups) {

@@ -250,7 +250,7 @@ class TriangleFields {
 
   const TriangleSet &set_;
   Positions positions_;
-  const double *corners_;  // of the triangles, nine numbers for each
+  const double *corners_;  // corners of the triangles, nine numbers for each
   const StridedPoints &nodes_;
   const Kernels &simd_;
   std::int32_t fields_;

@@ -130,8 +130,8 @@ class RowMaker {
 
   // The memory of one thread while it makes rows.
   struct Scratch {
-    std::vector<std::uint8_t> is_seen;  // for each node, whether the row has it already
-    UnfilledVector<Column> columns;     // of one block
+    std::vector<std::uint8_t> is_seen;  // for each node, whether the row already has the node
+    UnfilledVector<Column> columns;     // columns of one block
   };
 
   // Makes the rows of each block in the memory of its entries. Writes the rows' lengths where the offsets will be.

@@ -25,7 +25,7 @@ inline int default_thread_count() noexcept {
 // machine, waking a thread and waiting for it takes a hundredth of that time. On a busy machine it takes as long as the system
 // lets other processes run.
 constexpr std::int64_t triangles_per_thread = 4096, points_per_thread = 2048;
-constexpr std::int64_t nodes_per_thread = 16384;  // of a mesh, or cells or faces
+constexpr std::int64_t nodes_per_thread = 16384;  // nodes of a mesh, or cells or faces
 
 // Returns the number of threads that a caller requests. If it is 0, returns the number that n_items of work keep busy.
 inline Threads threads_for(std::int32_t n_threads, std::int64_t n_items, std::int64_t per_thread) {

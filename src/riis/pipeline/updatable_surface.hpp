@@ -42,7 +42,7 @@ class UpdatableSurface {
   std::unique_ptr<Surface> surface_, before_;        // before_ is kept to reuse its memory
   std::unique_ptr<const FixedTriangulation> fixed_;  // null without RIIS_TRIANGULATION_FIXED
   SurfaceSeconds seconds_{};
-  UserFaces faces_, faces_memory_;                  // of the last arrays; empty after a valve or keyframes
+  UserFaces faces_, faces_memory_;                  // faces of the last arrays; empty after a valve or keyframes
   std::vector<double> frame_xyz_, frame_velocity_;  // memory for updates from keyframes
   CrossingWatch crossing_watch_;
 };

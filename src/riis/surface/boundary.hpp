@@ -13,7 +13,7 @@ namespace riis {
 // An open edge, in the direction in which it runs round its triangle.
 struct OpenEdge {
   std::int64_t from, to;  // vertices, each of which stands for all vertices with the same coordinates
-  std::int64_t triangle;  // its position in the set
+  std::int64_t triangle;  // the position of its triangle in the set
 };
 
 // Returns the edges that only one triangle has, in the order of the triangles. If by_leaflet is true, only triangles of the same

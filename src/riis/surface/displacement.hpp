@@ -59,7 +59,7 @@ class PatchMotion {
 
   Vector<int> column_levels_, row_levels_;  // the largest level of the quads between two lines
   Vector<std::size_t> column_, row_;        // for each line of the grid, its position among the halved lines
-  Vector<double> u_, v_;                    // of the halved lines
+  Vector<double> u_, v_;                    // u and v of the halved lines
   bool has_arcs_;
   const LevelledGrid &levelled_;
   SideVectors sides_;
@@ -88,7 +88,7 @@ class ImageMotion {
 
  private:
   struct AffineMap {
-    Rotation linear;  // with any scale, perhaps mirrored
+    Rotation linear;  // a matrix with any scale, perhaps mirrored
     Vec3 offset;
   };
   static AffineMap map_of(const PatchImage &image, const Placement &placement);

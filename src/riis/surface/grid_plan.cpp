@@ -48,7 +48,7 @@ Vector<double> moved(const Vector<double> &lines, const Vector<double> &from, co
 
 // Errors of a patch of arcs between two lines of its grid.
 struct ColumnErrors {
-  double base, edge;  // of the chords of both curves
+  double base, edge;  // errors of the chords of both curves
   double off_line;    // the largest distance of O from linear interpolation, at the points between
   double second;      // a bound on |O''|
   double largest, width;

@@ -50,8 +50,8 @@ double off_line(double width, double second) { return 0.125 * width * width * se
 struct CurveRange {
   const Bezier *now, *before;
   double t_now[2], t_before[2];
-  double length_now, length_before;  // of the whole curves
-  double width;                      // of the range, in u
+  double length_now, length_before;  // lengths of the whole curves
+  double width;                      // width of the range, in u
 };
 
 // Bounds for a curve on a range of u: its unit tangent with the first and second derivative by u, and the length of the whole

@@ -103,8 +103,8 @@ struct Frame {
   double edge_length;
   double band;        // height of the coaptation zone, as a share of the height of the free edge's middle
   double band_lean;   // how much farther from the axis the coaptation line is than the free edge, in the middle
-  double belly_x;     // of the first inner control point of the symmetry curve
-  double belly_rise;  // its height, as a share of the height of the coaptation line's middle
+  double belly_x;     // x of the first inner control point of the symmetry curve
+  double belly_rise;  // height of that point, as a share of the height of the coaptation line's middle
   double band_start;  // height from the second inner control point to the coaptation line, as the same share
 };
 

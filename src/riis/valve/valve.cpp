@@ -53,12 +53,12 @@ bool is_of_a_leaflet(const ParameterSpec &spec) { return spec.name.find('.') != 
 struct Naming {
   bool names_it = false;
   bool is_whole = false;  // it names no other parameter
-  double factor = 1;      // from the parameter's value to the value under that name
+  double factor = 1;      // factor from the parameter's value to the value under that name
 };
 
 Naming naming(const ParameterSpec &spec, std::string_view name) {
   const std::string_view full = spec.name, base = without_leaflet(full);
-  const std::string_view leaflet = full.substr(0, full.size() - base.size());  // with its dot
+  const std::string_view leaflet = full.substr(0, full.size() - base.size());  // the leaflet's name with its dot
   const auto names = [&](std::string_view own, double factor) -> Naming {
     if (name == own) return {true, leaflet.empty(), factor};
     const bool is_whole = !leaflet.empty() && name.size() == leaflet.size() + own.size() &&

@@ -41,8 +41,8 @@ struct ParameterSpec {
   int n_values;  // 1 or 3
   std::array<double, 3> default_values;
   double minimum, maximum;
-  ParameterRule rule = {nullptr, nullptr};  // for the default values it gives the default value to the last bit
-  OtherName other = {nullptr, 0};           // without the leaflet's name
+  ParameterRule rule = {nullptr, nullptr};  // for default values, the rule gives the default to the last bit
+  OtherName other = {nullptr, 0};           // the other name without the leaflet's name
 };
 
 // A name that a user may expect, and why the kind has no parameter of this name.
@@ -128,7 +128,7 @@ class Valve {
   // a warp the disc does not depend on the opening.
   struct Disc {
     double radius, x, y;    // the centre is the mean translation of the valve or of its leaflets
-    Vector<Vec3> rim = {};  // of a warped valve: the warped corners of a polygon with the disc's area
+    Vector<Vec3> rim = {};  // for a warped valve, the warped corners of a polygon with the disc's area
   };
   Disc disc() const;
 

@@ -91,13 +91,13 @@ class WarpLandmarks {
   Vec3 centre_{0, 0, 0};
   double size_ = 1;
   Vec3 axis_[3];                      // principal directions of the sources, the thinnest last
-  std::size_t n_terms_ = 4;           // of the polynomial: 1, and the coordinates along the first axes
+  std::size_t n_terms_ = 4;           // terms of the polynomial: 1, and the coordinates along the first axes
   std::size_t n_free_ = 0;            // the number of landmarks minus n_terms_
   Vector<Vec3> scaled_;               // (source - centre) / size
   Vector<double> basis_;              // (n_free_, n): U, columns orthogonal to the polynomials
   Vector<double> least_squares_;      // (n_terms_, n): gives the polynomial nearest to values
   Vector<double> of_kernel_;          // (n_terms_, n): the same for values of sums of |r|^3, by their weights
-  Vector<double> diagonal_, beside_;  // of the tridiagonal matrix U^T |r|^3 U
+  Vector<double> diagonal_, beside_;  // diagonals of the tridiagonal matrix U^T |r|^3 U
   // The places half way from each landmark to its nearest. A map that folds between landmarks changes most there.
   struct Probe {
     Vec3 place;

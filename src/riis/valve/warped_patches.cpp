@@ -158,7 +158,7 @@ class Unfolding {
 
 struct EndTangent {
   Vec3 warped;    // the direction, as long as the warp makes it
-  double factor;  // of that length in the curve itself: 1, or 0 if the curve has no tangent there
+  double factor;  // 1 if the curve itself has a tangent there, else 0
 };
 
 // Returns the direction of a curve at the first of these control points. The direction leads to the first control point that
