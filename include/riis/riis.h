@@ -242,7 +242,7 @@ typedef struct riis_parameter {
   double maximum;          /* of every value, inclusive */
   const char *rule;        /* value of a parameter that was not set, such as "0.5 leaflet_height"; "": the default */
   const char *other_name;  /* second name that riis_valve_set takes, such as "annulus"; "": none */
-  double other_factor;     /* the value by that name is this times the parameter's: 1 or 2; 0 without other_name */
+  double other_factor;     /* factor from the parameter's value to that under other_name: 1 or 2; 0 without other_name */
 } riis_parameter;
 /* Gives the number of the valve's parameters. */
 RIIS_API riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_t *n_parameters);
@@ -312,7 +312,7 @@ typedef struct riis_surface_options {
   double rotation_angle;   /* degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6, default 0 */
   double translation[3];   /* mesh units; -1e50 to 1e50, default 0. Refused for a valve if coordinates would be
                               rounded by more than a thousandth of tolerance * half_thickness */
-  double measure_tolerance; /* of sampling and minimisation, in half thicknesses, 1e-6 to 1. Default: tolerance */
+  double measure_tolerance; /* error of sampling and minimisation, in half thicknesses, 1e-6 to 1. Default: tolerance */
   int32_t measure;         /* RIIS_MEASURE_*, for closest points and marking only; default
                               RIIS_MEASURE_TRIANGLES, the only one for surfaces from arrays */
   int32_t triangulation;   /* RIIS_TRIANGULATION_*; default RIIS_TRIANGULATION_ADAPTED */
@@ -541,7 +541,7 @@ typedef struct riis_warp_info {
   int64_t largest_landmark_id; /* its landmark */
   double smoothing;            /* lambda of the smoothing, 0 without noise; infinite if the map is affine */
   double least_determinant;    /* the least determinant half way from each landmark to its nearest */
-  double least_point[3];       /* where the determinant is least, among the sources */
+  double least_point[3];       /* the point between the sources where the determinant is least */
   int32_t is_planar;           /* 1 if the landmarks lie nearly in a plane, else 0 */
   int32_t reserved;            /* 0 */
 } riis_warp_info;
@@ -591,7 +591,7 @@ RIIS_API riis_status riis_valve_get_patches(riis_valve *valve, riis_valve_patche
 
 /* The gap between the attachment of a valve and a wall. Lengths are in mesh units. */
 typedef struct riis_gap {
-  double least, mean, most; /* of the gap at the ends of the edges; mean is weighted by the edges' lengths. 0 without a
+  double least, mean, most; /* the gap at the ends of the edges; the mean is weighted by the edges' lengths. 0 without a
                                wall at any end */
   double widest_point[3];   /* the end of an edge with the widest gap */
   int64_t n_ends;           /* the ends of edges: 2 * riis_attachment.n_edges */
@@ -691,8 +691,8 @@ RIIS_API riis_status riis_closest_point(const riis_surface *surface, const doubl
 /* Options of queries for many points. */
 typedef struct riis_closest_options {
   int64_t struct_size;       /* set by the init function */
-  double distance_limit;     /* >= 0, default infinity. Farther points get far_distance, ids -1 and 0 elsewhere */
-  double far_distance;       /* default RIIS_FAR_DISTANCE; must not lie in [0, distance_limit] */
+  double distance_limit;     /* >= 0, default infinity. Farther points get far_distance, ids -1 and otherwise zeros */
+  double far_distance;       /* the distance of farther points, outside [0, distance_limit]. Default RIIS_FAR_DISTANCE */
   const uint8_t *point_mask; /* (n_points): points with 0 must be finite, but get no result. NULL: no mask */
   int64_t n_point_ids;       /* length of point_ids; 0 without it */
   const int64_t *point_ids;  /* strictly ascending, 0 to n_points - 1: only these points are read, and only their
@@ -761,8 +761,8 @@ RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 typedef struct riis_csr {
   int64_t struct_size;   /* set by the init function */
   int64_t n_rows;        /* the mesh's n_nodes */
-  int64_t n_all;         /* at least n_rows; columns are below n_all. Columns from n_rows on are ghosts, nodes of
-                            other ranks, and are ignored. Default 0 stands for n_rows */
+  int64_t n_all;         /* columns are below this number, at least n_rows. Columns from n_rows on are ghosts, nodes
+                            of other ranks, and are ignored. Default 0 stands for n_rows */
   const void *offsets;   /* (n_rows + 1), ascending from the base; a row may be empty. NULL only for 0 rows */
   const void *columns;   /* (offsets[n_rows] - base), in any order; repetitions and the node itself are ignored */
   int32_t offset_bits;   /* of offsets */
@@ -805,11 +805,11 @@ RIIS_API riis_status riis_adjacency_create_from_cells(const riis_mesh_cells *cel
 /* Faces between cells, for codes that mark cell centres. */
 typedef struct riis_mesh_faces {
   int64_t struct_size;     /* set by the init function */
-  int64_t n_cells;         /* >= 0: the nodes of the mesh are cell centres */
+  int64_t n_cells;         /* the number of cells, >= 0. The nodes of the mesh are cell centres */
   int64_t n_faces;         /* >= 0 */
   const void *owner;       /* face i joins the cells owner[i * stride] and neighbor[i * stride] */
-  const void *neighbor;    /* index_base - 1 (-1 or 0) for a face at the boundary, which joins nothing */
-  int64_t stride;          /* in entries, 1 to 1024: 1, the default, or 2 for face_cells(2, n_faces) */
+  const void *neighbor;    /* the second cell; index_base - 1 (-1 or 0) for a face at the boundary, which joins nothing */
+  int64_t stride;          /* entries from face to face, 1 to 1024: 1, the default, or 2 for face_cells(2, n_faces) */
   int32_t id_bits;         /* of owner and neighbor */
   int32_t index_base;      /* of owner and neighbor */
   int32_t n_threads;       /* default 0 */
@@ -965,7 +965,7 @@ RIIS_API riis_status riis_marks_get_list(const riis_marks *marks, int32_t which,
 typedef struct riis_dense_arrays {
   int64_t struct_size;  /* set by the init function */
   int64_t n_nodes;      /* the number of nodes of the marking, 0 for empty marks */
-  double far_distance;  /* written for nodes beyond the limit or masked out: NaN, or any value outside
+  double far_distance;  /* the distance of nodes beyond the limit or masked out: NaN, or any value outside
                            [0, distance limit]. Default RIIS_FAR_DISTANCE */
   uint8_t *mark;        /* 1 for marked nodes, 0 for others */
   double *distance;     /* the distance of nodes within the distance limit, far_distance for others */
@@ -982,10 +982,10 @@ typedef struct riis_mark_stats {
   int64_t n_nodes;      /* of the mesh, masked out or not */
   int64_t n_marked;     /* nodes within the half thickness */
   int64_t n_within_limit; /* nodes within the distance limit, marked or not */
-  int64_t n_queries;    /* closest-point queries, of nodes and of parts of the mesh */
+  int64_t n_queries;    /* number of closest-point queries, of nodes and of parts of the mesh */
   double seconds;       /* wall time of riis_mark_nodes */
   int32_t search;       /* the search that ran, never RIIS_SEARCH_AUTO */
-  int32_t n_threads;    /* the largest number in any part. A caller's TBB limit affects walks, not loops */
+  int32_t n_threads;    /* the largest number of threads in any part. A caller's TBB limit affects walks, not loops */
   int32_t complete;     /* 1: every node within the limit was found, for the coordinates last given; 0: not certain */
   int32_t instructions; /* the instructions that were used, never RIIS_INSTRUCTIONS_AUTO */
   int64_t n_unreached;  /* nodes within the limit that the neighbour search found by its proof, not by its walk */
@@ -1002,7 +1002,7 @@ typedef struct riis_resistance_arrays {
   double *K;                   /* (n_nodes) by K_stride; NULL if not wanted */
   int64_t K_stride;            /* default 1 */
   double *K_u_surface[3];      /* (n_nodes) by K_u_surface_stride, for x, y and z; all NULL if not wanted */
-  int64_t K_u_surface_stride;  /* default 1; 3 for xyz(3,n) with {xyz, xyz + 1, xyz + 2} */
+  int64_t K_u_surface_stride;  /* numbers from node to node: default 1; 3 for xyz(3,n) with {xyz, xyz + 1, xyz + 2} */
 } riis_resistance_arrays;
 /* Fills *arrays with the defaults. */
 RIIS_API riis_status riis_resistance_arrays_init(riis_resistance_arrays *arrays, int64_t struct_size);
@@ -1031,12 +1031,12 @@ typedef struct riis_reaction {
                                Default 0 */
   double *force;            /* (3): force on the whole surface, in the unit of weight K velocity, N in SI units */
   double *moment;           /* (3): moment on the whole surface */
-  int64_t n_leaflets;       /* more than riis_surface_info.largest_leaflet_id. Only the two sums of leaflets use
-                               it. Default 0 */
+  int64_t n_leaflets;       /* the number of columns in both sums of leaflets, which alone use it: more than
+                               riis_surface_info.largest_leaflet_id. Default 0 */
   double *leaflet_force;    /* (3, n_leaflets): force on each leaflet. A node belongs to the leaflet in
                                riis_mark_list.leaflet_id, also if two leaflets are equally near */
   double *leaflet_moment;   /* (3, n_leaflets): moment on each leaflet */
-  int64_t n_edges;          /* at least 1 if edge_force or edge_moment is given; otherwise not used. Default 0 */
+  int64_t n_edges;          /* number of edges, at least 1 if edge_force or edge_moment is given; else unused. Default 0 */
   const double *edges;      /* (3, 2, n_edges): both ends of each edge, for example riis_attachment.edges;
                                magnitude at most 1e60. An edge may have length 0 */
   const int32_t *edge_leaflet_id; /* (n_edges), >= 0: a node counts for the nearest edge of its leaflet, and each
@@ -1215,7 +1215,7 @@ typedef struct riis_orifice {
   double effective_area; /* the area that the band around the valve leaves to the flow. The edge along the triangles
                             is moved inwards by rim_reach * half_thickness. To first order the result is area -
                             rim_reach * half_thickness * perimeter. It is never below 0 */
-  double rim_reach;      /* c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open valves gave 0.70 to
+  double rim_reach;      /* the factor c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open valves gave 0.70 to
                             0.98 and 0.46 to 0.95 (docs/validation.md) */
   double half_thickness; /* eps of the resistance */
   double radius;         /* the radius of the disc, or of a circle as large as a warped disc; 0 for other outlines */
@@ -1272,7 +1272,7 @@ enum {
 /* The opening at which a valve first lets the mesh pass. */
 typedef struct riis_first_passage {
   double opening;        /* the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE */
-  double closed_opening; /* the largest tried opening below that, without a passage. Equals opening unless FOUND */
+  double closed_opening; /* the largest tried opening below `opening`, without a passage; `opening` itself unless FOUND */
   int64_t node_id;       /* the passage at `opening`, as in riis_passage */
   double distance;       /* as in riis_passage */
   double point[3];       /* as in riis_passage */
@@ -1373,20 +1373,20 @@ RIIS_API riis_status riis_landmarks_init(riis_landmarks *landmarks, int64_t stru
 /* Where a parameter's value comes from. */
 enum {
   RIIS_SIZE_KEPT = 0,        /* it is the valve's own */
-  RIIS_SIZE_DETERMINED = 1,  /* the landmarks determine it: its standard error at the landmarks' noise moves the
+  RIIS_SIZE_DETERMINED = 1,  /* the landmarks determine the parameter: its standard error at their noise moves the
                                 valve by at most a fifteenth of its radius */
-  RIIS_SIZE_TIED = 2,        /* no landmark bears on it; it follows from other sizes, by the valve's proportions */
-  RIIS_SIZE_UNDETERMINED = 3 /* landmarks bear on it but do not determine it; it is drawn to the valve's proportions */
+  RIIS_SIZE_TIED = 2,        /* no landmark bears on the parameter; other sizes give it by the valve's proportions */
+  RIIS_SIZE_UNDETERMINED = 3 /* landmarks bear on the parameter but do not determine it; it tends to the proportions */
 };
 /* The placement that riis_place finds, for the fields of riis_surface_options with these names. */
 typedef struct riis_placement {
-  double scale;              /* that of the landmarks; it also gives the default half thickness of 0.1 cm */
+  double scale;              /* the scale of the landmarks, which also gives the default half thickness of 0.1 cm */
   double rotation_axis[3];   /* unit vector */
   double rotation_angle;     /* degrees, 0 to 180 */
   double translation[3];     /* mesh units */
   double rms;                /* root mean square of the residuals, mesh units */
   double worst;              /* the largest residual, mesh units */
-  double noise;              /* on which standard errors rest: that of the landmarks, or more if the residuals show it */
+  double noise;              /* noise behind standard errors: that of the landmarks, or more if the residuals show more */
   double rotation_error;     /* standard error of the rotation, degrees */
   double position_error;     /* standard error of the place of the valve's origin, mesh units */
   int64_t worst_landmark_id; /* the landmark with the largest residual */
@@ -1450,10 +1450,10 @@ typedef struct riis_opening_times {
   int64_t struct_size;    /* set by the init function */
   double opening_start;   /* when the valve begins to open. Default NaN, which is refused, also in the next three */
   double opening_duration; /* how long opening takes, > 0 */
-  double closing_start;   /* when it begins to close, at least opening_start + opening_duration */
+  double closing_start;   /* when the valve begins to close, at least opening_start + opening_duration */
   double closing_duration; /* how long closing takes, > 0 */
   double closed, open;    /* the opening when closed and when open, 0 to 1. Default 0 and 1 */
-  double period;          /* > 0: it opens and closes once in each period. Default 0: only once */
+  double period;          /* > 0: the valve opens and closes once in each period. Default 0: only once */
 } riis_opening_times;
 RIIS_API riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size); /* the defaults */
 /* Gives the opening at a time by the times of the ramps. opening and rate may be NULL.
@@ -1486,7 +1486,7 @@ typedef struct riis_opening_switch_state {
   int64_t struct_size;        /* set by the init function */
   double time;                /* of this state */
   double opening, rate;       /* at that time */
-  double progress;            /* share of the way to open, 0 to 1; the opening is a smooth ramp over it */
+  double progress;            /* share of the way to open, 0 to 1; the opening is a smooth ramp over this share */
   double pressure_difference; /* filtered; NaN: none yet */
   double flow;                /* filtered; NaN: none yet */
   double turn_time;           /* time of the last change of phase; NaN: none yet */
