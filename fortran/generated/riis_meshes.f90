@@ -525,7 +525,7 @@ contains
     call finish(code, status)
   end subroutine mesh_adjacency_int64_int64
 
-  ! Checks that the rows can be borrowed and that there are as many as nodes.
+  ! Checks that the rows can be borrowed, and that there is one row for each node.
   function check_rows(this, n_offsets, contiguous_offsets, n_columns, contiguous_columns) result(code)
     class(riis_mesh), intent(in) :: this
     integer(int64), intent(in) :: n_offsets, n_columns

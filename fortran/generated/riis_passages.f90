@@ -235,7 +235,7 @@ contains
     if (code == RIIS_OK) ids = int(numbers, int64) - 1
   end subroutine get_ids_int64
 
-  ! Makes the options for both calls. Does nothing after an error.
+  ! Makes the options of riis_label_open_regions and riis_find_passage. Does nothing after an error.
   subroutine get_options(mesh, mask, n_threads, options, code)
     class(riis_mesh), intent(in) :: mesh
     integer(int8), intent(in), contiguous, optional, target :: mask(:)

@@ -952,7 +952,7 @@ contains
     integer(int32), intent(inout), contiguous, optional, target :: leaflet_id(:), side(:)
     integer(riis_status), intent(inout) :: code
     integer(int8), intent(in), contiguous, optional, target :: mask(:)
-    ! This argument is not CONTIGUOUS, because gfortran would then copy a pointer's target.
+    ! The argument is not declared CONTIGUOUS, because gfortran would then copy the target of a pointer.
     integer(int64), intent(in), optional, target :: point_id(:)
     type(riis_closest_options) :: options
     type(riis_closest_arrays) :: arrays
