@@ -32,7 +32,7 @@ module riis_crossing
     type(c_ptr) :: handle = c_null_ptr
   contains
     procedure, non_overridable :: get_list => crossings_get_list        !< Gives the pairs.
-    procedure, non_overridable :: is_created => crossings_is_created    !< Returns whether it was created.
+    procedure, non_overridable :: is_created => crossings_is_created    !< Returns whether the object was created.
     procedure, non_overridable :: c_handle => crossings_c_handle        !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => crossings_destroy          !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.

@@ -33,7 +33,7 @@ module riis_leaking
     type(c_ptr) :: handle = c_null_ptr
   contains
     procedure, non_overridable :: get_list => leaks_get_list            !< Gives the edges.
-    procedure, non_overridable :: is_created => leaks_is_created        !< Returns whether it was created.
+    procedure, non_overridable :: is_created => leaks_is_created        !< Returns whether the object was created.
     procedure, non_overridable :: c_handle => leaks_c_handle            !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => leaks_destroy              !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -178,7 +178,7 @@ contains
     call riis_leaks_destroy(this%handle)
   end subroutine leaks_destroy
 
-  !> Stops the program unless both are empty.
+  !> Stops the program unless both objects are empty.
   impure elemental subroutine leaks_assign(left, right)
     class(riis_leaks), intent(inout) :: left                !< Must be empty.
     class(riis_leaks), intent(in) :: right                  !< Must be empty.

@@ -58,7 +58,7 @@ module riis_valves
     procedure, non_overridable :: get_patches => valve_get_patches      !< Points to the valve's curves and patches.
     procedure, non_overridable :: n_parameters => valve_n_parameters    !< Returns the number of parameters.
     generic :: parameter => parameter_int32, parameter_int64            !< Describes a parameter.
-    procedure, non_overridable :: is_created => valve_is_created        !< Returns whether it was created.
+    procedure, non_overridable :: is_created => valve_is_created        !< Returns whether the object was created.
     procedure, non_overridable :: c_handle => valve_c_handle            !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => valve_destroy              !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -438,7 +438,7 @@ contains
     call riis_valve_destroy(this%handle)
   end subroutine valve_destroy
 
-  !> Stops the program unless both are empty.
+  !> Stops the program unless both objects are empty.
   impure elemental subroutine valve_assign(left, right)
     class(riis_valve), intent(inout) :: left                !< Must be empty.
     class(riis_valve), intent(in) :: right                  !< Must be empty.

@@ -21,7 +21,7 @@ module riis_warping
     procedure, non_overridable :: set_targets_at => warp_set_targets_at !< Takes them to their places at a time.
     procedure, non_overridable :: map => warp_map                       !< Maps points.
     procedure, non_overridable :: get_info => warp_get_info             !< Gives the quality of the warp.
-    procedure, non_overridable :: is_created => warp_is_created         !< Returns whether it was created.
+    procedure, non_overridable :: is_created => warp_is_created         !< Returns whether the object was created.
     procedure, non_overridable :: c_handle => warp_c_handle             !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => warp_destroy               !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -189,7 +189,7 @@ contains
     call riis_warp_destroy(this%handle)
   end subroutine warp_destroy
 
-  !> Stops the program unless both are empty.
+  !> Stops the program unless both objects are empty.
   impure elemental subroutine warp_assign(left, right)
     class(riis_warp), intent(inout) :: left                 !< Must be empty.
     class(riis_warp), intent(in) :: right                   !< Must be empty.

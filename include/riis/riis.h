@@ -594,7 +594,7 @@ typedef struct riis_gap {
   double least, mean, most; /* the gap at the ends of the edges; the mean is weighted by the edges' lengths. 0 without a
                                wall at any end */
   double widest_point[3];   /* the end of an edge with the widest gap */
-  int64_t n_ends;           /* the ends of edges: 2 * riis_attachment.n_edges */
+  int64_t n_ends;           /* number of ends of edges: 2 * riis_attachment.n_edges */
   int64_t n_without_wall;   /* the ends whose line misses the wall. They count in no other field */
 } riis_gap;
 /* Measures the gap between a valve's attachment and a wall, such as a patient's vessel. The gap is the distance along
@@ -1215,8 +1215,8 @@ typedef struct riis_orifice {
   double effective_area; /* the area that the band around the valve leaves to the flow. The edge along the triangles
                             is moved inwards by rim_reach * half_thickness. To first order the result is area -
                             rim_reach * half_thickness * perimeter. It is never below 0 */
-  double rim_reach;      /* the factor c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open valves gave 0.70 to
-                            0.98 and 0.46 to 0.95 (docs/validation.md) */
+  double rim_reach;      /* the factor c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open valves gave 0.70
+                            to 0.98 (round) and 0.46 to 0.95 (cut); see docs/validation.md */
   double half_thickness; /* eps of the resistance */
   double radius;         /* the radius of the disc, or of a circle as large as a warped disc; 0 for other outlines */
   double axis[3];        /* unit vector; of a warped disc its normal; 0 for arrays and keyframes without an outline */
@@ -1272,7 +1272,7 @@ enum {
 /* The opening at which a valve first lets the mesh pass. */
 typedef struct riis_first_passage {
   double opening;        /* the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE */
-  double closed_opening; /* the largest tried opening below `opening`, without a passage; `opening` itself unless FOUND */
+  double closed_opening; /* FOUND: the largest tried opening below `opening`, which has no passage. Else: `opening` */
   int64_t node_id;       /* the passage at `opening`, as in riis_passage */
   double distance;       /* as in riis_passage */
   double point[3];       /* as in riis_passage */
@@ -1473,7 +1473,7 @@ enum {
  * flow reverses), filter_time 0.002, dwell_time 0.02. */
 typedef struct riis_opening_switch {
   int64_t struct_size;    /* set by the init function */
-  double opening_duration; /* time from closed to open, > 0. Default NaN, which is refused, also in the next field */
+  double opening_duration; /* time from closed to open, > 0. Default NaN, which is refused. So is that of the next field */
   double closing_duration; /* time from open to closed, > 0 */
   double open_above;      /* pressure difference. Default 0 */
   double close_below;     /* flow. Default 0 */

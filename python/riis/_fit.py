@@ -34,7 +34,7 @@ _UNITS = {"m": 0.01, "cm": 1.0, "mm": 10.0}
 _MOST_OUTLIERS = 0.3
 _LEAST_COVERED = 0.9
 _MOST_NOISE = 1.25  # largest noise of the residuals, as a multiple of the stated noise
-_MOST_SCATTER = 0.05  # of the valve's size, without a stated noise
+_MOST_SCATTER = 0.05  # as a share of the valve's size, if no noise is stated
 
 
 class Rival(NamedTuple):

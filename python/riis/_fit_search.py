@@ -165,7 +165,8 @@ def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any
 
 
 def _parts(points: Reals, weights: Reals, n_parts: int) -> NDArray[numpy.int64]:
-    """Returns the part of each point. Each part is around a point that is farthest from the earlier ones."""
+    """Divides points into parts, and returns the part of each point. Each part surrounds the point that is farthest from the
+    middles of the earlier parts."""
     first = int(numpy.argmax(weights))
     nearest, part = numpy.full(len(points), numpy.inf), numpy.zeros(len(points), numpy.int64)
     for k in range(n_parts):

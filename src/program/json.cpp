@@ -12,7 +12,7 @@ namespace riis::program {
 
 namespace {
 
-// Refuses faults that the parser itself would accept.
+// Refuses faults of a JSON file that the parser itself would accept.
 class Guard {
  public:
   Guard(const std::string &path, const std::string &content) : path_(path), content_(content) {}

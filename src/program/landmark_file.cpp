@@ -20,7 +20,7 @@ namespace {
 
 const std::vector<std::string> cusp_names = {"right", "left", "non_coronary"};
 
-// The words for roles. Words of roles that a valve has several times may stand for several landmarks.
+// The words for roles. Some words may stand for several landmarks, because a valve has several of their role.
 struct RoleWord {
   const char *word;
   std::int32_t role;
@@ -216,7 +216,7 @@ void read_json(const Json &root, LandmarkFile &file) {
 
 // ---- 3D Slicer ----
 
-// A file of 3D Slicer has many keys, which change from version to version. Only these are read.
+// A file of 3D Slicer has many keys, which change from version to version. Only those needed here are read.
 void read_slicer(const Json &root, LandmarkFile &file) {
   const std::string &path = file.path;
   const Json &lists = root["markups"];

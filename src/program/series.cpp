@@ -251,7 +251,7 @@ ExitCode run_series(Case &all) {
   riis_vtk_mesh *const written = part ? part.get() : file.get();
   std::optional<SeriesPictures> pictures;
   if (SeriesPictures::are_wanted(options)) {
-    // Pictures show the whole mesh, and they need other arrays in it.
+    // Pictures get a mesh of their own, because they show the whole mesh and store other arrays in it.
     MeshFile drawn = part ? std::move(file) : copy_of(file.get());
     pictures.emplace(all, std::move(drawn), sweep.box);
   } else if (part) {

@@ -162,7 +162,7 @@ const riis::Surface &require_handles(const riis_surface *surface, const riis_mes
   return content;
 }
 
-// Returns nothing if the options have no resistance.
+// Returns the checked resistance of the options, or nothing if they have none.
 std::optional<riis::Resistance> resistance_of(const riis::SearchRequest &request, const riis_mark_options &options) {
   if (!options.resistance) return std::nullopt;
   const riis::Resistance checked =

@@ -28,7 +28,7 @@ class PatchDistance {
   // once.
   virtual ClosestOnPatches closest(Vec3 p, double limit) const = 0;
 
-  // Returns false only if no point lies within the limit of p.
+  // Returns false only if the surface certainly has no point within the limit of p.
   virtual bool may_be_within(Vec3 p, double limit) const = 0;
 
   // Returns true if the method measures the distance to the same set of points for every p. If so, the results for two points

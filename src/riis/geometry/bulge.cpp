@@ -37,8 +37,8 @@ struct Along {
   double speed;
 };
 
-// Returns the tangent as a jet, from derivatives of a Bézier piece by its own parameter t. The chain rule uses dt/du = speed /
-// |B'(t)|.
+// Returns the tangent with its derivatives by u, from derivatives of a Bézier piece by its own parameter t. The chain rule uses
+// dt/du = speed / |B'(t)|.
 JetVector tangent_jet(const IntervalVector &d1, const IntervalVector &d2, const IntervalVector &d3, double speed) {
   const JetVector along = JetVector::of(d1, d2, d3);
   const Jet size = root(dot_self(along)), inverse_size = inverse(size);

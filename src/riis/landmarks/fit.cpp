@@ -18,7 +18,7 @@ namespace {
 // defined.
 constexpr double determined_share = 1.0 / 15;
 
-// Solves for the sizes that are not held, then a rotation vector and a shift. All unknowns are in centimetres.
+// The least squares of the fit. The unknowns are the sizes that are not held, a rotation vector and a shift, all in centimetres.
 class Problem {
  public:
   Problem(const LandmarkModel &model, const Landmarks &landmarks, const Pose &base)

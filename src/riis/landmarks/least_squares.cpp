@@ -180,7 +180,8 @@ Eigen symmetric_eigen(std::vector<double> a, std::size_t n) {
 
 std::vector<double> covariance(const std::vector<double> &normal_matrix, std::size_t n) {
   const Eigen eigen = symmetric_eigen(normal_matrix, n);
-  // The eigenvalues are squares of the singular values of J. Derivatives are right to about 1e-10 of the largest.
+  // Smaller eigenvalues than this count as 0. Eigenvalues are squares of the singular values of J, whose derivatives are right to
+  // about 1e-10 of the largest.
   const double least = 1e-12 * (n == 0 ? 0 : eigen.values.back());
   constexpr double small_share = 1e-8;
   std::vector<double> matrix(n * n);

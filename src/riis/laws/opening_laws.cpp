@@ -42,7 +42,7 @@ ValueAndRate opening_from_table(const riis_opening_table &table, double time) {
   std::array<double, 4> openings;
   for (std::size_t k = 0; k < 4; ++k) openings[k] = table.opening[around.key[k]];
   const ValueAndRate made = keys.between(around, openings);
-  // Rounding must not take the opening out of its range.
+  // The opening is limited to its range, because rounding could take it out.
   return {std::clamp(made.value, 0.0, 1.0), made.rate};
 }
 
@@ -66,7 +66,7 @@ ValueAndRate opening_from_times(const riis_opening_times &times, double time) {
   const double opened = since / times.opening_duration;
   const double closed = (since - (times.closing_start - times.opening_start)) / times.closing_duration;
   const double height = times.open - times.closed;
-  // Rounding must not take the opening out of its range.
+  // The opening is limited to its range, because rounding could take it out.
   return {std::clamp(times.closed + height * (ramp(opened) - ramp(closed)), std::min(times.closed, times.open),
                      std::max(times.closed, times.open)),
           height * (ramp_rate(opened) / times.opening_duration - ramp_rate(closed) / times.closing_duration)};

@@ -63,7 +63,7 @@ class NeighborScratch {
 SearchReport search_neighbors(const SearchRequest &request, const std::vector<std::int64_t> &last,
                               NeighborScratch &scratch, FoundNodes &found);
 
-// Runs the paper's algorithm exactly, without the proof. The mesh must have an adjacency.
+// Runs the paper's algorithm exactly, without the proof that the remaining nodes are far. The mesh must have an adjacency.
 SearchReport search_as_the_paper(const SearchRequest &request, NeighborScratch &scratch, FoundNodes &found);
 
 }  // namespace riis

@@ -248,7 +248,7 @@ class NodeSorter {
     return box;
   }
 
-  // Calls visit(item, quarter) for all items of a part. Within each quarter it keeps their order.
+  // Calls visit(item, quarter) for all items of a part. The items of each quarter are visited in their order.
   template <class Visit>
   static void for_each_by_quarters(const Item *items, const Part &part, const Visit &visit) {
     const std::int64_t size = part.size() / n_quarters;

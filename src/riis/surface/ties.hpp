@@ -47,7 +47,8 @@ struct Ties {
   void compare(std::int64_t point, const ClosestTriangle &closest, const ClosestTriangle &other) {
     if (other.triangle < 0 || !rule.is_tie(closest, other)) return;
     if (!candidates.empty()) {
-      // The triangles around a vertex are often compared one after another, and one of them is enough.
+      // Triangles around a vertex are often compared one after another. If they are on one patch, only the nearest stays a
+      // candidate.
       Tie &last = candidates.back();
       if (last.point == point && rule.are_of_one_patch(last.triangle, other)) {
         if (is_closer(other.distance_sq, other.triangle, last.triangle)) last.triangle = other;

@@ -225,7 +225,8 @@ Frame closed_frame(const ParameterValues &values) {
   return frame;
 }
 
-// Returns the lower part of the symmetry curve. It ends at `end`, in the direction of `up`, a vector from there to the free edge.
+// Returns the lower part of the symmetry curve. It ends at `end` in the direction of `up`, which is a vector from `end` to the
+// free edge.
 Bezier symmetry_curve(const Frame &frame, Vec3 end, Vec3 up) {
   return Bezier::cubic({frame.root_radius, 0, 0}, {frame.belly_x, 0, frame.belly_rise * end.z},
                        end - (frame.band_start * end.z / up.z) * up, end);
