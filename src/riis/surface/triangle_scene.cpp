@@ -285,7 +285,7 @@ void TriangleScene::collect_groups(const float *point, float radius, std::vector
   sphere.y = point[1];
   sphere.z = point[2];
   sphere.time = 0;
-  // The increase covers Embree's own rounding, as in inflated_radius.
+  // The radius is increased to cover Embree's own rounding, as in inflated_radius.
   sphere.radius =
       radius * (1 + 0x1p-20f) + 0x1p-22f * std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
   RTCPointQueryContext context;

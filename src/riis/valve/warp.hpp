@@ -52,7 +52,7 @@ class BlendedWarp {
   double opening_;
 };
 
-// How well a map meets its targets.
+// The quality of a map, which says how well it meets its targets.
 struct WarpQuality {
   double rms_residual, largest_residual;  // distances of mapped sources from their targets
   std::int64_t largest_landmark;

@@ -15,7 +15,7 @@ namespace riis {
 namespace {
 
 constexpr std::size_t no_copy = static_cast<std::size_t>(-1);
-// The warped points of a curve are taken at these many even steps of its parameter.
+// The warped points of a curve are taken at this many even steps of its parameter.
 constexpr int n_curve_steps = 6;
 // A tangent's length may change by this factor at most, in addition to the warp's own stretch there.
 constexpr double least_factor = 0.2, most_factor = 5, most_of_missing = 0.5;
