@@ -24,7 +24,7 @@ from riis._riis import Surface, Valve, find_crossings
 Reals = NDArray[numpy.float64]
 
 _MOVES = ("rotation", "translation", "scale")
-# The rough search uses this number of points.
+# The number of points that the rough search uses.
 _N_ROUGH = 400
 # If n_starts is not given, a fit has at least and at most these numbers of starts.
 _LEAST_STARTS, _LEAST_STARTS_OF_PART, _MOST_STARTS = 4, 8, 20
@@ -256,7 +256,7 @@ def _length(number: Any, name: str) -> float:
 
 
 def _with_unit(unit: Any, start: Mapping[str, Any], moves: list[str], kind: str) -> dict[str, Any]:
-    """Returns the start with the scale of a unit."""
+    """Returns the start values of a fit, with the scale that the unit gives."""
     if unit is None:
         return dict(start)
     if not isinstance(unit, str):

@@ -162,7 +162,7 @@ class Problem:
         self.last: tuple[bytes, Seen | None] | None = None
 
     def begin(self, base: Pose) -> None:
-        """Sets the pose to which placements are relative."""
+        """Sets the base: the pose to which the unknowns of the placement are relative."""
         self.base, self.last = base, None
 
     def rebased(self, x: Reals) -> Reals:
@@ -191,7 +191,7 @@ class Problem:
         return Pose(matrix_of(vector) @ self.base.rotation, self.base.move + move, factor * self.base.scale)
 
     def set_valve(self, x: Reals) -> Surface | None:
-        """Gives the valve and its surface the parameters of x. Returns None if these do not fit together."""
+        """Gives the valve and its surface the parameters of x. Returns None if the parameters do not fit together."""
         try:
             self.valve.update(**dict(zip(self.names, self.values(x).tolist())))
             if self.surface is None:
@@ -319,7 +319,7 @@ class Problem:
         jacobian, area = self.jacobian(x)
         weighted = (self.weights * loss.weight(seen.residual))[:, None] * jacobian
         n_area = loss.area * float(self.weights.sum())
-        # The matrix of the area's term: edges are as uncertain as a quarter of the term says.
+        # The Gauss-Newton matrix of the area's term. It makes edges as uncertain as a quarter of that term implies.
         return weighted.T @ seen.residual + n_area * area, jacobian.T @ weighted + 0.125 * n_area * numpy.outer(area, area)
 
     def solve(self, x: Reals, loss: Loss, n_steps: int, change: float, held: int | None = None) -> Reals:

@@ -19,7 +19,7 @@ _N_ROTATIONS = 150
 _SAME = 0.02
 # A rough end whose cost for each point exceeds the least by this is not refined.
 _HOPELESS = 0.15
-# At most this many ends are refined.
+# The largest number of ends that are refined.
 _N_ENDS = 4
 # An end is a rival if the likelihood ratio leaves it possible: twice the difference of the logarithms is less than this, which is
 # the square of three standard errors.

@@ -131,7 +131,7 @@ def _place_of(name: str) -> tuple[int, tuple[int, int], bool] | None:
 
 @dataclass
 class _Landmarks:
-    """Landmarks as the library takes them, and what their file states."""
+    """Landmarks as the library takes them, and the facts that their file states."""
 
     where: str
     names: list[str] = field(default_factory=list)

@@ -83,7 +83,7 @@ class Inside {
   Inside &operator=(const Inside &) = delete;
 };
 
-// Refuses calls from inside the log function.
+// Refuses a call that the log function makes, because the library is then inside another call.
 void check_not_logging();
 
 // Calls the library without the interpreter's lock, so that other Python threads can run meanwhile. Returns the call's status,

@@ -81,7 +81,7 @@ struct MarkOptions {
 
 // Changes the options that the keywords name. If a keyword is None, its option does not change.
 void set_surface_options(riis_surface_options &options, nb::handle keywords, const char *name);
-// Changes only scale, rotation and translation.
+// Changes scale, rotation and translation as the placement says, and no other options.
 void set_placement(riis_surface_options &options, nb::handle placement, const char *name);
 
 // Adds a method to a class that another source file defined.

@@ -131,7 +131,7 @@ def patient(seed):
 
 
 def rotation_of(vector):
-    """Returns the rotation by a vector's length around it (Rodrigues)."""
+    """Returns the rotation around a vector by an angle that is the vector's length (Rodrigues)."""
     angle = numpy.linalg.norm(vector)
     x, y, z = vector / angle
     cross = numpy.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

@@ -55,7 +55,7 @@ def test_known_valves_are_found_again(kind):
 
 
 def test_a_valve_is_found_wherever_it_lies():
-    """No start is given. The points are turned by more than a quarter, and are far from the origin."""
+    """The fit gets no start, although the points are turned by more than a quarter turn and are far from the origin."""
     placement = {"rotation_axis": (1.0, -2.0, 0.5), "rotation_angle": 140.0, "translation": (120.0, -40.0, 300.0)}
     true = fit_table.VALVES["aortic"]
     found = riis.fit(fit_table.cloud("aortic", 800, 0.02, placement=placement), "aortic", free=list(true))

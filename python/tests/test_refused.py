@@ -524,7 +524,7 @@ def test_a_masked_array_is_refused(o, name, good, call):
 
 
 class Frame:
-    """Has a method `mask` and can be converted to an array, like data frames of pandas."""
+    """An object that, like a data frame of pandas, has a method `mask` and can be converted to an array."""
 
     def __init__(self, array):
         self.array = array

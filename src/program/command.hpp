@@ -28,8 +28,8 @@ class Command {
   void group(const char *title) { group_ = title; }
 
   using Take = std::function<void(const std::string &)>;
-  // Each of these declares an option by its names, a word for its value, and a help text. A positional argument has a name such
-  // as "OUT".
+  // Each of the next functions declares an option by its names, a word for its value, and a help text. A positional argument has
+  // a name such as "OUT".
   CLI::Option *value(const std::string &names, const char *type, const char *help, const Take &take);
   CLI::Option *text(const std::string &names, const char *type, const char *help, std::string &to);
   using TakeAll = std::function<void(const std::vector<std::string> &)>;

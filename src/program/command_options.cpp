@@ -260,7 +260,7 @@ void declare_series(Command &command, MarkOptions &options) {
              [&series](const std::string &text) { series.frame_rate = parse_positive_finite(text, "--frame-rate"); })
       ->needs(movie);
   command.choice("--movie-view", "side, top or oblique (default)", view_names, series.movie_view, "VIEW")->needs(movie);
-  // A case file contains its own values for these options.
+  // A case excludes these options, because the case file contains its own values for them.
   for (const char *name : {"--surface",        "--leaflets",       "--valve",        "--opening",
                            "--params",         "--params-open",    "--set",          "--tolerance",
                            "--triangulation",  "--skip-zero-area", "--flip-normals", "--scale",

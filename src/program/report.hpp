@@ -86,7 +86,7 @@ struct Report {
   std::optional<StepTimes> step;
 };
 
-// These return texts such as "15,745" and "1 node".
+// Returns a number as text with commas, such as "15,745".
 std::string grouped(int64_t n);
 // Returns the name of RIIS_OUTLINE_*.
 const char *outline_name(int32_t outline);

@@ -23,7 +23,7 @@ struct Spans {
 class Keys {
  public:
   explicit Keys(const OpeningTable &table) : table_(table) {}
-  // Two periods contain a span from any key of the cycle to any other key.
+  // Returns the number of keys, in two periods if there is a period. Two periods contain a span from any key to any other key.
   std::size_t size() const { return table_.times.size() * (table_.period > 0 ? 2 : 1); }
   double time(std::size_t i) const { return table_.times[i % n()] + (i < n() ? 0 : table_.period); }
   double opening(std::size_t i) const { return table_.openings[i % n()]; }

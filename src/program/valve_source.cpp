@@ -245,7 +245,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Each ending was tested. tests/cli/test_cli_conversions.c tests it again if the tool is installed.
+// The endings that a tool converts. tests/cli/test_cli_conversions.c tests each ending if the tool is installed.
 const std::set<std::string> meshes_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh"};
 const std::set<std::string> meshes_of_meshio = {".inp", ".su2"};
 const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply", ".ply2", ".vtk"};

@@ -60,7 +60,8 @@ std::string text_of(const Box &box, double edge) {
 
 bool has_all(const Situation &s) { return s.n_marked == s.n_nodes && s.n_nodes >= fewest_judged_nodes; }
 
-// A single layer of nodes over the surface would have about area / edge^2 nodes.
+// Returns whether suspiciously few nodes are marked. A single layer of nodes over the surface would have about area / edge^2
+// nodes.
 bool has_hardly_any(const Situation &s) {
   if (s.n_marked == 0 || s.n_nodes < fewest_judged_nodes || s.median_edge == 0) return false;
   return static_cast<double>(s.n_marked) * s.median_edge * s.median_edge < 0.1 * s.area;

@@ -64,7 +64,7 @@ void check_has_marks(const riis_vtk_mesh *mesh);
 
 class Scene {
  public:
-  // If `grid` is NULL, shows only the surface.
+  // Makes the window. If `grid` is NULL, it shows only the surface.
   Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options);
   ~Scene();
   // Shows the surface, and the marks that the grid has at present. If `title` is NULL, the title is "Surface".

@@ -33,7 +33,7 @@ std::vector<double> coordinates_of(vtkPointSet *data);
 
 // Names the cell array with the leaflet ids of the faces.
 struct LeafletArray {
-  // `given` is the caller's name for the array. NULL means riis_leaflet, which may be missing.
+  // `given` is the name of the array that the caller chose, which must exist. NULL means riis_leaflet, which may be missing.
   explicit LeafletArray(const char *given) : name(given ? given : leaflet_array), is_required(given != nullptr) {}
 
   std::string name;

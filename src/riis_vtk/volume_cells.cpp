@@ -114,7 +114,8 @@ const Shape &known_shape(int type) {
 using Orders = std::array<int, 4>;  // the orders along three axes, then the number of nodes, as in VTK
 
 void add_tetrahedron_lattice(int order, std::vector<Edge> &edges) {
-  // Each small tetrahedron has four barycentric coordinates, whose sum is order - 1. Adding 1 to one of them gives a corner.
+  // A small tetrahedron is given by four whole numbers, whose sum is order - 1. Adding 1 to one of them gives a corner's
+  // barycentric coordinates.
   for (vtkIdType i = 0; i < order; ++i)
     for (vtkIdType j = 0; i + j < order; ++j)
       for (vtkIdType k = 0; i + j + k < order; ++k) {

@@ -101,7 +101,7 @@ CaughtOutput::CaughtOutput()
       caller_displays_(vtkObject::GetGlobalWarningDisplay()),
       caller_log_level_(vtkLogger::GetCurrentVerbosityCutoff()) {
   vtkOutputWindow::SetInstance(window_);
-  // If the warning display is off, VTK drops errors before they reach a window.
+  // Switches the warning display on, because VTK otherwise drops errors before they reach a window.
   vtkObject::SetGlobalWarningDisplay(1);
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
 }

@@ -55,7 +55,8 @@ SampleSet::SampleSet(PlacedPatches patches, double max_error) : PatchDistance(st
   add_patches(0, static_cast<std::int32_t>(patches_.patches.size()));
 }
 
-// Each level of the tree halves the list of patches. Within a patch, it halves the longer side of a block of samples.
+// Adds a part of the tree of boxes. Each level halves the list of patches or, within a patch, the longer side of a block of
+// samples.
 std::int32_t SampleSet::add_patches(std::int32_t begin, std::int32_t end) {
   if (end - begin == 1) {
     const SampleCounts &counts = view(counts_)[begin];

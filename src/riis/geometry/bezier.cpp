@@ -90,7 +90,8 @@ double length_tolerance(const Bezier &curve) {
 }
 
 double length_between(const Speed &speed, double tolerance, double t0, double t1) {
-  // At a cusp (|B'| = 0) each halving only halves the error. So 40 halvings leave an error of about 1e-12 of the length.
+  // The largest number of halvings is 40. At a cusp (|B'| = 0) each halving only halves the error, so 40 leave an error of about
+  // 1e-12 of the length.
   return adaptive_length(speed, t0, t1, quadrature(speed, t0, t1), tolerance, 40);
 }
 
@@ -248,7 +249,8 @@ double rough_curvature(const Bezier &curve, double t0, double t1) {
 }
 
 double largest_curvature(const Bezier &curve) {
-  // The bound from control points is loose if the control points vary much. Within a quarter of the curve they vary little.
+  // Bounds each quarter of the curve separately. The bound from control points is loose if these vary much, and within a quarter
+  // they vary little.
   const auto [left, right] = split(curve, 0.5);
   const auto [first, second] = split(left, 0.5);
   const auto [third, fourth] = split(right, 0.5);

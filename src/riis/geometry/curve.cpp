@@ -20,7 +20,7 @@ constexpr double narrowest_for_velocity = 1.0 / 32;
 // Collects the chords of parts. Each part is within max_error of its chord.
 class Flattening {
  public:
-  // `bend` is null if the velocity does not matter.
+  // Begins with the curve's first point. `bend` is null if the velocity does not matter.
   Flattening(Vec3 first, double max_error, const VelocityBend *bend, double max_bend)
       : max_error_(max_error), bend_(bend), max_bend_(max_bend), flattened_{{first}, {0.0}, {}} {}
 

@@ -259,7 +259,8 @@ std::optional<Outline> closed_outline(const std::vector<std::vector<PlanePoint>>
 }
 
 Cover cover_of(const std::vector<PlanePoint> &vertices, const std::vector<std::int64_t> &vertex_id) {
-  // `sides` is the sum of side_of over the edge's triangles. It is 2 or -2 if two triangles lie on opposite sides of the edge.
+  // An edge of the triangles. `sides` is the sum of side_of over its triangles, which is 2 or -2 if two triangles lie on opposite
+  // sides of the edge.
   struct Use {
     int n = 0, sides = 0;
   };

@@ -326,7 +326,7 @@ void finish_aortic(const Valve &own, Valve &valve) {
     set_proportion(own, valve, of + "bending_radius_out", middle_radius(own), middle_radius(valve));
     valve.set(of + "rotation", 3, std::array{0.0, 0.0, turns[cusp]}.data());
     valve.set(of + "translation", 3, shift.data());
-    // With a higher power, the free edge would bulge beyond the plane of its commissure into the next cusp.
+    // Lowers a power with which the free edge would bulge beyond the plane of its commissure into the next cusp.
     const double x = value_of(valve, of + "leaflet_radius_out") * sine_cosine_degrees(angle).cosine;
     const double radius_in = value_of(valve, of + "leaflet_radius_in");
     if (x > radius_in && value_of(valve, of + "leaflet_power") > x / (x - radius_in))

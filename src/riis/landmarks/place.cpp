@@ -43,7 +43,7 @@ std::vector<std::string> words_of(std::string_view text) {
   return words;
 }
 
-// The result has an entry for each parameter.
+// Returns, for each parameter of the kind, whether the caller holds it.
 std::vector<bool> held_parameters(const Valve &valve, std::string_view held) {
   const auto &specs = valve.kind().parameters;
   std::vector<bool> is_held(specs.size());

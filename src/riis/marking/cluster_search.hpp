@@ -56,8 +56,8 @@ struct ClusterScratch {
 // surface.
 bool separates_in_single_precision(const SearchRequest &request, const Clusters &clusters);
 
-// The clusters must belong to the request's mesh, and separates_in_single_precision must hold. `kernels` must be those of the
-// request's instructions, except that ./run bench roofline passes kernels that count operations.
+// Searches over clusters. The clusters must belong to the request's mesh, and separates_in_single_precision must hold. `kernels`
+// must be those of the request's instructions, except that ./run bench roofline passes kernels that count operations.
 SearchReport search_clusters(const SearchRequest &request, const Clusters &clusters, const Kernels &kernels,
                              ClusterScratch &scratch, FoundNodes &found);
 

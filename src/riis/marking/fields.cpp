@@ -313,7 +313,7 @@ bool NodeFields::has_room(std::int32_t fields, std::int64_t n) const {
 
 void NodeFields::resize(std::int32_t fields, std::int64_t n) {
   for_each_array(all_fields & ~fields, [&](auto member, std::int64_t) { (this->*member).clear(); });
-  // Old entries are not cleared first, because every entry will be written.
+  // Resizes the arrays without clearing old entries, because every entry will be written.
   for_each_array(fields, [&](auto member, std::int64_t per_node) { riis::resize(this->*member, per_node * n); });
 }
 

@@ -217,7 +217,7 @@ OwnAdjacency narrow_adjacency_of_lists(const Lists &lists, int n_threads) {
   return made;
 }
 
-// The lists must have at most n_entries entries.
+// Makes the adjacency of the lists, which must have at most n_entries entries.
 template <class Lists>
 OwnAdjacency adjacency_of_lists(const Lists &lists, std::int64_t n_entries, int n_threads, const NarrowLimits &limits) {
   OwnAdjacency made;

@@ -45,7 +45,7 @@ inline NodeFrame frame_around(const Bounds &nodes) {
   const Vec3 extent = nodes.half_extent();
   int exponent = 0;
   std::frexp(std::max({extent.x, extent.y, extent.z}), &exponent);
-  // Without std::max, a denormal extent would make the scale infinite.
+  // The exponent is limited, because a denormal extent would make the scale infinite.
   return {nodes.middle(), std::ldexp(1.0, -std::max(exponent, -1000))};
 }
 
@@ -177,7 +177,7 @@ class NodeSorter {
   };
 
   // A part that is divided into blocks, which threads share. Each block has its box, its counts and the positions of its streams.
-  // OneBlock is the same for one thread and one block.
+  // OneBlock is such a part for one thread and one block.
   struct ManyBlocks {
     const Part &part;
     int n_threads;

@@ -13,7 +13,7 @@ class OpenSets {
  public:
   static constexpr std::int64_t closed = -1;  // the parent of a node that is in no set
 
-  // Borrows the array. Each entry must be `closed`, the node itself, or a lower node of the same set.
+  // Borrows the array of parents. Each entry must be `closed`, the node itself, or a lower node of the same set.
   explicit OpenSets(ArrayView<std::int64_t> parent) : parent_(parent) {}
 
   bool is_open(std::int64_t node) const { return load(node) != closed; }

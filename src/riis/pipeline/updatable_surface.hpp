@@ -26,7 +26,7 @@ class UpdatableSurface {
   // triangulation. An update without it ends the fixed triangulation.
   void update_from_valve(const Valve &valve, const ValveMotion *motion, const SurfaceRequest &request,
                          const ValveAccuracy &accuracy);
-  // If the arrays contain no faces, they are new vertices for the faces of the last arrays.
+  // Updates the surface from arrays. If they contain no faces, they are new vertices for the faces of the last arrays.
   void update_from_arrays(const riis_surface_arrays &arrays, bool skip_zero_area, const SurfaceRequest &request);
   // Takes the vertices at a time and the mean velocities since dt before that time (Keyframes::at).
   void update_from_keyframes(const Keyframes &frames, double time, double dt, bool skip_zero_area,

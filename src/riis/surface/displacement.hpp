@@ -33,7 +33,7 @@ struct MovedPatch {
 // the bulge changed.
 class PatchMotion {
  public:
-  // The grid must have been made with its lines kept.
+  // Computes the motion at the grid's vertices. The grid must have been made with its lines kept.
   PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled);
 
   // Returns the displacement at the crossing of two lines of the grid.
@@ -78,7 +78,7 @@ class ImageMotion {
     return {moved.x / seconds_, moved.y / seconds_, moved.z / seconds_};
   }
 
-  // Bounds the error of that velocity. The arguments bound the errors of the displacement and of p.
+  // Bounds the error of a velocity from velocity(). The arguments bound the errors of the displacement and of p.
   double velocity_error(double of_displacement, double of_point) const {
     const auto norm = [](const Rotation &a) {  // the Frobenius norm
       return std::sqrt(dot(a.row_x, a.row_x) + dot(a.row_y, a.row_y) + dot(a.row_z, a.row_z));

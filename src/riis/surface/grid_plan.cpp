@@ -20,7 +20,7 @@ namespace {
 // A curve may be halved this often. A request that reaches the limit would make more triangles than this library can hold.
 constexpr int max_rounds = 24;
 
-// The bound on O uses at most this many parts between two lines.
+// The largest number of parts between two lines that the bound on O uses.
 constexpr int most_parts = 8;
 
 // Returns the joints of a side in the patch's parameter.
@@ -131,7 +131,7 @@ class PlannedArcs {
     const Vector<Bezier> &on_base = base_.between(i, j), &on_edge = edge_.between(i, j);
     const Curve &base = set_.curve_of(patch_.v0), &edge = set_.curve_of(patch_.v1);
     if (on_base.size() > 1 || on_edge.size() > 1) {
-      // O' may jump inside this range. Bulge::linear_error takes jumps into account, and bound_offset does not.
+      // For a range inside which O' may jump, calls Bulge::linear_error, which takes jumps into account. bound_offset does not.
       made.off_line = made.largest = Bulge(along(set_, patch_.v0), along(set_, patch_.v1), patch_.bulge)
                                          .linear_error(shares_[i], shares_[j], offset_share * max_error_);
       return made;
@@ -489,7 +489,7 @@ class Planner {
     plan_.n_rows = std::max(plan_.n_rows, static_cast<std::size_t>(rows_for(offset, max_error_)));
   }
 
-  // Returns a few lines that should be enough. Some of them are at the joints.
+  // Returns a first choice of few lines, which should be enough. Some of them are at the joints.
   Vector<double> first_arc_lines(std::size_t patch, const Vector<double> &joints) const {
     const Patch &first = set_.patches[patch];
     Vector<double> ends{0};

@@ -33,14 +33,15 @@ double rows_for(double offset, double max_error);
 Vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const Vector<double> &tightness = {},
                             int n_threads = 1, bool keeps_lines = false);
 
-// Fails with RIIS_LIMIT_EXCEEDED if rounding of the curves' lengths or coordinates is too large for max_error.
+// Checks the precision of a set. Fails with RIIS_LIMIT_EXCEEDED if rounding of the curves' lengths or coordinates is too large
+// for max_error.
 void check_precision(const PatchSet &set, double max_error);
 
 // Returns max_error minus the deviation of the curves from the shape that they represent. Fails with RIIS_LIMIT_EXCEEDED if the
 // deviation is more than half of max_error.
 double error_left(const PatchSet &set, double max_error);
 
-// Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles.
+// Checks a number of triangles. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles.
 void check_count(double n_triangles, double max_error);
 
 }  // namespace riis

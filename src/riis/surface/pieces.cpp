@@ -169,7 +169,7 @@ Vector<std::size_t> vanished_patches(const Vector<Piece> &pieces) {
   return vanished;
 }
 
-// Old contents may stay in the arrays, because the pieces overwrite everything.
+// Makes room for n triangles. Old contents may stay in the arrays, because the pieces overwrite everything.
 void resize_triangles(std::int64_t n, TriangleSet &triangles) {
   resize(triangles.vertex_id, 3 * n);
   resize(triangles.leaflet_id, n);

@@ -208,7 +208,7 @@ Connectivity make_connectivity(const PatchSet &state, const Triangulation &how, 
 TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked_error, int n_threads) {
   double max_error = asked_error;
   for (const PatchSet &state : given) max_error = std::min(max_error, error_left(state, asked_error));
-  // The remaining error is for openings between the given ones.
+  // Plans with less than the whole error, because the remainder is for openings between the given ones.
   constexpr double share = 0.95;
   const double planned_error = share * max_error;
   // A curve that is shared at only one opening has two numbers at the others. So the state with most curves gives the numbering.

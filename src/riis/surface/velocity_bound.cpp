@@ -197,7 +197,7 @@ class SideInBoth {
   const Curve &now_, &before_;
   const Vector<double> &shares_;
   CurvePoints at_now_, at_before_;
-  // 1 for the state that has one piece more at the start, because a joint passed that end of the curve. Otherwise 0.
+  // For each state, 1 if it has one piece more at the start, because a joint passed that end of the curve. Otherwise 0.
   std::size_t more_now_, more_before_;
 };
 
@@ -319,7 +319,7 @@ ArcRangeInBoth offset_on(const SideInBoth &base, const SideInBoth &edge, std::si
   const double bend = off_line(width, w2.size);
   const Both w0{larger(larger_of(now[0], now[1]), larger_of(before[0], before[1])) + bend,
                 larger(distance(now[0], before[0]), distance(now[1], before[1])) + off_line(width, w2.change)};
-  // No point moves along a curve by more than the curve's length.
+  // Also bounds |W| by the ends of the range, because no point moves along a curve by more than the curve's length.
   const double w_far =
       larger(larger_of(now[0], now[1]), larger_of(before[0], before[1])) + width * (edge.longer() + base.longer());
   const double w_largest = w0.size <= w_far ? w0.size : w_far;

@@ -27,7 +27,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double a
 
 // clang-format off
 ValveKind make_kind() {
-  // These limits suit a valve in any unit from kilometres to micrometres. check_values checks ratios of lengths.
+  // The limits of lengths suit a valve in any unit from kilometres to micrometres. check_values checks ratios of lengths.
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree";
   ValveKind kind{"bileaflet", {

@@ -111,7 +111,7 @@ class SkirtMaker {
     return set_.curves.size() - 1;
   }
 
-  // Two strips that meet share the line between them.
+  // Returns the curve between two points. Two strips that meet share the line between them.
   std::size_t line(Vec3 outer, Vec3 inner) {
     const auto [found, is_new] = lines_.try_emplace({outer.x, outer.y, outer.z, inner.x, inner.y, inner.z}, 0);
     if (is_new) found->second = add_curve(Bezier::line(outer, inner));

@@ -140,8 +140,8 @@ class Valve {
   // Setting that parameter removes the lengths.
   void set_skirt_lengths(SkirtLengths lengths);
 
-  // Fails unless the other valve equals this valve in everything but the opening and the values of a warp. The message names the
-  // first parameter that differs.
+  // Compares with another valve. Fails unless the other valve equals this valve in everything but the opening and the values of a
+  // warp. The message names the first parameter that differs.
   void check_same_but_for_opening(const Valve &other) const;
 
   // Returns whether all parameters but the opening have the kind's defaults.

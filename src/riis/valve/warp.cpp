@@ -362,7 +362,7 @@ void WarpLandmarks::fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &
     for (std::size_t i = 0; i < n; ++i) displacement_[i] = displacement_[i] - dot(axis_[2], scaled_[i]) * terms[3];
   }
   for (std::size_t k = 0; k < n_free_; ++k) {
-    // Two sums at once hide the time of an addition.
+    // Computes two sums at once, which hides the time that an addition takes.
     const double *column = basis_.data() + k * n;
     Vec3 even{0, 0, 0}, odd{0, 0, 0};
     std::size_t i = 0;
