@@ -23,7 +23,7 @@ module riis_adjacencies
       owner_int32_int32, owner_int32_int64, owner_int64_int32, owner_int64_int64
                                                                !< Makes the adjacency from faces between cells.
     generic :: create_from_grid => grid_int32, grid_int64               !< Makes the adjacency of a structured grid.
-    procedure, non_overridable :: is_created => adjacency_is_created    !< Returns whether it was created.
+    procedure, non_overridable :: is_created => adjacency_is_created    !< Returns whether the object was created.
     procedure, non_overridable :: c_handle => adjacency_c_handle        !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => adjacency_destroy          !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -524,7 +524,7 @@ contains
     call riis_adjacency_destroy(this%handle)
   end subroutine adjacency_destroy
 
-  !> Stops the program unless both are empty.
+  !> Stops the program unless both objects are empty.
   impure elemental subroutine adjacency_assign(left, right)
     class(riis_adjacency), intent(inout) :: left                  !< Must be empty.
     class(riis_adjacency), intent(in) :: right                    !< Must be empty.

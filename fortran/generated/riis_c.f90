@@ -311,7 +311,7 @@ module riis_c
     real(c_double) :: least, mean, most  !< the gap at the ends of the edges; the mean is weighted by the edges'
                                          !! lengths. 0 without a wall at any end
     real(c_double) :: widest_point(3)    !< the end of an edge with the widest gap
-    integer(c_int64_t) :: n_ends         !< the ends of edges: 2 * riis_attachment.n_edges
+    integer(c_int64_t) :: n_ends         !< number of ends of edges: 2 * riis_attachment.n_edges
     integer(c_int64_t) :: n_without_wall !< the ends whose line misses the wall. They count in no other field
   end type riis_gap
 
@@ -588,7 +588,7 @@ module riis_c
                                      !! triangles is moved inwards by rim_reach * half_thickness. To first order the
                                      !! result is area - rim_reach * half_thickness * perimeter. It is never below 0
     real(c_double) :: rim_reach      !< the factor c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open
-                                     !! valves gave 0.70 to 0.98 and 0.46 to 0.95 (docs/validation.md)
+                                     !! valves gave 0.70 to 0.98 (round) and 0.46 to 0.95 (cut); see docs/validation.md
     real(c_double) :: half_thickness !< eps of the resistance
     real(c_double) :: radius         !< the radius of the disc, or of a circle as large as a warped disc; 0 for other
                                      !! outlines
@@ -616,8 +616,8 @@ module riis_c
   !> The opening at which a valve first lets the mesh pass.
   type, bind(c) :: riis_first_passage
     real(c_double) :: opening        !< the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE
-    real(c_double) :: closed_opening !< the largest tried opening below `opening`, without a passage; `opening` itself
-                                     !! unless FOUND
+    real(c_double) :: closed_opening !< FOUND: the largest tried opening below `opening`, which has no passage. Else:
+                                     !! `opening`
     integer(c_int64_t) :: node_id    !< the passage at `opening`, as in riis_passage
     real(c_double) :: distance       !< as in riis_passage
     real(c_double) :: point(3)       !< as in riis_passage

@@ -19,7 +19,7 @@ module riis_frames
     type(c_ptr) :: handle = c_null_ptr
   contains
     generic :: create => create_int32, create_int64                 !< Makes the keyframes from the caller's frames.
-    procedure, non_overridable :: is_created => keyframes_is_created    !< Returns whether it was created.
+    procedure, non_overridable :: is_created => keyframes_is_created    !< Returns whether the object was created.
     procedure, non_overridable :: c_handle => keyframes_c_handle        !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => keyframes_destroy          !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -129,7 +129,7 @@ contains
     call riis_keyframes_destroy(this%handle)
   end subroutine keyframes_destroy
 
-  !> Stops the program unless both are empty.
+  !> Stops the program unless both objects are empty.
   impure elemental subroutine keyframes_assign(left, right)
     class(riis_keyframes), intent(inout) :: left            !< Must be empty.
     class(riis_keyframes), intent(in) :: right              !< Must be empty.

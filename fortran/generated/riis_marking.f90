@@ -54,7 +54,7 @@ module riis_marking
     procedure, non_overridable :: band_sums => marks_band_sums         !< Sums a value on each side of the surface.
     generic :: dense => dense_int8, dense_int32, dense_logical          !< Writes one entry per node into the caller's arrays.
     procedure, non_overridable :: get_stats => marks_get_stats         !< Gives the statistics of the last marking.
-    procedure, non_overridable :: is_created => marks_is_created       !< Returns whether it was created.
+    procedure, non_overridable :: is_created => marks_is_created       !< Returns whether the object was created.
     procedure, non_overridable :: c_handle => marks_c_handle           !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => marks_destroy             !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -832,7 +832,7 @@ contains
     call riis_marks_destroy(this%handle)
   end subroutine marks_destroy
 
-  !> Stops the program unless both are empty.
+  !> Stops the program unless both objects are empty.
   impure elemental subroutine marks_assign(left, right)
     class(riis_marks), intent(inout) :: left                !< Must be empty.
     class(riis_marks), intent(in) :: right                  !< Must be empty.

@@ -45,7 +45,7 @@ module riis_meshes
     procedure, non_overridable :: clear_adjacency => mesh_clear_adjacency !< Removes the adjacency.
     procedure, non_overridable :: prepare => mesh_prepare               !< Makes the clusters of RIIS_SEARCH_CLUSTERS now.
     procedure, non_overridable :: n_nodes => mesh_n_nodes               !< Returns the number of nodes.
-    procedure, non_overridable :: is_created => mesh_is_created         !< Returns whether it was created.
+    procedure, non_overridable :: is_created => mesh_is_created         !< Returns whether the object was created.
     procedure, non_overridable :: c_handle => mesh_c_handle             !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => mesh_destroy               !< Frees its memory, not the coordinates.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -630,7 +630,7 @@ contains
     this%n = 0
   end subroutine mesh_destroy
 
-  !> Stops the program unless both are empty.
+  !> Stops the program unless both objects are empty.
   impure elemental subroutine mesh_assign(left, right)
     class(riis_mesh), intent(inout) :: left                  !< Must be empty.
     class(riis_mesh), intent(in) :: right                    !< Must be empty.

@@ -62,7 +62,7 @@ module riis_surfaces
     procedure, non_overridable :: closest_point => surface_closest_point !< Finds the closest point to one point.
     generic :: closest_points => closest_xyz_logical, closest_xyz_int8, closest_x_y_z_logical, closest_x_y_z_int8
                                                                !< Finds the closest points to many points, in parallel.
-    procedure, non_overridable :: is_created => surface_is_created      !< Returns whether it was created.
+    procedure, non_overridable :: is_created => surface_is_created      !< Returns whether the object was created.
     procedure, non_overridable :: c_handle => surface_c_handle          !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => surface_destroy            !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -1053,7 +1053,7 @@ contains
     call riis_surface_destroy(this%handle)
   end subroutine surface_destroy
 
-  !> Stops the program unless both are empty.
+  !> Stops the program unless both objects are empty.
   impure elemental subroutine surface_assign(left, right)
     class(riis_surface), intent(inout) :: left              !< Must be empty.
     class(riis_surface), intent(in) :: right                !< Must be empty.
