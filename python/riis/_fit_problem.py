@@ -204,7 +204,7 @@ class Problem:
         return self.surface
 
     def look(self, x: Reals) -> Seen | None:
-        """Computes the points' positions relative to the valve at x. Returns None if its values do not fit together."""
+        """Computes the points' positions relative to the valve at x. Returns None if the valve's values do not fit together."""
         surface, pose = self.set_valve(x), self.pose(x)
         if surface is None:
             return None

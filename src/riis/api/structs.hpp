@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every struct crosses the interface with its size, so that callers compiled against an older header keep working. If the
-// caller's header lacks a field, the field has its default when the library reads the struct. The library does not write it.
+// caller's header lacks a field, the field has its default when the library reads the struct. The library does not write such a
+// field.
 #pragma once
 
 #include <algorithm>

@@ -21,8 +21,8 @@ class UpdatableSurface {
   const Surface &surface() const { return *surface_; }
   const SurfaceSeconds &seconds() const { return seconds_; }
 
-  // These functions fail as make_surface does, and a failure leaves the surface unchanged. If request.n_threads is 0, the number
-  // of threads follows from the last surface's number of triangles. The first update with accuracy.is_fixed fixes the
+  // The update functions fail as make_surface does, and a failure leaves the surface unchanged. If request.n_threads is 0, the
+  // number of threads follows from the last surface's number of triangles. The first update with accuracy.is_fixed fixes the
   // triangulation. An update without it ends the fixed triangulation.
   void update_from_valve(const Valve &valve, const ValveMotion *motion, const SurfaceRequest &request,
                          const ValveAccuracy &accuracy);

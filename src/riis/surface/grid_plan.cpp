@@ -224,7 +224,7 @@ constexpr double most_of_allowed = 0.9;
 // between least_steps and most_steps.
 constexpr int steps_per_segment = 4;
 constexpr std::size_t least_steps = 64, most_steps = 4096;
-// To save time, the needs come from one in this many states only. Later the lines are checked in every state.
+// To save time, only one state out of this many determines the needs. Later the lines are checked in every state.
 constexpr std::size_t states_per_need = 4;
 
 // Halves those steps of a list that are too large. `is_too_large` has an entry for each step.
