@@ -233,7 +233,7 @@ RIIS_API riis_status riis_valve_create_from_patches(const riis_patches *patches,
 
 /* The description of a parameter. The texts are static. */
 typedef struct riis_parameter {
-  const char *name;        /* as riis_valve_set takes it */
+  const char *name;        /* the name as riis_valve_set takes it */
   const char *unit;        /* "length", "degree" or "1" */
   const char *description; /* one line */
   int64_t n_values;        /* 1 or 3 */
@@ -540,7 +540,8 @@ typedef struct riis_warp_info {
   double largest_residual;     /* the largest distance between a mapped source and its target */
   int64_t largest_landmark_id; /* its landmark */
   double smoothing;            /* lambda of the smoothing, 0 without noise; infinite if the map is affine */
-  double least_determinant;    /* the least determinant half way from each landmark to its nearest */
+  double least_determinant;    /* the least determinant of the map's derivative, half way from a landmark to the
+                                  nearest other one */
   double least_point[3];       /* the point between the sources where the determinant is least */
   int32_t is_planar;           /* 1 if the landmarks lie nearly in a plane, else 0 */
   int32_t reserved;            /* 0 */
@@ -1148,9 +1149,9 @@ enum {
 typedef struct riis_passage {
   int64_t node_id;  /* the path's node that is nearest to the surface; -1 without a path. Of nodes at equal
                        distances, the one with the higher id counts as nearest */
-  double distance;  /* the distance of that node. A half thickness closes the passage, for these triangles, if it
+  double distance;  /* the distance of node_id. A half thickness closes the passage, for these triangles, if it
                        is at least this distance; a smaller one leaves it open. 0 without a path */
-  double point[3];  /* the coordinates of that node; 0 without a path */
+  double point[3];  /* the coordinates of node_id; 0 without a path */
   double seconds;   /* wall time of riis_find_passage */
   int32_t state;    /* RIIS_PASSAGE_* */
   int32_t reserved; /* 0 */
@@ -1340,7 +1341,7 @@ enum {
   RIIS_LANDMARK_COMMISSURE = 0,     /* three cusps: the top of the attachment between two of them; exactly 3 */
   RIIS_LANDMARK_NADIR = 1,          /* three cusps: the lowest point of a cusp's attachment; exactly 3 */
   RIIS_LANDMARK_COAPTATION = 2,     /* three cusps: where the closed cusps meet; at most 1. The valve's axis
-                                       passes it; its height is not used */
+                                       passes through it; its height is not used */
   RIIS_LANDMARK_ANNULUS = 3,        /* mitral: a point of the annulus; 4 or more, in their order around it.
                                        bileaflet: a point of the housing's circle at mid-height; 3 or more */
   RIIS_LANDMARK_ANTERIOR_HORN = 4,  /* mitral: the annulus at the middle of the anterior leaflet; exactly 1 */

@@ -44,7 +44,7 @@ std::string words_for(const Landmarks &landmarks, std::size_t i);
 
 // Refuses landmarks whose distance from their mean is not that of a heart valve. The message has the size in the other units.
 void check_unit(const Landmarks &landmarks);
-// Refuses landmarks whose role is not one of these, which the kind of valve uses.
+// Refuses a landmark whose role is not one of `roles`. These are the roles that this kind of valve uses.
 void check_roles(const Landmarks &landmarks, const char *kind, const std::vector<std::int32_t> &roles);
 // Refuses a number of landmarks with this role that is out of range. `most` is 0 if there is no upper limit.
 void check_count(const Landmarks &landmarks, const char *kind, std::int32_t role, std::size_t least, std::size_t most);

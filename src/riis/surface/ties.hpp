@@ -30,7 +30,7 @@ struct TieRule {
 };
 
 struct Tie {
-  std::int64_t point;  // a number that the search chooses, later a node
+  std::int64_t point;  // the query point's number, which the search chooses; at last a node
   ClosestTriangle triangle;
 };
 

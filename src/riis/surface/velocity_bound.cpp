@@ -84,7 +84,7 @@ Derivatives changes_on(const Bezier &now, const Bezier &before, double from, dou
           larger(distance(start[1], start_before[1]), distance(end[1], end_before[1])), third};
 }
 
-// Bounds a curve on a range. Sizes are infinite if the curve may stand still in one of the states.
+// Bounds a curve on a range. The bounds are infinite if the curve's tangent may vanish in one of the two states.
 AlongCurve along(const CurveRange &on) {
   const double from = std::min(on.t_now[0], on.t_before[0]), to = std::max(on.t_now[1], on.t_before[1]);
   const Derivatives now = sizes_on(*on.now, from, to), before = sizes_on(*on.before, from, to);

@@ -233,7 +233,7 @@ Bezier symmetry_curve(const Frame &frame, Vec3 end, Vec3 up) {
 }
 
 // The open free edge is round, like an arc of a circle seen along the axis. The symmetry curve is straight, and the coaptation
-// zone keeps its share of it.
+// zone has the same share of its length as in the closed state.
 Frame open_frame(const ParameterValues &values) {
   const auto value = [&](Parameter parameter) { return values[parameter][0]; };
   const Frame closed = closed_frame(values);

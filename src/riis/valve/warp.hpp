@@ -57,7 +57,7 @@ struct WarpQuality {
   double rms_residual, largest_residual;  // distances of mapped sources from their targets
   std::int64_t largest_landmark;
   double smoothing;          // lambda; infinite if the map is affine
-  double least_determinant;  // the least of the determinants at the places half way from each landmark to its nearest
+  double least_determinant;  // the least determinant, half way from a landmark to the nearest other landmark
   Vec3 least_point;          // where the determinant is least
   std::int64_t least_landmark;
 };
@@ -98,7 +98,7 @@ class WarpLandmarks {
   Vector<double> least_squares_;      // (n_terms_, n): gives the polynomial nearest to values
   Vector<double> of_kernel_;          // (n_terms_, n): the same for values of sums of |r|^3, by their weights
   Vector<double> diagonal_, beside_;  // diagonals of the tridiagonal matrix U^T |r|^3 U
-  // The places half way from each landmark to its nearest. A map that folds between landmarks changes most there.
+  // The places half way from each landmark to the nearest other one. A map that folds between landmarks changes most there.
   struct Probe {
     Vec3 place;
     std::int64_t landmark;
