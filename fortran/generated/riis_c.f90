@@ -285,7 +285,8 @@ module riis_c
     real(c_double) :: largest_residual        !< the largest distance between a mapped source and its target
     integer(c_int64_t) :: largest_landmark_id !< its landmark
     real(c_double) :: smoothing               !< lambda of the smoothing, 0 without noise; infinite if the map is affine
-    real(c_double) :: least_determinant       !< the least determinant half way from each landmark to its nearest
+    real(c_double) :: least_determinant       !< the least determinant of the map's derivative, half way from a landmark
+                                              !! to the nearest other one
     real(c_double) :: least_point(3)          !< the point between the sources where the determinant is least
     integer(c_int32_t) :: is_planar           !< 1 if the landmarks lie nearly in a plane, else 0
     integer(c_int32_t) :: reserved            !< 0
@@ -546,10 +547,9 @@ module riis_c
   type, bind(c) :: riis_passage
     integer(c_int64_t) :: node_id  !< the path's node that is nearest to the surface; -1 without a path. Of nodes at
                                    !! equal distances, the one with the higher id counts as nearest
-    real(c_double) :: distance     !< the distance of that node. A half thickness closes the passage, for these
-                                   !! triangles, if it is at least this distance; a smaller one leaves it open. 0
-                                   !! without a path
-    real(c_double) :: point(3)     !< the coordinates of that node; 0 without a path
+    real(c_double) :: distance     !< the distance of node_id. A half thickness closes the passage, for these triangles,
+                                   !! if it is at least this distance; a smaller one leaves it open. 0 without a path
+    real(c_double) :: point(3)     !< the coordinates of node_id; 0 without a path
     real(c_double) :: seconds      !< wall time of riis_find_passage
     integer(c_int32_t) :: state    !< RIIS_PASSAGE_*
     integer(c_int32_t) :: reserved !< 0

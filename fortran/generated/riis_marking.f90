@@ -75,7 +75,7 @@ module riis_marking
     module procedure mark_nodes_int32
   end interface riis_mark_nodes
 
-  ! Empty pointers get these targets, so that their size can be taken.
+  ! A pointer without entries gets one of these targets, because size() of a null pointer is not defined.
   real(c_double), target, save :: no_reals(0), no_vectors(3, 0), no_uv(2, 0)
   integer(int32), target, save :: no_int32(0)
   integer(int64), target, save :: no_int64(0)

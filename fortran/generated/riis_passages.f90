@@ -211,7 +211,7 @@ contains
     call finish(code, status)
   end subroutine find_passage_int32_int64
 
-  ! Makes ids from node numbers. This is the only copy. Does nothing after an error.
+  ! Makes ids from node numbers: the only copy of the numbers. Does nothing after an error.
   subroutine get_ids_int32(numbers, ids, code)
     integer(int32), intent(in) :: numbers(:)
     integer(int64), allocatable, intent(out) :: ids(:)
@@ -223,7 +223,7 @@ contains
     if (code == RIIS_OK) ids = int(numbers, int64) - 1
   end subroutine get_ids_int32
 
-  ! Makes ids from node numbers. This is the only copy. Does nothing after an error.
+  ! Makes ids from node numbers: the only copy of the numbers. Does nothing after an error.
   subroutine get_ids_int64(numbers, ids, code)
     integer(int64), intent(in) :: numbers(:)
     integer(int64), allocatable, intent(out) :: ids(:)

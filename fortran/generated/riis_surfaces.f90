@@ -81,7 +81,7 @@ module riis_surfaces
     procedure, private, non_overridable :: closest_x_y_z_int8 => surface_closest_points_x_y_z_int8
   end type riis_surface
 
-  ! Empty pointers get these targets, so that their size can be taken.
+  ! A pointer without entries gets one of these targets, because size() of a null pointer is not defined.
   real(c_double), target, save :: no_points(3, 0), no_uv(2, 0)
   integer(int32), target, save :: no_int32(0)
   real(c_double), target, save :: no_edges(3, 2, 0)
