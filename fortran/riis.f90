@@ -25,7 +25,7 @@
 !!   destroyed. Each thread has its own message. Messages name the C arguments and count from 0.
 !! - Objects. Each is empty until it is created, and must be destroyed: the end of a scope does not destroy it. An
 !!   intent(out) argument loses its object. Creating an object twice is an error, and so is the use of an empty object.
-!!   Destroying it twice is allowed. Objects cannot be copied: a = b stops the program unless both are empty. Pass them as
+!!   Destroying an empty object is allowed. Objects cannot be copied: a = b stops the program unless both are empty. Pass them as
 !!   arguments or point to them; functions cannot return them. Array constructors and allocate(..., source=...) copy objects
 !!   without an error. So does gfortran when it assigns a variable of a type with objects in allocatable components, such as
 !!   type(riis_valve), allocatable :: v. Avoid all of these, and do not enlarge an array of objects by assignment.
@@ -35,7 +35,7 @@
 !!   library writes have the same kind as in C: triangle_id integer(int64), leaflet_id, patch_id and side integer(int32).
 !! - Counting. Anything called *_id counts from 0, as in C, including triangle_id and leaflet_id (RIIS_LEAFLET_*). Anything called
 !!   node_num counts from 1. Ids that the caller gives count from index_base, by default 1.
-!! - Reals are real(c_double), real(8) with most compilers. Lengths have one unit of the caller's choice, angles are in
+!! - Reals are real(c_double), real(8) with most compilers. Lengths have one unit of the caller's choice, and angles are in
 !!   degrees.
 !! - Arrays are whole or sections. Coordinates are read in place, with any positive stride. The coordinates of a mesh and
 !!   the rows of an adjacency are borrowed beyond the call: riis_mesh describes how, and which arguments to avoid. Other arrays
@@ -164,7 +164,7 @@ module riis
 
 contains
 
-  ! A pure function may give the length of a result, and it may call only functions that are declared pure. So this interface
+  ! The length of a function's result may come from a pure function, which may call only pure functions. So this interface
   ! declares the C function pure.
   pure function error_length() result(length)
     integer :: length
@@ -240,7 +240,7 @@ contains
     type(c_funptr) :: location
     if (present(procedure)) then
       location = c_funloc(procedure)
-      ! The library stores function and user data together under a lock, so the procedure is passed as user data.
+      ! The Fortran procedure is passed as user data, because the library stores function and user data together under a lock.
       call c_set_log(c_funloc(pass_message), transfer(location, c_null_ptr))
     else
       call c_set_log(c_null_funptr, c_null_ptr)

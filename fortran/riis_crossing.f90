@@ -32,7 +32,7 @@ module riis_crossing
     type(c_ptr) :: handle = c_null_ptr
   contains
     procedure, non_overridable :: get_list => crossings_get_list        !< Gives the pairs.
-    procedure, non_overridable :: is_created => crossings_is_created    !< Returns whether it was created.
+    procedure, non_overridable :: is_created => crossings_is_created    !< Returns whether the object was created.
     procedure, non_overridable :: c_handle => crossings_c_handle        !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => crossings_destroy          !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -44,7 +44,7 @@ module riis_crossing
     module procedure find_crossings
   end interface riis_find_crossings
 
-  ! Empty pointers get these targets, so that their size can be taken.
+  ! A pointer without entries gets one of these targets, because the size of a null pointer is not defined.
   real(c_double), target, save :: no_reals(0), no_points(3, 0)
   integer(int64), target, save :: no_pairs(2, 0)
 
@@ -124,7 +124,7 @@ contains
     call riis_crossings_destroy(this%handle)
   end subroutine crossings_destroy
 
-  !> Stops the program unless both are empty.
+  !> Stops the program unless both objects are empty.
   impure elemental subroutine crossings_assign(left, right)
     class(riis_crossings), intent(inout) :: left            !< Must be empty.
     class(riis_crossings), intent(in) :: right              !< Must be empty.

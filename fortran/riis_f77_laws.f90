@@ -2,9 +2,9 @@
 !> The external subroutines for laws of opening. The conventions are those of riis_f77.f90.
 !!
 !! The same arguments give the same bits, and nothing is kept between calls. Times, pressures and flows have the solver's units.
-!! The pressure difference is upstream pressure minus downstream pressure, and flow is positive downstream, so both open a valve.
-!! A state is an array. If a restart file contains it, unformatted or in full precision, the law continues with the same bits. To
-!! repeat a step, start from a copy of the state. The rate is the derivative of the opening by time.
+!! The pressure difference is upstream pressure minus downstream pressure, and flow is positive downstream, so positive values of
+!! both open a valve. A state is an array. If a restart file contains it, unformatted or in full precision, the law continues with
+!! the same bits. To repeat a step, start from a copy of the state. The rate is the derivative of the opening by time.
 
 !> Gives the opening at a time from a table of keys. Errors: RIIS_INVALID_ARGUMENT naming the key, counted from 0, and its value.
 subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, interpolation, time, opening, rate, status)

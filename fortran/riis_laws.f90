@@ -2,11 +2,11 @@
 !> Laws of opening: riis_opening_* of riis.h, as a part of module riis.
 !!
 !! The same arguments give the same bits, and nothing is kept between calls. Times, pressures and flows have the solver's units.
-!! The pressure difference is upstream pressure minus downstream pressure, and flow is positive downstream, so both open a valve.
-!! Laws and states are ordinary variables, which are neither created nor destroyed. A structure constructor makes a law: in
-!! riis_opening_switch(opening_duration=0.04d0, closing_duration=0.04d0) the other components have their defaults. A state can be
-!! copied by =, for a step that may be repeated. If a restart file contains the state, by an unformatted WRITE or in full
-!! precision, the law continues with the same bits.
+!! The pressure difference is upstream pressure minus downstream pressure, and flow is positive downstream, so positive values of
+!! both open a valve. Laws and states are ordinary variables, which are neither created nor destroyed. A structure constructor
+!! makes a law: in riis_opening_switch(opening_duration=0.04d0, closing_duration=0.04d0) the other components have their defaults.
+!! A state can be copied by =, for a step that may be repeated. If a restart file contains the state, by an unformatted WRITE or
+!! in full precision, the law continues with the same bits.
 module riis_laws
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -202,9 +202,9 @@ contains
   end subroutine advance_switch
 
   !> Advances the angle law to a time. Pressure difference and flow are taken as linear over the step, which makes the angle
-  !! accurate to second order in the time step. If there are no earlier values, the present ones are used for the whole step.
-  !! Errors: RIIS_INVALID_ARGUMENT naming the argument or component and its value; RIIS_LIMIT_EXCEEDED for a step so long that it
-  !! would need more than a million inner steps.
+  !! accurate to second order in the time step. If the state has no earlier values of both, the present ones are used for the
+  !! whole step. Errors: RIIS_INVALID_ARGUMENT naming the argument or component and its value; RIIS_LIMIT_EXCEEDED for a step so
+  !! long that it would need more than a million inner steps.
   subroutine advance_angle(law, state, time, pressure_difference, flow, status)
     type(riis_opening_angle), intent(in) :: law             !< The law.
     type(riis_opening_angle_state), intent(inout) :: state  !< Its state, which is advanced to the time. Unchanged on an error.

@@ -33,7 +33,7 @@ module riis_leaking
     type(c_ptr) :: handle = c_null_ptr
   contains
     procedure, non_overridable :: get_list => leaks_get_list            !< Gives the edges.
-    procedure, non_overridable :: is_created => leaks_is_created        !< Returns whether it was created.
+    procedure, non_overridable :: is_created => leaks_is_created        !< Returns whether the object was created.
     procedure, non_overridable :: c_handle => leaks_c_handle            !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => leaks_destroy              !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -47,7 +47,7 @@ module riis_leaking
     module procedure find_leaks_int32
   end interface riis_find_leaks
 
-  ! Empty pointers get this target, so that their size can be taken.
+  ! A pointer without entries gets this target, because the size of a null pointer is not defined.
   real(c_double), target, save :: no_reals(0)
   integer(int64), target, save :: no_edges(2, 0)
 
@@ -74,7 +74,7 @@ contains
     call finish(code, status)
   end subroutine find_leaks_logical
 
-  !> Does the same with a mask of bytes. Only a section that is not contiguous is copied.
+  !> Implements riis_find_leaks for a mask of bytes. Only a section that is not contiguous is copied.
   subroutine find_leaks_int8(surface, mesh, marks, leaks, node_mask, n_threads, status)
     class(riis_surface), intent(in) :: surface              !< The surface of the marking.
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
@@ -89,7 +89,7 @@ contains
     call finish(code, status)
   end subroutine find_leaks_int8
 
-  !> Does the same with a mask of integers, which is copied.
+  !> Implements riis_find_leaks for a mask of integers, which is copied.
   subroutine find_leaks_int32(surface, mesh, marks, leaks, node_mask, n_threads, status)
     class(riis_surface), intent(in) :: surface              !< The surface of the marking.
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
@@ -178,7 +178,7 @@ contains
     call riis_leaks_destroy(this%handle)
   end subroutine leaks_destroy
 
-  !> Stops the program unless both are empty.
+  !> Stops the program unless both objects are empty.
   impure elemental subroutine leaks_assign(left, right)
     class(riis_leaks), intent(inout) :: left                !< Must be empty.
     class(riis_leaks), intent(in) :: right                  !< Must be empty.

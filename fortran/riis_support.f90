@@ -36,8 +36,8 @@ module riis_support
     module procedure get_int64
   end interface get_integer
 
-  !> Converts a mask to bytes: 1 for .true. and for numbers other than 0. An absent mask gives bytes that are not allocated. As an
-  !! optional argument these count as absent.
+  !> Converts a mask to bytes: 1 for .true. and for numbers other than 0. If the mask is absent, the bytes stay unallocated. As an
+  !! actual argument they then count as absent also.
   interface get_mask
     module procedure get_mask_logical
     module procedure get_mask_int32
@@ -82,7 +82,7 @@ contains
     same = riis_component_error(code, riis_c_string(text))
   end function fail
 
-  !> Does the same for RIIS_INVALID_ARGUMENT, the most frequent error.
+  !> Sets the message of RIIS_INVALID_ARGUMENT, the most frequent error, and returns this status.
   function refuse(text) result(code)
     character(len=*), intent(in) :: text                    !< The fault, with the argument's name and value.
     integer(riis_status) :: code                            !< RIIS_INVALID_ARGUMENT.
@@ -139,7 +139,7 @@ contains
       text_of(expected) // ' ' // of)
   end function check_size
 
-  !> Does the same as riis_c_string, but writes to the caller's memory. gfortran would allocate a function's text in every call.
+  !> Works like riis_c_string, but writes to the caller's memory, because gfortran would allocate a function's text in every call.
   subroutine end_for_c(text, c_text)
     character(len=*), intent(in) :: text                    !< Any text.
     character(len=*, kind=c_char), intent(out) :: c_text    !< Of the length len_trim(text) + 1.

@@ -58,7 +58,7 @@ module riis_valves
     procedure, non_overridable :: get_patches => valve_get_patches      !< Points to the valve's curves and patches.
     procedure, non_overridable :: n_parameters => valve_n_parameters    !< Returns the number of parameters.
     generic :: parameter => parameter_int32, parameter_int64            !< Describes a parameter.
-    procedure, non_overridable :: is_created => valve_is_created        !< Returns whether it was created.
+    procedure, non_overridable :: is_created => valve_is_created        !< Returns whether the object was created.
     procedure, non_overridable :: c_handle => valve_c_handle            !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => valve_destroy              !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -147,7 +147,7 @@ contains
     call finish(code, status)
   end subroutine valve_from_patches_int32
 
-  !> Does the same for integer(int64). These arrays are copied.
+  !> Implements %create_from_patches for integer(int64). These arrays are copied.
   subroutine valve_from_patches_int64(this, degree, control, curve_id, reversed, leaflet_id, index_base, status)
     class(riis_valve), intent(inout) :: this                     !< Must be empty.
     integer(int64), intent(in) :: degree(:)                      !< (n_curves).
@@ -172,7 +172,7 @@ contains
     end if
   end subroutine valve_from_patches_int64
 
-  ! Checks that there are as many entries as the library will read.
+  ! Checks that each array has as many entries as the library will read.
   function check_patches(degree, control, curve_id, reversed, leaflet_id) result(code)
     integer(int32), intent(in) :: degree(:)
     real(c_double), intent(in) :: control(:, :)
@@ -438,7 +438,7 @@ contains
     call riis_valve_destroy(this%handle)
   end subroutine valve_destroy
 
-  !> Stops the program unless both are empty.
+  !> Stops the program unless both objects are empty.
   impure elemental subroutine valve_assign(left, right)
     class(riis_valve), intent(inout) :: left                !< Must be empty.
     class(riis_valve), intent(in) :: right                  !< Must be empty.

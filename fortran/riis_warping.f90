@@ -21,7 +21,7 @@ module riis_warping
     procedure, non_overridable :: set_targets_at => warp_set_targets_at !< Takes them to their places at a time.
     procedure, non_overridable :: map => warp_map                       !< Maps points.
     procedure, non_overridable :: get_info => warp_get_info             !< Gives the quality of the warp.
-    procedure, non_overridable :: is_created => warp_is_created         !< Returns whether it was created.
+    procedure, non_overridable :: is_created => warp_is_created         !< Returns whether the object was created.
     procedure, non_overridable :: c_handle => warp_c_handle             !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => warp_destroy               !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -37,8 +37,8 @@ contains
     class(riis_warp), intent(inout) :: this                 !< Must be empty.
     real(c_double), intent(in), contiguous, target :: sources(:, :) !< (3, n): 3 to 1000 landmarks.
     real(c_double), intent(in), optional :: noise           !< Standard deviation of each coordinate of the targets, >= 0. The map
-                                                            !! is smoothed until it misses them by about that much. Default 0:
-                                                            !! the map meets the targets exactly.
+                                                            !! is smoothed until it misses the targets by about that much. Default
+                                                            !! 0: the map meets the targets exactly.
     real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12. Default 1.
     real(c_double), intent(in), optional :: rotation_axis(:) !< (3), at least 1e-50 long. Default (0, 0, 1).
     real(c_double), intent(in), optional :: rotation_angle  !< Degrees. Default 0.
@@ -97,7 +97,7 @@ contains
     points%z = c_loc(xyz(3, 1))
   end subroutine get_points
 
-  !> Takes the landmarks to these places. The same targets give the same bits, whatever the targets before them. Errors:
+  !> Takes the landmarks to these places. The same targets give the same bits, even after other targets. Errors:
   !! RIIS_INVALID_ARGUMENT naming the landmark; RIIS_INVALID_PARAMETER for a warp that folds, with the place and the determinant.
   subroutine warp_set_targets(this, targets, status)
     class(riis_warp), intent(inout) :: this                 !< Must be created.
@@ -189,7 +189,7 @@ contains
     call riis_warp_destroy(this%handle)
   end subroutine warp_destroy
 
-  !> Stops the program unless both are empty.
+  !> Stops the program unless both objects are empty.
   impure elemental subroutine warp_assign(left, right)
     class(riis_warp), intent(inout) :: left                 !< Must be empty.
     class(riis_warp), intent(in) :: right                   !< Must be empty.

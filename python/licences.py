@@ -2,7 +2,7 @@
 """licences.py FOLDER MODULE: puts the licences of everything in a wheel into its metadata, as texts and as an expression.
 
 FOLDER  the wheel, repaired by auditwheel and unpacked
-MODULE  the extension module before the repair; it still loads the system's libraries, which the wheel copies
+MODULE  the extension module before the repair; this module still loads the system's libraries, which the wheel contains as copies
 
 Debian keeps the licence of each package in /usr/share/doc, and the texts that it refers to in /usr/share/common-licenses. The
 module itself contains parts of nanobind and of its robin_map. The Python that runs this script must have the nanobind that built
@@ -44,7 +44,7 @@ def expression_of(own, libraries):
 
 
 def texts_of_nanobind():
-    """Returns the licences of nanobind and of robin_map. The latter is the comment at the top of robin_map's header."""
+    """Returns the licences of nanobind and of robin_map. That of robin_map is the comment at the top of its header."""
     files = {file.name: file for file in importlib.metadata.files("nanobind")}
     header = files["robin_map.h"].read_text(encoding="utf-8")
     comment = header[: header.index("*/") + 2]

@@ -16,7 +16,7 @@ AS_IN_C = "as in riis.h"  # the table's text for a struct whose comments come fr
 WIDTH = 120  # of wrapped lines
 RULE = "! " + "-" * 113
 
-# How an argument is declared: "TYPE, ATTRIBUTES :: name SHAPE". `note` is the beginning of its comment.
+# How an argument is declared: "TYPE, ATTRIBUTES :: name SHAPE". `note` is the beginning of the argument's comment.
 Declared = namedtuple("Declared", "type attributes shape note")
 # ORDER is the order of the words that the table may have for an argument; "(" stands for a shape. The dictionary gives the words
 # for each sort of argument, and their meaning.
@@ -83,7 +83,7 @@ class Bindings:
         self.struct_names = {struct.name for struct in header.structs}
         self.callback_names = {callback.name for callback in header.callbacks}
         self.problems = []
-        self.missing = {}  # lines that the table lacks, by entry
+        self.missing = {}  # for each entry, the lines that the table lacks
         self.used = set()  # entries of the table that were used, (entry, None), and names in them, (entry, name)
 
     # Entries that the table lacks, and useless ones -----------------------------------------------------------------
@@ -246,7 +246,7 @@ class Bindings:
         return None
 
     def words_for(self, function, entry, argument, sort):
-        """Returns the table's words for the argument, or () if they do not suit it."""
+        """Returns the table's words for the argument, or () if these words do not suit the argument."""
         line = self.line_of(entry, argument.name)
         words = line.words if line else []
         plain = sorted(("(" if word.startswith("(") else word for word in words), key=ORDER.index)
@@ -302,7 +302,7 @@ class Bindings:
         lines = prose("    ", entry.text)
         if not lines and function.result == ("char", True, 1):
             lines = ["For riis_c_text."]
-        entries, told = [], {}  # told: notes, by the line of the table
+        entries, told = [], {}  # told: the notes, for each line of the table
         structs = [each.name for each in function.arguments if self.sort_of(each.type) == "struct to write"]
         for argument, how in zip(function.arguments, declared):
             line = entry.line_of(argument.name)

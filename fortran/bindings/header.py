@@ -50,7 +50,7 @@ class Header:
         self.problems = []
         self.functions, self.structs, self.enums, self.macros, self.sections = [], [], [], [], []
         self.typedefs, self.handles, self.callbacks = {}, set(), []
-        # Comments become blanks, so that the position of everything else stays the same.
+        # Comments become blanks, so that everything else keeps its position.
         self.code = COMMENT.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), self.raw)
         self.read_sections()
         self.read_macros()

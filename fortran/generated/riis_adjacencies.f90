@@ -23,7 +23,7 @@ module riis_adjacencies
       owner_int32_int32, owner_int32_int64, owner_int64_int32, owner_int64_int64
                                                                !< Makes the adjacency from faces between cells.
     generic :: create_from_grid => grid_int32, grid_int64               !< Makes the adjacency of a structured grid.
-    procedure, non_overridable :: is_created => adjacency_is_created    !< Returns whether it was created.
+    procedure, non_overridable :: is_created => adjacency_is_created    !< Returns whether the object was created.
     procedure, non_overridable :: c_handle => adjacency_c_handle        !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => adjacency_destroy          !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -72,7 +72,7 @@ contains
     call finish(code, status)
   end subroutine adjacency_cells_int32_int32
 
-  !> Does the same for other integer kinds.
+  !> Implements %create_from_cells for other integer kinds.
   subroutine adjacency_cells_int32_int64(this, n_nodes, cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
@@ -91,7 +91,7 @@ contains
     call finish(code, status)
   end subroutine adjacency_cells_int32_int64
 
-  !> Does the same for other integer kinds.
+  !> Implements %create_from_cells for other integer kinds.
   subroutine adjacency_cells_int64_int32(this, n_nodes, cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
@@ -110,7 +110,7 @@ contains
     call finish(code, status)
   end subroutine adjacency_cells_int64_int32
 
-  !> Does the same for other integer kinds.
+  !> Implements %create_from_cells for other integer kinds.
   subroutine adjacency_cells_int64_int64(this, n_nodes, cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
@@ -129,8 +129,8 @@ contains
     call finish(code, status)
   end subroutine adjacency_cells_int64_int64
 
-  !> Does the same for mixed cells. If offsets begins with 1, the nodes of cell i are node_ids(offsets(i) : offsets(i + 1) -
-  !! 1).
+  !> Makes an adjacency from cells of several shapes. If offsets begins with 1, the nodes of cell i are node_ids(offsets(i) :
+  !! offsets(i + 1) - 1).
   subroutine adjacency_mixed_int32_int32(this, n_nodes, node_ids, offsets, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
@@ -158,7 +158,7 @@ contains
     call finish(code, status)
   end subroutine adjacency_mixed_int32_int32
 
-  !> Does the same for other integer kinds.
+  !> Implements %create_from_cells for other integer kinds.
   subroutine adjacency_mixed_int32_int64(this, n_nodes, node_ids, offsets, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
@@ -186,7 +186,7 @@ contains
     call finish(code, status)
   end subroutine adjacency_mixed_int32_int64
 
-  !> Does the same for other integer kinds.
+  !> Implements %create_from_cells for other integer kinds.
   subroutine adjacency_mixed_int64_int32(this, n_nodes, node_ids, offsets, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
@@ -214,7 +214,7 @@ contains
     call finish(code, status)
   end subroutine adjacency_mixed_int64_int32
 
-  !> Does the same for other integer kinds.
+  !> Implements %create_from_cells for other integer kinds.
   subroutine adjacency_mixed_int64_int64(this, n_nodes, node_ids, offsets, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
@@ -293,7 +293,7 @@ contains
     call finish(code, status)
   end subroutine adjacency_faces_int32_int32
 
-  !> Does the same for other integer kinds.
+  !> Implements %create_from_faces for other integer kinds.
   subroutine adjacency_faces_int32_int64(this, n_cells, face_cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int32), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
@@ -318,7 +318,7 @@ contains
     call finish(code, status)
   end subroutine adjacency_faces_int32_int64
 
-  !> Does the same for other integer kinds.
+  !> Implements %create_from_faces for other integer kinds.
   subroutine adjacency_faces_int64_int32(this, n_cells, face_cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
@@ -343,7 +343,7 @@ contains
     call finish(code, status)
   end subroutine adjacency_faces_int64_int32
 
-  !> Does the same for other integer kinds.
+  !> Implements %create_from_faces for other integer kinds.
   subroutine adjacency_faces_int64_int64(this, n_cells, face_cells, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
@@ -368,7 +368,7 @@ contains
     call finish(code, status)
   end subroutine adjacency_faces_int64_int64
 
-  !> Does the same with the two cells of a face in separate arrays.
+  !> Makes an adjacency from faces whose two cells are in separate arrays.
   subroutine adjacency_owner_int32_int32(this, n_cells, owner, neighbor, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int32), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
@@ -391,7 +391,7 @@ contains
     call finish(code, status)
   end subroutine adjacency_owner_int32_int32
 
-  !> Does the same for other integer kinds.
+  !> Implements %create_from_faces for other integer kinds.
   subroutine adjacency_owner_int32_int64(this, n_cells, owner, neighbor, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int32), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
@@ -414,7 +414,7 @@ contains
     call finish(code, status)
   end subroutine adjacency_owner_int32_int64
 
-  !> Does the same for other integer kinds.
+  !> Implements %create_from_faces for other integer kinds.
   subroutine adjacency_owner_int64_int32(this, n_cells, owner, neighbor, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
@@ -437,7 +437,7 @@ contains
     call finish(code, status)
   end subroutine adjacency_owner_int64_int32
 
-  !> Does the same for other integer kinds.
+  !> Implements %create_from_faces for other integer kinds.
   subroutine adjacency_owner_int64_int64(this, n_cells, owner, neighbor, index_base, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: n_cells                   !< >= 1: the nodes of the mesh are cell centres.
@@ -487,7 +487,7 @@ contains
     call adjacency_grid_int64(this, int(ni, int64), int(nj, int64), int(nk, int64), n_threads, status)
   end subroutine adjacency_grid_int32
 
-  !> Does the same for integer(int64).
+  !> Implements %create_from_grid for integer(int64).
   subroutine adjacency_grid_int64(this, ni, nj, nk, n_threads, status)
     class(riis_adjacency), intent(inout) :: this            !< Must be empty.
     integer(int64), intent(in) :: ni                        !< >= 1.
@@ -524,7 +524,7 @@ contains
     call riis_adjacency_destroy(this%handle)
   end subroutine adjacency_destroy
 
-  !> Stops the program unless both are empty.
+  !> Stops the program unless both objects are empty.
   impure elemental subroutine adjacency_assign(left, right)
     class(riis_adjacency), intent(inout) :: left                  !< Must be empty.
     class(riis_adjacency), intent(in) :: right                    !< Must be empty.

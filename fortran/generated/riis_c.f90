@@ -282,11 +282,12 @@ module riis_c
   type, bind(c) :: riis_warp_info
     integer(c_int64_t) :: n_landmarks         !< the number of landmarks
     real(c_double) :: rms_residual            !< root mean square of the distances between mapped sources and targets
-    real(c_double) :: largest_residual        !< the largest of these distances
+    real(c_double) :: largest_residual        !< the largest distance between a mapped source and its target
     integer(c_int64_t) :: largest_landmark_id !< its landmark
     real(c_double) :: smoothing               !< lambda of the smoothing, 0 without noise; infinite if the map is affine
-    real(c_double) :: least_determinant       !< the least determinant half way from each landmark to its nearest
-    real(c_double) :: least_point(3)          !< where the determinant is least, among the sources
+    real(c_double) :: least_determinant       !< the least determinant of the map's derivative, half way from a landmark
+                                              !! to the nearest other one
+    real(c_double) :: least_point(3)          !< the point between the sources where the determinant is least
     integer(c_int32_t) :: is_planar           !< 1 if the landmarks lie nearly in a plane, else 0
     integer(c_int32_t) :: reserved            !< 0
   end type riis_warp_info
@@ -308,10 +309,10 @@ module riis_c
 
   !> The gap between the attachment of a valve and a wall. Lengths are in mesh units.
   type, bind(c) :: riis_gap
-    real(c_double) :: least, mean, most  !< of the gap at the ends of the edges; mean is weighted by the edges' lengths.
-                                         !! 0 without a wall at any end
+    real(c_double) :: least, mean, most  !< the gap at the ends of the edges; the mean is weighted by the edges'
+                                         !! lengths. 0 without a wall at any end
     real(c_double) :: widest_point(3)    !< the end of an edge with the widest gap
-    integer(c_int64_t) :: n_ends         !< the ends of edges: 2 * riis_attachment.n_edges
+    integer(c_int64_t) :: n_ends         !< number of ends of edges: 2 * riis_attachment.n_edges
     integer(c_int64_t) :: n_without_wall !< the ends whose line misses the wall. They count in no other field
   end type riis_gap
 
@@ -467,11 +468,11 @@ module riis_c
     integer(c_int64_t) :: n_nodes        !< of the mesh, masked out or not
     integer(c_int64_t) :: n_marked       !< nodes within the half thickness
     integer(c_int64_t) :: n_within_limit !< nodes within the distance limit, marked or not
-    integer(c_int64_t) :: n_queries      !< closest-point queries, of nodes and of parts of the mesh
+    integer(c_int64_t) :: n_queries      !< number of closest-point queries, of nodes and of parts of the mesh
     real(c_double) :: seconds            !< wall time of riis_mark_nodes
     integer(c_int32_t) :: search         !< the search that ran, never RIIS_SEARCH_AUTO
-    integer(c_int32_t) :: n_threads      !< the largest number in any part. A caller's TBB limit affects walks, not
-                                         !! loops
+    integer(c_int32_t) :: n_threads      !< the largest number of threads in any part. A caller's TBB limit affects
+                                         !! walks, not loops
     integer(c_int32_t) :: complete       !< 1: every node within the limit was found, for the coordinates last given; 0:
                                          !! not certain
     integer(c_int32_t) :: instructions   !< the instructions that were used, never RIIS_INSTRUCTIONS_AUTO
@@ -546,10 +547,9 @@ module riis_c
   type, bind(c) :: riis_passage
     integer(c_int64_t) :: node_id  !< the path's node that is nearest to the surface; -1 without a path. Of nodes at
                                    !! equal distances, the one with the higher id counts as nearest
-    real(c_double) :: distance     !< the distance of that node. A half thickness closes the passage, for these
-                                   !! triangles, if it is at least this distance; a smaller one leaves it open. 0
-                                   !! without a path
-    real(c_double) :: point(3)     !< the coordinates of that node; 0 without a path
+    real(c_double) :: distance     !< the distance of node_id. A half thickness closes the passage, for these triangles,
+                                   !! if it is at least this distance; a smaller one leaves it open. 0 without a path
+    real(c_double) :: point(3)     !< the coordinates of node_id; 0 without a path
     real(c_double) :: seconds      !< wall time of riis_find_passage
     integer(c_int32_t) :: state    !< RIIS_PASSAGE_*
     integer(c_int32_t) :: reserved !< 0
@@ -587,8 +587,8 @@ module riis_c
     real(c_double) :: effective_area !< the area that the band around the valve leaves to the flow. The edge along the
                                      !! triangles is moved inwards by rim_reach * half_thickness. To first order the
                                      !! result is area - rim_reach * half_thickness * perimeter. It is never below 0
-    real(c_double) :: rim_reach      !< c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open valves gave 0.70
-                                     !! to 0.98 and 0.46 to 0.95 (docs/validation.md)
+    real(c_double) :: rim_reach      !< the factor c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open
+                                     !! valves gave 0.70 to 0.98 (round) and 0.46 to 0.95 (cut); see docs/validation.md
     real(c_double) :: half_thickness !< eps of the resistance
     real(c_double) :: radius         !< the radius of the disc, or of a circle as large as a warped disc; 0 for other
                                      !! outlines
@@ -616,8 +616,8 @@ module riis_c
   !> The opening at which a valve first lets the mesh pass.
   type, bind(c) :: riis_first_passage
     real(c_double) :: opening        !< the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE
-    real(c_double) :: closed_opening !< the largest tried opening below that, without a passage. Equals opening unless
-                                     !! FOUND
+    real(c_double) :: closed_opening !< FOUND: the largest tried opening below `opening`, which has no passage. Else:
+                                     !! `opening`
     integer(c_int64_t) :: node_id    !< the passage at `opening`, as in riis_passage
     real(c_double) :: distance       !< as in riis_passage
     real(c_double) :: point(3)       !< as in riis_passage
@@ -629,7 +629,7 @@ module riis_c
   !> The number of mesh edges across the band, from the lengths of the mesh edges with a marked node.
   type, bind(c) :: riis_cells_across
     real(c_double) :: least, mean, most       !< 2 * half_thickness over the longest, the mean and the shortest length
-    real(c_double) :: shortest_edge, mean_edge, longest_edge !< the lengths of these edges
+    real(c_double) :: shortest_edge, mean_edge, longest_edge !< the lengths of the mesh edges with a marked node
     real(c_double) :: half_thickness          !< the half thickness of the marking
     integer(c_int64_t) :: n_edges             !< edges with at least one marked node. If it is 0, only half_thickness
                                               !! differs from 0
@@ -652,14 +652,15 @@ module riis_c
 
   !> The placement that riis_place finds, for the fields of riis_surface_options with these names.
   type, bind(c) :: riis_placement
-    real(c_double) :: scale                 !< that of the landmarks; it also gives the default half thickness of 0.1 cm
+    real(c_double) :: scale                 !< the scale of the landmarks, which also gives the default half thickness
+                                            !! of 0.1 cm
     real(c_double) :: rotation_axis(3)      !< unit vector
     real(c_double) :: rotation_angle        !< degrees, 0 to 180
     real(c_double) :: translation(3)        !< mesh units
     real(c_double) :: rms                   !< root mean square of the residuals, mesh units
     real(c_double) :: worst                 !< the largest residual, mesh units
-    real(c_double) :: noise                 !< on which standard errors rest: that of the landmarks, or more if the
-                                            !! residuals show it
+    real(c_double) :: noise                 !< noise behind standard errors: that of the landmarks, or more if the
+                                            !! residuals show more
     real(c_double) :: rotation_error        !< standard error of the rotation, degrees
     real(c_double) :: position_error        !< standard error of the place of the valve's origin, mesh units
     integer(c_int64_t) :: worst_landmark_id !< the landmark with the largest residual

@@ -196,7 +196,7 @@ subroutine riisf_surface_update(surface, valve, status)
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve))
 end subroutine riisf_surface_update
 
-!> Does the same with other options, as in riisf_surface_create.
+!> Replaces the surface like riisf_surface_update, but with other options, which are those of riisf_surface_create.
 subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, status)
   use, intrinsic :: iso_c_binding, only: c_double
@@ -220,7 +220,8 @@ subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale,
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_place
 
-!> Does the same with another method of measuring distances, which riisf_surface_update keeps.
+!> Replaces the surface like riisf_surface_place, and sets the method of measuring distances. riisf_surface_update keeps this
+!! method.
 subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, measure, measure_tolerance, status)
   use, intrinsic :: iso_c_binding, only: c_double
@@ -249,7 +250,7 @@ subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scal
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_measure
 
-!> Does the same with a given kind of triangulation, which riisf_surface_update and riisf_surface_update_moving keep. With
+!> Replaces the surface like riisf_surface_place, and sets the kind of triangulation, which later updates keep. With
 !! RIIS_TRIANGULATION_FIXED, triangles keep their ids, vertices and neighbours at every opening, and only the opening may change.
 !! Errors then: RIIS_INVALID_PARAMETER naming another parameter that changed, RIIS_LIMIT_EXCEEDED for an opening at which the
 !! tolerance does not hold.
@@ -278,9 +279,9 @@ subroutine riisf_surface_triangulate(surface, valve, half_thickness, tolerance, 
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_triangulate
 
-!> Does the same as riisf_surface_update, and also gives every vertex a velocity. The velocity is the displacement from the point
-!! with the same patch, u and v in the earlier state, divided by dt. Errors: as for riisf_surface_create; RIIS_INVALID_ARGUMENT
-!! for dt out of range; RIIS_INVALID_PARAMETER for a valve_before of another kind or with other patches.
+!> Replaces the surface like riisf_surface_update, and also gives every vertex a velocity. The velocity is the displacement from
+!! the point with the same patch, u and v in the earlier state, divided by dt. Errors: as for riisf_surface_create;
+!! RIIS_INVALID_ARGUMENT for dt out of range; RIIS_INVALID_PARAMETER for a valve_before of another kind or with other patches.
 subroutine riisf_surface_update_moving(surface, valve, valve_before, dt, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
@@ -296,7 +297,7 @@ subroutine riisf_surface_update_moving(surface, valve, valve_before, dt, status)
   status = riis_surface_update_moving(c_handle_of(surface), c_handle_of(valve), c_handle_of(valve_before), dt)
 end subroutine riisf_surface_update_moving
 
-!> Does the same for a surface with another placement, now and before.
+!> Replaces the surface like riisf_surface_update_moving, but with another placement, now and before.
 subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thickness, tolerance, scale, &
     rotation_axis, rotation_angle, translation, scale_before, rotation_axis_before, rotation_angle_before, &
     translation_before, status)

@@ -58,7 +58,8 @@ subroutine riisf_mesh_set_adjacency_64(mesh, n_rows, offsets, columns, index_bas
   status = riis_mesh_set_adjacency(c_handle_of(mesh), csr)
 end subroutine riisf_mesh_set_adjacency_64
 
-!> Does the same with the library's rows. The adjacency must live until the mesh is destroyed or gets another adjacency.
+!> Gives the mesh the rows of an adjacency that the library made. The adjacency must live until the mesh is destroyed or gets
+!! another adjacency.
 subroutine riisf_mesh_use_adjacency(mesh, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
@@ -148,7 +149,7 @@ subroutine riisf_adjacency_from_cells_64(n_nodes, nodes_per_cell, n_cells, cells
   if (status == RIIS_OK) adjacency = handle_of(c_handle)
 end subroutine riisf_adjacency_from_cells_64
 
-!> Does the same for mixed cells. If offsets begins with 1, the nodes of cell i are node_ids(offsets(i)) to
+!> Makes an adjacency from cells of several shapes. If offsets begins with 1, the nodes of cell i are node_ids(offsets(i)) to
 !! node_ids(offsets(i + 1) - 1).
 subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index_base, n_threads, adjacency, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof

@@ -2,8 +2,8 @@
 ! Generated from fortran/templates/riis_f77_fields.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> The external subroutines for the fields of closest points. The conventions are those of riis_f77.f90.
 
-!> Does the same as riisf_mark_nodes, and the marks keep fields of the closest points. Errors: RIIS_INVALID_ARGUMENT for fields
-!! that the surface lacks, such as RIIS_FIELD_VELOCITY without riisf_surface_update_moving.
+!> Marks nodes like riisf_mark_nodes, and the marks also keep fields of the closest points. Errors: RIIS_INVALID_ARGUMENT for
+!! fields that the surface lacks, such as RIIS_FIELD_VELOCITY without riisf_surface_update_moving.
 subroutine riisf_mark_with_fields(surface, mesh, distance_limit, search, n_threads, fields, marks, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -144,7 +144,7 @@ subroutine riisf_marked_reals_64(marks, field, length, n, values, status)
   end if
 end subroutine riisf_marked_reals_64
 
-!> Does the same for RIIS_FIELD_SIDE, RIIS_FIELD_RIM and RIIS_FIELD_PATCH, which have one value per node.
+!> Copies the field RIIS_FIELD_SIDE, RIIS_FIELD_RIM or RIIS_FIELD_PATCH, which has one value per node.
 subroutine riisf_marked_integers(marks, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -347,7 +347,7 @@ subroutine riisf_within_limit_reals_64(marks, field, length, n, values, status)
   end if
 end subroutine riisf_within_limit_reals_64
 
-!> Does the same for RIIS_FIELD_SIDE, RIIS_FIELD_RIM and RIIS_FIELD_PATCH, which have one value per node.
+!> Copies the field RIIS_FIELD_SIDE, RIIS_FIELD_RIM or RIIS_FIELD_PATCH, which has one value per node.
 subroutine riisf_within_limit_integers(marks, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64

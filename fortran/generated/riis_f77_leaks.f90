@@ -154,7 +154,7 @@ subroutine riisf_label_open_regions(mesh, marks, n_threads, n_nodes, region_num,
   n_regions = int(found, int32)
 end subroutine riisf_label_open_regions
 
-!> Does the same with INTEGER*8, without a copy.
+!> Works like riisf_label_open_regions, but with INTEGER*8 and without a copy.
 subroutine riisf_label_open_regions_64(mesh, marks, n_threads, n_nodes, region_num, n_regions, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64

@@ -277,7 +277,7 @@ subroutine riisf_closest_points_64(surface, n_points, x, y, z, stride, &
   status = riis_closest_points(c_handle_of(surface), points, options, arrays)
 end subroutine riisf_closest_points_64
 
-!> Does the same for a list of points. Only these points are read, and only their entries are written.
+!> Works like riisf_closest_points, but for a list of points. Only these points are read, and only their entries are written.
 subroutine riisf_closest_points_listed(surface, n_points, x, y, z, stride, &
     n_listed, point_num, distance_limit, n_threads, distance, point, normal, triangle_id, leaflet_id, &
     side, status)

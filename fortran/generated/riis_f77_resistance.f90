@@ -2,7 +2,7 @@
 ! Generated from fortran/templates/riis_f77_resistance.fypp by fortran/expand_templates.sh: edit that template, not this file.
 !> The external subroutines for the resistance. The conventions are those of riis_f77.f90.
 
-!> Does the same as riisf_mark_with_fields, and also computes K and K u_surface of the nodes in the lists. K u_surface exists if
+!> Marks nodes like riisf_mark_with_fields, and also computes K and K u_surface of the nodes in the lists. K u_surface exists if
 !! the surface has velocities. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
 subroutine riisf_mark_with_resistance(surface, mesh, distance_limit, search, n_threads, fields, R, half_thickness, rim, marks, &
     status)
@@ -181,8 +181,8 @@ subroutine riisf_within_limit_resistance_64(marks, length, n, K, K_u_surface, st
   end if
 end subroutine riisf_within_limit_resistance_64
 
-!> Adds the resistance K = (R / eps) delta(d) to the caller's array, so that several valves add up. At the distance
-!! d < eps delta(d) is (1 + cos(pi d / eps)) / (2 eps). Errors: RIIS_INVALID_ARGUMENT for an argument out of range,
+!> Adds the resistance K = (R / eps) delta(d) to the caller's array, so that several valves add up. At a
+!! distance d below eps, delta(d) is (1 + cos(pi d / eps)) / (2 eps). Errors: RIIS_INVALID_ARGUMENT for an argument out of range,
 !! another number of nodes, or a field that the marks lack.
 subroutine riisf_add_resistance(marks, R, half_thickness, rim, n_nodes, K, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
@@ -233,7 +233,8 @@ subroutine riisf_add_resistance_64(marks, R, half_thickness, rim, n_nodes, K, st
   status = add_resistance_to(c_handle_of(marks), made, int(n_nodes, int64), K)
 end subroutine riisf_add_resistance_64
 
-!> Does the same for a surface that moves, and also adds K u_surface. A scheme uses (sum of K) u - (sum of K u_surface).
+!> Adds K like riisf_add_resistance, but for a surface that moves, and also adds K u_surface. A scheme uses (sum of K) u - (sum of
+!! K u_surface).
 subroutine riisf_add_moving_resistance(marks, R, half_thickness, rim, n_nodes, K, K_u_surface, &
     status)
   use, intrinsic :: iso_c_binding, only: c_double, c_sizeof

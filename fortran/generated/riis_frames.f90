@@ -19,7 +19,7 @@ module riis_frames
     type(c_ptr) :: handle = c_null_ptr
   contains
     generic :: create => create_int32, create_int64                 !< Makes the keyframes from the caller's frames.
-    procedure, non_overridable :: is_created => keyframes_is_created    !< Returns whether it was created.
+    procedure, non_overridable :: is_created => keyframes_is_created    !< Returns whether the object was created.
     procedure, non_overridable :: c_handle => keyframes_c_handle        !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => keyframes_destroy          !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -58,7 +58,7 @@ contains
     call finish(code, status)
   end subroutine keyframes_create_int32
 
-  !> Does the same for integer(int64).
+  !> Implements %create for integer(int64).
   subroutine keyframes_create_int64(this, time, xyz, vertex_ids, leaflet_id, index_base, period, interpolation, status)
     class(riis_keyframes), intent(inout) :: this            !< Must be empty.
     real(c_double), intent(in), contiguous, target :: time(:) !< (n_keys), 1 to 1,000,000, strictly ascending, magnitude at
@@ -129,7 +129,7 @@ contains
     call riis_keyframes_destroy(this%handle)
   end subroutine keyframes_destroy
 
-  !> Stops the program unless both are empty.
+  !> Stops the program unless both objects are empty.
   impure elemental subroutine keyframes_assign(left, right)
     class(riis_keyframes), intent(inout) :: left            !< Must be empty.
     class(riis_keyframes), intent(in) :: right              !< Must be empty.

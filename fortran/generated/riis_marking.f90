@@ -54,7 +54,7 @@ module riis_marking
     procedure, non_overridable :: band_sums => marks_band_sums         !< Sums a value on each side of the surface.
     generic :: dense => dense_int8, dense_int32, dense_logical          !< Writes one entry per node into the caller's arrays.
     procedure, non_overridable :: get_stats => marks_get_stats         !< Gives the statistics of the last marking.
-    procedure, non_overridable :: is_created => marks_is_created       !< Returns whether it was created.
+    procedure, non_overridable :: is_created => marks_is_created       !< Returns whether the object was created.
     procedure, non_overridable :: c_handle => marks_c_handle           !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => marks_destroy             !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -75,7 +75,7 @@ module riis_marking
     module procedure mark_nodes_int32
   end interface riis_mark_nodes
 
-  ! Empty pointers get these targets, so that their size can be taken.
+  ! A pointer without entries gets one of these targets, because size() of a null pointer is not defined.
   real(c_double), target, save :: no_reals(0), no_vectors(3, 0), no_uv(2, 0)
   integer(int32), target, save :: no_int32(0)
   integer(int64), target, save :: no_int64(0)
@@ -113,7 +113,7 @@ contains
     call finish(code, status)
   end subroutine mark_nodes_logical
 
-  !> Does the same with a mask of bytes. Only a section that is not contiguous is copied.
+  !> Implements riis_mark_nodes for a mask of bytes. Only a section that is not contiguous is copied.
   subroutine mark_nodes_int8(surface, mesh, marks, distance_limit, node_mask, search, n_threads, status, fields, R, &
       half_thickness, rim)
     class(riis_surface), intent(in) :: surface              !< Must be created. Calls on other threads may use it too.
@@ -138,7 +138,7 @@ contains
     call finish(code, status)
   end subroutine mark_nodes_int8
 
-  !> Does the same with a mask of integers, which is copied.
+  !> Implements riis_mark_nodes for a mask of integers, which is copied.
   subroutine mark_nodes_int32(surface, mesh, marks, distance_limit, node_mask, search, n_threads, status, fields, R, &
       half_thickness, rim)
     class(riis_surface), intent(in) :: surface              !< Must be created. Calls on other threads may use it too.
@@ -280,7 +280,7 @@ contains
     call finish(code, status)
   end subroutine marks_marked
 
-  !> Does the same for all nodes within the distance limit, marked or not.
+  !> Points to the arrays of all nodes within the distance limit, as %marked does for the marked nodes.
   subroutine marks_within_limit(this, node_id, distance, triangle_id, leaflet_id, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     integer(int64), pointer, intent(out), optional :: node_id(:) !< (n), ascending, from 0: node_id + 1 is the column of xyz.
@@ -359,7 +359,7 @@ contains
     call finish(code, status)
   end subroutine result_marked_int64
 
-  !> Does the same for all nodes within the distance limit, marked or not.
+  !> Copies the arrays of all nodes within the distance limit, as %marked_nodes does for the marked nodes.
   subroutine result_within_int32(this, node_num, distance, triangle_id, leaflet_id, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     integer(int32), allocatable, intent(inout) :: node_num(:)  !< (n), ascending, from 1: the column of xyz.
@@ -503,7 +503,7 @@ contains
     end subroutine check
   end subroutine marks_dense_int8
 
-  !> Does the same for marks of another integer kind, which are converted.
+  !> Implements %dense for marks of another integer kind, which are converted.
   subroutine marks_dense_int32(this, mark, distance, triangle_id, leaflet_id, far_distance, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     integer(int32), intent(inout) :: mark(:)                !< (n_nodes): 1 for marked nodes, 0 for others.
@@ -526,7 +526,7 @@ contains
     call finish(code, status)
   end subroutine marks_dense_int32
 
-  !> Does the same for logical marks, which are converted.
+  !> Implements %dense for logical marks, which are converted.
   subroutine marks_dense_logical(this, mark, distance, triangle_id, leaflet_id, far_distance, status)
     class(riis_marks), intent(in) :: this                   !< From riis_mark_nodes.
     logical, intent(inout) :: mark(:)                       !< (n_nodes): .true. for marked nodes.
@@ -832,7 +832,7 @@ contains
     call riis_marks_destroy(this%handle)
   end subroutine marks_destroy
 
-  !> Stops the program unless both are empty.
+  !> Stops the program unless both objects are empty.
   impure elemental subroutine marks_assign(left, right)
     class(riis_marks), intent(inout) :: left                !< Must be empty.
     class(riis_marks), intent(in) :: right                  !< Must be empty.

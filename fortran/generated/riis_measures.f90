@@ -278,7 +278,7 @@ contains
     call finish(code, status)
   end subroutine find_first_passage_int32
 
-  !> Does the same with node numbers of another kind.
+  !> Implements riis_find_first_passage for node numbers of another kind.
   subroutine find_first_passage_int64(valve, mesh, from_num, to_num, first, half_thickness, tolerance, scale, &
       rotation_axis, rotation_angle, translation, opening_tolerance, node_mask, n_threads, status)
     class(riis_valve), intent(in) :: valve                  !< Must be created. Its own opening has no effect.
@@ -311,7 +311,7 @@ contains
     call finish(code, status)
   end subroutine find_first_passage_int64
 
-  ! This is the common part of both kinds. It does nothing after an error.
+  ! The common part of riis_find_first_passage for both kinds of node numbers. It does nothing after an error.
   subroutine find(valve, mesh, from, to, surface, opening_tolerance, node_mask, first, code)
     class(riis_valve), intent(in) :: valve
     class(riis_mesh), intent(in) :: mesh

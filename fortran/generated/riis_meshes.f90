@@ -13,8 +13,8 @@ module riis_meshes
 
   !> The caller's nodes. The coordinates and the rows of an adjacency are borrowed: they must stay in place until the mesh is
   !! destroyed or gets other arrays. Pass variables that outlive the mesh, as whole arrays or as sections with subscript triplets
-  !! and any positive stride. TARGET is not needed. If the compiler makes a copy for the call, the copy is lost after the call,
-  !! and the mesh would read other data. The compiler copies
+  !! and any positive stride. TARGET is not needed. The compiler may pass a copy, which is lost after the call, so that the mesh
+  !! would then read other data. The compiler copies
   !!
   !! - expressions, such as 2 * xyz, transpose(xyz) or (xyz) in parentheses;
   !! - sections with vector subscripts;
@@ -45,7 +45,7 @@ module riis_meshes
     procedure, non_overridable :: clear_adjacency => mesh_clear_adjacency !< Removes the adjacency.
     procedure, non_overridable :: prepare => mesh_prepare               !< Makes the clusters of RIIS_SEARCH_CLUSTERS now.
     procedure, non_overridable :: n_nodes => mesh_n_nodes               !< Returns the number of nodes.
-    procedure, non_overridable :: is_created => mesh_is_created         !< Returns whether it was created.
+    procedure, non_overridable :: is_created => mesh_is_created         !< Returns whether the object was created.
     procedure, non_overridable :: c_handle => mesh_c_handle             !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => mesh_destroy               !< Frees its memory, not the coordinates.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -88,7 +88,7 @@ contains
     call finish(code, status)
   end subroutine mesh_create_xyz
 
-  !> Does the same for separate arrays x, y, z, all with the same stride.
+  !> Works like the version for xyz(3, n), with separate arrays x, y, z of the same stride.
   subroutine mesh_create_x_y_z(this, x, y, z, status)
     class(riis_mesh), intent(inout) :: this                 !< Must be empty.
     real(c_double), intent(in), target :: x(:)              !< (n_nodes), any positive stride; finite; borrowed.
@@ -102,7 +102,7 @@ contains
     call finish(code, status)
   end subroutine mesh_create_x_y_z
 
-  !> Does the same for coordinates at equal distances, as in an array of a derived type:
+  !> Makes a mesh from coordinates at equal distances in memory, as in an array of a derived type:
   !! call mesh%create(size(nodes), nodes(1)%x, nodes(1)%y, nodes(1)%z, storage_size(nodes) / storage_size(nodes(1)%x)). No
   !! compiler can check the number of nodes.
   subroutine mesh_create_first_int32(this, n_nodes, x, y, z, stride, status)
@@ -147,7 +147,7 @@ contains
     call finish(code, status)
   end subroutine mesh_update_xyz
 
-  !> Does the same for separate arrays x, y, z, all with the same stride.
+  !> Works like the version for xyz(3, n), with separate arrays x, y, z of the same stride.
   subroutine mesh_update_x_y_z(this, x, y, z, status)
     class(riis_mesh), intent(inout) :: this                 !< Must be created.
     real(c_double), intent(in), target :: x(:)              !< (n_nodes), any positive stride; finite; borrowed.
@@ -161,7 +161,7 @@ contains
     call finish(code, status)
   end subroutine mesh_update_x_y_z
 
-  !> Does the same for coordinates in an array of a derived type.
+  !> Updates coordinates that lie in an array of a derived type.
   subroutine mesh_update_first_int32(this, n_nodes, x, y, z, stride, status)
     class(riis_mesh), intent(inout) :: this                 !< Must be created.
     integer(int32), intent(in) :: n_nodes                   !< >= 0.
@@ -441,7 +441,7 @@ contains
     call finish(code, status)
   end subroutine mesh_adjacency_int32_int32
 
-  !> Does the same for other integer kinds.
+  !> Implements %set_adjacency for other integer kinds.
   subroutine mesh_adjacency_int32_int64(this, offsets, columns, index_base, n_all, status)
     class(riis_mesh), intent(inout) :: this                 !< Must be created.
     integer(int32), intent(in), target :: offsets(:)        !< (n_nodes + 1), ascending from index_base; borrowed.
@@ -469,7 +469,7 @@ contains
     call finish(code, status)
   end subroutine mesh_adjacency_int32_int64
 
-  !> Does the same for other integer kinds.
+  !> Implements %set_adjacency for other integer kinds.
   subroutine mesh_adjacency_int64_int32(this, offsets, columns, index_base, n_all, status)
     class(riis_mesh), intent(inout) :: this                 !< Must be created.
     integer(int64), intent(in), target :: offsets(:)        !< (n_nodes + 1), ascending from index_base; borrowed.
@@ -497,7 +497,7 @@ contains
     call finish(code, status)
   end subroutine mesh_adjacency_int64_int32
 
-  !> Does the same for other integer kinds.
+  !> Implements %set_adjacency for other integer kinds.
   subroutine mesh_adjacency_int64_int64(this, offsets, columns, index_base, n_all, status)
     class(riis_mesh), intent(inout) :: this                 !< Must be created.
     integer(int64), intent(in), target :: offsets(:)        !< (n_nodes + 1), ascending from index_base; borrowed.
@@ -525,7 +525,7 @@ contains
     call finish(code, status)
   end subroutine mesh_adjacency_int64_int64
 
-  ! Checks that the rows can be borrowed and that there are as many as nodes.
+  ! Checks that the rows can be borrowed, and that there is one row for each node.
   function check_rows(this, n_offsets, contiguous_offsets, n_columns, contiguous_columns) result(code)
     class(riis_mesh), intent(in) :: this
     integer(int64), intent(in) :: n_offsets, n_columns
@@ -561,7 +561,7 @@ contains
     if (code == RIIS_OK) code = riis_mesh_set_adjacency(this%handle, csr)
   end function set_rows
 
-  !> Does the same with rows of the library, which belong to the adjacency. The adjacency must live until the mesh is destroyed or
+  !> Gives the mesh the rows of an adjacency that the library made. The adjacency must live until the mesh is destroyed or
   !! gets other rows. Errors: RIIS_INVALID_ARGUMENT for an adjacency of another number of nodes.
   subroutine mesh_adjacency_handle(this, adjacency, status)
     class(riis_mesh), intent(inout) :: this                 !< Must be created.
@@ -630,7 +630,7 @@ contains
     this%n = 0
   end subroutine mesh_destroy
 
-  !> Stops the program unless both are empty.
+  !> Stops the program unless both objects are empty.
   impure elemental subroutine mesh_assign(left, right)
     class(riis_mesh), intent(inout) :: left                  !< Must be empty.
     class(riis_mesh), intent(in) :: right                    !< Must be empty.

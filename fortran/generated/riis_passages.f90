@@ -51,7 +51,7 @@ contains
     call finish(code, status)
   end subroutine label_open_regions_logical
 
-  !> Does the same with a mask of bytes. Only a section that is not contiguous is copied.
+  !> Implements riis_label_open_regions for a mask of bytes. Only a section that is not contiguous is copied.
   subroutine label_open_regions_int8(mesh, marks, region_num, n_regions, node_mask, n_threads, status)
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
     class(riis_marks), intent(in) :: marks           !< From riis_mark_nodes.
@@ -67,7 +67,7 @@ contains
     call finish(code, status)
   end subroutine label_open_regions_int8
 
-  !> Does the same with a mask of integers, which is copied.
+  !> Implements riis_label_open_regions for a mask of integers, which is copied.
   subroutine label_open_regions_int32(mesh, marks, region_num, n_regions, node_mask, n_threads, status)
     class(riis_mesh), intent(in) :: mesh                    !< The mesh of the marking, with an adjacency.
     class(riis_marks), intent(in) :: marks           !< From riis_mark_nodes.
@@ -109,7 +109,7 @@ contains
     call finish(code, status)
   end subroutine find_passage_logical_int32
 
-  !> Does the same with node numbers of another kind.
+  !> Implements riis_find_passage for node numbers of another kind.
   subroutine find_passage_logical_int64(surface, mesh, from_num, to_num, passage, node_mask, n_threads, status)
     class(riis_surface), intent(in) :: surface              !< Must be created.
     class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. A marking is not needed.
@@ -131,7 +131,7 @@ contains
     call finish(code, status)
   end subroutine find_passage_logical_int64
 
-  !> Does the same with a mask of bytes. Only a section that is not contiguous is copied.
+  !> Implements riis_find_passage for a mask of bytes. Only a section that is not contiguous is copied.
   subroutine find_passage_int8_int32(surface, mesh, from_num, to_num, passage, node_mask, n_threads, status)
     class(riis_surface), intent(in) :: surface              !< Must be created.
     class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. A marking is not needed.
@@ -150,7 +150,7 @@ contains
     call finish(code, status)
   end subroutine find_passage_int8_int32
 
-  !> Does the same with a mask of bytes. Only a section that is not contiguous is copied.
+  !> Implements riis_find_passage for a mask of bytes. Only a section that is not contiguous is copied.
   subroutine find_passage_int8_int64(surface, mesh, from_num, to_num, passage, node_mask, n_threads, status)
     class(riis_surface), intent(in) :: surface              !< Must be created.
     class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. A marking is not needed.
@@ -169,7 +169,7 @@ contains
     call finish(code, status)
   end subroutine find_passage_int8_int64
 
-  !> Does the same with a mask of integers, which is copied.
+  !> Implements riis_find_passage for a mask of integers, which is copied.
   subroutine find_passage_int32_int32(surface, mesh, from_num, to_num, passage, node_mask, n_threads, status)
     class(riis_surface), intent(in) :: surface              !< Must be created.
     class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. A marking is not needed.
@@ -190,7 +190,7 @@ contains
     call finish(code, status)
   end subroutine find_passage_int32_int32
 
-  !> Does the same with a mask of integers, which is copied.
+  !> Implements riis_find_passage for a mask of integers, which is copied.
   subroutine find_passage_int32_int64(surface, mesh, from_num, to_num, passage, node_mask, n_threads, status)
     class(riis_surface), intent(in) :: surface              !< Must be created.
     class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. A marking is not needed.
@@ -211,7 +211,7 @@ contains
     call finish(code, status)
   end subroutine find_passage_int32_int64
 
-  ! Makes ids from node numbers. This is the only copy. Does nothing after an error.
+  ! Makes ids from node numbers: the only copy of the numbers. Does nothing after an error.
   subroutine get_ids_int32(numbers, ids, code)
     integer(int32), intent(in) :: numbers(:)
     integer(int64), allocatable, intent(out) :: ids(:)
@@ -223,7 +223,7 @@ contains
     if (code == RIIS_OK) ids = int(numbers, int64) - 1
   end subroutine get_ids_int32
 
-  ! Makes ids from node numbers. This is the only copy. Does nothing after an error.
+  ! Makes ids from node numbers: the only copy of the numbers. Does nothing after an error.
   subroutine get_ids_int64(numbers, ids, code)
     integer(int64), intent(in) :: numbers(:)
     integer(int64), allocatable, intent(out) :: ids(:)
@@ -235,7 +235,7 @@ contains
     if (code == RIIS_OK) ids = int(numbers, int64) - 1
   end subroutine get_ids_int64
 
-  ! Makes the options for both calls. Does nothing after an error.
+  ! Makes the options of riis_label_open_regions and riis_find_passage. Does nothing after an error.
   subroutine get_options(mesh, mask, n_threads, options, code)
     class(riis_mesh), intent(in) :: mesh
     integer(int8), intent(in), contiguous, optional, target :: mask(:)

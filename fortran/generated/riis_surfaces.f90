@@ -49,7 +49,7 @@ module riis_surfaces
     generic :: create_from_arrays => create_xyz_int32, create_xyz_int64, create_x_y_z_int32, create_x_y_z_int64
                                                                !< Makes a surface from the caller's triangles or quads.
     procedure, non_overridable :: update => surface_update              !< Replaces the surface when the valve has moved.
-    procedure, non_overridable :: update_moving => surface_update_moving !< Does the same, with the velocity of every vertex.
+    procedure, non_overridable :: update_moving => surface_update_moving !< Updates with the velocity of every vertex.
     generic :: update_from_arrays => update_xyz_int32, update_xyz_int64, update_x_y_z_int32, update_x_y_z_int64
                                                                !< Replaces it when the triangles or quads have moved.
     procedure, non_overridable :: create_from_keyframes => surface_create_from_keyframes !< Makes a surface from frames, at a
@@ -62,7 +62,7 @@ module riis_surfaces
     procedure, non_overridable :: closest_point => surface_closest_point !< Finds the closest point to one point.
     generic :: closest_points => closest_xyz_logical, closest_xyz_int8, closest_x_y_z_logical, closest_x_y_z_int8
                                                                !< Finds the closest points to many points, in parallel.
-    procedure, non_overridable :: is_created => surface_is_created      !< Returns whether it was created.
+    procedure, non_overridable :: is_created => surface_is_created      !< Returns whether the object was created.
     procedure, non_overridable :: c_handle => surface_c_handle          !< The handle for calls of riis_c.
     procedure, non_overridable :: destroy => surface_destroy            !< Frees its memory.
     generic :: assignment(=) => assign                                  !< Refused: a handle cannot be copied.
@@ -81,7 +81,7 @@ module riis_surfaces
     procedure, private, non_overridable :: closest_x_y_z_int8 => surface_closest_points_x_y_z_int8
   end type riis_surface
 
-  ! Empty pointers get these targets, so that their size can be taken.
+  ! A pointer without entries gets one of these targets, because size() of a null pointer is not defined.
   real(c_double), target, save :: no_points(3, 0), no_uv(2, 0)
   integer(int32), target, save :: no_int32(0)
   real(c_double), target, save :: no_edges(3, 2, 0)
@@ -256,7 +256,7 @@ contains
     call finish(code, status)
   end subroutine surface_create_from_arrays_xyz_int32
 
-  !> Does the same for integer(int64).
+  !> Implements %create_from_arrays for integer(int64).
   subroutine surface_create_from_arrays_xyz_int64(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
       velocity, n_threads)
@@ -297,7 +297,7 @@ contains
     call finish(code, status)
   end subroutine surface_create_from_arrays_xyz_int64
 
-  !> Does the same for separate arrays x, y, z.
+  !> Implements %create_from_arrays for separate arrays x, y, z.
   subroutine surface_create_from_arrays_x_y_z_int32(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
       vx, vy, vz, n_threads)
@@ -342,7 +342,7 @@ contains
     call finish(code, status)
   end subroutine surface_create_from_arrays_x_y_z_int32
 
-  !> Does the same for integer(int64) and separate arrays x, y, z.
+  !> Implements %create_from_arrays for integer(int64) and separate arrays x, y, z.
   subroutine surface_create_from_arrays_x_y_z_int64(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
       vx, vy, vz, n_threads)
@@ -428,7 +428,7 @@ contains
     call finish(code, status)
   end subroutine surface_update_from_arrays_xyz_int32
 
-  !> Does the same for integer(int64).
+  !> Implements %update_from_arrays for integer(int64).
   subroutine surface_update_from_arrays_xyz_int64(this, xyz, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
       velocity, n_threads)
@@ -469,7 +469,7 @@ contains
     call finish(code, status)
   end subroutine surface_update_from_arrays_xyz_int64
 
-  !> Does the same for separate arrays x, y, z.
+  !> Implements %update_from_arrays for separate arrays x, y, z.
   subroutine surface_update_from_arrays_x_y_z_int32(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
       vx, vy, vz, n_threads)
@@ -514,7 +514,7 @@ contains
     call finish(code, status)
   end subroutine surface_update_from_arrays_x_y_z_int32
 
-  !> Does the same for integer(int64) and separate arrays x, y, z.
+  !> Implements %update_from_arrays for integer(int64) and separate arrays x, y, z.
   subroutine surface_update_from_arrays_x_y_z_int64(this, x, y, z, vertex_ids, leaflet_id, index_base, skip_zero_area, &
       half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, flip_normals, status, &
       vx, vy, vz, n_threads)
@@ -845,7 +845,7 @@ contains
     call finish(code, status)
   end subroutine surface_closest_points_xyz_logical
 
-  !> Does the same with a mask of bytes. Only a section that is not contiguous is copied.
+  !> Implements %closest_points for a mask of bytes. Only a section that is not contiguous is copied.
   subroutine surface_closest_points_xyz_int8(this, xyz, distance_limit, far_distance, n_threads, &
       distance, point, barycentric, normal, triangle_id, leaflet_id, side, status, point_mask)
     class(riis_surface), intent(in) :: this                 !< Must be created.
@@ -873,7 +873,7 @@ contains
     call finish(code, status)
   end subroutine surface_closest_points_xyz_int8
 
-  !> Does the same for separate arrays x, y, z.
+  !> Implements %closest_points for separate arrays x, y, z.
   subroutine surface_closest_points_x_y_z_logical(this, x, y, z, distance_limit, far_distance, n_threads, &
       distance, point, barycentric, normal, triangle_id, leaflet_id, side, status, point_mask, point_id)
     class(riis_surface), intent(in) :: this                 !< Must be created.
@@ -910,7 +910,7 @@ contains
     call finish(code, status)
   end subroutine surface_closest_points_x_y_z_logical
 
-  !> Does the same for separate arrays x, y, z and a mask of bytes.
+  !> Implements %closest_points for separate arrays x, y, z and a mask of bytes.
   subroutine surface_closest_points_x_y_z_int8(this, x, y, z, distance_limit, far_distance, n_threads, &
       distance, point, barycentric, normal, triangle_id, leaflet_id, side, status, point_mask)
     class(riis_surface), intent(in) :: this                 !< Must be created.
@@ -952,7 +952,7 @@ contains
     integer(int32), intent(inout), contiguous, optional, target :: leaflet_id(:), side(:)
     integer(riis_status), intent(inout) :: code
     integer(int8), intent(in), contiguous, optional, target :: mask(:)
-    ! This argument is not CONTIGUOUS, because gfortran would then copy a pointer's target.
+    ! The argument is not declared CONTIGUOUS, because gfortran would then copy the target of a pointer.
     integer(int64), intent(in), optional, target :: point_id(:)
     type(riis_closest_options) :: options
     type(riis_closest_arrays) :: arrays
@@ -1053,7 +1053,7 @@ contains
     call riis_surface_destroy(this%handle)
   end subroutine surface_destroy
 
-  !> Stops the program unless both are empty.
+  !> Stops the program unless both objects are empty.
   impure elemental subroutine surface_assign(left, right)
     class(riis_surface), intent(inout) :: left              !< Must be empty.
     class(riis_surface), intent(in) :: right                !< Must be empty.

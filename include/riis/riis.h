@@ -18,18 +18,19 @@
  *
  * These rules hold for every function:
  *
- * - Units: lengths have one unit of the caller's choice, angles are in degrees. The valves' default lengths are in
+ * - Units: lengths have one unit of the caller's choice, and angles are in degrees. The valves' default lengths are in
  *   centimetres; a placement's scale turns them into the mesh's unit (0.01 for metres).
  * - Ids: values called *_id count from 0, also in messages. If a struct has a field index_base, the ids in it
  *   count from that base, 0 (default) or 1. A field id_bits gives the ids' width: 32 (default) or 64.
- * - Points: point i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e60. stride is
- *   at least 1, in numbers: 1 for separate arrays, 3 for xyz(3,n) with y = x + 1, z = x + 2. A field real_bits
- *   gives the numbers' width: 64 (default) or 32. Without this field they are doubles. The same holds for vectors.
+ * - Points: point i is x[i * stride], y[i * stride], z[i * stride]; finite, magnitude at most 1e60. stride counts
+ *   numbers and is at least 1: it is 1 for separate arrays, and 3 for xyz(3,n) with y = x + 1, z = x + 2. A field
+ *   real_bits gives the numbers' width: 64 (default) or 32. Without this field they are doubles. The same holds for
+ *   vectors.
  * - Order: the first argument is the object that the function is named after. Then come arguments that the call
  *   reads, then options, then arguments that it writes. Functions with `get` in their names return content.
- * - Status: a function that can fail returns a riis_status; 0 is success. With a positive status the call has
- *   changed nothing, and pointers from earlier calls stay valid. After a negative status, an object that the call
- *   was to write can only be destroyed. riis_last_error() has the message. No function aborts, prints or throws.
+ * - Status: a function that can fail returns a riis_status; 0 is success. If the status is positive, the call has
+ *   changed nothing, and pointers from earlier calls stay valid. If it is negative, an object that the call should have
+ *   written can only be destroyed. riis_last_error() has the message. No function aborts, prints or throws.
  * - Errors of any function: RIIS_INVALID_ARGUMENT for a NULL that is not allowed and for an argument or field out
  *   of range, RIIS_INVALID_STRUCT_SIZE for a struct of a wrong size, RIIS_OUT_OF_MEMORY.
  * - Handles: a new object is the last argument, written only on success. A destroy function takes a handle's
@@ -48,8 +49,8 @@
  *   in the calling thread's affinity mask. By default, a part of a call with little work takes one thread.
  *   OMP_NUM_THREADS and omp_set_num_threads have no effect. With n_threads 1, no thread is started. If the
  *   system refuses a thread or its memory, OpenMP and TBB end the process (docs/building.md).
- * - fork(): if the library has used several threads, a child process may use only 1, and 0 means 1 there. More are
- *   refused as RIIS_UNAVAILABLE. A child makes no surfaces if another thread was inside the library at the fork.
+ * - fork(): if the library has used several threads, a child process may use only 1, and 0 means 1 there. More threads
+ *   are refused as RIIS_UNAVAILABLE. A child cannot make surfaces if another thread was inside the library at the fork.
  * - Environment: calls, and log functions within them, run with the default floating-point environment. Each call
  *   restores the caller's environment at its end. The caller's OpenMP and TBB settings are not changed.
  *
@@ -62,7 +63,7 @@
 
 #include <stdint.h>
 
-#define RIIS_VERSION_MAJOR 1 /* of this header; grows with a change that breaks compiled callers */
+#define RIIS_VERSION_MAJOR 1 /* version of this header; grows with a change that breaks compiled callers */
 #define RIIS_VERSION_MINOR 0 /* grows with an addition */
 #define RIIS_VERSION_PATCH 0 /* grows with a correction */
 
@@ -160,8 +161,8 @@ RIIS_API void riis_valve_destroy(riis_valve **valve);
  *   n_values  3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp); 1 for others
  *   values    (n_values), within the parameter's range; riis_surface_create checks whether the values fit together
  * "skirt_length" gives any valve except "bileaflet" a skirt: a strip outwards from the attachment, which closes the gap
- * to the wall (docs/theory.md, "Skirt"). The open state's own value is ignored. It is 0, the default, or 1e-4 to 10 times
- * the attachment's mean distance from its axis.
+ * to the wall (docs/theory.md, "Skirt"). The open state's own value is ignored. "skirt_length" is 0, the default, or
+ * 1e-4 to 10 times the attachment's mean distance from its axis.
  * "opening", 0 to 1, is the coefficient of motion from a closed to an open state. One set of parameters makes
  * both states. The default is 1 (open) for the mitral valve, 0 for others. The aortic valve at 0 has the paper's
  * state, which leaves a hole. A valve from patches has opening 0 only, until riis_valve_set_open_state.
@@ -232,7 +233,7 @@ RIIS_API riis_status riis_valve_create_from_patches(const riis_patches *patches,
 
 /* The description of a parameter. The texts are static. */
 typedef struct riis_parameter {
-  const char *name;        /* as riis_valve_set takes it */
+  const char *name;        /* the name as riis_valve_set takes it */
   const char *unit;        /* "length", "degree" or "1" */
   const char *description; /* one line */
   int64_t n_values;        /* 1 or 3 */
@@ -241,7 +242,7 @@ typedef struct riis_parameter {
   double maximum;          /* of every value, inclusive */
   const char *rule;        /* value of a parameter that was not set, such as "0.5 leaflet_height"; "": the default */
   const char *other_name;  /* second name that riis_valve_set takes, such as "annulus"; "": none */
-  double other_factor;     /* the value by that name is this times the parameter's: 1 or 2; 0 without other_name */
+  double other_factor;     /* factor from the parameter's value to that under other_name: 1 or 2; 0 without other_name */
 } riis_parameter;
 /* Gives the number of the valve's parameters. */
 RIIS_API riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_t *n_parameters);
@@ -272,8 +273,8 @@ enum {
 
 /* How triangles of zero area in the caller's arrays are treated. */
 enum {
-  RIIS_ZERO_AREA_REFUSE = 0, /* refuse them: RIIS_INVALID_SURFACE naming the first */
-  RIIS_ZERO_AREA_SKIP = 1    /* skip them, count them, log a warning; other triangles keep their ids */
+  RIIS_ZERO_AREA_REFUSE = 0, /* refuse the surface: RIIS_INVALID_SURFACE naming the first such triangle */
+  RIIS_ZERO_AREA_SKIP = 1    /* skip and count such triangles, and log a warning; other triangles keep their ids */
 };
 
 /* How the distance of a point to the surface is measured (paper, 4.1). Sampling and minimisation are for comparison
@@ -311,7 +312,7 @@ typedef struct riis_surface_options {
   double rotation_angle;   /* degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6, default 0 */
   double translation[3];   /* mesh units; -1e50 to 1e50, default 0. Refused for a valve if coordinates would be
                               rounded by more than a thousandth of tolerance * half_thickness */
-  double measure_tolerance; /* of sampling and minimisation, in half thicknesses, 1e-6 to 1. Default: tolerance */
+  double measure_tolerance; /* error of sampling and minimisation, in half thicknesses, 1e-6 to 1. Default: tolerance */
   int32_t measure;         /* RIIS_MEASURE_*, for closest points and marking only; default
                               RIIS_MEASURE_TRIANGLES, the only one for surfaces from arrays */
   int32_t triangulation;   /* RIIS_TRIANGULATION_*; default RIIS_TRIANGULATION_ADAPTED */
@@ -512,19 +513,19 @@ typedef struct riis_warp_options {
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_warp_options_init(riis_warp_options *options, int64_t struct_size);
 
-/* Makes a warp from landmarks on the valve at rest. Until riis_warp_set_targets, it is the identity. If the landmarks lie
- * nearly in a plane, the map does not follow from them across that plane. It then stretches there as in the plane, and
- * keeps right angles (riis_warp_info.is_planar).
+/* Makes a warp from landmarks on the valve at rest. Until riis_warp_set_targets, it is the identity. If the landmarks
+ * lie nearly in a plane, they do not determine the map across that plane. The map then stretches that direction as it
+ * stretches the plane, and keeps it at right angles (riis_warp_info.is_planar).
  *   sources  3 to 1000 landmarks
  * Errors: RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also for two landmarks in one place, and for
  * landmarks on a line. */
 RIIS_API riis_status riis_warp_create(const riis_points *sources, const riis_warp_options *options, riis_warp **warp);
 /* Destroys the warp. Valves that have it keep their copies. */
 RIIS_API void riis_warp_destroy(riis_warp **warp);
-/* Takes the landmarks to these places. The same targets give the same bits, whatever the targets before them.
+/* Takes the landmarks to these places. The same targets give the same bits, even after other targets.
  *   targets  as many points as the sources, in their order
- * Errors: RIIS_INVALID_ARGUMENT naming the point; RIIS_INVALID_PARAMETER for a warp that folds: its determinant is not
- * above 0 half way from a landmark to the nearest. */
+ * Errors: RIIS_INVALID_ARGUMENT naming the point; RIIS_INVALID_PARAMETER for a warp that folds: half way from some
+ * landmark to the nearest other one, its determinant is not above 0. */
 RIIS_API riis_status riis_warp_set_targets(riis_warp *warp, const riis_points *targets);
 /* Takes the landmarks to their places at a time, from a table of keys in time.
  *   frames  n_vertices is the number of landmarks. The keys are read during the call only
@@ -536,11 +537,12 @@ RIIS_API riis_status riis_warp_set_targets_at(riis_warp *warp, const riis_keyfra
 typedef struct riis_warp_info {
   int64_t n_landmarks;         /* the number of landmarks */
   double rms_residual;         /* root mean square of the distances between mapped sources and targets */
-  double largest_residual;     /* the largest of these distances */
+  double largest_residual;     /* the largest distance between a mapped source and its target */
   int64_t largest_landmark_id; /* its landmark */
   double smoothing;            /* lambda of the smoothing, 0 without noise; infinite if the map is affine */
-  double least_determinant;    /* the least determinant half way from each landmark to its nearest */
-  double least_point[3];       /* where the determinant is least, among the sources */
+  double least_determinant;    /* the least determinant of the map's derivative, half way from a landmark to the
+                                  nearest other one */
+  double least_point[3];       /* the point between the sources where the determinant is least */
   int32_t is_planar;           /* 1 if the landmarks lie nearly in a plane, else 0 */
   int32_t reserved;            /* 0 */
 } riis_warp_info;
@@ -590,10 +592,10 @@ RIIS_API riis_status riis_valve_get_patches(riis_valve *valve, riis_valve_patche
 
 /* The gap between the attachment of a valve and a wall. Lengths are in mesh units. */
 typedef struct riis_gap {
-  double least, mean, most; /* of the gap at the ends of the edges; mean is weighted by the edges' lengths. 0 without a
+  double least, mean, most; /* the gap at the ends of the edges; the mean is weighted by the edges' lengths. 0 without a
                                wall at any end */
   double widest_point[3];   /* the end of an edge with the widest gap */
-  int64_t n_ends;           /* the ends of edges: 2 * riis_attachment.n_edges */
+  int64_t n_ends;           /* number of ends of edges: 2 * riis_attachment.n_edges */
   int64_t n_without_wall;   /* the ends whose line misses the wall. They count in no other field */
 } riis_gap;
 /* Measures the gap between a valve's attachment and a wall, such as a patient's vessel. The gap is the distance along
@@ -659,7 +661,7 @@ typedef struct riis_crossing_list {
   double deepest_depth;       /* the depth of the deepest pair, which is the first one of equally deep pairs */
   double deepest_point[3];    /* the point of the deepest pair */
   int64_t deepest_triangle_id[2]; /* the triangles of the deepest pair */
-  int32_t deepest_leaflet_id[2];  /* the leaflets of these triangles */
+  int32_t deepest_leaflet_id[2];  /* the leaflets of the deepest pair's triangles */
   double seconds;             /* wall time of riis_find_crossings */
 } riis_crossing_list;
 /* Gives the pairs of the last riis_find_crossings, until the next riis_find_crossings with these crossings. */
@@ -690,8 +692,8 @@ RIIS_API riis_status riis_closest_point(const riis_surface *surface, const doubl
 /* Options of queries for many points. */
 typedef struct riis_closest_options {
   int64_t struct_size;       /* set by the init function */
-  double distance_limit;     /* >= 0, default infinity. Farther points get far_distance, ids -1 and 0 elsewhere */
-  double far_distance;       /* default RIIS_FAR_DISTANCE; must not lie in [0, distance_limit] */
+  double distance_limit;     /* >= 0, default infinity. Farther points get far_distance, ids -1 and otherwise zeros */
+  double far_distance;       /* the distance of farther points, outside [0, distance_limit]. Default RIIS_FAR_DISTANCE */
   const uint8_t *point_mask; /* (n_points): points with 0 must be finite, but get no result. NULL: no mask */
   int64_t n_point_ids;       /* length of point_ids; 0 without it */
   const int64_t *point_ids;  /* strictly ascending, 0 to n_points - 1: only these points are read, and only their
@@ -760,8 +762,8 @@ RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 typedef struct riis_csr {
   int64_t struct_size;   /* set by the init function */
   int64_t n_rows;        /* the mesh's n_nodes */
-  int64_t n_all;         /* at least n_rows; columns are below n_all. Columns from n_rows on are ghosts, nodes of
-                            other ranks, and are ignored. Default 0 stands for n_rows */
+  int64_t n_all;         /* columns are below this number, at least n_rows. Columns from n_rows on are ghosts, nodes
+                            of other ranks, and are ignored. Default 0 stands for n_rows */
   const void *offsets;   /* (n_rows + 1), ascending from the base; a row may be empty. NULL only for 0 rows */
   const void *columns;   /* (offsets[n_rows] - base), in any order; repetitions and the node itself are ignored */
   int32_t offset_bits;   /* of offsets */
@@ -804,11 +806,11 @@ RIIS_API riis_status riis_adjacency_create_from_cells(const riis_mesh_cells *cel
 /* Faces between cells, for codes that mark cell centres. */
 typedef struct riis_mesh_faces {
   int64_t struct_size;     /* set by the init function */
-  int64_t n_cells;         /* >= 0: the nodes of the mesh are cell centres */
+  int64_t n_cells;         /* the number of cells, >= 0. The nodes of the mesh are cell centres */
   int64_t n_faces;         /* >= 0 */
   const void *owner;       /* face i joins the cells owner[i * stride] and neighbor[i * stride] */
-  const void *neighbor;    /* index_base - 1 (-1 or 0) for a face at the boundary, which joins nothing */
-  int64_t stride;          /* in entries, 1 to 1024: 1, the default, or 2 for face_cells(2, n_faces) */
+  const void *neighbor;    /* the second cell; index_base - 1 (-1 or 0) for a face at the boundary, which joins nothing */
+  int64_t stride;          /* entries from face to face, 1 to 1024: 1, the default, or 2 for face_cells(2, n_faces) */
   int32_t id_bits;         /* of owner and neighbor */
   int32_t index_base;      /* of owner and neighbor */
   int32_t n_threads;       /* default 0 */
@@ -846,7 +848,7 @@ enum {
                                  extent, and for distances by sampling or minimisation */
   RIIS_SEARCH_EXHAUSTIVE = 1, /* queries every node (paper, algorithm "Exhaustive node iteration") */
   RIIS_SEARCH_NEIGHBOR = 2,   /* walks from marked nodes to their neighbours (paper, algorithm "Recursive
-                                 neighbor search") and proves that all other nodes are far, or queries them. The
+                                 neighbor search") and queries every other node that it cannot prove to be far. The
                                  mesh must have an adjacency, which need not be connected */
   RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm to the letter, for comparison: it misses nodes that are not
                                  connected to its one starting node. The mesh must have an adjacency */
@@ -964,7 +966,7 @@ RIIS_API riis_status riis_marks_get_list(const riis_marks *marks, int32_t which,
 typedef struct riis_dense_arrays {
   int64_t struct_size;  /* set by the init function */
   int64_t n_nodes;      /* the number of nodes of the marking, 0 for empty marks */
-  double far_distance;  /* written for nodes beyond the limit or masked out: NaN, or any value outside
+  double far_distance;  /* the distance of nodes beyond the limit or masked out: NaN, or any value outside
                            [0, distance limit]. Default RIIS_FAR_DISTANCE */
   uint8_t *mark;        /* 1 for marked nodes, 0 for others */
   double *distance;     /* the distance of nodes within the distance limit, far_distance for others */
@@ -981,10 +983,10 @@ typedef struct riis_mark_stats {
   int64_t n_nodes;      /* of the mesh, masked out or not */
   int64_t n_marked;     /* nodes within the half thickness */
   int64_t n_within_limit; /* nodes within the distance limit, marked or not */
-  int64_t n_queries;    /* closest-point queries, of nodes and of parts of the mesh */
+  int64_t n_queries;    /* number of closest-point queries, of nodes and of parts of the mesh */
   double seconds;       /* wall time of riis_mark_nodes */
   int32_t search;       /* the search that ran, never RIIS_SEARCH_AUTO */
-  int32_t n_threads;    /* the largest number in any part. A caller's TBB limit affects walks, not loops */
+  int32_t n_threads;    /* the largest number of threads in any part. A caller's TBB limit affects walks, not loops */
   int32_t complete;     /* 1: every node within the limit was found, for the coordinates last given; 0: not certain */
   int32_t instructions; /* the instructions that were used, never RIIS_INSTRUCTIONS_AUTO */
   int64_t n_unreached;  /* nodes within the limit that the neighbour search found by its proof, not by its walk */
@@ -1001,7 +1003,7 @@ typedef struct riis_resistance_arrays {
   double *K;                   /* (n_nodes) by K_stride; NULL if not wanted */
   int64_t K_stride;            /* default 1 */
   double *K_u_surface[3];      /* (n_nodes) by K_u_surface_stride, for x, y and z; all NULL if not wanted */
-  int64_t K_u_surface_stride;  /* default 1; 3 for xyz(3,n) with {xyz, xyz + 1, xyz + 2} */
+  int64_t K_u_surface_stride;  /* numbers from node to node: default 1; 3 for xyz(3,n) with {xyz, xyz + 1, xyz + 2} */
 } riis_resistance_arrays;
 /* Fills *arrays with the defaults. */
 RIIS_API riis_status riis_resistance_arrays_init(riis_resistance_arrays *arrays, int64_t struct_size);
@@ -1030,12 +1032,12 @@ typedef struct riis_reaction {
                                Default 0 */
   double *force;            /* (3): force on the whole surface, in the unit of weight K velocity, N in SI units */
   double *moment;           /* (3): moment on the whole surface */
-  int64_t n_leaflets;       /* more than riis_surface_info.largest_leaflet_id. Only the two sums of leaflets use
-                               it. Default 0 */
+  int64_t n_leaflets;       /* the number of columns in both sums of leaflets, which alone use it: more than
+                               riis_surface_info.largest_leaflet_id. Default 0 */
   double *leaflet_force;    /* (3, n_leaflets): force on each leaflet. A node belongs to the leaflet in
                                riis_mark_list.leaflet_id, also if two leaflets are equally near */
   double *leaflet_moment;   /* (3, n_leaflets): moment on each leaflet */
-  int64_t n_edges;          /* at least 1 if edge_force or edge_moment is given; otherwise not used. Default 0 */
+  int64_t n_edges;          /* number of edges, at least 1 if edge_force or edge_moment is given; else unused. Default 0 */
   const double *edges;      /* (3, 2, n_edges): both ends of each edge, for example riis_attachment.edges;
                                magnitude at most 1e60. An edge may have length 0 */
   const int32_t *edge_leaflet_id; /* (n_edges), >= 0: a node counts for the nearest edge of its leaflet, and each
@@ -1147,9 +1149,9 @@ enum {
 typedef struct riis_passage {
   int64_t node_id;  /* the path's node that is nearest to the surface; -1 without a path. Of nodes at equal
                        distances, the one with the higher id counts as nearest */
-  double distance;  /* the distance of that node. A half thickness closes the passage, for these triangles, if it
+  double distance;  /* the distance of node_id. A half thickness closes the passage, for these triangles, if it
                        is at least this distance; a smaller one leaves it open. 0 without a path */
-  double point[3];  /* the coordinates of that node; 0 without a path */
+  double point[3];  /* the coordinates of node_id; 0 without a path */
   double seconds;   /* wall time of riis_find_passage */
   int32_t state;    /* RIIS_PASSAGE_* */
   int32_t reserved; /* 0 */
@@ -1214,8 +1216,8 @@ typedef struct riis_orifice {
   double effective_area; /* the area that the band around the valve leaves to the flow. The edge along the triangles
                             is moved inwards by rim_reach * half_thickness. To first order the result is area -
                             rim_reach * half_thickness * perimeter. It is never below 0 */
-  double rim_reach;      /* c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open valves gave 0.70 to
-                            0.98 and 0.46 to 0.95 (docs/validation.md) */
+  double rim_reach;      /* the factor c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open valves gave 0.70
+                            to 0.98 (round) and 0.46 to 0.95 (cut); see docs/validation.md */
   double half_thickness; /* eps of the resistance */
   double radius;         /* the radius of the disc, or of a circle as large as a warped disc; 0 for other outlines */
   double axis[3];        /* unit vector; of a warped disc its normal; 0 for arrays and keyframes without an outline */
@@ -1271,7 +1273,7 @@ enum {
 /* The opening at which a valve first lets the mesh pass. */
 typedef struct riis_first_passage {
   double opening;        /* the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE */
-  double closed_opening; /* the largest tried opening below that, without a passage. Equals opening unless FOUND */
+  double closed_opening; /* FOUND: the largest tried opening below `opening`, which has no passage. Else: `opening` */
   int64_t node_id;       /* the passage at `opening`, as in riis_passage */
   double distance;       /* as in riis_passage */
   double point[3];       /* as in riis_passage */
@@ -1295,7 +1297,7 @@ RIIS_API riis_status riis_find_first_passage(const riis_valve *valve, const riis
 /* The number of mesh edges across the band, from the lengths of the mesh edges with a marked node. */
 typedef struct riis_cells_across {
   double least, mean, most; /* 2 * half_thickness over the longest, the mean and the shortest length */
-  double shortest_edge, mean_edge, longest_edge; /* the lengths of these edges */
+  double shortest_edge, mean_edge, longest_edge; /* the lengths of the mesh edges with a marked node */
   double half_thickness; /* the half thickness of the marking */
   int64_t n_edges;       /* edges with at least one marked node. If it is 0, only half_thickness differs from 0 */
 } riis_cells_across;
@@ -1339,7 +1341,7 @@ enum {
   RIIS_LANDMARK_COMMISSURE = 0,     /* three cusps: the top of the attachment between two of them; exactly 3 */
   RIIS_LANDMARK_NADIR = 1,          /* three cusps: the lowest point of a cusp's attachment; exactly 3 */
   RIIS_LANDMARK_COAPTATION = 2,     /* three cusps: where the closed cusps meet; at most 1. The valve's axis
-                                       passes it; its height is not used */
+                                       passes through it; its height is not used */
   RIIS_LANDMARK_ANNULUS = 3,        /* mitral: a point of the annulus; 4 or more, in their order around it.
                                        bileaflet: a point of the housing's circle at mid-height; 3 or more */
   RIIS_LANDMARK_ANTERIOR_HORN = 4,  /* mitral: the annulus at the middle of the anterior leaflet; exactly 1 */
@@ -1372,20 +1374,20 @@ RIIS_API riis_status riis_landmarks_init(riis_landmarks *landmarks, int64_t stru
 /* Where a parameter's value comes from. */
 enum {
   RIIS_SIZE_KEPT = 0,        /* it is the valve's own */
-  RIIS_SIZE_DETERMINED = 1,  /* the landmarks determine it: its standard error at the landmarks' noise moves the
+  RIIS_SIZE_DETERMINED = 1,  /* the landmarks determine the parameter: its standard error at their noise moves the
                                 valve by at most a fifteenth of its radius */
-  RIIS_SIZE_TIED = 2,        /* no landmark bears on it; it follows from other sizes, by the valve's proportions */
-  RIIS_SIZE_UNDETERMINED = 3 /* landmarks bear on it but do not determine it; it is drawn to the valve's proportions */
+  RIIS_SIZE_TIED = 2,        /* no landmark bears on the parameter; other sizes give it by the valve's proportions */
+  RIIS_SIZE_UNDETERMINED = 3 /* landmarks bear on the parameter but do not determine it; it tends to the proportions */
 };
 /* The placement that riis_place finds, for the fields of riis_surface_options with these names. */
 typedef struct riis_placement {
-  double scale;              /* that of the landmarks; it also gives the default half thickness of 0.1 cm */
+  double scale;              /* the scale of the landmarks, which also gives the default half thickness of 0.1 cm */
   double rotation_axis[3];   /* unit vector */
   double rotation_angle;     /* degrees, 0 to 180 */
   double translation[3];     /* mesh units */
   double rms;                /* root mean square of the residuals, mesh units */
   double worst;              /* the largest residual, mesh units */
-  double noise;              /* on which standard errors rest: that of the landmarks, or more if the residuals show it */
+  double noise;              /* noise behind standard errors: that of the landmarks, or more if the residuals show more */
   double rotation_error;     /* standard error of the rotation, degrees */
   double position_error;     /* standard error of the place of the valve's origin, mesh units */
   int64_t worst_landmark_id; /* the landmark with the largest residual */
@@ -1449,10 +1451,10 @@ typedef struct riis_opening_times {
   int64_t struct_size;    /* set by the init function */
   double opening_start;   /* when the valve begins to open. Default NaN, which is refused, also in the next three */
   double opening_duration; /* how long opening takes, > 0 */
-  double closing_start;   /* when it begins to close, at least opening_start + opening_duration */
+  double closing_start;   /* when the valve begins to close, at least opening_start + opening_duration */
   double closing_duration; /* how long closing takes, > 0 */
   double closed, open;    /* the opening when closed and when open, 0 to 1. Default 0 and 1 */
-  double period;          /* > 0: it opens and closes once in each period. Default 0: only once */
+  double period;          /* > 0: the valve opens and closes once in each period. Default 0: only once */
 } riis_opening_times;
 RIIS_API riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size); /* the defaults */
 /* Gives the opening at a time by the times of the ramps. opening and rate may be NULL.
@@ -1472,7 +1474,7 @@ enum {
  * flow reverses), filter_time 0.002, dwell_time 0.02. */
 typedef struct riis_opening_switch {
   int64_t struct_size;    /* set by the init function */
-  double opening_duration; /* time from closed to open, > 0. Default NaN, which is refused, also in the next field */
+  double opening_duration; /* time from closed to open, > 0. Default NaN, which is refused. So is that of the next field */
   double closing_duration; /* time from open to closed, > 0 */
   double open_above;      /* pressure difference. Default 0 */
   double close_below;     /* flow. Default 0 */
@@ -1485,7 +1487,7 @@ typedef struct riis_opening_switch_state {
   int64_t struct_size;        /* set by the init function */
   double time;                /* of this state */
   double opening, rate;       /* at that time */
-  double progress;            /* share of the way to open, 0 to 1; the opening is a smooth ramp over it */
+  double progress;            /* share of the way to open, 0 to 1; the opening is a smooth ramp over this share */
   double pressure_difference; /* filtered; NaN: none yet */
   double flow;                /* filtered; NaN: none yet */
   double turn_time;           /* time of the last change of phase; NaN: none yet */

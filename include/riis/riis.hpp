@@ -16,8 +16,8 @@
 //   const auto marked = riis::get<riis_mark_list>(riis_marks_get_list, marks, RIIS_LIST_MARKED);
 //   for (const std::int64_t node : riis::Span(marked.node_id, marked.n_nodes)) ...
 //
-// This header needs no code in the library. The library has only a C interface, so it works with every compiler and standard
-// library.
+// All code of this interface is in this header. The library itself has only a C interface, so it works with every
+// compiler and standard library.
 #ifndef RIIS_RIIS_HPP
 #define RIIS_RIIS_HPP
 
@@ -71,7 +71,7 @@ class Handle {
     destroy(&object_);
     object_ = object;
   }
-  // Gives up the object and returns it. The caller must destroy it.
+  // Gives up the object and returns it. The caller must then destroy the object.
   Object *release() noexcept { return std::exchange(object_, nullptr); }
 
  private:
@@ -144,7 +144,7 @@ template <class T>
 class Span {
  public:
   Span() = default;
-  // If the library made no array, data is NULL, and the span is empty.
+  // `data` is NULL if the library made no array. The span is then empty.
   Span(T *data, std::int64_t size) noexcept : data_(data), size_(data ? size : 0) {}
 
   T *data() const noexcept { return data_; }

@@ -65,9 +65,9 @@ RIIS_API riis_status riis_vtk_mesh_create_adjacency(const riis_vtk_mesh *mesh, i
 RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, int64_t *n_volume_cells,
                                                     int64_t *n_cells_left_out);
 
-/* Makes the part of that adjacency that riis_find_leaks needs, in one pass over the cells: the edges that are
- * longer than a given length and whose bounding box meets that of the surface. It borrows nothing. Use it only
- * for riis_find_leaks: a search along so few edges would not get far from its start.
+/* Makes the part of the mesh's adjacency that riis_find_leaks needs, in one pass over the cells. It consists of the
+ * edges that are longer than a given length and whose bounding box meets that of the surface. It borrows nothing. Use
+ * it only for riis_find_leaks: a search along so few edges would not get far from its start.
  *   longer_than       twice the half thickness of the marking. 0 gives all edges near the surface; use it if
  *                     the marking was by RIIS_SEARCH_PAPER, or if distances were not measured to the
  *                     triangles. Edges shorter by up to a billionth are also included

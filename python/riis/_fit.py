@@ -24,21 +24,21 @@ from riis._riis import Surface, Valve, find_crossings
 Reals = NDArray[numpy.float64]
 
 _MOVES = ("rotation", "translation", "scale")
-# The rough search uses this number of points.
+# The number of points that the rough search uses.
 _N_ROUGH = 400
-# Without n_starts, a fit has at least and at most this many starts.
+# If n_starts is not given, a fit has at least and at most these numbers of starts.
 _LEAST_STARTS, _LEAST_STARTS_OF_PART, _MOST_STARTS = 4, 8, 20
 # The tables of the kinds are in centimetres.
 _UNITS = {"m": 0.01, "cm": 1.0, "mm": 10.0}
-# A result is doubted beyond these limits.
+# A fit whose measures exceed these limits gets a doubt in its result.
 _MOST_OUTLIERS = 0.3
 _LEAST_COVERED = 0.9
-_MOST_NOISE = 1.25  # times the stated noise
-_MOST_SCATTER = 0.05  # of the valve's size, without a stated noise
+_MOST_NOISE = 1.25  # largest noise of the residuals, as a multiple of the stated noise
+_MOST_SCATTER = 0.05  # as a share of the valve's size, if no noise is stated
 
 
 class Rival(NamedTuple):
-    """Another fit of similar cost. Its surface is not that of the best fit."""
+    """Another fit, whose cost is similar but whose surface is not that of the best fit."""
 
     parameters: dict[str, float]
     placement: dict[str, Any]
@@ -130,7 +130,7 @@ def _is_its_parameters(valve: Valve) -> bool:
 
 
 def _reals(data: Any, name: str, or_else: str = "") -> Reals:
-    """Returns an array of float64. Refuses other values as the calls in C++ do."""
+    """Returns an array of float64. Refuses other values in the same way as the calls in C++."""
     if isinstance(data, numpy.ma.MaskedArray):
         raise TypeError(
             f"{name}: is a masked array, and its mask would be lost; pass {name}.filled(...), or {name}.data if the mask "
@@ -245,7 +245,7 @@ def _placed(start: Any) -> dict[str, Any]:
 
 
 def _length(number: Any, name: str) -> float:
-    """Returns a length, or 0 for None."""
+    """Returns the checked length of an argument, or 0 for None."""
     if number is None:
         return 0.0
     if isinstance(number, bool) or not isinstance(number, (int, float, numpy.integer, numpy.floating)):
@@ -256,7 +256,7 @@ def _length(number: Any, name: str) -> float:
 
 
 def _with_unit(unit: Any, start: Mapping[str, Any], moves: list[str], kind: str) -> dict[str, Any]:
-    """Returns the start with the scale of a unit."""
+    """Returns the start values of a fit, with the scale that the unit gives."""
     if unit is None:
         return dict(start)
     if not isinstance(unit, str):
@@ -421,7 +421,7 @@ def _finish(problem: Problem, ends: list[End], n_done: int, stated: float, n_use
         base, cost, fine = problem.base, problem.cost(x, loss), problem.at(x)
         assert fine is not None
         here = End(cost, base, x, probes_of(problem, x, random), fine.log_area, 0, 0)
-        # The other ends come again, with the noise of the best.
+        # The other ends are minimized once more, with the noise of the best end.
         found: list[tuple[float, Reals, Pose]] = []
         better = None
         for end in others:
@@ -448,7 +448,7 @@ def _finish(problem: Problem, ends: list[End], n_done: int, stated: float, n_use
         x, mixture = problem.refine(judged.better, 8, 1e-4)
         there = problem.at(x)
         if there is not None and not is_same(problem, x, there.log_area, here):
-            best = replace(best, n_starts=0)  # no start has reached this end
+            best = replace(best, n_starts=0)  # the profile found this end, and no start has reached it
     return _result(problem, x, mixture, judged, found, best, n_done, stated, random)
 
 
@@ -465,7 +465,8 @@ def _result(problem: Problem, x: Reals, mixture: Mixture, judged: Judged, found:
         there = problem.values(z)
         if excess < RIVAL:
             rivals.append(Rival(dict(zip(names, there.tolist())), _placement_of(problem.pose(z)), excess))
-            # Three standard errors reach a rival at the limit, and one reaches a rival of the same cost.
+            # Widens standard errors towards a rival: one standard error reaches a rival of the same cost, and three reach a rival
+            # whose cost is at the limit.
             errors[:n_names] = numpy.maximum(errors[:n_names], numpy.abs(there - values) / span / max(1.0, excess**0.5))
     problem.begin(base)
     seen = problem.at(x)
@@ -491,7 +492,7 @@ def _result(problem: Problem, x: Reals, mixture: Mixture, judged: Judged, found:
     if judged.misfit > judged.most_misfit:
         doubts.append(f"misfit: neighbouring residuals are alike ({judged.misfit:.2g} times as much as at random)")
     if problem.whole and share < _LEAST_COVERED:
-        doubts.append(f"cover: the points cover {share:.0%} of this fit; without the whole valve pass whole=False")
+        doubts.append(f"cover: the points cover {share:.0%} of this fit; for points on a part of a valve pass whole=False")
     moves = [name for name in undetermined if name in _MOVES]
     if moves:
         doubts.append(f"placement: the points do not determine {', '.join(moves)}, on which the sizes depend")

@@ -17,11 +17,11 @@ Reals = NDArray[numpy.float64]
 
 # Triangles lie within this distance of the smooth valve, as a fraction of the valve's size.
 FINE, ROUGH = 5e-4, 2e-3
-# The step of finite differences, as a fraction of a parameter's bounds. It is so small that a moved valve almost always has the
-# same triangles.
+# The step of finite differences, as a fraction of the width of a parameter's bounds. The step is so small that the changed valve
+# almost always has the same triangles.
 _STEP = 1e-5
-# Threads are used for more points than this. A fit makes many small surfaces, each in a few milliseconds. For these, threads cost
-# more than they gain.
+# Above this number of points, several threads are used. For fewer points a surface takes a few milliseconds, and threads would
+# cost more than they gain.
 _MANY = 20_000
 _N_UNKNOWNS = {"rotation": 3, "translation": 3, "scale": 1}
 
@@ -62,7 +62,7 @@ def random_rotations(random: numpy.random.Generator, n: int) -> Reals:
 
 
 def weighted_median(values: Reals, weights: Reals) -> float:
-    """Returns the value below which half of the weight lies."""
+    """Returns the weighted median: the value below which half of the weight lies."""
     order = numpy.argsort(values)
     total = numpy.cumsum(weights[order])
     return float(values[order][numpy.searchsorted(total, 0.5 * total[-1])])
@@ -87,7 +87,7 @@ class Pose:
 class Seen(NamedTuple):
     """The points' positions relative to a valve."""
 
-    residual: Reals  # (n,), distances; with a thickness their difference to half of it
+    residual: Reals  # (n,), distances; if there is a thickness, distances minus half of it
     direction: Reals  # (n, 3), unit vectors along which the residual grows
     distance: Reals  # (n,), at least 0
     local: Reals  # (n, 3), the closest points in the valve's frame
@@ -162,11 +162,11 @@ class Problem:
         self.last: tuple[bytes, Seen | None] | None = None
 
     def begin(self, base: Pose) -> None:
-        """Sets the pose to which placements are relative."""
+        """Sets the base: the pose to which the unknowns of the placement are relative."""
         self.base, self.last = base, None
 
     def rebased(self, x: Reals) -> Reals:
-        """Begins with the pose of x. Returns the unknowns of the same valve there."""
+        """Makes the pose of x the base of the unknowns. Returns the unknowns of the same valve relative to this base."""
         self.begin(self.pose(x))
         x = x.copy()
         x[len(self.names):] = 0.0
@@ -191,7 +191,7 @@ class Problem:
         return Pose(matrix_of(vector) @ self.base.rotation, self.base.move + move, factor * self.base.scale)
 
     def set_valve(self, x: Reals) -> Surface | None:
-        """Gives the valve and its surface the parameters of x. Returns None if these do not fit together."""
+        """Gives the valve and its surface the parameters of x. Returns None if the parameters do not fit together."""
         try:
             self.valve.update(**dict(zip(self.names, self.values(x).tolist())))
             if self.surface is None:
@@ -204,7 +204,7 @@ class Problem:
         return self.surface
 
     def look(self, x: Reals) -> Seen | None:
-        """Computes the points' positions relative to the valve at x. Returns None if its values do not fit together."""
+        """Computes the points' positions relative to the valve at x. Returns None if the valve's values do not fit together."""
         surface, pose = self.set_valve(x), self.pose(x)
         if surface is None:
             return None
@@ -221,7 +221,7 @@ class Problem:
         length = length * pose.scale
         if self.thickness > 0.0:
             residual = length - 0.5 * self.thickness
-        else:  # signed distances stay smooth if points change sides
+        else:  # signed distances, which stay smooth if points change sides
             sign = numpy.where(numpy.einsum("ij,ij->i", direction, found.normal) < 0.0, -1.0, 1.0)
             direction, residual = direction * sign[:, None], length * sign
         area = float(numpy.log(surface.info.area * pose.scale**2))
@@ -237,7 +237,7 @@ class Problem:
 
     def change(self, seen: Seen, x: Reals, step: float, pose: Pose, others: dict[str, float]) -> tuple[Reals, float] | None:
         """Returns the derivatives of the residuals and of log(area) along a step of x and of other parameters. A closest point
-        moves with its place on the surface, because its sliding along the surface does not change the distance."""
+        moves as if it were fixed to its place on the triangle, because sliding along the surface does not change the distance."""
         try:
             self.valve.update(**others)
             surface = self.set_valve(x)
@@ -319,7 +319,7 @@ class Problem:
         jacobian, area = self.jacobian(x)
         weighted = (self.weights * loss.weight(seen.residual))[:, None] * jacobian
         n_area = loss.area * float(self.weights.sum())
-        # The matrix of the area's term: edges are as uncertain as a quarter of the term says.
+        # The Gauss-Newton matrix of the area's term. It makes edges as uncertain as a quarter of that term implies.
         return weighted.T @ seen.residual + n_area * area, jacobian.T @ weighted + 0.125 * n_area * numpy.outer(area, area)
 
     def solve(self, x: Reals, loss: Loss, n_steps: int, change: float, held: int | None = None) -> Reals:

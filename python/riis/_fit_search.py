@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 from riis._errors import InvalidArgumentError
 from riis._fit_problem import Mixture, Pose, Problem, Reals, matrix_of, random_rotations, wide_loss
 
-# Each start chooses among this many rotations.
+# Each start chooses a good one of this many rotations.
 _N_ROTATIONS = 150
 # Ends are the same surface if nine tenths of one lie within this fraction of the valve's size from the other, and the areas
 # differ by at most this fraction.
 _SAME = 0.02
 # A rough end whose cost for each point exceeds the least by this is not refined.
 _HOPELESS = 0.15
-# At most this many ends are refined.
+# The largest number of ends that are refined.
 _N_ENDS = 4
 # An end is a rival if the likelihood ratio leaves it possible: twice the difference of the logarithms is less than this, which is
 # the square of three standard errors.
@@ -27,11 +27,11 @@ RIVAL = 9.0
 # An unknown is undetermined if its standard error exceeds this fraction of a reference: the width of its bounds, a radian, the
 # valve's size, or the scale.
 UNDETERMINED = 0.1
-# Correlated residuals are judged in this many parts of the valve.
+# To find correlated residuals, the valve is divided into this many parts.
 _N_PARTS = 40
-# Sizes that are not free differ from their values by at most about this fraction, or radians.
+# Sizes that are not free differ from the patient's by at most about this fraction of a length, or this number of radians.
 _FIXED_SPREAD = 0.1
-# The logarithm of a ratio of likelihoods from which such a difference counts.
+# A difference of a size that is not free counts if the logarithm of the ratio of likelihoods is at least this.
 _LEAST_EVIDENCE = 4.0
 
 
@@ -44,18 +44,18 @@ class End:
     x: Reals  # relative to the pose
     probes: Reals  # points of the surface
     log_area: float
-    n_starts: int  # that ended here, or at a fit from which turns led here
+    n_starts: int  # starts that ended here, or at a fit from which turns led here
     orbit: int  # ends with the same number lead to each other by turns
 
 
 class Judged(NamedTuple):
     """The standard errors of the best end."""
 
-    errors: Reals  # of the unknowns
+    errors: Reals  # standard errors of the unknowns
     singular_values: Reals
-    misfit: float  # by this factor the scatter of parts of the valve exceeds that of independent points
-    most_misfit: float  # more than this is no chance
-    better: Reals | None  # unknowns with a lower cost that the profile met
+    misfit: float  # the scatter of parts of the valve, divided by the scatter that independent points would have
+    most_misfit: float  # a misfit above this cannot be chance
+    better: Reals | None  # unknowns at which the profile found a lower cost
 
 
 def probes_of(problem: Problem, x: Reals, random: numpy.random.Generator) -> Reals:
@@ -83,8 +83,8 @@ def is_same(problem: Problem, x: Reals, log_area: float, end: End) -> bool:
 
 
 def _add(problem: Problem, x: Reals, cost: float, ends: list[End], orbit: int | None, random: numpy.random.Generator) -> None:
-    """Adds the end x to ends, or counts it with the end that has the same surface. It came from a start, or by a turn from an
-    end of an orbit."""
+    """Adds the end x to ends, or counts it with the end that has the same surface. The end x came from a start, or from an end of
+    an orbit by a turn."""
     seen = problem.at(x)
     if seen is None:
         return
@@ -135,7 +135,7 @@ def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any
         turned.add(orbit)
 
     def n_agreeing(one: End) -> int:
-        if not problem.whole:  # a part may fit several cusps, each from starts of its own
+        if not problem.whole:  # a part may fit several cusps, and each needs starts of its own
             return one.n_starts
         return sum(end.n_starts for end in ends if end.orbit == one.orbit)
 
@@ -146,7 +146,7 @@ def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any
         if number > 0 and any_rotation:
             rotations = random_rotations(random, _N_ROTATIONS)
         elif number > 0 and middle is not None and not problem.whole:
-            rotations = numpy.repeat(rotations, _N_ROTATIONS // 5, axis=0)  # each has a translation of its own
+            rotations = numpy.repeat(rotations, _N_ROTATIONS // 5, axis=0)  # each rotation is repeated with several translations
         problem.begin(pose)
         base = problem.best_pose(x, rotations, middle, random if number > 0 else None)
         n_done += 1
@@ -165,7 +165,8 @@ def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any
 
 
 def _parts(points: Reals, weights: Reals, n_parts: int) -> NDArray[numpy.int64]:
-    """Returns the part of each point. Each part is around a point that is farthest from the earlier ones."""
+    """Divides points into parts, and returns the part of each point. Each part surrounds the point that is farthest from the
+    middles of the earlier parts."""
     first = int(numpy.argmax(weights))
     nearest, part = numpy.full(len(points), numpy.inf), numpy.zeros(len(points), numpy.int64)
     for k in range(n_parts):
@@ -183,7 +184,7 @@ class Judge:
     problem: Problem
     x: Reals
     mixture: Mixture
-    noise: float  # that the caller states, or 0
+    noise: float  # the noise that the caller states, or 0
 
     def judge(self) -> Judged:
         problem, mixture = self.problem, self.mixture
@@ -193,20 +194,20 @@ class Judge:
         jacobian, area = problem.jacobian(self.x)
         inlier = problem.weights * mixture.inlier(seen.residual)
         n_points = inlier.sum() ** 2 / max((inlier**2).sum(), 1e-300)
-        share = n_points / inlier.sum()  # of an independent point in a unit of weight
+        share = n_points / inlier.sum()  # the number of independent points in a unit of weight
         rows = numpy.vstack([jacobian * numpy.sqrt(inlier)[:, None], numpy.sqrt(
             0.125 * loss.area * problem.weights.sum()) * mixture.noise * area])
         _, s, v = numpy.linalg.svd(rows, full_matrices=False)
         blind = (v[s <= max(1e-6 * s.max(), 1e-12 * problem.size)] ** 2).sum(axis=0) > 1e-6
         surface, pose = problem.set_valve(self.x), problem.pose(self.x)
         assert surface is not None
-        # The scatter is at least the stated noise, and the fit cannot be more accurate than the triangles.
+        # The scatter is at least the stated noise, and at least the error of the triangles.
         scatter = max(mixture.noise, self.noise, pose.scale * surface.info.error_bound)
         n_spare = n_points - problem.n
         factor = n_points / (n_spare - 2.0) if n_spare > 3.0 else n_points  # the variance of Student's distribution
-        precision = rows.T @ rows * share / scatter**2 + numpy.eye(problem.n)  # everything is known to about its range
+        precision = rows.T @ rows * share / scatter**2 + numpy.eye(problem.n)  # each unknown is known to within its range
         covariance = numpy.linalg.inv(precision)
-        # Residuals that are alike in parts of the valve count as fewer points.
+        # If residuals are alike within parts of the valve, the points are not independent and count as fewer.
         n_parts = int(min(_N_PARTS, n_points / 8.0))
         misfit, most_misfit = 1.0, numpy.inf
         variances = numpy.diag(covariance) * factor
@@ -227,8 +228,9 @@ class Judge:
         return Judged(errors, s / problem.size, misfit, most_misfit, better)
 
     def _of_fixed(self, precision: Reals, jacobian: Reals, inlier: Reals, factor: float) -> Reals:
-        """Returns what the squared errors owe to sizes that are not free, if other values of these sizes would fit better than
-        chance allows: the shift of the unknowns in a fit with all sizes, and the variance that this fit adds."""
+        """Returns the share of the squared errors that comes from sizes that are not free. It is 0 unless other values of these
+        sizes would fit better than chance allows. It consists of the shift of the unknowns in a fit with all sizes, and of the
+        variance that this fit adds."""
         problem, n, weights = self.problem, self.problem.n, inlier * factor
         seen, (columns, area) = problem.at(self.x), problem.fixed_jacobian(self.x)
         columns, area = columns * _FIXED_SPREAD, area * _FIXED_SPREAD
@@ -240,8 +242,8 @@ class Judge:
         full[:n, :n] = precision
         alone = full[n:, n:] - full[n:, :n] @ numpy.linalg.solve(precision, full[:n, n:])
         n_area = self.mixture.loss(problem.whole).area * problem.weights.sum() * self.mixture.noise**2 * factor
-        pull = -columns.T @ (weights * seen.residual) - n_area * area  # the free unknowns are at rest
-        # The spread of the sizes is the likeliest one, if it is much likelier than none.
+        pull = -columns.T @ (weights * seen.residual) - n_area * area  # for the free unknowns it is 0 at the minimum
+        # Takes the likeliest spread of the sizes, if it is much likelier than no spread.
         values, vectors = numpy.linalg.eigh(alone)
         values, squares = values.clip(0.0), (vectors.T @ pull) ** 2
         spreads = numpy.logspace(-4.0, 0.0, 41)[:, None]
@@ -254,8 +256,8 @@ class Judge:
         return numpy.asarray((shares @ inverse @ pull) ** 2 + numpy.einsum("ij,jk,ik->i", shares, inverse, shares))
 
     def _profile(self, errors: Reals, covariance: Reals, ratio: Reals) -> tuple[Reals, Reals | None]:
-        """Holds each parameter two standard errors away, minimizes over the others, and widens the error where the cost rises
-        less than it says."""
+        """Holds each parameter two standard errors away, and minimizes over the others. Widens the standard error if the cost
+        rises less than this error implies."""
         problem, loss = self.problem, self.mixture.loss(self.problem.whole)
         best = problem.cost(self.x, loss)
         errors, better, least = errors.copy(), None, -1.0

@@ -131,7 +131,7 @@ def _place_of(name: str) -> tuple[int, tuple[int, int], bool] | None:
 
 @dataclass
 class _Landmarks:
-    """Landmarks as the library takes them, and what their file states."""
+    """Landmarks as the library takes them, and the facts that their file states."""
 
     where: str
     names: list[str] = field(default_factory=list)
@@ -341,7 +341,7 @@ def place(
     held       names of parameters that keep the valve's values
 
     The valve is copied. Raises InvalidArgumentError naming landmarks that are missing, in one place, collinear, mirrored, or not
-    those of a heart valve in this unit.
+    of the size of a heart valve in this unit.
     """
     read = _read(landmarks)
     is_file = not isinstance(landmarks, Mapping)

@@ -83,11 +83,11 @@ class WarpInfo(NamedTuple):
 
     n_landmarks: int
     rms_residual: float  #: root mean square of the distances between mapped sources and targets
-    largest_residual: float  #: the largest of these distances
+    largest_residual: float  #: the largest distance between a mapped source and its target
     largest_landmark_id: int  #: its landmark
     smoothing: float  #: lambda of the smoothing; 0 without noise, infinite if the map is affine
     least_determinant: float  #: half way from each landmark to its nearest
-    least_point: Reals  #: (3,): where the determinant is least, among the sources
+    least_point: Reals  #: (3,): the point between the sources where the determinant is least
     is_planar: bool  #: the landmarks lie nearly in a plane
 
 

@@ -109,7 +109,7 @@ Array::Array(nb::handle object, const char *name, Access access, const char *wan
     refuse_entries(object, wanted, "must be a numpy array of ", wanted, ", not ",
                    dtype_of(object, name_of_type(object).c_str()));
   }
-  // If a constructor throws, the destructor does not run.
+  // The buffer is released here, because the destructor does not run if a constructor throws.
   try {
     if (view_.suboffsets) refuse_type(name, "must be a numpy array, not a buffer with suboffsets");
     if (!is_of(view_, wanted))

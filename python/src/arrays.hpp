@@ -52,9 +52,10 @@ class Array {
   }
   nb::object object() const { return nb::borrow(view_.obj); }
 
-  // Refuses another shape. -1 stands for any size. The entries must be in C order without gaps.
+  // Refuses an array of another shape than the given one, in which -1 stands for any size. The entries must be in C order without
+  // gaps.
   const Array &expect(std::initializer_list<std::int64_t> shape) const;
-  // Refuses another shape. The entries may have any strides.
+  // Refuses an array of another shape than the given one. The entries may have any strides.
   const Array &expect_shape(std::initializer_list<std::int64_t> shape) const;
 
  private:

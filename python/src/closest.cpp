@@ -36,7 +36,7 @@ nb::object closest_points(Surface &surface, nb::handle points_, nb::handle dista
     options.n_point_ids = ids->size(0);
     options.point_ids = ids->data<std::int64_t>();
   }
-  // In new arrays, entries that the call leaves out get the values of far points.
+  // If the call leaves out entries, new arrays are first filled with the values of far points.
   const bool is_partial = mask || ids;
   const auto fill = [&](nb::object value) { return is_partial ? value : nb::object(nb::none()); };
   const nb::object none = fill(nb::int_(-1)), zero = fill(nb::int_(0));

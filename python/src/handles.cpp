@@ -14,7 +14,7 @@ std::atomic<int> n_inside{0};
 std::atomic<int> n_forks{0};
 std::atomic<bool> inside_at_fork{false};
 
-// Threads that were inside the library do not exist in the child. The thread that forks is never inside.
+// In the child, no thread is inside the library: other threads do not exist there, and the forking thread was not inside.
 void begin_child() {
   inside_at_fork = n_inside.exchange(0) > 0;
   ++n_forks;

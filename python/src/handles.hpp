@@ -83,7 +83,7 @@ class Inside {
   Inside &operator=(const Inside &) = delete;
 };
 
-// Refuses calls from inside the log function.
+// Refuses a call that the log function makes, because the library is then inside another call.
 void check_not_logging();
 
 // Calls the library without the interpreter's lock, so that other Python threads can run meanwhile. Returns the call's status,
@@ -106,7 +106,8 @@ void call_library(const Call &call) {
   if (answer.first) raise_status(answer.first, in_python(answer.second.c_str()));
 }
 
-// Does the same for a call that writes an object. After an internal error, the object is closed.
+// Calls the library without the lock for a call that writes an object, and throws an exception if it fails. After an internal
+// error, the object is closed.
 template <class Call>
 void call_to_write(Usage &usage, const Call &call) {
   const auto answer = status_of(call);

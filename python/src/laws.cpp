@@ -108,7 +108,7 @@ nb::dict written(const Struct &values, const Doubles<Struct> &doubles) {
   return dict;
 }
 
-// Returns a state of a class of riis.laws.
+// Returns the state as an object of a class of riis.laws.
 nb::object state_of(const char *name, const nb::dict &values) {
   return nb::module_::import_("riis.laws").attr(name)(**values);
 }

@@ -47,7 +47,7 @@ void add_log(nb::module_ &module) {
 
 function(level, message) is called on any thread that calls riis; level is LOG_INFO or LOG_WARNING. It must not
 call riis. Its exceptions go to sys.unraisablehook.)");
-  // After the interpreter has ended, no message may reach Python.
+  // At the interpreter's end the log function is removed, because no message may reach Python afterwards.
   nb::module_::import_("atexit").attr("register")(nb::cpp_function([] { set_log(nb::none()); }));
 }
 

@@ -15,7 +15,7 @@ struct Valve : Handle<riis_valve, riis_valve_destroy> {
   // Values that the library does not return: the arguments of from_patches, and a copy of the valve that gave the open state.
   nb::object patches = nb::none(), open = nb::none();
   nb::object warp = nb::none();   // the states of both warps, or None
-  bool has_wall_lengths = false;  // of a skirt to a wall
+  bool has_wall_lengths = false;  // whether its skirt has lengths to a wall
 };
 
 struct Warp : Handle<riis_warp, riis_warp_destroy> {
@@ -81,7 +81,7 @@ struct MarkOptions {
 
 // Changes the options that the keywords name. If a keyword is None, its option does not change.
 void set_surface_options(riis_surface_options &options, nb::handle keywords, const char *name);
-// Changes only scale, rotation and translation.
+// Changes scale, rotation and translation as the placement says, and no other options.
 void set_placement(riis_surface_options &options, nb::handle placement, const char *name);
 
 // Adds a method to a class that another source file defined.
@@ -90,7 +90,7 @@ void add_method(nb::module_ &module, const char *type, const char *name, Functio
   nb::cpp_function_def(function, nb::scope(module.attr(type)), nb::name(name), nb::is_method(), extra...);
 }
 
-// Gives a valve the warps whose states these are.
+// Gives a valve the warps that these pickled states describe.
 void warp_as_pickled(nb::handle valve, nb::handle state);
 void add_warp(nb::module_ &module);
 

@@ -8,7 +8,7 @@ namespace riis_python {
 
 // The caller's faces, and the vertices if they are given.
 struct FaceArrays {
-  // If faces is None, only the vertices move.
+  // Takes the faces. If they are None, only the vertices move.
   FaceArrays(nb::handle faces, nb::handle leaflet_id, nb::handle index_base);
   void set_vertices(nb::handle vertices, nb::handle velocities);
 

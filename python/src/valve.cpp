@@ -82,7 +82,7 @@ void set_all(Valve &valve, const nb::dict &parameters) {
   for (const auto [name, value] : parameters) set(valve, name, value);
 }
 
-// Takes the same arguments as dict.update.
+// Sets parameters from the same arguments as dict.update.
 void update(Valve &valve, nb::handle other, const nb::kwargs &parameters) {
   nb::dict all;
   if (!other.is_none()) {
@@ -242,8 +242,8 @@ void make_from_state(Valve *self, const nb::tuple &state) {
                                       nb::arg("leaflet_id") = patches[4], nb::arg("index_base") = patches[5]);
   Valve &valve = object<Valve>(made, "valve");
   if (!open.is_none()) {
-    // The valve first gets the open state's values, because the library refuses an open state that does not fit the valve. The
-    // valve's own values come last: only surfaces check whether they fit together.
+    // The library refuses an open state that does not fit the valve. So the valve first takes the open state's own values. Its
+    // real values come last, because only surfaces check whether they fit the open state.
     set_all(valve, values_of(object<Valve>(open, "open")));
     set_open_state(valve, open);
     for (const nb::handle name : names_of(valve)) unset(valve, name);

@@ -34,7 +34,7 @@ def measure(surface, mesh, n_threads, reuse, n_steps=50):
 
 
 def main():
-    # A box around each valve. The valve's band contains about 5 % of the nodes, as in ./run bench costs.
+    # The corners of a box of nodes around each valve. The valve's band contains about 5 % of the nodes, as in ./run bench costs.
     nodes = numpy.random.default_rng(6).uniform(-1.6, 1.6, (1_000_000, 3))
     mesh = riis.Mesh(nodes)
     mesh.prepare()

@@ -19,9 +19,9 @@ KINDS = {
 }
 CASES = ("whole", "partial", "partial, said whole", "outliers", "thick", "millimetres", "other shape")
 WHOLE = ("whole", "outliers", "thick", "millimetres")  # the points cover the valve, and its shape is that of the kind
-# A size that counts as found is off by at most three standard errors, or by at most these: cm, degrees, 1.
+# A size counts as found if its error is at most three standard errors, or at most these numbers, in cm, degrees and 1.
 SMALL = {"length": 0.02, "degree": 2.0, "1": 0.02}
-# However large its standard error, it is off by at most these.
+# The error of such a size is also at most these numbers, even if its standard error is large.
 LARGE = {"length": 0.2, "degree": 10.0, "1": 0.1}
 
 
@@ -71,7 +71,7 @@ def faces_of(random, surface, n, thickness):
 
 
 def part_of(random, surface):
-    """Returns a function that keeps a part of a surface: a leaflet, what lies on one side of a plane, or what lies around an
+    """Returns a function that keeps a part of a surface: one leaflet, the part on one side of a plane, or the part around an
     attachment."""
     what = random.integers(3)
     if what == 0 and surface.info.largest_leaflet_id > 0:
@@ -88,7 +88,7 @@ def part_of(random, surface):
 
 
 def patient(seed):
-    """Returns the patient of a seed. Kinds and cases take turns."""
+    """Returns the patient of a seed. Consecutive seeds take the kinds and the cases in turn."""
     random = numpy.random.default_rng(seed)
     kind, case = list(KINDS)[seed % len(KINDS)], CASES[(seed + seed // len(KINDS)) % len(CASES)]
     spreads, most_open = KINDS[kind]
@@ -97,7 +97,7 @@ def patient(seed):
         true = {name: valve[name] * random.uniform(1.0 - spread, 1.0 + spread) for name, spread in spreads.items()}
         true["opening"] = random.uniform(0.0, most_open)
         others = {}
-        if case == "other shape":  # sizes that the fit does not free are not those of the valve that it starts from
+        if case == "other shape":  # the sizes that are not free differ from those of the valve with which the fit starts
             others = {name: valve[name] * random.uniform(0.95, 1.05) for name, parameter in valve.parameters.items()
                       if parameter.unit == "length" and parameter.n_values == 1 and name not in true}
         try:
@@ -131,7 +131,7 @@ def patient(seed):
 
 
 def rotation_of(vector):
-    """Returns the rotation by a vector's length around it (Rodrigues)."""
+    """Returns the rotation around a vector by an angle that is the vector's length (Rodrigues)."""
     angle = numpy.linalg.norm(vector)
     x, y, z = vector / angle
     cross = numpy.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

@@ -28,7 +28,7 @@ def test_the_programs_of_the_document_run(xyz):
 
 
 def test_the_notebook_is_committed_without_outputs():
-    """./run python runs the notebook. Committed outputs would be results that nobody checks."""
+    """The notebook is committed without outputs, because nobody would check them. ./run python runs it."""
     notebook = json.loads((ROOT / "examples/python/tutorial.ipynb").read_text(encoding="utf-8"))
     assert notebook["cells"][0]["source"][0].startswith("<!-- SPDX-License-Identifier: Apache-2.0 -->")
     cells = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]

@@ -55,7 +55,7 @@ def test_known_valves_are_found_again(kind):
 
 
 def test_a_valve_is_found_wherever_it_lies():
-    """No start is given. The points are turned by more than a quarter, and are far from the origin."""
+    """The fit gets no start, although the points are turned by more than a quarter turn and are far from the origin."""
     placement = {"rotation_axis": (1.0, -2.0, 0.5), "rotation_angle": 140.0, "translation": (120.0, -40.0, 300.0)}
     true = fit_table.VALVES["aortic"]
     found = riis.fit(fit_table.cloud("aortic", 800, 0.02, placement=placement), "aortic", free=list(true))
@@ -69,7 +69,7 @@ def test_a_valve_is_found_wherever_it_lies():
 
 
 def test_edges_are_where_the_points_end():
-    """Without a cost of the area, a disk that is too large would fit as well as the right one."""
+    """The cost of a fit includes the area, because otherwise a disk that is too large would fit as well as the right one."""
     points = fit_table.cloud("bileaflet", 1000, 0.02)
     start = riis.Valve("bileaflet", radius=1.6, opening=0.3)
     arguments = {"free": ["radius"], "n_starts": 1, "start": fit_table.PLACEMENT}
@@ -97,7 +97,7 @@ def test_vertices_of_surfaces_count_by_their_area():
     pyvista = pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
     data = surface.to_pyvista()
     again = riis.fit(data, "trileaflet", **arguments)
-    assert again.parameters == found.parameters  # the same points and weights
+    assert again.parameters == found.parameters  # both fits have the same points and weights
     single = pyvista.PolyData(numpy.array(surface.vertices, numpy.float32))  # only the points, all with weight 1
     alike = riis.fit(single, "trileaflet", **arguments)
     assert abs(alike.parameters["leaflet_height"] - 1.3) < 0.01 and numpy.ptp(alike.weights) < numpy.ptp(found.weights)
@@ -133,7 +133,7 @@ def test_bounds_hold_and_are_told():
 def test_what_the_data_do_not_say_is_told():
     """A closed valve is the same for any open radius, so the data do not determine it."""
     valve = riis.Valve("trileaflet", opening=0.0)
-    valve.update(dict(valve))  # all parameters are set, so no other size follows the free one
+    valve.update(dict(valve))  # sets all parameters, so that no other size follows the free one by a rule
     points = numpy.array(riis.Surface(valve).vertices[::5])
     free = ["leaflet_height", "open_radius_ratio"]
     found = riis.fit(points, valve, free=free, placement=["translation"], n_starts=1, whole=False)
@@ -265,7 +265,7 @@ def test_derivatives_are_those_of_new_closest_points(kind, thickness):
             ends.append(problem.look(moved))
         difference = (ends[0].residual - ends[1].residual) / 2e-5
         close = numpy.abs(difference - jacobian[:, i]) < 1e-3 * (1.0 + numpy.abs(difference))
-        assert close.mean() > 0.97, i  # a few points change from one triangle to another
+        assert close.mean() > 0.97, i  # the few others change from one triangle to another
         assert abs((ends[0].log_area - ends[1].log_area) / 2e-5 - area[i]) < 1e-3
 
 
@@ -275,7 +275,7 @@ def test_weights_are_derivatives_of_the_losses():
         slope = (loss.value(r + 1e-6) - loss.value(r - 1e-6)) / 2e-6
         assert numpy.allclose(slope, loss.weight(r) * r, rtol=1e-5, atol=1e-5)
     r = numpy.linspace(-1.0, 1.0, 200_001)
-    assert abs(numpy.exp(-Mixture(0.03, 0.2, 1.0).value(r)).mean() * 2.0 - 1.0) < 1e-4  # a density
+    assert abs(numpy.exp(-Mixture(0.03, 0.2, 1.0).value(r)).mean() * 2.0 - 1.0) < 1e-4  # the integral of a density is 1
 
 
 def known(kind, true, points, noise=0.02, **options):
@@ -291,7 +291,7 @@ TRILEAFLET = {"root_radius": 1.15, "leaflet_height": 1.3, "opening": 0.2}
 
 @pytest.mark.parametrize("kind, whole", [("trileaflet", True), ("trileaflet", False), ("aortic", False)])
 def test_a_fit_to_one_leaflet_of_three_is_right_or_flagged(kind, whole):
-    """Once the height was off by 1.1, with a standard error of 0.0025."""
+    """A case from a past fault: the height had an error of 1.1 and a standard error of 0.0025."""
     true = {**TRILEAFLET} if kind == "trileaflet" else {"root_radius": 1.2, "leaflet_height": 1.1, "bending_height": 0.65}
     surface = riis.Surface(riis.Valve(kind, **true), half_thickness=0.05, tolerance=0.02)
     points, _ = fit_study.points_on(numpy.random.default_rng(7), surface, 400, lambda middle, leaflet_id: leaflet_id == 0)
@@ -302,7 +302,8 @@ def test_a_fit_to_one_leaflet_of_three_is_right_or_flagged(kind, whole):
 
 @pytest.mark.parametrize("whole", [True, False])
 def test_a_fit_to_an_attachment_is_right_or_flagged(whole):
-    """Once the radius was 2.27 with a standard error of 0.15. Thirty points of an edge do not determine the opening."""
+    """A case from a past fault: the radius was 2.27 with a standard error of 0.15, although thirty points of an edge do not
+    determine the opening."""
     surface = riis.Surface(riis.Valve("trileaflet", **TRILEAFLET))
     edges = surface.attachment.edges.mean(axis=1)
     one = known("trileaflet", TRILEAFLET, edges[numpy.random.default_rng(8).choice(len(edges), 30)], whole=whole)
@@ -312,7 +313,7 @@ def test_a_fit_to_an_attachment_is_right_or_flagged(whole):
 
 @pytest.mark.parametrize("whole", [True, False])
 def test_a_fifth_of_outliers_is_left_out(whole):
-    """Once a size was off by 0.9. The points cover the valve, so the fit also has no doubts."""
+    """A case from a past fault: a size had an error of 0.9. Since the points cover the valve, the fit must have no doubts."""
     random = numpy.random.default_rng(9)
     surface = riis.Surface(riis.Valve("trileaflet", **TRILEAFLET), half_thickness=0.05, tolerance=0.02)
     points, _ = fit_study.points_on(random, surface, 500)
@@ -323,7 +324,8 @@ def test_a_fifth_of_outliers_is_left_out(whole):
 
 
 def test_random_patients_are_right_or_flagged():
-    """The first patients of ./run fit-study. Of the whole valves every size is determined, and standard errors are honest."""
+    """The first patients of ./run fit-study. For whole valves every size is determined, and errors are as large as the standard
+    errors say."""
     first = int(os.environ.get("RIIS_TEST_SEED", "0"))
     print(f"seeds {first} to {first + 19}; RIIS_TEST_SEED sets the first")
     patients = [fit_study.examine(fit_study.patient(seed)) for seed in range(first, first + 20)]
@@ -377,14 +379,14 @@ def test_a_larger_scatter_than_the_stated_noise_is_doubted():
     found, low, high = (riis.fit(points, start, noise=noise, **options) for noise in (0.03, 0.01, 0.09))
     assert found.doubts == high.doubts == () and [doubt[:5] for doubt in low.doubts] == ["noise"]
     assert low.doubts[0] in low.report() and "stated noise is 0.01" in low.doubts[0]
-    assert high.standard_errors["opening"] > 2.0 * found.standard_errors["opening"]  # no smaller than the noise says
+    assert high.standard_errors["opening"] > 2.0 * found.standard_errors["opening"]  # the stated noise widens the errors
 
 
 def test_a_wrong_model_is_doubted_and_widens_the_errors():
-    """The bending height is not free, and is not that of the start."""
+    """The fit does not free the bending height, and the known valve has another one than the start."""
     true = {"root_radius": 1.2, "leaflet_height": 1.25, "opening": 0.3}
     found = []
-    for height in (0.625, 0.85):  # the first is that of the rule, half of leaflet_height
+    for height in (0.625, 0.85):  # the rule gives the first value, half of leaflet_height
         surface = riis.Surface(riis.Valve("trileaflet", **true, bending_height=height), half_thickness=0.05, tolerance=0.01)
         points, _ = fit_study.points_on(numpy.random.default_rng(11), surface, 600)
         found.append(known("trileaflet", true, points, noise=0.01).found)
@@ -396,7 +398,8 @@ def test_a_wrong_model_is_doubted_and_widens_the_errors():
 
 
 def test_two_places_that_fit_equally_are_rivals():
-    """Points on one open disk, which is parallel to the other. They fit both, so a shift by the disks' distance is a rival."""
+    """The points lie on one of the two open disks, which are parallel. They fit both disks, so a shift by the disks' distance is
+    a rival."""
     valve = riis.Valve("bileaflet", opening=1.0, open_angle=90.0)
     surface = riis.Surface(valve)
     points, _ = fit_study.points_on(numpy.random.default_rng(13), surface, 200, lambda middle, leaflet_id: leaflet_id == 0)
@@ -528,7 +531,8 @@ def test_values_that_clash_are_refused():
 
 
 def test_values_that_clash_are_passed_over():
-    """For half of the bounds there is no valve: the triangles must fit beside the anterior leaflet."""
+    """For half of the values within the bounds there is no valve, because the two triangles must fit beside the anterior
+    leaflet."""
     points = fit_table.cloud("mitral", 400, 0.01)
     start = riis.Valve("mitral", **fit_table.VALVES["mitral"])
     start["triangle_size_ratio"] = 0.19

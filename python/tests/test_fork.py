@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A child of fork() marks or raises an exception. It never hangs; if it did, an alarm would end it."""
+"""A child of fork() marks or raises an exception, but never hangs. An alarm ends a child that hangs, and the test fails."""
 
 import multiprocessing
 import os

@@ -48,7 +48,8 @@ def test_least_squares(seed):
     numpy.testing.assert_allclose(got, expected, rtol=1e-4)
     assert found.rms**2 * 6 == pytest.approx(squares, rel=1e-6)
     errors = found.noise * numpy.sqrt(numpy.diag(numpy.linalg.inv(jacobian.T @ jacobian)))[:3]
-    # Both linearise, one in the frame of the valve and one in that of the patient. This differs in proportion to the residuals.
+    # riis and scipy linearise in different frames, the valve's and the patient's. So the standard errors differ in proportion to
+    # the residuals.
     numpy.testing.assert_allclose(list(found.standard_errors.values()), errors, rtol=1e-2)
     assert found.worst == found.residuals.max() and found.worst_landmark == NAMES[int(found.residuals.argmax())]
     # The residuals belong to the placement: the landmarks' places are where the result puts them.

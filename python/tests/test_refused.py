@@ -524,7 +524,7 @@ def test_a_masked_array_is_refused(o, name, good, call):
 
 
 class Frame:
-    """Has a method `mask` and can be converted to an array, like data frames of pandas."""
+    """An object that, like a data frame of pandas, has a method `mask` and can be converted to an array."""
 
     def __init__(self, array):
         self.array = array
@@ -567,7 +567,7 @@ def test_an_array_without_dimensions_is_a_number(o):
         riis.Valve("mitral", AP_diameter=numpy.array([3.0]))
 
 
-# Matches names of C that Python lacks.
+# Matches names of C that no message may contain, because Python lacks them.
 OF_C = re.compile(r"riis_|RIIS_|\bNULL\b|\b(arrays|cells|csr|faces|frames|law|options|patches|resistance|table|times)\.[a-z]")
 
 
@@ -616,7 +616,7 @@ def test_classes_of_errors_are_those_of_statuses():
             assert error.status_name == riis.status_name(error.status)
             assert error.__doc__ and error.__module__ == "riis"
             statuses[error.status] = error
-    # The package itself always passes the right struct sizes, and only riis_vtk.h has errors of files.
+    # Two classes cannot occur: the package always passes the right struct sizes, and only riis_vtk.h has errors of files.
     assert set(statuses) == {1, 3, 4, 5, 6, 7, 9, -1}
     for status, base in {1: ValueError, 3: ValueError, 4: ValueError, 5: ValueError, 7: MemoryError, 9: RuntimeError}.items():
         assert issubclass(statuses[status], base)

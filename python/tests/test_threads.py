@@ -55,8 +55,7 @@ def test_the_lock_is_released(surface, xyz):
     end = time.perf_counter()
     is_over.set()
     thread.join()
-    # Python code runs in the middle of the call. If the call held the lock, this would be impossible, however long the call
-    # takes.
+    # Python code must run while the call runs. This would be impossible if the call held the interpreter's lock.
     middle = [t for t in ticks if begin + 0.25 * (end - begin) < t < begin + 0.75 * (end - begin)]
     assert middle
 
@@ -65,7 +64,7 @@ def test_one_object_is_written_by_one_thread(surface, xyz):
     mesh, own = riis.Mesh(numpy.tile(xyz, (4, 1))), riis.Marks()
     found = in_threads(4, lambda i: [riis.mark(surface, mesh, into=own, n_threads=1) for _ in range(10)])
     refused = [error for error in found if isinstance(error, Exception)]
-    assert refused  # four threads that each mark 10 times into one result do collide
+    assert refused  # four threads that each mark 10 times into one result must collide at least once
     for error in refused:
         assert isinstance(error, riis.UnavailableError) and "into: another thread is using it" in str(error)
     assert len(riis.mark(surface, mesh, into=own)) > 0

@@ -168,7 +168,7 @@ def test_aortic_cusps_turn_until_they_meet():
     assert rotations == [[0, 0, 0], [0, 0, 120], [0, 0, -120]]
     assert valve["left.stj"] == valve["right.stj"] == 2.8 and valve["non_coronary.leaflet_radius_out"] == 1.4
     valve["left.rotation"] = [1.0, 2.0, 3.0]
-    valve["right.leaflet_angle"] = 57.0  # now there are three gaps of 2 degrees
+    valve["right.leaflet_angle"] = 57.0  # the angles now leave three gaps of 2 degrees between the leaflets
     assert list(valve["left.rotation"]) == [1, 2, 3] and list(valve["non_coronary.rotation"]) == [0, 0, -119]
     valve.unset("rotation")
     assert list(valve["left.rotation"]) == [0, 0, 119]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Arrays are read-only, keep their memory alive, and do not change, whatever is called later."""
+"""Arrays are read-only, keep their memory alive, and do not change in later calls."""
 
 import gc
 import os
@@ -45,7 +45,7 @@ def test_views_keep_the_memory(surface, mesh):
     expected = ids.copy(), part.copy(), vertices.copy()
     del surface
     gc.collect()
-    riis.mark(riis.Surface(riis.Valve("aortic")), mesh)  # would reuse memory that was freed
+    riis.mark(riis.Surface(riis.Valve("aortic")), mesh)  # would reuse the memory if it had been freed
     assert all(numpy.array_equal(a, b) for a, b in zip((ids, part, vertices), expected))
 
 
@@ -82,7 +82,7 @@ def test_views_outlive_the_markings_that_follow(surface, mesh, valve):
     marks.close()
     del marks, expected
     gc.collect()
-    riis.mark(riis.Surface(riis.Valve("aortic")), mesh, distance_limit=1.0)  # would reuse memory that was freed
+    riis.mark(riis.Surface(riis.Valve("aortic")), mesh, distance_limit=1.0)  # would reuse the memory if it had been freed
     assert all(numpy.array_equal(array, copy) for array, copy in kept)
     assert len({len(array) for array, _ in kept[::4]}) == 4
 
@@ -151,7 +151,7 @@ def test_an_adjacency_that_is_borrowed_stays(surface, grid):
     grid.set_adjacency(adjacency)
     adjacency.close()
     gc.collect()
-    riis.Adjacency.from_grid(40, 41, 42)  # would reuse memory that was freed
+    riis.Adjacency.from_grid(40, 41, 42)  # would reuse the memory if it had been freed
     assert numpy.array_equal(columns, copy)
     assert numpy.array_equal(riis.mark(surface, grid, search="neighbor").ids, expected)
     with pytest.raises(riis.InvalidArgumentError, match="adjacency: is closed"):

@@ -104,8 +104,8 @@ def attachment_and_crossings(n, noise, seed):
 
 
 def mitral_annuli(n, noise, seed, n_landmarks=16):
-    """The annulus of random patients, closed and open, each with its own landmarks. The patient's annulus is the model's by an
-    affine map with a bend."""
+    """The annulus of random patients, closed and open, each with its own landmarks. The patient's annulus is the model's annulus
+    after an affine map and a bend."""
     random = numpy.random.default_rng(seed)
     off, n_crossing = [], 0
     for _ in range(n):
@@ -147,7 +147,7 @@ def ordered(edges):
 
 
 def sealing(n, seed):
-    """Counts valves that seal a mesh of their root when closed, and let it pass at 0.3."""
+    """Counts valves that seal a mesh of their root when closed, and leave a passage at opening 0.3."""
     random = numpy.random.default_rng(seed)
     spacing, n_sealed, n_open = 0.1, 0, 0
     axis = numpy.arange(-1.2, 1.21, spacing)

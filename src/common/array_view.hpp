@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Views and resizes containers with counts and positions of type int64_t, as everywhere in the project. Neither is ever negative.
-// The containers' own functions take std::size_t, so this file converts between the two types.
+// Views and resizes containers with counts and positions of type int64_t, which the whole project uses. Counts and positions are
+// never negative. The containers' own functions take std::size_t, so this file converts between the two types.
 #pragma once
 
 #include <cstddef>

@@ -17,8 +17,8 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   a = a.substr(0, longest);
   b = b.substr(0, longest);
   const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  // rows[i % 3][j] is the distance between the first i letters of a and the first j letters of b. The rows of i - 1 and i - 2
-  // are still needed.
+  // rows[i % 3][j] is the distance between the first i letters of a and the first j letters of b. Row i follows from the rows i -
+  // 1 and i - 2, so three rows are kept.
   std::array<std::array<std::size_t, longest + 1>, 3> rows{};
   for (std::size_t j = 0; j <= b.size(); ++j) rows[0][j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {

@@ -28,7 +28,7 @@ OpeningLaw law_of_command_line(const MarkOptions &options) {
   return OpeningLaw(std::move(table), series.cycle);
 }
 
-// Refuses options that have an effect only in a series.
+// Refuses options that have an effect only in a series, if there is no series.
 void check_one_time(const Case &all) {
   const SeriesOptions &series = all.options.series;
   const std::string why = " needs times: " + series.case_file + " has none, and --times is not given";

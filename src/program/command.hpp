@@ -14,8 +14,8 @@ class Option;
 
 namespace riis::program {
 
-// Declares options of a command. CLI11 passes on the text as typed. The numbers are parsed by this program, independently of the
-// locale.
+// Declares options of a command. CLI11 passes on each value as text. This program parses the numbers itself, so that they do not
+// depend on the locale.
 class Command {
  public:
   explicit Command(CLI::App *app) : app_(app) {}
@@ -28,8 +28,8 @@ class Command {
   void group(const char *title) { group_ = title; }
 
   using Take = std::function<void(const std::string &)>;
-  // Each of these declares an option by its names, a word for its value, and a help text. A positional argument has a name such
-  // as "OUT".
+  // Each of the next functions declares an option by its names, a word for its value, and a help text. A positional argument has
+  // a name such as "OUT".
   CLI::Option *value(const std::string &names, const char *type, const char *help, const Take &take);
   CLI::Option *text(const std::string &names, const char *type, const char *help, std::string &to);
   using TakeAll = std::function<void(const std::vector<std::string> &)>;

@@ -56,7 +56,8 @@ void check_open_state(const ValveOptions &options) {
     refuse_usage("--params-open has no effect with --valve " + options.valve + ": the open state is in that file");
 }
 
-// Refuses an open state that would have no effect. Most valves are closed by default, and the user would not notice.
+// Refuses an open state without an opening. Most valves are closed by default, so it would have no effect, and the user would not
+// notice.
 void check_open_state_is_met(const ValveOptions &options, bool has_cycle) {
   if (!options.params_open.empty() && !sets_opening(options) && !has_cycle)
     refuse_usage("--params-open needs --opening or --cycle: without either the valve does not open to that state");
@@ -98,7 +99,7 @@ bool has_output(const MarkOptions &options) {
          !options.stats.empty() || !options.series.movie.empty() || !options.series.table.empty();
 }
 
-// svMultiPhysics removes every blank from a path.
+// Paths with blanks are refused, because svMultiPhysics removes every blank from a path.
 void check_folder_name(const std::string &folder) {
   const auto is_blank = [](unsigned char c) { return c <= ' ' || c == 127; };
   if (std::any_of(folder.begin(), folder.end(), is_blank))

@@ -15,8 +15,8 @@
 namespace riis::program {
 namespace {
 
-// Formats an option as its name and the type of its value. CLI11 would also list the options that it excludes and needs, and the
-// help would not fit on a screen.
+// Formats an option as its name and the type of its value. CLI11's own format also lists the options that an option excludes and
+// needs, which would make the help too long for a screen.
 class BriefHelp : public CLI::Formatter {
  public:
   BriefHelp() { column_width(36); }
@@ -77,8 +77,7 @@ std::string nearest_option(const CLI::App &app, const std::string &name) {
 bool looks_like_option(const std::string &argument) { return argument.size() > 1 && argument[0] == '-'; }
 
 // Returns a text that lists the words that CLI11 did not understand, in the order of typing. (CLI11 does not keep this order.) If
-// some of them are unknown options, the text lists only these options: their values are also left over, or were taken for the
-// mesh.
+// some of the words are unknown options, the text lists only these options. The other words may be their values.
 std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
   std::vector<std::string> left = app.remaining();
   const bool has_options = std::any_of(left.begin(), left.end(), looks_like_option);

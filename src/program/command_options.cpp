@@ -113,7 +113,7 @@ void declare_file(Command &command, ValveOptions &options) {
       .value("--time", "T", "Time at which to take the motion --surface FILE.pvd",
              [&options](const std::string &text) { options.time = parse_number(text, "--time"); })
       ->needs(surface);
-  command.positive("--period", "P", "Period of that motion, or of --cycle (default none)", options.period);
+  command.positive("--period", "P", "Period of --surface FILE.pvd, or of --cycle (default none)", options.period);
 }
 
 void declare_unit(Command &command, ValveOptions &options) {
@@ -208,7 +208,7 @@ void declare_loudness(Command &command, ValveOptions &options) {
   command.flag("--strict", "Exit with status 4 if there was a warning", options.strict);
 }
 
-// --view is declared after --picture. So CLI11 passes the views after the pictures, whose number is then known.
+// --view is declared after --picture, so CLI11 passes the pictures first. Their number is then known when the views are read.
 void declare_pictures(Command &command, MarkOptions &options) {
   CLI::Option *const pictures =
       command
@@ -260,7 +260,7 @@ void declare_series(Command &command, MarkOptions &options) {
              [&series](const std::string &text) { series.frame_rate = parse_positive_finite(text, "--frame-rate"); })
       ->needs(movie);
   command.choice("--movie-view", "side, top or oblique (default)", view_names, series.movie_view, "VIEW")->needs(movie);
-  // A case file contains its own values for these options.
+  // A case excludes these options, because the case file contains its own values for them.
   for (const char *name : {"--surface",        "--leaflets",       "--valve",        "--opening",
                            "--params",         "--params-open",    "--set",          "--tolerance",
                            "--triangulation",  "--skip-zero-area", "--flip-normals", "--scale",
@@ -326,7 +326,7 @@ void declare_leaks(Command command, MarkOptions &options) {
       ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   options.measures = true;
   command
-      .flag("--first-passage", "Also find the opening at which unmarked nodes first join them", options.first_passage)
+      .flag("--first-passage", "Also tell at which opening unmarked nodes first join the points", options.first_passage)
       ->needs(command.option("--between"));
   CLI::Option *const resistance =
       command.value("--resistance", "R", "Resistance of the valve, for the ideal leak",
@@ -460,8 +460,8 @@ void declare_place(Command command, PlaceOptions &options) {
   command.text("--output", "OUT.json", "The placed valve, for --valve of the other commands; - is stdout",
                options.output);
   command.text("--foam", "OUT", "The valve and its placement as OpenFOAM reads them, in metres", options.foam_output);
-  command.text("--c", "OUT", "The same as lines of C", options.c_output);
-  command.text("--fortran", "OUT", "The same as lines of Fortran", options.fortran_output);
+  command.text("--c", "OUT", "The valve and its placement as lines of C", options.c_output);
+  command.text("--fortran", "OUT", "The valve and its placement as lines of Fortran", options.fortran_output);
   declare_loudness(command, options);
   command.group("Landmarks");
   command.text("--mesh", "MESH", "Refuse landmarks that are not at this mesh", options.mesh);
@@ -481,7 +481,7 @@ void declare_place(Command command, PlaceOptions &options) {
   command.group("Valve");
   command.text("--valve", "KIND", "aortic, coapting, mitral, trileaflet or bileaflet (default that of the file)",
                options.valve);
-  command.text("--params", "FILE.json", "Parameters whose proportions the valve has", options.params);
+  command.text("--params", "FILE.json", "Parameters of the valve that serves as the template", options.params);
   command
       .values("--set", "NAME=VALUE", "Set and keep one parameter, in cm; may be repeated",
               [&options](const std::vector<std::string> &settings) { options.settings = settings; })

@@ -22,7 +22,7 @@ void declare_export(Command command, ExportOptions &options);
 void declare_params(Command command, ParamsOptions &options);
 void declare_place(Command command, PlaceOptions &options);
 
-// These functions refuse options that contradict each other or have no effect. They also derive the remaining values.
+// Each finish_* function refuses options that contradict each other or have no effect, and derives the remaining values.
 MarkOptions finish_mark(const Command &command, MarkOptions options);
 MarkOptions finish_surface(const Command &command, MarkOptions options);
 MarkOptions finish_crossings(const Command &command, MarkOptions options);

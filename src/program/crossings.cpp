@@ -34,8 +34,8 @@ riis_crossing_list crossings_of(const ValveOptions &options, const riis_surface 
   return found;
 }
 
-// Returns options that measure distances to triangles. Crossings do not depend on how distances are measured, and this is the
-// fastest.
+// Returns options that measure distances to triangles. Crossings do not depend on the method for distances, and this method is
+// the fastest to prepare.
 riis_surface_options by_triangles(const ValveOptions &options) {
   riis_surface_options how = options.surface_options;
   how.measure = RIIS_MEASURE_TRIANGLES;
@@ -90,7 +90,7 @@ void warn_of_crossings(const ValveOptions &options, const CrossingReport &report
   const std::string who =
       is_one_leaflet ? "leaflet " + first + " crosses itself"
                      : "leaflets " + first + " and " + leaflet_text(options, found.deepest_leaflet_id[1]) + " cross";
-  // The intersection of a pair is about as long as an edge of its triangles.
+  // place_text rounds by an edge's length. The mean length of a pair's intersection serves, because it is about that of an edge.
   warn(part + who + at + ": " + counted(found.n_pairs, "pair") +
        " of triangles go through each other, along a length of " + shown(found.total_length) + "; the deepest is " +
        shown(found.deepest_depth) + " deep, at " +
@@ -120,8 +120,8 @@ double depth_of_contacts(const ValveOptions &options, const riis_surface *surfac
   return has_cusps ? 1e-3 * info.half_thickness : 2 * info.error_bound;
 }
 
-// Returns the surface at an opening, or null if the valve cannot have that opening. This is no error, because the user did not
-// request the opening.
+// Returns the surface at an opening, or null if the valve cannot have that opening. An impossible opening is no error here,
+// because the user did not request it.
 Surface surface_at(riis_valve *valve, double opening, const riis_surface_options &how) {
   check(riis_valve_set_scalar(valve, "opening", opening));
   riis_surface *surface = nullptr;

@@ -14,7 +14,7 @@ using Motion = Handle<riis_vtk_motion, riis_vtk_motion_destroy>;
 using Film = Handle<riis_vtk_film, riis_vtk_film_destroy>;
 using SurfaceFile = Handle<riis_vtk_surface, riis_vtk_surface_destroy>;
 
-// These functions return the content of handles as structs.
+// The functions below return the content of handles as structs.
 inline riis_triangles triangles_of(const riis_surface *surface) {
   riis_triangles triangles{};
   check(riis_surface_get_triangles(surface, &triangles, sizeof triangles));

@@ -12,7 +12,7 @@ namespace riis::program {
 
 namespace {
 
-// Refuses faults that the parser itself would accept.
+// Refuses faults of a JSON file that the parser itself would accept.
 class Guard {
  public:
   Guard(const std::string &path, const std::string &content) : path_(path), content_(content) {}
@@ -32,10 +32,10 @@ class Guard {
 
  private:
   void check_key(const std::string &key) {
-    // Control characters are refused because, for the library, a name ends at a 0 byte.
+    // Control characters are refused, because the library would end a name at a 0 byte.
     const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
     if (std::any_of(key.begin(), key.end(), is_control)) refuse_file(path_, "a name holds a control character: " + key);
-    // The parser would keep the last of several equal keys. They are refused, because the user cannot have meant all of them.
+    // Repeated keys are refused. The parser would keep only the last of them, and the user cannot have meant all.
     if (!keys_.back().insert(key).second) refuse_file(path_, key + " is given twice");
   }
 
@@ -55,7 +55,7 @@ Json parse_json_file(const std::string &path, const std::string &content) {
     return Json::parse(text_of_file(path), observe);
   } catch (const Json::exception &error) {
     const std::string text = error.what();
-    // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
+    // The parser's text begins like "[json.exception.parse_error.101] parse error at line 1, column 2: ...".
     const std::size_t end = text.find("] ");
     refuse_file(path, "is not JSON: " + (end == std::string::npos ? text : text.substr(end + 2)));
   }

@@ -20,7 +20,7 @@ namespace {
 
 const std::vector<std::string> cusp_names = {"right", "left", "non_coronary"};
 
-// The words for roles. Words of roles that a valve has several times may stand for several landmarks.
+// The words for roles. Some words may stand for several landmarks, because a valve has several of their role.
 struct RoleWord {
   const char *word;
   std::int32_t role;
@@ -67,7 +67,8 @@ std::int32_t take_cusp(std::string &text) {
   return -1;
 }
 
-// Reads a name: the word of a role, then perhaps a number, or for a nadir a cusp, for a commissure two cusps.
+// Reads a name: the word of a role, and perhaps more. A number may follow, or one cusp after a nadir, or two cusps after a
+// commissure.
 std::optional<Place> place_of_name(const std::string &name) {
   const std::string text = plain(name);
   for (const RoleWord &known : role_words) {
@@ -114,7 +115,7 @@ class Collector {
     file_.xyz.insert(file_.xyz.end(), point.begin(), point.end());
   }
 
-  // Checks the whole, and takes the direction of flow from its two points.
+  // Checks the landmarks as a whole, and takes the direction of flow from its two points.
   void finish() {
     if (file_.names.empty()) refuse_file(file_.path, "holds no landmarks");
     if (ends_.empty()) return;
@@ -215,7 +216,7 @@ void read_json(const Json &root, LandmarkFile &file) {
 
 // ---- 3D Slicer ----
 
-// A file of 3D Slicer has many keys, which change from version to version. Only these are read.
+// A file of 3D Slicer has many keys, which change from version to version. Only those needed here are read.
 void read_slicer(const Json &root, LandmarkFile &file) {
   const std::string &path = file.path;
   const Json &lists = root["markups"];

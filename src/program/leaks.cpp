@@ -31,8 +31,8 @@ Leaks leaks_of(const MarkedMesh &marked, const riis_mark_options &options, doubl
   check(riis_leaks_create(&leaks_handle));
   Leaks leaks(leaks_handle);
   const riis_status status = riis_find_leaks(marked.surface, marked.mesh, marked.result, &options, leaks.get());
-  check(riis_mesh_set_adjacency(marked.mesh,
-                                nullptr));  // the rows are destroyed soon; this call changes no error message
+  // The rows are destroyed soon, so the mesh must give them up. This call leaves the message of a failed search as it is.
+  check(riis_mesh_set_adjacency(marked.mesh, nullptr));
   check(status);
   return leaks;
 }
@@ -70,7 +70,7 @@ double closing_half_thickness(const MarkOptions &options, const MarkedMesh &mark
       wanted = rounded_up(std::max(left.half_thickness, 1.01 * wanted));
     }
   } catch (const Refusal &) {
-    // With some half thicknesses no surface can be made. The warning then gives no advice, but is valid.
+    // Some half thicknesses allow no surface. The warning is valid even then, but gives no advice.
   }
   return 0;
 }
@@ -109,7 +109,8 @@ double rounded_up(double x) {
 void look_for_leaks(const MarkOptions &options, const MarkedMesh &marked, Report &report) {
   const Stage stage("looking for leaks", options.quiet);
   LeakReport &leaks = report.leaks;
-  // Short edges may also leak if marks may be missing, or if distances are not measured to the triangles.
+  // Short edges cannot leak if the marks are complete and follow the distances to the triangles. Otherwise they are searched
+  // also.
   const bool is_by_triangles = options.surface_options.measure == RIIS_MEASURE_TRIANGLES;
   const bool only_long = report.marks.complete && is_by_triangles;
   const double half_thickness = report.surface.half_thickness;
@@ -274,7 +275,8 @@ double closing_half_thickness(const MarkOptions &options, const MarkedMesh &mark
       wanted = rounded_up(std::max(left.distance, 1.01 * wanted));
     }
   } catch (const Refusal &) {
-    // The answer is valid even without advice. There is no advice, for example, if an end point lies in the thicker band.
+    // There is no advice if, for example, an end point lies in the thicker band. The report about the passage is valid all the
+    // same.
   }
   return 0;
 }

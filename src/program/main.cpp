@@ -36,7 +36,7 @@ void occupy_closed_streams() {
 
 int main(int argc, char **argv) {
   occupy_closed_streams();
-  // Ignores the signal. Then a write beyond the limit of file sizes fails instead of ending the process.
+  // Ignores SIGXFSZ. So a write beyond the limit of file sizes fails instead of ending the process.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     if (argc < 2) {

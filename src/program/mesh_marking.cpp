@@ -118,7 +118,8 @@ void ResistanceSum::set_arrays(const std::string &prefix, riis_vtk_mesh *file) c
 
 namespace {
 
-// The first steps sort the mesh's nodes and allocate memory that later steps reuse. So their times do not count.
+// The times of the first steps do not count, because these steps sort the mesh's nodes and allocate memory that later steps
+// reuse.
 constexpr int n_first_steps = 2;
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {

@@ -28,7 +28,7 @@ void warn_of_incomplete_marks();
 // Refuses to replace an array of the mesh unless the user gave --replace.
 void check_new_arrays(const MarkOptions &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh);
 
-// Returns PREFIX_marked, PREFIX_distance, PREFIX_leaflet, and the names of the arrays of these fields.
+// Returns PREFIX_marked, PREFIX_distance, PREFIX_leaflet, and the names of the arrays of the given fields.
 std::vector<std::string> names_of_marks(const std::string &prefix, int32_t fields);
 void set_marks(const MarkOptions &options, const riis_marks *result, int32_t fields, riis_vtk_mesh *file);
 
@@ -47,7 +47,7 @@ class ResistanceSum {
   bool has_any_ = false;
 };
 
-// --steps measures the cost of a time step of a moving valve, in a mesh that is prepared for many markings.
+// Measures, for --steps, the cost of a time step of a moving valve in a mesh that is prepared for many markings.
 
 // Moves the opening back and forth between 0 and 1, and marks the nodes of the file after each step. Afterwards the valve has
 // its old opening. Other surfaces and marks do not change. Throws a Refusal for a valve that cannot move.

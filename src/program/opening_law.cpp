@@ -75,7 +75,7 @@ const std::vector<std::string> &interpolation_names() {
 
 namespace {
 
-// These limits are those of the library for a table.
+// The library has the same limits for a table.
 constexpr std::size_t most_keys = 1000000;
 constexpr double largest_key_time = 1e30;
 

@@ -11,7 +11,7 @@
 
 namespace riis::program {
 
-// A table of openings at key times. A period of 0 means that there is none.
+// A table of openings at key times. A period of 0 means that the table does not repeat.
 struct OpeningTable {
   std::vector<double> times, openings;
   double period = 0;

@@ -22,8 +22,8 @@ struct ValveOptions {
   std::string placed;            // the file of a placed valve, whose kind is then `valve`; "": none
   std::string surface;           // a file, or "" for the valve
   std::string leaflets;          // leaflets of that file: "connected", the name of a cell array, or "" for riis_leaflet
-  std::optional<double> time;    // for a surface that moves
-  double period = 0;             // of the surface's motion or of the cycle; 0 if there is none
+  std::optional<double> time;    // the time of a surface that moves
+  double period = 0;             // period of the surface's motion or of the cycle; 0 if there is none
   std::string params, params_open;    // JSON files; "": none
   std::vector<std::string> settings;  // NAME=VALUE, in the order of typing
   std::optional<double> opening;      // from 0 to 1
@@ -31,9 +31,9 @@ struct ValveOptions {
   std::string wall;                   // a file with the wall that the skirt reaches; "": none
   riis_surface_options surface_options;
   std::optional<Unit> unit, surface_unit;  // units of the mesh and of the surface's file; they give the scale
-  // Tell whether the user gave these values as numbers.
+  // These members tell whether the user gave the values as numbers.
   bool has_scale = false, has_half_thickness = false, has_tolerance = false;
-  std::int32_t n_threads = 0;  // 0: as many as there is work for
+  std::int32_t n_threads = 0;  // 0: the library chooses by the amount of work
   bool quiet = false;
   bool strict = false;  // a warning changes the exit status
 };
@@ -55,7 +55,7 @@ struct SeriesOptions {
   bool all_cells = false;
 };
 
-// Two points that the valve should separate, and the words for refusing them.
+// Two points that the valve should separate, and their texts for messages.
 struct LeakCheck {
   double from[3], to[3];
   std::string subject;
@@ -94,7 +94,7 @@ struct SizeFieldOptions : MarkOptions {
   double band_edge = 0.9;              // edge length in the band, in half thicknesses
   double growth = 0.3;                 // how much longer an edge is at a point that is one length farther away
   std::optional<double> largest_edge;  // default 4 half thicknesses
-  std::optional<double> spacing;       // of the grid; default half a half thickness
+  std::optional<double> spacing;       // spacing of the grid; default half a half thickness
   std::int32_t n_openings = 41;        // number of openings of a valve
 };
 
@@ -116,7 +116,7 @@ struct ExportOptions : ValveOptions {
   std::optional<double> opening_duration, closing_duration;  // used without a cycle
   std::string cycle;                                         // a file
   std::int32_t interpolation = RIIS_INTERPOLATION_LINEAR;
-  std::optional<TimeSpan> opening_span, closing_span;  // in the time of the cycle
+  std::optional<TimeSpan> opening_span, closing_span;  // spans of the cycle's time
   double largest_edge = 0;                             // 0: the library's own triangles
 };
 
@@ -125,7 +125,7 @@ struct PlaceOptions : ValveOptions {
   std::string landmarks, mesh;                                // files; the mesh may be ""
   bool has_valve = false;                                     // whether the user named the kind
   std::string axes;                                           // of the mesh, or "" for those of the landmarks
-  std::optional<double> noise;                                // in the unit of --unit or of the landmarks
+  std::optional<double> noise;                                // noise in the unit of --unit or of the landmarks
   std::optional<std::vector<double>> flow;                    // in the mesh's axes
   std::string output, foam_output, c_output, fortran_output;  // "" if not wanted, "-" for stdout
 };

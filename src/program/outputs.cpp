@@ -146,7 +146,7 @@ OutputLocks locks_of(const NamedFiles &outputs) {
   return OutputLocks(written);
 }
 
-// riis_vtk also refuses a picture without a display. But it does so only when it draws, after all other work.
+// Checks the display early. riis_vtk also refuses a picture without a display, but only when it draws, after all other work.
 void check_display() {
   const char *display = std::getenv("DISPLAY");
   if (display && *display) return;
@@ -354,13 +354,13 @@ bool is_at(int file, const std::string &path) {
 int take(const std::string &output, const std::string &lock) {
   for (;;) {
     int file = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    // The file may be left from another user's killed run, and this user may only read it.
+    // The lock file may be left from a killed run of another user. Then this user may only read it, which suffices for a lock.
     if (file < 0 && errno == EACCES) file = open(lock.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0)
       refuse_lock(output, "its lock " + lock + " cannot be made: " + std::generic_category().message(errno));
     if (flock(file, LOCK_EX | LOCK_NB) == 0) {
       if (is_at(file, lock)) return file;
-      close(file);  // the run that held the lock has just removed this file
+      close(file);  // the run that held the lock has just removed its file, so this run makes a new one
       continue;
     }
     const int error = errno;
@@ -381,7 +381,7 @@ OutputLocks::OutputLocks(const std::vector<std::string> &paths) {
   try {
     for (const std::string &path : paths) {
       const std::string lock = lock_of(path);
-      // Outputs with long names may have the same lock.
+      // A lock may serve several outputs with long names, because only the ends of such names are used.
       if (std::find(held.begin(), held.end(), lock) != held.end()) continue;
       const int file = take(path, lock);
       if (file < 0) continue;
@@ -399,7 +399,7 @@ OutputLocks::~OutputLocks() { release(); }
 
 void OutputLocks::release() {
   if (files_.empty()) return;
-  remove_held();  // while the locks are still held, because afterwards another run could hold them
+  remove_held();  // the files are removed before the locks are released, because afterwards another run could hold them
   set_handlers(remove_and_end, SIG_DFL);
   for (const int file : files_) close(file);
   files_.clear();

@@ -16,7 +16,7 @@ namespace riis::program {
 // "annulus" and "root_radius".
 void set_from_json_file(riis_valve *valve, const std::string &path);
 
-// Does the same for a JSON value. `path`, a file or a position in one, begins refusals.
+// Sets parameters from a JSON value, as from a file. `path`, a file or a position in one, begins refusals.
 void set_from_json(riis_valve *valve, const Json &parameters, const std::string &path);
 
 // Sets the parameter of one --set.

@@ -44,7 +44,7 @@ bool is_papers_aortic_valve(const ValveOptions &options, const riis_valve *valve
     double values[3] = {0, 0, 0};
     check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
     check(riis_valve_get(valve, parameter.name, parameter.n_values, values));
-    // The parameters of the open state have no effect at opening 0.
+    // Skips the two parameters of the open state, because they have no effect at opening 0.
     const std::string_view name = parameter.name;
     if (name == "open_radius_ratio" || name == "commissure_expansion") continue;
     if (!std::equal(values, values + 3, parameter.default_values)) return false;

@@ -210,7 +210,7 @@ double distance_from_nodes(const LandmarkFile &landmarks, int64_t n_nodes, const
   return sum;
 }
 
-// Refuses landmarks that are not at the mesh. If they would be with other axes or another unit, the message says so.
+// Refuses landmarks that are not at the mesh. If other axes or another unit would bring them to the mesh, the message says so.
 void check_mesh(const PlaceOptions &options, const Placed &placed) {
   if (options.mesh.empty()) return;
   const LandmarkFile &landmarks = placed.landmarks;
@@ -223,7 +223,7 @@ void check_mesh(const PlaceOptions &options, const Placed &placed) {
   int64_t n_nodes = 0;
   const double *nodes = nullptr;
   check(riis_vtk_mesh_get_nodes(mesh.get(), &n_nodes, nullptr, &nodes));
-  // Landmarks are on the wall, so nodes are near. A valve whose landmarks are a centimetre away is elsewhere.
+  // Landmarks lie on the wall, so nodes of the mesh must be near. Landmarks a centimetre away belong to another place.
   const double near = factor_between(Unit::centimetre, landmarks.unit);
   const double apart = distance_from_nodes(landmarks, n_nodes, nodes, 1, 1);
   if (apart <= near) return;
@@ -271,7 +271,7 @@ std::string json_of(const PlaceOptions &, const std::string &kind, const Placed 
   root["parameters"] = parameters;
   Json residuals = Json::object();
   for (std::size_t i = 0; i < placed.residuals.size(); ++i) {
-    // Names may repeat, as those of annulus points.
+    // A name may occur repeatedly, such as that of annulus points.
     std::string name = placed.landmarks.names[i];
     while (residuals.contains(name)) name += "'";
     residuals[name] = placed.residuals[i];

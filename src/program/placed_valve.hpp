@@ -10,8 +10,9 @@
 
 namespace riis::program {
 
-// If --valve is the file of a placed valve, replaces the options for kind and placement by those of the file. The file's
-// parameters are set by set_placed_parameters. Refuses options that the file has already. Leaves other valves as they are.
+// If --valve is the file of a placed valve, replaces the options for kind and placement by those of the file.
+// set_placed_parameters sets the file's parameters. Refuses options that the file already contains. Leaves other valves as they
+// are.
 void use_placed_valve(ValveOptions &options);
 void set_placed_parameters(const ValveOptions &options, riis_valve *valve);
 

@@ -256,7 +256,7 @@ std::string json_of(const Report &report) {
                  {"leaks", seconds.leaks},
                  {"write", seconds.write},
                  {"picture", seconds.picture}}}});
-  // These values exist only with a mesh. They are removed if no mesh was marked.
+  // The report has these values only if a mesh was marked. Otherwise they are removed.
   static const char *const of_marks[] = {"n_nodes",
                                          "n_cells",
                                          "n_marked",
@@ -305,7 +305,8 @@ std::string table_of(const Report &report) {
   out << "surface   " << surface_title(report) << ": " << counted(report.surface.n_triangles, "triangle");
   if (report.n_leaflets > 0) out << ", " << counted(report.n_leaflets, "leaflet");
   out << ", area " << report.surface.area;
-  // A valve has such triangles at every collapsed side. A file should have none, so they are mentioned only for a file.
+  // Triangles without area are mentioned only for a surface from a file, which should have none. A valve has them at every
+  // collapsed side.
   if (!report.opening && report.surface.n_zero_area > 0)
     out << ", " << grouped(report.surface.n_zero_area) << " without area left out";
   out << "\n";

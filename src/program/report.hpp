@@ -41,7 +41,7 @@ struct PassageReport {
 };
 
 struct LeakReport {
-  riis_leak_list found{};             // its numbers only; its pointers are no longer valid
+  riis_leak_list found{};             // only its numbers are valid, not its pointers
   std::vector<int64_t> edges;         // (2, found.n_edges)
   double closing_half_thickness = 0;  // for the user to type; 0 if none was found
   int64_t n_volume_cells = 0;
@@ -62,7 +62,7 @@ struct FlowReport {
 struct CrossingReport {
   int n_openings = 0;             // number of openings checked, or 0 if only the given surface was checked
   std::optional<double> opening;  // the opening at which a crossing was found
-  riis_crossing_list found{};     // its numbers only; its pointers are no longer valid
+  riis_crossing_list found{};     // only its numbers are valid, not its pointers
 };
 
 struct Report {
@@ -86,10 +86,11 @@ struct Report {
   std::optional<StepTimes> step;
 };
 
-// These return texts such as "15,745" and "1 node".
+// Returns a number as text with commas, such as "15,745".
 std::string grouped(int64_t n);
 // Returns the name of RIIS_OUTLINE_*.
 const char *outline_name(int32_t outline);
+// Returns a number with its noun in the singular or plural, such as "1 node".
 std::string counted(int64_t n, const char *singular);
 // Returns a text such as "mitral valve, opening 0.5".
 std::string surface_title(const Report &report);

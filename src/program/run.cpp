@@ -141,13 +141,14 @@ ExitCode run_single(const MarkOptions &options) {
   if (options.n_steps > 0) report.step = time_steps(options, source.valve.get(), mesh.get());
   write_files(options, surface.get(), mesh.get(), report);
   try {
-    // riis_vtk draws the marks under its default names. The output has its own names and is already written.
+    // The marks get the default names, under which riis_vtk draws them. The output, which may have other names, is already
+    // written.
     if (result && !options.pictures.empty())
       check(riis_vtk_mesh_set_marks(mesh.get(), result.get(), options.far_distance, nullptr));
     draw_pictures(options, picture_title(options, valve, report), leaflet_names(options), surface.get(), mesh.get(),
                   result.get(), report);
   } catch (const Refusal &) {
-    // The marks are valid even if drawing failed.
+    // The statistics are written even if drawing failed, because the marks are valid.
     write_stats(options, report);
     throw;
   }

@@ -244,13 +244,14 @@ ExitCode run_series(Case &all) {
     warn_of_sweep(all, sweep, file.get());
     look_for_closed_leaks(all, valves, mesh.get(), file.get(), report);
   }
-  // From here on, a signal waits for the end of a step. So the lists are always written, and the movie's frames are removed.
+  // From here on, a signal such as Ctrl-C waits for the end of a step. So even then the lists are written and the movie's frames
+  // are removed.
   const UnbrokenWrite unbroken;
   const MeshFile part = options.series.all_cells ? nullptr : part_of(file.get(), sweep.node_ids);
   riis_vtk_mesh *const written = part ? part.get() : file.get();
   std::optional<SeriesPictures> pictures;
   if (SeriesPictures::are_wanted(options)) {
-    // Pictures show the whole mesh, and they need other arrays in it.
+    // Pictures get a mesh of their own, because they show the whole mesh and store other arrays in it.
     MeshFile drawn = part ? std::move(file) : copy_of(file.get());
     pictures.emplace(all, std::move(drawn), sweep.box);
   } else if (part) {

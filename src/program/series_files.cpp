@@ -166,7 +166,7 @@ int64_t SeriesTable::most_marked() const {
 std::string SeriesTable::summary() const {
   std::string text;
   for (const Row &row : rows_) {
-    // A surface from a file has no opening.
+    // The line of a surface from a file shows no opening, because the surface has none.
     const bool has_opening = row.opening.least <= row.opening.most;
     text +=
         "valve     " + row.name + ": " +

@@ -103,7 +103,7 @@ struct Grid {
   std::array<std::int64_t, 3> n;
 
   std::int64_t n_points() const { return n[0] * n[1] * n[2]; }
-  // The points in gmsh's order: z runs fastest.
+  // The grid's points are in gmsh's order, in which z runs fastest.
   std::vector<double> points() const {
     std::vector<double> xyz;
     xyz.reserve(static_cast<std::size_t>(3 * n_points()));
@@ -124,7 +124,7 @@ class SweptSurface {
 
   void add(double time) {
     valve_.move_to(time);
-    // At the same opening a valve has the same triangles.
+    // An opening that occurs again is skipped, because the valve has the same triangles there.
     if (!valve_.source().keyframes && !openings_.insert(valve_.opening()).second) return;
     const riis_triangles triangles = triangles_of(valve_.surface());
     const std::int64_t before = view(xyz_).size() / 3;

@@ -24,12 +24,12 @@ namespace riis::program {
 
 namespace {
 
-// The triangles approximate the surface, and this changes the orifice. At the program's usual tolerance the change is up to 0.3 %
-// for the prosthesis. At this tolerance it is below 0.1 % for the prosthesis and 0.1 % for the aortic valve.
+// The orifice of the triangles differs from that of the smooth surface. The difference is up to 0.3 % for the prosthesis at the
+// program's usual tolerance. At this tolerance it is at most about 0.1 % for the prosthesis and for the aortic valve.
 constexpr double fine_tolerance = 0.01;
 
 riis_surface_options own_frame(const StatesOptions &options) {
-  riis_surface_options own = options.surface_options;  // the scale is the command's only placement
+  riis_surface_options own = options.surface_options;  // this command places a valve by the scale only
   if (!options.has_tolerance) own.tolerance = fine_tolerance;
   return own;
 }
@@ -220,7 +220,7 @@ constexpr double same = 1e-9;
 
 using Value = std::function<double(const State &)>;
 
-// Finds the states of the least and of the greatest value, and the first one of equal states.
+// Finds the states with the least and with the greatest value. Of equal states, finds the first.
 struct Extremes {
   const State *least, *most;
 };
@@ -236,7 +236,7 @@ std::string rounded(double value) { return shown(std::round(value * 1e4) / 1e4);
 
 std::string at(const State &state) { return " at " + shown(state.opening); }
 
-// Returns the place of the first state, which is closed if the surface is that of a valve.
+// Returns the opening or the time of the first state. For a valve, this is the closed state.
 std::string at_first(const States &states) {
   if (states.is_of_file && states.states.size() == 1) return "";
   return at(states.states.front());

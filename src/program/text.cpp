@@ -76,7 +76,7 @@ std::string text_of_file(const std::string &path) {
   std::ifstream file(path);
   std::ostringstream text;
   if (file) text << file.rdbuf();
-  // A folder can be opened as a file, but reading it fails.
+  // Opening a folder as a file succeeds. Only reading it fails, so folders are recognised here.
   if (!file.is_open() || errno != 0) refuse_file(path, "cannot be read: " + std::generic_category().message(errno));
   if (text.str().empty()) refuse_file(path, "is empty");
   return text.str();
@@ -132,7 +132,7 @@ std::vector<std::string> pieces_between(const std::string &text, char mark) {
   return pieces;
 }
 
-// Removes the rounding error of a sum of steps: 0.07000000000000001 becomes the intended 0.07.
+// Removes the rounding error of a sum of steps. For example, 0.07000000000000001 becomes 0.07.
 double tidied(double time, double step) {
   char text[32];
   double tidy = time;
@@ -144,7 +144,7 @@ double tidied(double time, double step) {
 std::vector<double> stepped(double start, double stop, double step, const std::string &subject) {
   if (!(step > 0)) refuse_times(subject, "the step " + shortest(step) + " is not above 0");
   if (stop < start) refuse_times(subject, "the stop " + shortest(stop) + " is before the start " + shortest(start));
-  // If the step divides the span, rounding must not lose the last step.
+  // The small additions keep rounding from losing the last step if the step divides the span.
   const double n = std::floor((stop - start) / step * (1 + 1e-12) + 1e-9) + 1;
   if (n > static_cast<double>(most_times)) refuse_count(subject, n);
   std::vector<double> times;

@@ -16,7 +16,7 @@ double parse_number(const std::string &text, const std::string &subject);
 std::int32_t parse_integer(const std::string &text, const std::string &subject);
 // Reads numbers separated by commas.
 std::vector<double> parse_list(const std::string &text, const std::string &subject);
-// Reads exactly n such numbers. `form` shows the expected form, such as "X,Y,Z".
+// Reads exactly n numbers separated by commas. `form` shows the expected form, such as "X,Y,Z".
 std::vector<double> parse_list(const std::string &text, const std::string &subject, std::size_t n,
                                const std::string &form);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<Unit, 3> all_units = {Unit::metre, Unit::centimetre, Unit::millimetre};
 
-// The results are whole numbers, so the quotient of two results is a number as the user would write it.
+// The results are whole numbers, so that the quotient of two of them is the number that a user would write, such as 0.01.
 double millimetres_of(Unit unit) { return unit == Unit::metre ? 1000 : unit == Unit::centimetre ? 10 : 1; }
 
 bool is_about(double a, double b) { return std::abs(a - b) <= 1e-9 * b; }

@@ -18,7 +18,7 @@ namespace riis::program {
 
 namespace {
 
-// With more triangles, a text file is too large to be useful, even with few frames.
+// The largest number of triangles. With more, a text file is too large to be useful, even with few frames.
 constexpr std::int64_t most_triangles = 2000000;
 
 std::string name_of_leaflet(const std::string &valve, std::int32_t id) {

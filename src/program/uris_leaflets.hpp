@@ -92,7 +92,7 @@ class UrisBox {
 struct UrisLeaflet {
   std::string name;                 // usable as a file's name
   std::vector<std::int64_t> nodes;  // for each node, its vertex; ascending
-  std::vector<Corners> triangles;   // in terms of the leaflet's own nodes, from 0
+  std::vector<Corners> triangles;   // corners as numbers of the leaflet's own nodes, from 0
   bool is_scaffold;                 // true for a housing, which does not move and has no flow through it
 };
 

@@ -23,7 +23,7 @@ struct Spans {
 class Keys {
  public:
   explicit Keys(const OpeningTable &table) : table_(table) {}
-  // Two periods contain a span from any key of the cycle to any other key.
+  // Returns the number of keys, in two periods if there is a period. Two periods contain a span from any key to any other key.
   std::size_t size() const { return table_.times.size() * (table_.period > 0 ? 2 : 1); }
   double time(std::size_t i) const { return table_.times[i % n()] + (i < n() ? 0 : table_.period); }
   double opening(std::size_t i) const { return table_.openings[i % n()]; }
@@ -73,7 +73,7 @@ std::vector<double> frame_times(const TimeSpan &span, double step, const char *w
     throw Refusal{exit_wrong_usage,
                   "--time-step: " + shortest(step) + " is longer than the " + what + ", " + shortest(length)};
   }
-  // If the step divides the span, rounding must not add a short step.
+  // The small subtractions keep rounding from adding a short step if the step divides the span.
   const double n_steps = std::max(1.0, std::ceil(length / step * (1 - 1e-12) - 1e-9));
   if (n_steps >= static_cast<double>(most_times)) {
     throw Refusal{exit_wrong_usage, "--time-step: " + shortest(step) + " makes " + shortest(n_steps + 1) +
@@ -108,7 +108,8 @@ LawWithSpans law_of_cycle(const ExportOptions &options) {
 LawWithSpans law_of_seconds(const ExportOptions &options) {
   riis_opening_times times;
   check(riis_opening_times_init(&times, sizeof times));
-  // The opening ends and the closing starts at time 0. So both ends of both ramps are exact.
+  // The opening ends at time 0, and the closing starts at time 0. With this choice, the times of both ends of both ramps are
+  // exact.
   times.opening_start = -*options.opening_duration;
   times.opening_duration = *options.opening_duration;
   times.closing_start = 0;

@@ -162,7 +162,7 @@ class Reader {
 
   std::int32_t leaflet_of(const Json &value, const std::string &subject) const {
     constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
-    // This also refuses a negative number, because as an unsigned number it is too large.
+    // The comparison also refuses a negative number, which as an unsigned number is too large.
     if (!value.is_number_integer() || value.get<std::uint64_t>() > static_cast<std::uint64_t>(most)) {
       refuse(subject + ": leaflet is " + json_text(value) + "; it must be a whole number from 0 to " +
              std::to_string(most));

@@ -95,7 +95,7 @@ Valve make_valve(const ValveOptions &options, OpeningCheck opening) {
 
 namespace {
 
-// Reads the wall. It is already in the mesh's frame, so nothing places it.
+// Reads the wall. The wall is already in the mesh's frame, so no placement applies to it.
 Surface read_wall(const ValveOptions &options) {
   riis_vtk_surface *handle = nullptr;
   check_read(riis_vtk_surface_read(options.wall.c_str(), nullptr, &handle), options.wall, Content::surface);
@@ -139,7 +139,8 @@ Valve copy_of(const riis_valve *valve) {
   return Valve(copy);
 }
 
-// If a valve is valid at opening 0 and refused at 1, it has only one state. Other faults are reported when the surface is made.
+// Tries the valve at opening 1 only. A valve that is valid at 0 and refused at 1 has only one state. Other faults are reported
+// when the surface is made.
 std::string why_closed(riis_valve *valve, const riis_surface_options &how) {
   check(riis_valve_set_scalar(valve, "opening", 1));
   riis_surface *surface = nullptr;
@@ -244,7 +245,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Each ending was tested. tests/cli/test_cli_conversions.c tests it again if the tool is installed.
+// The endings that a tool converts. tests/cli/test_cli_conversions.c tests each ending if the tool is installed.
 const std::set<std::string> meshes_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh"};
 const std::set<std::string> meshes_of_meshio = {".inp", ".su2"};
 const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply", ".ply2", ".vtk"};

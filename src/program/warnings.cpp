@@ -20,7 +20,7 @@ namespace {
 std::int64_t n_printed = 0;
 Cause first_cause = Cause::leaks;  // the cause whose advice was printed
 
-// In a mesh with fewer nodes, it is not suspicious that all nodes lie near the surface.
+// Smaller meshes are not judged, because all nodes of a small mesh may well lie near the surface.
 constexpr int64_t fewest_judged_nodes = 100;
 
 Box box_of(int64_t n_nodes, const double *xyz) {
@@ -60,7 +60,8 @@ std::string text_of(const Box &box, double edge) {
 
 bool has_all(const Situation &s) { return s.n_marked == s.n_nodes && s.n_nodes >= fewest_judged_nodes; }
 
-// A single layer of nodes over the surface would have about area / edge^2 nodes.
+// Returns whether suspiciously few nodes are marked. A single layer of nodes over the surface would have about area / edge^2
+// nodes.
 bool has_hardly_any(const Situation &s) {
   if (s.n_marked == 0 || s.n_nodes < fewest_judged_nodes || s.median_edge == 0) return false;
   return static_cast<double>(s.n_marked) * s.median_edge * s.median_edge < 0.1 * s.area;
@@ -143,10 +144,10 @@ namespace {
 // A mesh fits its valve under three conditions. Its size is 0.5 to 40 times the valve's size. Its edges are at most 0.3 times
 // the valve's size. The two boxes overlap.
 constexpr double smallest_mesh = 0.5, largest_mesh = 40, usual_mesh = 3, longest_edge = 0.3;
-// Both are shares of the surface's largest side. The paper's half thickness, 0.1 cm, is 0.04 of the largest side of its aortic
-// valve.
+// Both limits of the half thickness are shares of the surface's largest side. The paper's half thickness, 0.1 cm, is 0.04 of the
+// largest side of its aortic valve.
 constexpr double usual_half_thickness = 0.04, largest_half_thickness = 0.25;
-// A share of the mesh's edge length. If the half thickness is smaller, the band falls between two layers of nodes and contains
+// The least half thickness, as a share of the mesh's edge length. A thinner band falls between two layers of nodes and contains
 // few nodes.
 constexpr double smallest_half_thickness = 0.3;
 
@@ -186,15 +187,15 @@ bool edges_fit_at(double factor, const Situation &s) {
 std::optional<double> missing_factor(const Situation &s) {
   const bool sizes_fit = sizes_fit_at(1, s);
   if (sizes_fit && edges_fit_at(1, s)) {
-    // Similar sizes have the same unit. If the sizes fit in the user's units, those units are right. In both cases the position
-    // is wrong.
+    // The unit is right in two cases: if the sizes are similar, or if they fit in units that the user named. Then only the
+    // position can be wrong.
     const bool are_alike = mesh_in_surfaces(s) > 1.0 / 3 && mesh_in_surfaces(s) < 3;
     if (overlap_at(1, s) || are_alike || s.options.unit || s.options.has_scale) return std::nullopt;
   }
-  // Sizes that differ so much have different units, even if the positions fit.
+  // Sizes that differ this much must have different units, even if no factor brings the positions together.
   const bool differ_widely = mesh_in_surfaces(s) < 0.1 || mesh_in_surfaces(s) > 100;
   std::optional<double> best;
-  // Later passes allow a mesh that is in another unit and also too coarse.
+  // The passes become less strict. The last ones accept a mesh that is in another unit and also too coarse.
   struct Pass {
     bool must_overlap, must_resolve;
   };
@@ -321,7 +322,7 @@ std::optional<Warning> warning_of_half_thickness(const Situation &s) {
   Warning warning{Cause::half_thickness, "the half thickness is " + shown(s.half_thickness), ""};
   warning.text += is_large ? ", the largest side of the surface " + shown(s.surface.largest_side())
                            : ", the median edge of the mesh " + shown(s.median_edge);
-  // In this case the user did not name the file's unit, and the half thickness is the default for centimetres.
+  // The unit is unknown if the user named none. The half thickness is then the default for centimetres.
   const bool is_unknown =
       !is_parametric(s.options) && !s.options.unit && !s.options.has_scale && !s.options.has_half_thickness;
   const auto unit = is_unknown ? unit_of_valve(s.surface.largest_side()) : std::nullopt;

@@ -25,7 +25,7 @@ struct Situation {
   int64_t n_nodes, n_marked;
   Box mesh, surface;
   double median_edge;  // 0 if unknown
-  double area;         // of the surface
+  double area;         // area of the surface
   double half_thickness;
 };
 
@@ -48,8 +48,8 @@ std::optional<Warning> warning_of(const Situation &situation);
 
 // Prints the line on stderr, and counts it for --strict. --quiet does not silence it, because wrong marks look like right ones.
 void warn(const std::string &text);
-// Prints the texts of all warnings, but the advice only for the first cause. Later calls omit the advice for later causes.
-// Otherwise two pieces of advice could contradict each other, and following the first may correct everything.
+// Prints the texts of all warnings, but the advice only for the first cause. Later calls omit the advice for later causes. The
+// first advice may correct everything, and a second one could contradict it.
 void warn(std::vector<Warning> warnings);
 std::int64_t n_warnings();
 
@@ -59,8 +59,8 @@ std::string place_text(const ValveOptions &options, const double *point, double 
 
 // In: sizes that do not fit together. Out: the units that they suggest, and the options that make them fit.
 
-// These return whether the half thickness is larger than a quarter of the surface, or so small that the band falls between the
-// mesh's nodes.
+// is_too_large returns whether the half thickness is larger than a quarter of the surface. is_too_small returns whether it is so
+// small that the band falls between the mesh's nodes.
 bool is_too_large(double half_thickness, const Situation &situation);
 bool is_too_small(double half_thickness, const Situation &situation);
 

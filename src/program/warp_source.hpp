@@ -43,7 +43,7 @@ class WarpSource {
 
  private:
   std::string subject_;
-  std::vector<LandmarkPairs> pairs_;  // of the closed state, and of the open state if it has landmarks of its own
+  std::vector<LandmarkPairs> pairs_;  // landmarks of the closed state, and of the open state if it has its own
 };
 
 }  // namespace riis::program

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char *advice = "; on a machine without one, run the program by: xvfb-run -a PROGRAM";
 
-// Tries several times, because the X server may be resetting itself after the last picture.
+// Tries several times, because the X server refuses connections while it resets itself after a picture.
 Display *open_display() {
   for (int n_tries_left = 5;; --n_tries_left) {
     Display *display = XOpenDisplay(nullptr);

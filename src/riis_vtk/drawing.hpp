@@ -19,7 +19,7 @@ namespace riis::vtk {
 // open.
 class HeldDisplay {
  public:
-  // Fails with RIIS_UNAVAILABLE if there is no display or if it lacks GLX.
+  // Fails with RIIS_UNAVAILABLE if there is no display, or if the display lacks GLX.
   HeldDisplay();
   ~HeldDisplay();
   HeldDisplay(const HeldDisplay &) = delete;

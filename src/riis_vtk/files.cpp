@@ -21,7 +21,7 @@ namespace {
 
 std::string system_text(int error) { return std::generic_category().message(error); }
 
-// Follows links to the file itself, which may be missing.
+// Follows links, and returns the path of the file itself. The file may be missing.
 std::string resolved(const std::string &path) {
   std::filesystem::path place = path;
   for (int n_links_left = 40; std::filesystem::is_symlink(place); --n_links_left) {
@@ -51,7 +51,7 @@ std::string create_beside(const std::string &place, const struct stat *replaced)
   }
 }
 
-// Makes sure that the data is on the disk. Some file systems report a failed write only then.
+// Waits until the data is on the disk, because some file systems report a failed write only at that point.
 int synchronise(const std::string &path) {
   const int file = open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (file < 0) return errno;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks files, reads them as bytes, lines and words, and writes files under a temporary name. VTK does the rest. This header
-// also has the names of the arrays in files.
+// Checks files, reads them as bytes, lines and words, and writes files under a temporary name. VTK itself reads and writes the
+// formats. This header also has the names of the arrays in files.
 #pragma once
 
 #include <charconv>
@@ -73,7 +73,7 @@ std::int64_t check_readable(const std::string &path);
 // The bytes of a file. They are readable while this object lives.
 class MappedFile {
  public:
-  // `size` must be the result of check_readable.
+  // Maps the file into memory. `size` must be the result of check_readable.
   MappedFile(const std::string &path, std::int64_t size);
   ~MappedFile();
   MappedFile(const MappedFile &) = delete;
@@ -91,8 +91,8 @@ class MappedFile {
 // temporary file, and the final place stays unchanged.
 class ReplacingFile {
  public:
-  // Fails if the path cannot be written to: the folder or a permission is missing, the path is not a regular file, or links form
-  // a circle.
+  // Makes the temporary file. Fails if the path cannot be written to: the folder or a permission is missing, the path is not a
+  // regular file, or links form a circle.
   explicit ReplacingFile(const std::string &path);
   ~ReplacingFile();
   ReplacingFile(const ReplacingFile &) = delete;
@@ -101,13 +101,13 @@ class ReplacingFile {
   const std::string &temporary() const { return temporary_; }
   // Writes content from memory to the temporary file.
   void write(const unsigned char *bytes, std::int64_t n_bytes);
-  // Fails unless the temporary file ends with `closing`, the last bytes of its format. On a full disk the file ends early, and
-  // not every writer notices this.
+  // Moves the file to its final place. Fails unless the temporary file ends with `closing`, the last bytes of its format. On a
+  // full disk the file ends early, and not every writer notices this.
   void commit(const std::string &closing);
 
  private:
-  std::string path_;   // as the caller gave it
-  std::string place_;  // with links resolved, so that a link stays and its target is replaced or made
+  std::string path_;   // the path as the caller gave it
+  std::string place_;  // the path with links resolved, so that a link stays and its target is replaced or made
   std::string temporary_;
 };
 

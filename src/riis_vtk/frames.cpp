@@ -171,7 +171,7 @@ std::vector<double> times_in_file(const std::string &path, vtkPointSet *data, co
   return times;
 }
 
-// Fails for a coordinate that the core would refuse. In the message, `after` follows the point.
+// Fails for a coordinate that the core would refuse. In the message, the text `after` follows the point's number.
 void check_places(const std::string &path, const std::vector<double> &xyz, const std::string &after) {
   constexpr double largest = 1e60;  // the limit in riis.h
   constexpr std::array<const char *, 3> axes{"x", "y", "z"};

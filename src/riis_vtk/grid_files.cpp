@@ -50,7 +50,7 @@ void check_data_set(const std::string &path, vtkPointSet *data) {
   check_array_lengths(path, data->GetCellData(), "cell", data->GetNumberOfCells());
 }
 
-// Checks the offsets. This must happen before any cell is read.
+// Checks the offsets. Call this before any cell is read.
 void check_offsets(const std::string &path, vtkCellArray *cells) {
   if (cells && cells->GetNumberOfCells() > 0 && !cells->IsValid()) fail_file(path, "has broken cell offsets");
 }
@@ -113,8 +113,8 @@ void check_cell_sizes(const std::string &path, vtkUnstructuredGrid *grid) {
   fail_file(path, "cell ", cell, " has broken polyhedron faces");
 }
 
-// Checks a polyhedron's faces. At the cell's location, the array has the number of faces, followed by the size and the points of
-// each face.
+// Checks a polyhedron's faces. From the cell's location on, VTK's array of faces has the number of faces, and then the size and
+// the points of each face.
 void check_polyhedron(const std::string &path, vtkIdType cell_id, vtkIdType location, vtkIdTypeArray *faces,
                       vtkIdType n_points) {
   const vtkIdType n_values = faces->GetNumberOfValues();
@@ -294,7 +294,8 @@ class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
     const vtkIdType n_faces = faces.empty() ? 0 : 1 + *std::max_element(faces.begin(), faces.end());
     const Ids corner_ends = offsets_in(cells, "face_offsets", n_faces);
     const Ids corners = ids_in(cells, "face_connectivity", n_faces == 0 ? 0 : corner_ends.back());
-    // If an earlier piece had polyhedra, VTK has already filled in -1 for this piece's cells.
+    // The first piece with polyhedra makes the list of faces. For later pieces, VTK itself fills in -1 for the cells without
+    // faces.
     if (!grid->GetFaces()) {
       grid->InitializeFacesRepresentation(StartCell);
       for (vtkIdType i = 0; i < n_cells; ++i) grid->GetFaceLocations()->InsertNextValue(-1);
@@ -344,8 +345,8 @@ class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
   }
 };
 
-// Explains why an array could not be read. VTK 9.1 crashes while it writes its own message about that, so the first reader ran
-// with messages off. This second reader leaves the arrays out, so it can report any other fault.
+// Explains why a file could not be read. VTK 9.1 crashes while it writes its message about an unreadable array, so the first
+// reader ran with messages off. A second reader skips the arrays, and can therefore report any other fault.
 template <class Watched>
 [[noreturn]] void explain_failure(const std::string &path, const CaughtOutput &caught) {
   vtkNew<Watched> reader;
@@ -373,7 +374,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_legacy(const std::string &path, const 
   const std::int64_t n_cells = check_legacy(path);
   vtkNew<vtkUnstructuredGridReader> reader;
   reader->SetFileName(path.c_str());
-  // By default the reader would keep only one array of each kind.
+  // Without these calls, the reader would keep only one array of each kind.
   reader->ReadAllScalarsOn();
   reader->ReadAllVectorsOn();
   reader->ReadAllNormalsOn();
@@ -418,7 +419,7 @@ vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const Caught
   }
   check_faces(path, data->GetPolys(), 0, data->GetNumberOfPoints());
   check_faces(path, data->GetStrips(), data->GetNumberOfPolys(), data->GetNumberOfPoints());
-  // VTK knows the types of the cells only after this call.
+  // VTK determines the types of the cells in this call.
   data->BuildCells();
   return data;
 }

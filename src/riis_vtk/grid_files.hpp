@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: a path. Out: a VTK data set that has the sizes stated in the file and whose cells refer only to existing points. VTK
-// continues after many errors and returns an incomplete data set. Here an incomplete file is an error. The scans declared below
-// find most errors before VTK reads the file.
+// continues after many errors and returns an incomplete data set. These functions refuse an incomplete file. The scans declared
+// below find most errors before VTK reads the file.
 #pragma once
 
 #include <map>

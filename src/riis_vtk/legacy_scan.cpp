@@ -45,7 +45,7 @@ bool is_number(std::string_view word, const std::string &type) {
     return error == std::errc() && std::isfinite(value) &&
            (type == "double" || std::isfinite(static_cast<float>(value)));
   }
-  // In text files, VTK writes and reads single bytes as larger numbers.
+  // In text files, VTK writes and reads a single byte as a number of 32 bits, so a larger value is no fault.
   const bool is_unsigned = type.rfind("unsigned", 0) == 0 || type == "vtktypeuint64";
   const int n_bits = type == "short" || type == "unsigned_short" ? 16 : size_of_type(type) == 8 ? 64 : 32;
   if (is_unsigned && size_of_type(type) > 1) {
@@ -120,7 +120,8 @@ class Scan {
 
   std::string_view line() { return take_line(rest_); }
 
-  // Returns the next word unchanged, or "" at the end of the file. VTK would read a longer word as two words.
+  // Returns the next word unchanged, or "" at the end of the file. Refuses a word of more than 255 characters, because VTK would
+  // read it as two words.
   std::string_view word_as_it_is() {
     constexpr std::size_t longest = 255;
     const std::string_view text = take_word(rest_);
@@ -131,7 +132,7 @@ class Scan {
   // Returns the next word in lower case, or "" at the end of the file. The format mostly ignores case.
   std::string word() { return lower_case(word_as_it_is()); }
 
-  // These two return the next word, and fail at the end of the file.
+  // Both of these functions return the next word, and fail at the end of the file.
   std::string_view next_as_it_is() {
     const std::string_view text = word_as_it_is();
     if (text.empty()) refuse_end();
@@ -161,7 +162,7 @@ class Scan {
     if (first.rfind(magic, 0) != 0) refuse("is not a legacy VTK file");
     std::string version = first.substr(magic.size());
     while (!version.empty() && is_blank(version.back())) version.pop_back();
-    // VTK reads a file with an unknown version as an old one.
+    // An unknown version is refused, because VTK would read such a file as one of an old version.
     const std::size_t dot = version.find('.');
     if (dot == std::string::npos) refuse("has the version '", version.substr(0, 40), "'");
     version_ = number_of(version.substr(0, dot));
@@ -249,7 +250,7 @@ class Scan {
   }
 
   // Skips the rest of a block of METADATA: the keys, each with a NAME line and a DATA line. VTK looks for the stated number of
-  // keys, even after the blank line. If it cannot read this number, it never stops.
+  // keys, even after the blank line. If VTK cannot read the number of keys, it never stops.
   void skip_information(std::int64_t n_keys) {
     std::int64_t n_found = 0;
     vtkInformationKey *key = nullptr;
@@ -268,7 +269,7 @@ class Scan {
         key = nullptr;
       } else if (const std::string lower = lower_case(keyword);
                  begins_with(lower, "information") || begins_with(lower, "component_names")) {
-        // VTK would take this line for the beginning of another block.
+        // These lines are refused, because VTK would take them for the beginning of another block.
         refuse("has metadata with '", keyword.substr(0, 40), "' behind INFORMATION");
       }
     }
@@ -485,7 +486,8 @@ class Scan {
   std::int64_t n_cells_ = -1;  // -1 if not known yet
   std::int64_t n_types_ = -1;
   std::int64_t n_points_ = 0;
-  // The beginnings of arrays. Up to version 4 there are no offsets. Instead, each cell's corners follow their number.
+  // The arrays, from their beginnings on. In files up to version 4 there are no offsets, because each cell's corners follow their
+  // number.
   std::string_view types_, offsets_, corners_;
   std::string type_of_offsets_ = "int", type_of_corners_ = "int";
   std::int64_t n_corners_ = 0;

@@ -36,7 +36,8 @@ void check_adjacency(riis_status status, const std::string &structure) {
   fail(status, text.rfind(structure, 0) == 0 ? text.substr(structure.size()) : text);
 }
 
-// The core makes adjacencies from cells and the faces between them. Here the nodes are passed as cells, and the edges as faces.
+// Makes an adjacency of nodes from edges. The core has a call for cells and the faces between them, so the nodes are passed as
+// cells and the edges as faces.
 riis_adjacency *adjacency_of_edges(std::int64_t n_nodes, const std::vector<std::int64_t> &edges,
                                    std::int32_t n_threads) {
   riis_mesh_faces faces;
@@ -59,7 +60,7 @@ riis_adjacency *adjacency_of(vtkUnstructuredGrid *grid, std::int32_t n_threads) 
   const VolumeCounts counts = count_volumes(grid);
   if (counts.n_linear == 0 || counts.n_linear < counts.n_volumes)
     return adjacency_of_edges(grid->GetNumberOfPoints(), volume_edges_of(grid).node_ids, n_threads);
-  // A list of cells is preferred, because it is a third as long as the list of their edges.
+  // If all volume cells are linear, passes the cells, because their list is a third as long as that of their edges.
   const VolumeCells volumes = volume_cells_of(grid);
   riis_mesh_cells cells;
   check_core(riis_mesh_cells_init(&cells, sizeof cells));

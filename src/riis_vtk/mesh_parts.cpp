@@ -59,7 +59,7 @@ std::vector<vtkIdType> ids_of(const Chosen &chosen) {
   return ids;
 }
 
-// Copies the values of some nodes or cells, and adds an array with their ids in the whole mesh.
+// Copies the values of some nodes or cells, and adds an array with the ids of these nodes or cells in the whole mesh.
 void copy_data(vtkDataSetAttributes *from, const std::vector<vtkIdType> &ids, const char *id_array,
                vtkDataSetAttributes *to) {
   const auto n = static_cast<vtkIdType>(ids.size());

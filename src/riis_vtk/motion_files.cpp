@@ -20,7 +20,7 @@
 struct riis_vtk_motion {
   riis::vtk::Frames frames;
   std::vector<std::string> files;
-  std::vector<const char *> paths;  // points into files
+  std::vector<const char *> paths;  // pointers to the texts in `files`
 };
 
 namespace riis::vtk {
@@ -39,7 +39,8 @@ class CollectionParser : public vtkXMLParser {
   vtkTypeMacro(CollectionParser, vtkXMLParser);
 
   std::vector<NamedDataSet> data_sets;
-  std::exception_ptr failure;  // thrown in one of the functions below, which are called from C code
+  std::exception_ptr failure;  // an exception of the functions below; it must not pass through the C code that calls
+                               // them
 
  protected:
   void StartElement(const char *name, const char **attributes) override {

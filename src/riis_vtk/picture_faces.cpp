@@ -48,7 +48,7 @@ const FaceTable *faces_of_type(int type) {
   }
 }
 
-// The cells of a grid as polygons of corners. For types without a table above, VTK gives the faces.
+// The cells of a grid as polygons of corners. For types of cells without a table of faces, VTK gives the faces.
 class Polygons {
  public:
   explicit Polygons(vtkUnstructuredGrid *grid) : grid_(grid) {}
@@ -58,7 +58,7 @@ class Polygons {
     return generic(cell)->GetNumberOfFaces();
   }
 
-  // The result is valid until the next call.
+  // Returns the corners of a face. The result is valid until the next call.
   const Corners &face_of_volume(vtkIdType cell, int face) {
     corners_.clear();
     if (const FaceTable *table = faces_of_type(grid_->GetCellType(cell))) {
@@ -78,7 +78,7 @@ class Polygons {
     corners_.clear();
     const int type = grid_->GetCellType(cell);
     add_corners(generic(cell));
-    // VTK lists the corners of a pixel row by row, and those of a strip in zigzag.
+    // Puts the corners in the order round the cell, because VTK lists those of a pixel row by row and those of a strip in zigzag.
     if (type == VTK_PIXEL) std::swap(corners_[2], corners_[3]);
     if (type == VTK_TRIANGLE_STRIP) {
       Corners round;
@@ -202,7 +202,7 @@ class Collected {
   vtkNew<vtkCellArray> polygons_;
 };
 
-// Reverses a face whose corners run clockwise, seen from outside its cell. Inverted cells have such faces.
+// Reverses a face whose corners run clockwise, seen from outside its cell. Such faces come from inverted cells.
 void turn_outwards(vtkUnstructuredGrid *grid, vtkIdType cell, Corners &corners) {
   vtkNew<vtkIdList> nodes;
   grid->GetCellPoints(cell, nodes);

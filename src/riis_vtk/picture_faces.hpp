@@ -16,12 +16,13 @@ class vtkUnstructuredGrid;
 
 namespace riis::vtk {
 
-// The dimensions of a grid's cells. In a grid with volumes, flat cells only repeat its boundary. So they are not drawn.
+// The dimensions of a grid's cells. In a grid with volumes, flat cells are not drawn, because they only repeat the grid's
+// boundary.
 class CellDimensions {
  public:
   explicit CellDimensions(vtkUnstructuredGrid *grid);
-  int largest() const { return largest_; }  // from 0 to 3
-  // The type must occur in the grid.
+  int largest() const { return largest_; }  // the largest dimension of a cell, from 0 to 3
+  // Returns whether cells of a type have the grid's largest dimension. The type must occur in the grid.
   bool is_largest(int type) const { return view(of_type_)[type] == largest_; }
 
  private:

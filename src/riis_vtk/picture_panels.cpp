@@ -110,7 +110,7 @@ std::vector<vtkIdType> leaflets_of(vtkUnstructuredGrid *grid, const std::vector<
     grid->GetCellPoints(cell, nodes);
     vtkIdType closest = -1;
     for (const vtkIdType node : *nodes) {
-      // An unmarked node may have the far distance, which may be any number. So only marked nodes count.
+      // Only marked nodes count. The distance of an unmarked node may be the far distance, which can be any number.
       if (marked->GetComponent(node, 0) == 0) continue;
       if (closest < 0 || distance->GetComponent(node, 0) < distance->GetComponent(closest, 0)) closest = node;
     }
@@ -176,7 +176,7 @@ void SurfacePanel::show(vtkPolyData *surface) {
 }
 
 void SurfacePanel::look(const View &view, const Sight &sight) {
-  constexpr double behind = 0.01;  // as a share of the panel's half height
+  constexpr double behind = 0.01;  // distance of the lines behind the faces, in half heights of the panel
   move_away(rims_, view, behind * sight.shown[1].half());
 }
 
@@ -197,7 +197,8 @@ void MarksPanel::add_marks(vtkUnstructuredGrid *grid) {
   counts_ = {grid->GetNumberOfPoints(), std::count(marked.begin(), marked.end(), 1),
              std::count(parts.begin(), parts.end(), whole_marked),
              std::count(parts.begin(), parts.end(), partly_marked)};
-  // The partly marked cells surround the whole ones. Faces between the two kinds are never visible.
+  // Faces between wholly and partly marked cells are left out. They are never visible, because the partly marked cells surround
+  // the whole ones.
   std::vector<std::uint8_t> chosen(parts.size());
   std::transform(parts.begin(), parts.end(), chosen.begin(), [](std::uint8_t part) { return part == partly_marked; });
   const Outside partly = outside_of(grid, &parts, &chosen);

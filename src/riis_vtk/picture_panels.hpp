@@ -28,7 +28,7 @@ class SurfacePanel {
   explicit SurfacePanel(double pixels);
   // Replaces the surface that was shown before.
   void show(vtkPolyData *surface);
-  // Turns to a view. The lines are drawn slightly behind the faces, so that faces in front of them hide them.
+  // Turns to a view. The lines are drawn slightly behind the faces, so that nearer faces hide the lines.
   void look(const View &view, const Sight &sight);
   vtkRenderer *renderer() const { return renderer_; }
   const std::set<vtkIdType> &leaflets() const { return leaflets_; }

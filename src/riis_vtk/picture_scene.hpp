@@ -29,8 +29,8 @@ class Layout {
   double panel_left(int panel) const { return width_ * static_cast<double>(panel) / n_panels_; }
   double panel_width() const { return width_ / static_cast<double>(n_panels_); }
   double panel_height() const { return height_ - top_ - bottom_; }
-  // These return the lower end of a line of text. The caption's lines are counted from the top of the picture. The key's lines
-  // are counted downwards from the panels.
+  // Both functions return the lower end of a line of text. The caption's lines are counted from the top of the picture. The key's
+  // lines are counted downwards from the panels.
   double caption_line(int line) const { return height_ - 1.6 * letter_ * (line + 1); }
   double key_line(int line) const { return bottom_ - 1.6 * letter_ * (line + 1); }
   double bottom() const { return bottom_; }
@@ -64,7 +64,7 @@ void check_has_marks(const riis_vtk_mesh *mesh);
 
 class Scene {
  public:
-  // If `grid` is NULL, shows only the surface.
+  // Makes the window. If `grid` is NULL, it shows only the surface.
   Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options);
   ~Scene();
   // Shows the surface, and the marks that the grid has at present. If `title` is NULL, the title is "Surface".

@@ -204,7 +204,7 @@ Sight sight_of(const Extents &surface, const Extents *mesh, double aspect) {
 }
 
 void aim_camera(vtkCamera *camera, const View &view, const Sight &sight) {
-  // The eye is outside of everything. There is also room for parts that are drawn nearer to the eye than they are.
+  // The eye is outside of everything. The depth leaves room for parts that are moved towards the eye when they are drawn.
   const double depth = 4 * (sight.shown[2].half() + sight.shown[1].half() + sight.shown[0].half());
   Vector focus, eye;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -71,8 +71,8 @@ bool is_inner_diagonal(vtkPointSet *data, const vtkIdList *ids, vtkIdType i) {
   return vtkMath::Dot(one.data(), other.data()) > 0;
 }
 
-// Rotates the list of corners by one, if only the other diagonal lies inside the quad. The reason is that quads are cut from
-// their first corner to their third, both here and in the core.
+// Both this file and the core cut quads from their first corner to their third. So if only the other diagonal lies inside the
+// quad, rotates the list of corners by one.
 void put_inner_diagonal_first(vtkPointSet *data, vtkIdList *ids) {
   if (!is_inner_diagonal(data, ids, 0) && is_inner_diagonal(data, ids, 1)) {
     std::rotate(ids->begin(), ids->begin() + 1, ids->end());
@@ -130,7 +130,7 @@ std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet
   return leaflets;
 }
 
-// Returns a vertex's position as bits. Bits can be sorted even if the file contains NaN. 0 and -0 give the same bits.
+// Returns a vertex's position as bits. Bits have an order even for NaN, which a file may contain. 0 and -0 give the same bits.
 std::array<std::uint64_t, 3> place_of(const Faces &faces, std::size_t vertex) {
   std::array<std::uint64_t, 3> bits;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -31,9 +31,9 @@ struct Faces {
 // Returns the positions of all points, (3, n).
 std::vector<double> coordinates_of(vtkPointSet *data);
 
-// The cell array with the leaflet ids of the faces.
+// Names the cell array with the leaflet ids of the faces.
 struct LeafletArray {
-  // `given` is the caller's name for the array. NULL means riis_leaflet, which may be missing.
+  // `given` is the name of the array that the caller chose, which must exist. NULL means riis_leaflet, which may be missing.
   explicit LeafletArray(const char *given) : name(given ? given : leaflet_array), is_required(given != nullptr) {}
 
   std::string name;
@@ -44,7 +44,7 @@ struct LeafletArray {
 // only used in messages.
 Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &wanted);
 
-// Returns a number for each vertex, which is below the number of vertices. Two vertices have the same number if and only if
+// Returns a number for each vertex, from 0 to the number of vertices minus 1. Two vertices have the same number if and only if
 // their coordinates are exactly equal.
 std::vector<std::size_t> places_of(const Faces &faces);
 

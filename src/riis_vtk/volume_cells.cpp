@@ -68,14 +68,14 @@ void add_face(vtkCell *face, std::vector<Edge> &edges) {
   }
 }
 
-// Adds the edges inside the cell. They are on no face.
+// Adds the edges that lie inside the cell and on none of its faces.
 void add_inner_edges(int type, std::vector<Edge> &edges) {
   const auto add_star = [&](vtkIdType centre, vtkIdType first) {
     for (vtkIdType i = first; i < centre; ++i) edges.push_back(edge_between(i, centre));
   };
   if (type == VTK_TRIQUADRATIC_HEXAHEDRON) add_star(26, 20);
   if (type == VTK_TRIQUADRATIC_PYRAMID) add_star(18, 13);
-  // The nodes in the middles of the quads form a triangle at half height.
+  // The wedge's nodes in the middles of its quads form a triangle at half height.
   if (type == VTK_BIQUADRATIC_QUADRATIC_WEDGE) edges.insert(edges.end(), {{15, 16}, {16, 17}, {15, 17}});
 }
 
@@ -110,11 +110,12 @@ const Shape &known_shape(int type) {
   return view(shapes)[type];
 }
 
-// The functions below add the edges between neighbouring nodes of a lattice.
+// Each of the next functions adds the edges between neighbouring nodes of a lattice.
 using Orders = std::array<int, 4>;  // the orders along three axes, then the number of nodes, as in VTK
 
 void add_tetrahedron_lattice(int order, std::vector<Edge> &edges) {
-  // Each small tetrahedron has four barycentric coordinates, whose sum is order - 1. Adding 1 to one of them gives a corner.
+  // A small tetrahedron is given by four whole numbers, whose sum is order - 1. Adding 1 to one of them gives a corner's
+  // barycentric coordinates.
   for (vtkIdType i = 0; i < order; ++i)
     for (vtkIdType j = 0; i + j < order; ++j)
       for (vtkIdType k = 0; i + j + k < order; ++k) {
@@ -181,8 +182,8 @@ std::vector<Edge> lattice_edges(int type, const Orders &orders) {
   return edges;
 }
 
-// Finds the orders of a cell with n_nodes nodes. They are `given`, or they are equal along all axes. Returns false if neither
-// fits. Then the cell's nodes do not form a lattice.
+// Finds the orders of a cell with n_nodes nodes. Either the file gives them (`given`), or they are equal along all axes. Returns
+// false if neither fits n_nodes, so that the nodes form no lattice.
 bool find_orders(int type, vtkIdType n_nodes, const double *given, Orders &orders) {
   orders[3] = static_cast<int>(n_nodes);
   const auto fit = [&] {
@@ -201,7 +202,7 @@ bool find_orders(int type, vtkIdType n_nodes, const double *given, Orders &order
   return false;
 }
 
-// Checks the length first, because few edges of a fine mesh are long.
+// Returns whether the edge is long and meets the box. The length comes first, because few edges of a fine mesh are long.
 bool is_long_and_near(const double *a, const double *b, double least_square, const double *lower, const double *upper) {
   const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
   if (x * x + y * y + z * z < least_square) return false;
@@ -272,8 +273,8 @@ class CellEdges {
   vtkUnstructuredGrid *grid_;
   vtkDataArray *degrees_;  // the orders of cells of higher order; may be NULL
   vtkNew<vtkIdList> faces_;
-  std::vector<Edge> edges_;                                   // of a polyhedron
-  std::map<std::array<int, 4>, std::vector<Edge>> lattices_;  // by the type and the three orders
+  std::vector<Edge> edges_;                                   // edges of a polyhedron
+  std::map<std::array<int, 4>, std::vector<Edge>> lattices_;  // edges of lattices, by the type and the three orders
 };
 
 double distance_between(vtkUnstructuredGrid *grid, vtkIdType a, vtkIdType b) {

@@ -15,7 +15,7 @@
 namespace riis::vtk {
 namespace {
 
-// This limit leaves room for the reason in the core's message.
+// The limit on a path's length leaves room for the reason in the core's message.
 constexpr std::size_t longest_path = 250;
 
 // Returns the useful part of a message of VTK. The message is "ERROR: In FILE, line N\nvtkClass (0xADDRESS): message\n\n", and
@@ -101,7 +101,7 @@ CaughtOutput::CaughtOutput()
       caller_displays_(vtkObject::GetGlobalWarningDisplay()),
       caller_log_level_(vtkLogger::GetCurrentVerbosityCutoff()) {
   vtkOutputWindow::SetInstance(window_);
-  // If the warning display is off, VTK drops errors before they reach a window.
+  // Switches the warning display on, because VTK otherwise drops errors before they reach a window.
   vtkObject::SetGlobalWarningDisplay(1);
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
 }

@@ -82,8 +82,8 @@ T *require(T *pointer, const char *argument) {
 }
 
 // While an object of this type lives, it replaces VTK's process-wide output window, and silences VTK's log on stderr, which
-// repeats every error. VTK does not tell the level of the log on stderr, but only the highest level of all logs. So the
-// destructor restores this highest level.
+// repeats every error. VTK does not tell the level of the log on stderr, only the highest level of all logs. So the destructor
+// sets the log on stderr to that highest level.
 class CaughtOutput {
  public:
   CaughtOutput();

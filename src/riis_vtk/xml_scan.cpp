@@ -124,7 +124,7 @@ std::uint64_t bits_of(vtkAbstractArray *array) {
 }
 
 // Returns the largest number of bytes that one byte of compressed data can represent. Runs of zeros shrink to 1/1032 of their
-// size in zlib and to 1/255 in LZ4. LZMA has no such bound, and 1/7000 was measured.
+// size in zlib and to 1/255 in LZ4. LZMA has no such limit, and 1/7000 was the least that was measured.
 std::uint64_t most_from_a_byte(vtkDataCompressor *compressor) {
   return std::strcmp(compressor->GetClassName(), "vtkLZMADataCompressor") == 0 ? 20'000 : 1'100;
 }
@@ -177,7 +177,7 @@ XmlSizes::ArrayData XmlSizes::data_of(vtkXMLDataParser *parser, vtkXMLDataElemen
     vtkXMLDataElement *appended = parser->GetRootElement()->FindNestedElementWithName("AppendedData");
     const char *encoding = appended ? appended->GetAttribute("encoding") : nullptr;
     const vtkTypeInt64 start = parser->GetAppendedDataPosition();
-    // Compares in this way, because the sum of offset and start could overflow.
+    // The comparison subtracts, because the sum of offset and start could overflow.
     const bool is_inside = offset >= 0 && start >= 0 && start <= static_cast<vtkTypeInt64>(size) &&
                            offset <= static_cast<vtkTypeInt64>(size) - start;
     return {encoding && std::strcmp(encoding, "raw") == 0 ? ArrayData::raw : ArrayData::base64,
@@ -281,8 +281,8 @@ void XmlSizes::check_array(vtkXMLDataParser *parser, vtkXMLDataElement *element,
   check_bits(parser, element, n * n_components, bits_of(element->GetAttribute("type")));
 }
 
-// Returns the value of an attribute. Returns 0 if it is missing or not a number. In this case VTK also reads 0, or refuses the
-// file.
+// Returns the value of an attribute. Returns 0 if it is missing or not a number. VTK also reads such an attribute as 0, or
+// refuses the file.
 std::int64_t XmlSizes::count(vtkXMLDataElement *element, const char *attribute) const {
   vtkIdType n = 0;
   if (!element->GetScalarAttribute(attribute, n)) return 0;

@@ -24,8 +24,8 @@
 
 namespace riis {
 
-// The first word of every handle holds its kind. Fortran passes all handles as one type, so its compiler cannot notice that
-// two were swapped.
+// The first word of every handle holds its kind, which each call checks. Fortran passes all handles as one type, so a Fortran
+// compiler does not notice two swapped handles.
 enum class HandleKind : std::uint64_t {
   valve = 0x7269697376616c76,
   surface = 0x7269697373757266,
@@ -66,14 +66,14 @@ void destroy_handle(AnyHandle **handle, const char *argument) noexcept {
 
 struct riis_valve : riis::Handle<riis::HandleKind::valve> {
   riis::Valve valve;
-  riis::PatchArrays arrays = {};  // of the last riis_valve_get_patches
+  riis::PatchArrays arrays = {};  // the arrays that the last riis_valve_get_patches returned
 };
 
 struct riis_warp : riis::Handle<riis::HandleKind::warp> {
   riis_warp(riis::WarpLandmarks made, const riis::Placement &placed) : landmarks(std::move(made)), placement(placed) {}
   riis::KeepsMemory keeps_memory;
   riis::WarpLandmarks landmarks;
-  riis::Placement placement;  // of the caller's coordinates
+  riis::Placement placement;  // takes the valve's coordinates to the caller's
   riis::WarpMap map, next_map;
   riis::WarpQuality quality{};
   riis::Vector<riis::Vec3> targets;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_place: argument checks around landmarks/.
+// Checks the arguments of riis_place. The work is in landmarks/.
 #include <algorithm>
 #include <cmath>
 

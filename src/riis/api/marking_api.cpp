@@ -162,7 +162,7 @@ const riis::Surface &require_handles(const riis_surface *surface, const riis_mes
   return content;
 }
 
-// Returns nothing if the options have no resistance.
+// Returns the checked resistance of the options, or nothing if they have none.
 std::optional<riis::Resistance> resistance_of(const riis::SearchRequest &request, const riis_mark_options &options) {
   if (!options.resistance) return std::nullopt;
   const riis::Resistance checked =
@@ -180,7 +180,7 @@ const riis::Adjacency &require_adjacency(const riis::Mesh &mesh, const char *pur
   return *mesh.adjacency();
 }
 
-// Refuses marks of another mesh. Another mesh with as many nodes is not noticed.
+// Refuses marks of a mesh with another number of nodes. A different mesh with the same number of nodes is not noticed.
 void check_are_of_mesh(const riis::Mesh &mesh, const riis::Marks &marks) {
   if (!marks.was_marked) riis::fail(RIIS_INVALID_ARGUMENT, "marks are empty: call riis_mark_nodes with them first");
   if (marks.stats.n_nodes != mesh.nodes().n)
@@ -188,7 +188,8 @@ void check_are_of_mesh(const riis::Mesh &mesh, const riis::Marks &marks) {
                mesh.nodes().n);
 }
 
-// Refuses marks of another mesh or surface. They are noticed only if the number of nodes or the half thickness differs.
+// Refuses marks of a mesh with another number of nodes, or of a surface with another half thickness. Other differences are not
+// noticed.
 void check_are_of_marking(const riis::SearchRequest &request, const riis::Marks &marks) {
   require_adjacency(request.mesh, "which a search for leaks needs");
   check_are_of_mesh(request.mesh, marks);

@@ -64,7 +64,7 @@ riis_orifice orifice_of(const riis::Surface &surface, const riis_resistance &res
           0};
 }
 
-// Tries openings of a valve in a mesh. It calls the public functions, so refusals of bad input have the same messages.
+// Tries openings of a valve in a mesh. It calls the public functions, so bad input is refused with their messages.
 class PassageTrials {
  public:
   PassageTrials(const riis_valve *valve, const riis_mesh *mesh, const riis_passage_ends *ends,

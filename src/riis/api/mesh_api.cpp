@@ -59,8 +59,8 @@ riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, 
                              int64_t stride) {
   return guarded([&] {
     riis::Mesh &content = require_handle(mesh, "mesh")->mesh;
-    content
-        .forget_places();  // these are wrong now even if the new coordinates are refused, because the nodes have moved
+    // The nodes have moved, so their old places are wrong even if the new coordinates are refused.
+    content.forget_places();
     const riis::StridedPoints nodes{n_nodes, x, y, z, stride};
     content.borrow_nodes(nodes, check_nodes(nodes));
   });

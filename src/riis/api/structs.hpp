@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every struct crosses the interface with its size, so that callers compiled against an older header keep working. If the
-// caller's header lacks a field, the field has its default when the library reads the struct. The library does not write it.
+// caller's header lacks a field, the field has its default when the library reads the struct. The library does not write such a
+// field.
 #pragma once
 
 #include <algorithm>
@@ -67,7 +68,8 @@ constexpr std::int64_t first_size_of(const riis_opening_angle_state *) { return 
 constexpr std::int64_t first_size_of(const riis_coaptation *) { return 24; }
 constexpr std::int64_t first_size_of(const riis_gap *) { return 64; }
 
-// The size must be that of the first release or a larger multiple of 8, but not larger than the library's own struct.
+// Refuses a struct of a wrong size. A right size is that of the first release or a larger multiple of 8, and at most that of the
+// library's own struct.
 template <class Struct>
 void check_struct_size(std::int64_t size, const char *name) {
   static_assert(std::is_trivially_copyable_v<Struct> && sizeof(Struct) % 8 == 0);

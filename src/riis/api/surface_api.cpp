@@ -52,7 +52,7 @@ void check_precision(const riis_surface_options &options, const char *name, doub
                ", where coordinates round by more than a thousandth of ", name, " * half_thickness, ", wanted);
 }
 
-// Returns the request. An n_threads of 0 is passed on, because the surface itself chooses the default.
+// Returns the request. It keeps an n_threads of 0, because the surface itself chooses the default number of threads.
 riis::SurfaceRequest request_of(const riis_surface_options &options) {
   return {riis::half_thickness_of(options), riis::placement_of(options), options.flip_normals != 0, options.n_threads};
 }
@@ -65,7 +65,7 @@ struct MotionArguments {
 };
 
 riis::ValveMotion motion_of(const MotionArguments &motion, const riis_surface_options &options_now) {
-  // A dt outside of these limits is a mistake. Within them no velocity comes near overflow.
+  // A dt outside of these limits is a mistake. Within the limits no velocity comes near overflow.
   if (!(std::abs(motion.dt) >= 1e-30 && std::abs(motion.dt) <= 1e30))
     riis::fail(RIIS_INVALID_ARGUMENT, "dt is ", motion.dt,
                "; it must be the time from valve_before to valve, from 1e-30 to 1e+30 in magnitude");

@@ -10,7 +10,7 @@ namespace riis {
 
 extern const riis_surface_options default_surface_options;
 
-// Both fail with RIIS_INVALID_ARGUMENT. `name` is the name of the argument.
+// Both functions fail with RIIS_INVALID_ARGUMENT. `name` is the name of the argument.
 void check_placement(const riis_surface_options &options, const char *name);
 void check_options(const riis_surface_options &options);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_warp_*: argument checks around valve/warp.hpp, and the caller's coordinates.
+// Checks the arguments of riis_warp_*, and converts between the caller's coordinates and the valve's. The work is in
+// valve/warp.hpp.
 #include <array>
 #include <limits>
 #include <utility>
@@ -28,7 +29,7 @@ Vec3 to_valve(const riis::Placement &placement, Vec3 p) {
   return (1 / placement.scale) * (d.x * turn.row_x + d.y * turn.row_y + d.z * turn.row_z);
 }
 
-// Calls take(i, point) with the caller's points, in the valve's coordinates.
+// Converts the caller's points to the valve's coordinates, and calls take(i, point) with each.
 template <class Take>
 void for_each_point(const riis_points *given, const char *name, const char *prefix, const riis::Placement &placement,
                     std::int64_t wanted, const Take &take) {

@@ -13,7 +13,8 @@ struct Sink {
   void *user_data = nullptr;
 };
 
-// Both objects are constant-initialised and never destroyed, so they can be used during the whole life of the process.
+// The log function and its lock are constant-initialised and never destroyed. So they can be used during the whole life of the
+// process.
 std::mutex sink_mutex;
 Sink sink;
 [[maybe_unused]] const bool sink_is_free_in_children = is_free_in_children<sink_mutex>();

@@ -114,8 +114,8 @@ void give_memory_back(void *memory, std::size_t n_bytes) noexcept {
   if (n_bytes <= largest_block) {
     Pool &to = pools[own_pool()];
     const std::lock_guard<ShortLock> lock(to.in_use);
-    // The last keeper lowers the count before it empties the pools under this lock. So if the count is above 0 here, the pool
-    // will still be emptied, and the block may be kept.
+    // n_keepers counts the objects that keep memory. The last of them lowers this count first and then empties the pools under
+    // this lock. So if the count is above 0 here, the pool will still be emptied, and the block may be kept.
     if (n_keepers.load(std::memory_order_acquire) > 0) {
       Block *&first = to.kept[static_cast<std::size_t>(size_class(n_bytes) - smallest)];
       first = new (memory) Block{first};

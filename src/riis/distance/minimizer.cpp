@@ -20,7 +20,8 @@ Minimizer::Minimizer(PlacedPatches patches, double enough) : PatchDistance(std::
     for (const Vec3 &p : {box.lower, box.upper})
       largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
-  // A point is the result of three linear interpolations. Each is accurate to two units of rounding in each of three coordinates.
+  // A computed point is the result of three linear interpolations. Each is accurate to two units of rounding in each of three
+  // coordinates.
   rounding_ = 0x1p-49 * largest;
 }
 
@@ -38,8 +39,8 @@ void Minimizer::query(std::int64_t patch, Vec3 p, ClosestOnPatches &best) const 
     const Vec3 d = to_surface(at);
     return dot(d, d);
   };
-  // Returns the step of t that moves S by at most a tenth of `enough`. Shorter steps than 1e-9 would be lost in the rounding of
-  // the square.
+  // Returns the step along a line that moves the point S by at most a tenth of `enough`. A step shorter than 1e-9 would be lost
+  // in the rounding of the squared distance.
   const auto step_of = [&](Parameters along) {
     const double speed = std::abs(along.u) * measures.width + std::abs(along.v) * measures.height;
     const double longest = std::max(std::abs(along.u), std::abs(along.v));

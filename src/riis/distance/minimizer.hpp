@@ -34,7 +34,7 @@ class Minimizer final : public PatchDistance {
   double enough_;
   double rounding_ = 0;             // how far a computed point S(u,v) may lie outside of its patch's box
   std::vector<Measures> measures_;  // one for each patch
-  Bounds box_;                      // of all patches together
+  Bounds box_;                      // the box of all patches together
 };
 
 }  // namespace riis

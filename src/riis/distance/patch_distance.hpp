@@ -24,15 +24,15 @@ class PatchDistance {
   virtual ~PatchDistance() = default;
 
   // Returns the closest point that the method finds, if its distance from p is at most limit (>= 0, may be infinite).
-  // Otherwise patch is -1. The limit never changes the bits of a result within it. Several threads may call this function at
+  // Otherwise patch is -1. A result within the limit has the same bits for every limit. Several threads may call this function at
   // once.
   virtual ClosestOnPatches closest(Vec3 p, double limit) const = 0;
 
-  // Returns false only if no point lies within the limit of p.
+  // Returns false only if the surface certainly has no point within the limit of p.
   virtual bool may_be_within(Vec3 p, double limit) const = 0;
 
-  // Returns true if the method measures the distance to the same set of points for every p. Then the distances of two queried
-  // points differ by at most the distance between these two.
+  // Returns true if the method measures the distance to the same set of points for every p. If so, the results for two points
+  // differ by at most the distance between the two points.
   virtual bool is_of_fixed_points() const = 0;
 
   virtual const char *name() const = 0;

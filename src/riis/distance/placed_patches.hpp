@@ -58,7 +58,7 @@ struct Speeds {
 };
 Speeds largest_speeds(const QuadGrid &grid);
 
-// Returns the box of the grid's points. It also holds S, which is a mean of these points everywhere.
+// Returns the box of the grid's points. The box also holds every S(u,v), which is a weighted mean of these points.
 Bounds bounds_of(const QuadGrid &grid);
 
 // Returns the square of the distance from p to a box. The result is at most dot(q - p, q - p) for any point q in the box, even in

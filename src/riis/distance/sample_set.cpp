@@ -32,12 +32,12 @@ double covering_radius(const QuadGrid &grid, double h_u, double h_v) {
 }
 
 SampleCounts samples_within(const QuadGrid &grid, double radius) {
-  // These steps make squares where grid lines meet at right angles. A patch of negligible width or height has one step in
-  // that direction.
+  // With these steps, samples form squares where grid lines meet at right angles. If a patch has a negligible width or height,
+  // one step spans it.
   const Speeds speeds = largest_speeds(grid);
   const double h_u = std::min(1.0, radius / speeds.u), h_v = std::min(1.0, radius / speeds.v);
   const double of_squares = covering_radius(grid, h_u, h_v);
-  // The covering radius grows in proportion to both steps. No step can be above 1.
+  // The covering radius is proportional to the two steps, so a factor brings it to `radius`. A step above 1 counts as 1.
   const double factor = of_squares > 0 ? radius / of_squares : 1;
   return {n_steps(factor * h_u), n_steps(factor * h_v)};
 }
@@ -55,7 +55,8 @@ SampleSet::SampleSet(PlacedPatches patches, double max_error) : PatchDistance(st
   add_patches(0, static_cast<std::int32_t>(patches_.patches.size()));
 }
 
-// Each level of the tree halves the list of patches. Within a patch, it halves the longer side of a block of samples.
+// Adds a part of the tree of boxes. Each level halves the list of patches or, within a patch, the longer side of a block of
+// samples.
 std::int32_t SampleSet::add_patches(std::int32_t begin, std::int32_t end) {
   if (end - begin == 1) {
     const SampleCounts &counts = view(counts_)[begin];
@@ -113,7 +114,7 @@ void SampleSet::join(std::int32_t node, std::int32_t second) {
 
 struct SampleSet::Query {
   Vec3 p;
-  double most;  // samples with a larger square no longer matter
+  double most;  // samples whose squared distance is larger no longer matter
   double distance_sq = std::numeric_limits<double>::infinity();
   std::int64_t sample = -1;
   std::int32_t leaf = -1;
@@ -129,7 +130,8 @@ void SampleSet::visit(std::int32_t at, Query &query) const {
       std::swap(near, far);
       std::swap(to_near, to_far);
     }
-    // A box at exactly this distance is also visited. So the first of equally near samples is found in any order of visits.
+    // A box exactly as far as the nearest sample so far is also visited. So among equally near samples, the first is found in any
+    // order of visits.
     if (to_near <= query.most) visit(near, query);
     if (to_far <= query.most) visit(far, query);
     return;

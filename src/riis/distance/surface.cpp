@@ -23,7 +23,8 @@ double area_of(const TriangleSet &set) {
   return area;
 }
 
-// Triangles of one leaflet follow each other in the surface of a valve.
+// Collects the ids of the leaflets. In the surface of a valve, the triangles of a leaflet follow each other, so few ids are
+// sorted.
 void collect_leaflets(const TriangleSet &set, std::vector<std::int32_t> &ids) {
   ids.clear();
   for (const std::int32_t id : set.leaflet_id)

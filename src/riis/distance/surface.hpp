@@ -27,7 +27,7 @@ class Surface {
   void make(TriangleSet triangles, double half_thickness, int n_threads);
   // Moves the triangles out, so that the next surface's triangles can reuse their memory.
   TriangleSet take_triangles() { return std::move(triangles_); }
-  // Sets another method to measure distances. Without it, distances are to the triangles.
+  // Sets another method to measure distances. Before this call, distances are to the triangles.
   void measure_by(std::unique_ptr<const PatchDistance> other_distance, double triangle_error);
 
   // Takes the frame of the valve that the triangles come from. A surface from arrays has none.

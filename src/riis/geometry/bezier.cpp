@@ -70,7 +70,7 @@ double quadrature(const Speed &speed, double t0, double t1) {
 double adaptive_length(const Speed &speed, double t0, double t1, double whole, double tolerance, int depth) {
   const double middle = 0.5 * (t0 + t1);
   const double left = quadrature(speed, t0, middle), right = quadrature(speed, middle, t1);
-  // A NaN also ends the recursion.
+  // The condition is negated, so that a NaN also ends the recursion.
   if (depth == 0 || !(std::abs(left + right - whole) > tolerance)) return left + right;
   return adaptive_length(speed, t0, middle, left, 0.5 * tolerance, depth - 1) +
          adaptive_length(speed, middle, t1, right, 0.5 * tolerance, depth - 1);
@@ -84,13 +84,14 @@ double length_tolerance(const Bezier &curve) {
     if (i > 0) control_length += distance(curve.control[i - 1], q);
     largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
   }
-  // The second term is for a curve that is short compared with its coordinates: rounding alone changes its length by that much.
-  // The third term is for a curve shorter than any triangle may be (surface/triangle_set.hpp), because its squares underflow.
+  // The second term of the tolerance covers rounding, which matters for a curve that is short compared with its coordinates. The
+  // third term is for a curve shorter than any triangle may be (surface/triangle_set.hpp), because its squares underflow.
   return 1e-13 * control_length + 1e-14 * largest + 1e-74;
 }
 
 double length_between(const Speed &speed, double tolerance, double t0, double t1) {
-  // At a cusp (|B'| = 0) each halving only halves the error. So 40 halvings leave an error of about 1e-12 of the length.
+  // The largest number of halvings is 40. At a cusp (|B'| = 0) each halving only halves the error, so 40 leave an error of about
+  // 1e-12 of the length.
   return adaptive_length(speed, t0, t1, quadrature(speed, t0, t1), tolerance, 40);
 }
 
@@ -145,7 +146,7 @@ bool find_in_one_pass(const Speed &speed, double curve_length, const Vector<doub
                                              : stepwise_quadrature(speed, next, closer);
       next = closer;
     }
-    // Near a cusp, Newton's method may not converge in so few steps.
+    // Near a cusp, Newton's method may not have converged yet. Then this fast way gives up.
     if (!(std::abs(made - wanted) <= 1e-13 * curve_length)) return false;
     at = t[k] = next;
     at_length += made;
@@ -248,7 +249,8 @@ double rough_curvature(const Bezier &curve, double t0, double t1) {
 }
 
 double largest_curvature(const Bezier &curve) {
-  // The bound from control points is loose if the control points vary much. Within a quarter of the curve they vary little.
+  // Bounds each quarter of the curve separately. The bound from control points is loose if these vary much, and within a quarter
+  // they vary little.
   const auto [left, right] = split(curve, 0.5);
   const auto [first, second] = split(left, 0.5);
   const auto [third, fourth] = split(right, 0.5);

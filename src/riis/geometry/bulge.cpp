@@ -37,8 +37,8 @@ struct Along {
   double speed;
 };
 
-// Returns the tangent as a jet, from derivatives of a Bézier piece by its own parameter t. The chain rule uses dt/du = speed /
-// |B'(t)|.
+// Returns the tangent with its derivatives by u, from derivatives of a Bézier piece by its own parameter t. The chain rule uses
+// dt/du = speed / |B'(t)|.
 JetVector tangent_jet(const IntervalVector &d1, const IntervalVector &d2, const IntervalVector &d3, double speed) {
   const JetVector along = JetVector::of(d1, d2, d3);
   const Jet size = root(dot_self(along)), inverse_size = inverse(size);
@@ -105,8 +105,8 @@ double norm(const IntervalVector &a) {
   return bound >= 0 ? bound : infinity;  // the length is NaN if infinite bounds cancelled
 }
 
-// Returns O as a jet, from W and the base's tangent. The derivative of W is the edge's derivative minus the base's. Returns
-// nothing if W may be parallel to the base: O may have no direction then.
+// Returns the offset O (bulge.hpp) with its derivatives, from W and the base's tangent. The derivative of W is the edge's
+// derivative minus the base's. Returns nothing if W may be parallel to the base, because O may have no direction there.
 std::optional<JetVector> offset_jet(const IntervalVector &w, const Along &base, const Along &edge, double factor) {
   const JetVector width = JetVector::of(w, edge.speed * edge.tangent.value() - base.speed * base.tangent.value(),
                                         edge.speed * edge.tangent.first() - base.speed * base.tangent.first());
@@ -169,7 +169,7 @@ double Bulge::linear_error(double u0, double u1, double enough) const {
   // between neighbouring points. With n parts, this bound contributes n^2 times less.
   double error = infinity;
   for (int n = 1; n <= 8 && !(error <= enough); n *= 8) error = sampled_error(base, edge, u0, u1, n, bounds.second);
-  return error <= bounds.largest ? error : bounds.largest;  // also if the error is NaN
+  return error <= bounds.largest ? error : bounds.largest;  // a NaN error also gives way to this bound
 }
 
 // Bounds the error of linear interpolation. Evaluates O at n - 1 points between u0 and u1, and uses the bound on |O''| between
@@ -195,7 +195,7 @@ double Bulge::sampled_error(const Curve &base, const Curve &edge, double u0, dou
   return off_line + between;
 }
 
-// Bounds |jump of O' at u|, the difference between both sides.
+// Bounds the size of the jump of O' at u, which is the difference between its values on both sides.
 double Bulge::jump(double u) const {
   const IntervalVector w = IntervalVector::of(edge_.at(u) - base_.at(u));
   const auto beside = [&](bool after) {

@@ -28,7 +28,7 @@ struct ArcRange {
   double du;
 };
 
-// Bounds on O within such a range.
+// Bounds on O within a range of u.
 struct OffsetBounds {
   double second;   // bounds |O''| on the smooth parts; infinite if W may be parallel to T
   double largest;  // bounds 2 |O|

@@ -21,8 +21,8 @@ double smallest_step(const Vector<double> &t) {
   return smallest;
 }
 
-// For each two neighbouring grid lines, bounds the distance between a side and its curve. The bound is the error of the side's
-// segment there, plus the shift of shared lines along the side.
+// For each pair of neighbouring grid lines, bounds the distance between a side and its curve. The bound is the error of the
+// side's segment there, plus the shift of shared lines along the side.
 Vector<double> errors_between(const Vector<GridLine> &lines, const Polyline &side, double GridLine::*t) {
   Vector<double> errors(lines.size() - 1, 0.0);
   if (!(side.length > 0)) return errors;
@@ -37,7 +37,8 @@ Vector<double> errors_between(const Vector<GridLine> &lines, const Polyline &sid
 
 Vector<GridLine> lines_between(const Polyline &side0, const Polyline &side1, double max_merge_shift) {
   const double longer = std::max(side0.length, side1.length);
-  // A shared line stands at the mean of both parameters. So each side moves by at most half their difference.
+  // A grid line that two vertices share stands at the mean of their parameters. So the point of each side moves by at most half
+  // the difference of the parameters.
   return merge_parameters(side0, side1, longer > 0 ? 2.0 * max_merge_shift / longer : 0.0);
 }
 
@@ -107,7 +108,7 @@ Vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, 
   const double tolerance = std::min(merge_tolerance, 0.49 * std::min(smallest_step(t0), smallest_step(t1)));
   Vector<GridLine> lines{{0.0, 0.0, 0.0, true, true}};
   for (std::size_t i = 1, j = 1; i + 1 < t0.size() || j + 1 < t1.size();) {
-    // When a side has no more inner vertices, its next parameter counts as infinite.
+    // If a side has no further inner vertex, its next parameter counts as infinite.
     const double a = i + 1 < t0.size() ? t0[i] : std::numeric_limits<double>::infinity();
     const double b = j + 1 < t1.size() ? t1[j] : std::numeric_limits<double>::infinity();
     if (std::abs(a - b) <= tolerance) {
@@ -134,7 +135,7 @@ Vector<Vec3> coons_combination(const Vector<double> &u, const Vector<double> &v,
   Vector<Chords> chords;
   chords.reserve(n_u);
   for (const double at : u) chords.push_back({mix(p00, p10, at), mix(p01, p11, at)});
-  // The boundary has exactly the vectors of the sides, because neighbouring patches share them.
+  // On the boundary, the result is exactly the sides' vectors, because neighbouring patches share the sides.
   Vector<Vec3> made;
   made.reserve(n_u * n_v);
   made.insert(made.end(), sides.v0.begin(), sides.v0.end());

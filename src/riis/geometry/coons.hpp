@@ -11,8 +11,8 @@
 
 namespace riis {
 
-// Each side of a patch is named after the parameter that is constant on it. side_v0 and side_v1 run along u, side_u0 and side_u1
-// run along v. A collapsed side has length 0.
+// Each side of a patch is named after the parameter that is constant on it. side_v0 and side_v1 run along u, and side_u0 and
+// side_u1 run along v. A collapsed side has length 0.
 struct PatchSides {
   const Polyline *side_v0, *side_v1, *side_u0, *side_u1;
 };
@@ -49,8 +49,8 @@ struct QuadGrid {
 
 // Vectors on the four sides of a patch, one for each end of a grid line.
 struct SideVectors {
-  Vector<Vec3> v0, v1;  // on the lines u
-  Vector<Vec3> u0, u1;  // on the lines v; the first and the last are corners and are not read
+  Vector<Vec3> v0, v1;  // vectors at the ends of the lines u
+  Vector<Vec3> u0, u1;  // vectors at the ends of the lines v; the first and the last, at corners, are not read
 };
 
 // Returns the Coons combination of vectors on the sides, which may be points or displacements. The order is that of
@@ -69,7 +69,7 @@ QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines);
 struct ArcLines {
   Vector<GridLine> u_lines;
   Vector<Vec3> offsets;   // O on each line
-  Vector<double> errors;  // for each two neighbouring lines, a bound on O's distance from linear
+  Vector<double> errors;  // for each pair of neighbouring lines, a bound on O's distance from linear
   double largest_offset() const;
 };
 
@@ -89,7 +89,7 @@ QuadGrid make_arc_grid(const PatchSides &sides, const ArcLines &lines, std::size
 
 // A linear function is at0 at 0 and at1 at 1. Returns the larger of its values at `from` and `to`.
 double larger_mix(double at0, double at1, double from, double to);
-// Returns the largest value of 2 v (1-v) between two v.
+// Returns the largest value of 2 v (1-v) between two values of v.
 double largest_arc_weight(double from, double to);
 
 // Returns the member `middle` of all lines.

@@ -118,7 +118,7 @@ Exact<4 * n> operator*(const Exact<n> &a, const Exact<2> &b) {
 int sign(double x) { return (x > 0) - (x < 0); }
 
 // Each coordinate is 0 or at least negligible_coordinate in magnitude. So underflow changes a product of three coordinate
-// differences by far less than this number.
+// differences by far less than the constant `underflow`.
 constexpr double underflow = 1e-290;
 
 struct Point2 {

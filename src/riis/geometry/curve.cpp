@@ -13,14 +13,14 @@ namespace {
 
 // A curve has at most 2^20 parts. A request that reaches this limit would make more triangles than this library can hold.
 constexpr int max_depth = 20;
-// Parts narrower than this are not halved for the velocity. Otherwise the halving would not end where a curve nearly turns on
-// the spot.
+// Parts narrower than this are not halved for the sake of the velocity. Where a curve nearly turns on the spot, such halving
+// would not end.
 constexpr double narrowest_for_velocity = 1.0 / 32;
 
 // Collects the chords of parts. Each part is within max_error of its chord.
 class Flattening {
  public:
-  // `bend` is null if the velocity does not matter.
+  // Begins with the curve's first point. `bend` is null if the velocity does not matter.
   Flattening(Vec3 first, double max_error, const VelocityBend *bend, double max_bend)
       : max_error_(max_error), bend_(bend), max_bend_(max_bend), flattened_{{first}, {0.0}, {}} {}
 
@@ -81,7 +81,7 @@ class Flattening {
            ": tolerance * half_thickness is too small for it");
   }
 
-  // A curve lies no farther from a segment than the farthest of its control points.
+  // A Bézier curve lies no farther from a segment than the farthest of the curve's control points.
   static double distance_to_chord(const Curve &part) {
     double largest = 0;
     for (const Bezier &piece : part.pieces())

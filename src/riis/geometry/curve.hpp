@@ -76,7 +76,7 @@ class VelocityBend {
   double off_linear(double u0, double u1) const;
 
  private:
-  // Returns the bend at share u, which lies in the cell.
+  // Returns the bend at share u. The caller passes the cell that contains u.
   double at(double u, std::size_t cell) const;
 
   static constexpr std::size_t n_cells = 8;

@@ -18,7 +18,7 @@ class CurvePoints {
 
   std::size_t size() const { return points_.size(); }
   Vec3 point(std::size_t i) const;
-  // These two return the piece that point i lies on, and the parameter on that piece.
+  // piece() returns the piece that point i lies on, and parameter() returns the parameter on that piece.
   std::size_t piece(std::size_t i) const { return on_piece(i).piece; }
   double parameter(std::size_t i) const { return on_piece(i).t; }
   // Returns the unit tangent, or 0 if the curve has no direction there.

@@ -17,17 +17,19 @@ struct Interval {
   static Interval of(double x) { return {x, x}; }
   double magnitude() const {
     const double larger = std::max(std::abs(low), std::abs(high));
-    return low <= high ? larger : std::numeric_limits<double>::infinity();  // also if a bound is NaN
+    return low <= high ? larger : std::numeric_limits<double>::infinity();  // a NaN bound makes the comparison false
   }
 };
 
 inline Interval operator+(Interval a, Interval b) { return {a.low + b.low, a.high + b.high}; }
 inline Interval operator-(Interval a, Interval b) { return {a.low - b.high, a.high - b.low}; }
-// A bound of 0 times any bound is 0. Infinity only stands for a number that may be arbitrarily large.
+// A bound of 0 times any bound is 0, even times infinity. The reason is that infinity stands for an arbitrarily large number,
+// which is still finite.
 inline double bound_product(double x, double y) { return x == 0 || y == 0 ? 0.0 : x * y; }
 inline Interval operator*(Interval a, Interval b) {
   double p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, s = a.high * b.high;
-  // Finds out whether a product is infinite, or NaN from 0 times infinity. Only then is the sum not finite.
+  // A product may be infinite, or NaN if it is 0 times infinity. The sum shows this: it is finite only if all products are
+  // finite.
   const double sum = (p + q) + (r + s);
   if (!(sum - sum == 0))
     p = bound_product(a.low, b.low), q = bound_product(a.low, b.high), r = bound_product(a.high, b.low),

@@ -52,7 +52,8 @@ bool are_parallel(Vec3 w, Vec3 e, Vec3 f) { return dot(w, w) <= 1e-16 * dot(e, e
 }  // namespace
 
 double penetration_depth(const Triangle &a, const Triangle &b, double limit) {
-  // Most pairs end here. Points are taken relative to a corner of the plane's triangle. So the plane's height is exactly 0.
+  // Most pairs of triangles are dismissed here, because one triangle does not cut the plane of the other. Points are relative to
+  // a corner of that plane's triangle, so the plane's height is exactly 0.
   const Vec3 normal_a = cross(a[1] - a[0], a[2] - a[0]), normal_b = cross(b[1] - b[0], b[2] - b[0]);
   const Triangle b_from_a = moved(b, a[0]);
   if (!cuts_plane(b_from_a, normal_a, limit) || !cuts_plane(moved(a, b[0]), normal_b, limit)) return 0;

@@ -21,7 +21,7 @@ struct CommonSegment {
   double length;
 };
 
-// The depth of the two triangles must exceed the error of penetration_depth.
+// Returns the segment that two triangles have in common. Their depth must exceed the error of penetration_depth.
 CommonSegment common_segment(const Triangle &a, const Triangle &b);
 
 }  // namespace riis

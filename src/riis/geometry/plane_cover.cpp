@@ -117,7 +117,8 @@ class Covered {
     for (std::int64_t i = lines_.first_from(centre[1] - radius); i < end; ++i) {
       const double y = lines_.y(i) - centre[1];
       const double half = std::sqrt(std::max(0.0, (radius - y) * (radius + y)));
-      const double along = length_along(y, half, counts_equal_);  // the circle runs across its radius (half, y)
+      const double along = length_along(y, half, counts_equal_);  // the circle runs at right angles to its radius
+                                                                  // (half, y)
       widen(i, {centre[0] - half, along});
       widen(i, {centre[0] + half, along});
     }
@@ -259,7 +260,8 @@ std::optional<Outline> closed_outline(const std::vector<std::vector<PlanePoint>>
 }
 
 Cover cover_of(const std::vector<PlanePoint> &vertices, const std::vector<std::int64_t> &vertex_id) {
-  // `sides` is the sum of side_of over the edge's triangles. It is 2 or -2 if two triangles lie on opposite sides of the edge.
+  // An edge of the triangles. `sides` is the sum of side_of over its triangles, which is 2 or -2 if two triangles lie on opposite
+  // sides of the edge.
   struct Use {
     int n = 0, sides = 0;
   };

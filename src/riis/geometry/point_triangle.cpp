@@ -8,7 +8,7 @@ namespace riis {
 namespace {
 
 struct Weights {
-  double b, c;  // of the second and the third corner; the first corner has the weight 1 - b - c
+  double b, c;  // weights of the second and the third corner; the first has 1 - b - c
 };
 
 // Returns the weights of the point in the triangle's plane that is closest to a + r, with n = ab x ac.

@@ -13,7 +13,7 @@ Polyline make_polyline(const Vector<Vec3> &points) {
   Polyline polyline{{points.front()}, {0.0}, {}, 0.0};
   for (const Vec3 &point : points) {
     const double step = distance(polyline.points.back(), point);
-    // A step that is too short to change the sum would repeat a t.
+    // A step too short to change the sum is dropped, because it would give two points the same t.
     if (!(polyline.length + step > polyline.length)) continue;
     polyline.length += step;
     polyline.points.push_back(point);

@@ -11,7 +11,7 @@ namespace riis {
 
 struct Polyline {
   Vector<Vec3> points;    // at least 1
-  Vector<double> t;       // of every point, ascending from 0 to 1; a single 0 if the length is 0
+  Vector<double> t;       // t of every point, ascending from 0 to 1; a single 0 if the length is 0
   Vector<double> errors;  // for every segment, a bound on its distance at equal t from the curve that it replaces
   double length;          // the length of that curve
 };
@@ -24,7 +24,8 @@ Polyline make_polyline(const Vector<Vec3> &points);
 // the curve's length, not of the polyline's length as in the paper. So the vertex is the curve's point at that t for any
 // tolerance.
 Polyline make_polyline(const Curve &curve, double max_error);
-// Also keeps the estimated distance of the velocity from linear within max_bend on each segment.
+// Makes the polyline of a curve that moves. It also keeps the estimated distance of the velocity from linear within max_bend on
+// each segment.
 Polyline make_polyline(const Curve &curve, double max_error, const Bezier &velocity, double max_bend);
 
 // Returns the same polyline in the opposite direction.

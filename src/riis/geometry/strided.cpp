@@ -115,7 +115,7 @@ Bounds check_points(const StridedReals<Real> &points, const char *what, riis_sta
   check_pointers(points, what, prefix);
   double sum = 0;
   const Bounds bounds = bounds_of(points, sum);
-  // Usable coordinates are so small that their sum is finite.
+  // The sum of usable coordinates is finite, because each of them is at most max_coordinate.
   const bool usable = points.n == 0 || (is_usable(bounds.lower) && is_usable(bounds.upper) && std::isfinite(sum));
   if (!usable) refuse_first_unusable(points, what, bad_coordinate);
   return bounds;

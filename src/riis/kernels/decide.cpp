@@ -69,7 +69,7 @@ RIIS_INLINE Doubles segment_parameter(Doubles3 r, Doubles3 edge) {
   return choose(t > zero, choose(t < one, t, one), zero);
 }
 
-// The closest points on eight triangles. If a caller needs only `distance_sq`, the rest is not computed.
+// The closest points on eight triangles. If a caller reads only `distance_sq`, the compiler leaves out the other members.
 struct ClosestPoints {
   Doubles distance_sq;
   Doubles3 point, weights;

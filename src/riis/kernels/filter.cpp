@@ -26,7 +26,8 @@ RIIS_INLINE Floats outside(Floats x, Floats from, Floats to) {
 // Computes the squares of the distances of n points to sixteen triangles. The points are computed together, so that a triangle's
 // numbers are loaded once. Every result is the distance to some point of the triangle, to rounding. A point counts as inside
 // only if it is inside by a margin. A point inside by less gets the distance to the nearest edge, which differs by at most that
-// margin. The results are written directly to memory: GCC would copy them in pieces, and later loads would wait for these.
+// margin. The function writes its results directly to memory. If it returned them, GCC would copy them in pieces, and later loads
+// would wait for the pieces.
 template <int n>
 RIIS_INLINE void distances_to_group(const TriangleGroup &group, const Floats3 (&p)[n], Floats margin,
                                     Floats *distances) {
@@ -165,7 +166,8 @@ RIIS_INLINE int32_t compare(const FilterTask &task, LeafTask &leaf, const float 
 #pragma GCC unroll 2
   for (int i = 0; i < n; i += n_together) {
     if (!*rest) {
-      // The remaining lanes are never used. Without this loop, GCC would copy their distances by memset and in pieces.
+      // This loop fills lanes that nobody reads. Without it, GCC would set their distances by memset and copy them in pieces,
+      // which is slow.
 #pragma GCC unroll 4
       for (int j = i; j < n; ++j) {
         lanes[j] = -1;

@@ -97,7 +97,7 @@ struct alignas(64) PointsAndTriangles {
   double point[3][pairs_at_once];
   const double *corners[pairs_at_once];  // x, y, z of the first corner, then of the second and the third
 };
-// The closest points of these pairs, stored coordinate by coordinate.
+// The closest points of eight pairs, stored coordinate by coordinate.
 struct alignas(64) PointsOnTriangles {
   double distance_sq[pairs_at_once];
   double point[3][pairs_at_once], barycentric[3][pairs_at_once];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Landmarks of the mitral and the bileaflet valve: points along an annulus, and what shows the directions in its plane.
+// Landmarks of the mitral and the bileaflet valve: points along an annulus, and points that show the directions in its plane.
 #include <riis/riis.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ Vec3 nearest_on(const std::array<Bezier, 3> &curve, Vec3 p) {
   };
   double squared = 0;
   Vec3 best = refined(*piece, t, squared);
-  // The nearest sample may be the joint of two pieces.
+  // The nearest sample may be the joint of two pieces, so the neighbouring pieces are also searched.
   for (const std::size_t other : {index - 1, index + 1}) {
     if (other >= curve.size()) continue;
     double other_squared = 0;
@@ -143,7 +143,7 @@ Vec3 area_of(const Landmarks &landmarks, const std::vector<std::size_t> &ring) {
   return area;
 }
 
-// The direction towards the atrium that the landmarks show: by the flow, by the commissures, or 0 if they do not.
+// The direction towards the atrium, which the flow or the commissures show. It is 0 if the landmarks do not show it.
 Vec3 atrial_side(const Landmarks &landmarks, Vec3 normal, Vec3 forward) {
   const auto medial = landmarks.with_role(RIIS_LANDMARK_POSTEROMEDIAL),
              lateral = landmarks.with_role(RIIS_LANDMARK_ANTEROLATERAL);
@@ -241,7 +241,8 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   KindOfLandmarks made{std::move(model), {}, "AP_diameter", nullptr};
   made.starts.push_back({rotation, middle + rotation * (origin_there - by)});
   if (known == Vec3{0, 0, 0}) {
-    // The annulus alone does not show its two faces. In health its horns are nearer to the atrium than its sides.
+    // The points of the annulus alone do not tell the atrium's side from the ventricle's. But the horns of a healthy annulus are
+    // nearer to the atrium than its sides.
     const bool is_turned = horn_there.z + posterior_z < 2 * low_z;
     if (is_turned) {
       const Rotation other = rotation * rotation_about({0, 1, 0}, 180);
@@ -319,7 +320,7 @@ KindOfLandmarks bileaflet_landmarks(const Valve &valve, const Landmarks &landmar
     const Vec3 p = landmarks.at(i) - middle;
     radius += length(p - dot(p, up) * up) / static_cast<double>(ring.size());
   }
-  // The hinge lines are the longest extent of their ends.
+  // The hinge lines run in the direction in which the hinges' ends extend farthest.
   const Vec3 y = hinge_spread.direction[0];
   if (!(hinge_spread.deviation[0] > 0.2 * radius))
     fail(RIIS_INVALID_ARGUMENT, "the ends of the hinges are ", rounded(landmarks.scale * hinge_spread.deviation[0], 3),
@@ -328,7 +329,7 @@ KindOfLandmarks bileaflet_landmarks(const Valve &valve, const Landmarks &landmar
   if (std::abs(dot(y, up)) > 0.5)
     fail(RIIS_INVALID_ARGUMENT, "the hinges are at ", rounded(std::acos(std::abs(dot(y, up))) * 180 / pi, 3),
          " degrees to the ring's normal; they must be across it");
-  // One hinge is that of the leaflet at x > 0.
+  // If the landmarks are of one hinge only, it is the hinge of the leaflet at x > 0.
   const Vec3 hinge_middle = landmarks.mean_of(hinges) - middle;
   Vec3 x = cross(y, up);
   if (dot(x, hinge_middle) < 0) x = -x;

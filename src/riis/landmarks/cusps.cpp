@@ -15,7 +15,7 @@ namespace riis {
 namespace {
 
 constexpr std::size_t n_cusps = 3;
-// In the order of leaflet ids, which is counter-clockwise about the valve's axis z.
+// The cusps are in the order of leaflet ids, which is counter-clockwise about the valve's axis z.
 const char *const cusp_names[n_cusps] = {"right", "left", "non_coronary"};
 constexpr std::size_t next(std::size_t cusp) { return (cusp + 1) % n_cusps; }
 
@@ -56,7 +56,7 @@ void check_leaflet_ids(const Landmarks &landmarks) {
   }
 }
 
-// Returns whether the landmark may have this place, by the leaflets that it names.
+// Returns whether the leaflets that the landmark names allow this place.
 bool fits_nadir(const Landmark &landmark, std::size_t cusp) {
   return landmark.leaflet_ids[0] == -1 || landmark.leaflet_ids[0] == static_cast<std::int32_t>(cusp);
 }
@@ -81,7 +81,7 @@ Order rotated(const Order &order, std::size_t by) {
   }
   return made;
 }
-// The order in the other turn: each commissure then comes after the other of its cusps.
+// Returns the order in the opposite turn about the axis. Each commissure then follows the other one of its two cusps.
 Order mirrored(const Order &order) {
   return {{order.nadir[0], order.nadir[2], order.nadir[1]},
           {order.commissure[2], order.commissure[1], order.commissure[0]}};
@@ -132,7 +132,7 @@ Order turn_of(const Landmarks &landmarks, const std::vector<std::size_t> &nadirs
   fail(RIIS_INTERNAL_ERROR, "the names of the landmarks fit after all");
 }
 
-// Finds each landmark's place by its leaflets. Without them, leaflet 0 is at the first nadir.
+// Finds each landmark's place by the leaflets that it names. If no landmark names any, leaflet 0 is at the first nadir.
 Order named_order(const Landmarks &landmarks, const Order &turn, bool needs_names) {
   std::size_t n_fitting = 0, fitting = 0;
   for (std::size_t by = n_cusps; by-- > 0;)
@@ -208,7 +208,8 @@ class CuspModel : public LandmarkModel {
   void add(std::size_t landmark, const std::vector<Vec3> &local, Vec3 place, std::vector<Offset> &out) const {
     out.push_back({landmark, local[landmark] - shift_ - place});
   }
-  // The closed cusps meet on the axis. The height of that point differs between people more than it tells of the sizes.
+  // The closed cusps meet on the axis. The height of that point varies so much between people that it says little about the
+  // sizes.
   void add_coaptation(const std::vector<Vec3> &local, std::vector<Offset> &out) const {
     for (const std::size_t i : coaptation_) {
       const Vec3 p = local[i] - shift_;
@@ -239,7 +240,8 @@ class EqualCuspModel : public CuspModel {
   }
 };
 
-// The paper's cusps. Neighbours end at one angle but at radii of their own, so a commissure lies between two ends.
+// The cusps of the paper's valve. Two neighbours end at the same angle but at different radii, so a commissure lies between two
+// ends.
 class AorticModel : public CuspModel {
  public:
   using CuspModel::CuspModel;
@@ -271,13 +273,14 @@ double mean_radius(const Landmarks &landmarks, const std::array<std::size_t, n_c
   return sum / n_cusps;
 }
 
-// Returns a length that begins at `start`. `grown` is the valve's own length, grown by the ratio of the sizes.
+// Returns a length for the fit, which begins at `start`. Its expected value `grown` is the template's length times the ratio of
+// the valves' sizes.
 FittedSize length_size(const std::string &name, double start, double grown, double radius) {
   return {name, start, 1, 0.05 * radius, 10 * radius, grown, 0.3 * grown};
 }
 
 Pose start_of(const Landmarks &landmarks, const Frame &frame, Vec3 shift, const std::array<double, n_cusps> &at) {
-  // The mean of the nadirs' directions, each turned back to the right cusp's.
+  // The mean of the nadirs' directions, after each is turned back to the direction of the right cusp.
   const Rotation to = rotation_to(landmarks.at(frame.order.nadir[0]) - frame.middle, frame.axis), back = transposed(to);
   double x = 0, y = 0;
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
@@ -289,12 +292,12 @@ Pose start_of(const Landmarks &landmarks, const Frame &frame, Vec3 shift, const 
   return {rotation, frame.middle - rotation * shift};
 }
 
-// Sets lengths that belong to both radii, and the height of the bending curve. Names are the same in all kinds with cusps.
+// Sets a parameter so that its ratio to a measure of the valve is that of the template, `own`.
 void set_proportion(const Valve &own, Valve &valve, const std::string &name, double own_measure, double measure) {
   valve.set(name, 1, std::array{value_of(own, name) / own_measure * measure}.data());
 }
 
-// Sizes that follow by a rule of the valve are left to it.
+// Sizes that follow from others by a rule of the valve are left to that rule.
 void finish_trileaflet(const Valve &own, Valve &valve) {
   const auto middle_radius = [](const Valve &of) {
     return 0.5 * (value_of(of, "root_radius") + value_of(of, "leaflet_radius_out"));
@@ -323,7 +326,7 @@ void finish_aortic(const Valve &own, Valve &valve) {
     set_proportion(own, valve, of + "bending_radius_out", middle_radius(own), middle_radius(valve));
     valve.set(of + "rotation", 3, std::array{0.0, 0.0, turns[cusp]}.data());
     valve.set(of + "translation", 3, shift.data());
-    // With a higher power, the free edge would bulge beyond the plane of its commissure into the next cusp.
+    // Lowers a power with which the free edge would bulge beyond the plane of its commissure into the next cusp.
     const double x = value_of(valve, of + "leaflet_radius_out") * sine_cosine_degrees(angle).cosine;
     const double radius_in = value_of(valve, of + "leaflet_radius_in");
     if (x > radius_in && value_of(valve, of + "leaflet_power") > x / (x - radius_in))

@@ -13,11 +13,12 @@
 namespace riis {
 namespace {
 
-// A size is determined if its standard error at the stated noise moves the valve by at most this share of its radius. Residuals
-// do not count here: a patient who differs from the model has large ones, but the sizes that fit best are still well defined.
+// Landmarks determine a size if its standard error, at the stated noise, moves the valve by at most this share of its radius.
+// Residuals do not count here: a patient who differs from the model has large ones, but the sizes that fit best are still well
+// defined.
 constexpr double determined_share = 1.0 / 15;
 
-// Solves for the sizes that are not held, then a rotation vector and a shift. All unknowns are in centimetres.
+// The least squares of the fit. The unknowns are the sizes that are not held, a rotation vector and a shift, all in centimetres.
 class Problem {
  public:
   Problem(const LandmarkModel &model, const Landmarks &landmarks, const Pose &base)
@@ -124,7 +125,7 @@ double sum_of_squares(const Problem &problem, std::vector<double> &longest) {
   return sum;
 }
 
-// The noise on which standard errors rest: that which was stated, or more if the residuals show more.
+// Returns the noise on which standard errors rest: the stated noise, or that of the residuals if it is larger.
 double shown_noise(const LandmarkModel &model, const Landmarks &landmarks, double squares, std::size_t n_unknowns) {
   const std::size_t n = model.n_equations();
   const double seen = n > n_unknowns ? std::sqrt(squares / static_cast<double>(n - n_unknowns)) : 0;
@@ -141,7 +142,8 @@ void refuse_unconverged(const std::vector<double> &residuals, const Landmarks &l
 
 LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vector<Pose> &starts) {
   const std::size_t n_landmarks = landmarks.list.size();
-  // First, every size is drawn to its expected value. So the fit ends near a real valve, also if the landmarks say little.
+  // In the first fit, every size is drawn to its expected value. So this fit ends near a real valve even if the landmarks say
+  // little.
   Pose best{};
   std::vector<FittedSize> best_sizes;
   double least = std::numeric_limits<double>::infinity();
@@ -159,7 +161,7 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   }
   model.sizes = best_sizes;
 
-  // Then only those sizes are drawn to it that the landmarks do not determine.
+  // In the second fit, only sizes that the landmarks do not determine are drawn to their expected values.
   Problem problem(model, landmarks, best);
   const std::size_t n = problem.n_unknowns();
   std::vector<double> x = problem.start(), r(problem.n_residuals());
@@ -171,7 +173,8 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   }
   const std::vector<double> start = x;
   Minimum minimum = problem.minimize(x);
-  // Sizes along which the sum of squares hardly changes keep the fit from ending. The landmarks do not determine them either.
+  // The fit does not converge if the sum of squares hardly depends on some size. The landmarks do not determine such a size
+  // either, so the weakest one is also drawn to its expected value.
   while (!minimum.converged) {
     std::size_t weakest = problem.free_sizes().size();
     for (std::size_t k = 0; k < problem.free_sizes().size(); ++k)
@@ -186,7 +189,7 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   }
   r.resize(problem.n_residuals());
   problem.residuals(x, r);
-  // Exact landmarks show less noise than was stated, and then need less of what is expected.
+  // Exact landmarks show less noise than was stated. Then the expected values count for less.
   for (int i = 0; i < 4 && minimum.converged && model.n_equations() > n; ++i) {
     std::vector<double> unused(n_landmarks), before = x;
     const double seen = std::sqrt(sum_of_squares(problem, unused) / static_cast<double>(model.n_equations() - n));

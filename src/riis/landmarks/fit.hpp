@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fits a valve's sizes and its pose to landmarks by least squares.
-// In: a model, which says where each landmark of the valve is. Out: sizes, pose, offsets, and what the landmarks determine.
+// In: a model, which says where each landmark of the valve is. Out: sizes, pose, offsets, and a mark for each size that the
+// landmarks determine.
 #pragma once
 
 #include <cstddef>
@@ -13,25 +14,25 @@
 
 namespace riis {
 
-// A parameter that the landmarks bear on.
+// A size of the valve that the fit adapts to the landmarks.
 struct FittedSize {
   std::string name;
   double value;             // where the fit begins, and its result
   double reach;             // centimetres by which the valve moves if the parameter grows by 1
-  double minimum, maximum;  // of the value
-  double expected, spread;  // the value by the valve's own proportions, and how much it differs between people
+  double minimum, maximum;  // limits of the value
+  double expected, spread;  // the value that the valve's proportions give, and its spread between people
   bool held = false;        // keeps its value
   // Results:
   bool determined = false;
   double standard_error = 0;
 };
 
-// A valve in its own frame. Lengths are in centimetres.
+// A valve in its own frame, as the fit sees it. Lengths are in centimetres.
 class LandmarkModel {
  public:
   virtual ~LandmarkModel() = default;
   std::vector<FittedSize> sizes;
-  double radius = 0;  // of the valve, for steps and thresholds
+  double radius = 0;  // radius of the valve, for steps and thresholds
 
   // An offset of a landmark from its place on the valve. Several offsets of one landmark share its weight.
   struct Offset {
@@ -55,9 +56,9 @@ struct Pose {
 struct LandmarkFit {
   Pose pose;
   std::vector<double> residuals;  // one for each landmark: the length of its longest offset, in centimetres
-  double noise;                   // on which standard errors rest, in centimetres
+  double noise;                   // the noise on which standard errors rest, in centimetres
   double rotation_error;          // degrees
-  double position_error;          // of the landmarks' mean, in centimetres
+  double position_error;          // standard error of the landmarks' mean, in centimetres
 };
 
 // Changes the model's sizes. Begins at each of the poses, with the model's values, and keeps the better end.

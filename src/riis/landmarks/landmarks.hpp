@@ -20,14 +20,14 @@ struct Landmark {
 
 struct Landmarks {
   std::vector<Landmark> list;
-  Vec3 mean;       // of all landmarks, in mesh units
+  Vec3 mean;       // mean of all landmarks, in mesh units
   double scale;    // mesh units in a centimetre
   double noise;    // centimetres
   bool has_noise;  // whether the caller stated it
   Vec3 flow;       // unit vector, or 0 if unknown
 
   bool has_flow() const { return !(flow == Vec3{0, 0, 0}); }
-  // Returns the numbers of the landmarks with a role, in ascending order.
+  // Returns the numbers of the landmarks that have this role, in ascending order.
   std::vector<std::size_t> with_role(std::int32_t role) const;
   std::size_t count(std::int32_t role) const { return with_role(role).size(); }
   Vec3 at(std::size_t i) const { return list[i].point; }
@@ -40,13 +40,13 @@ constexpr std::int32_t n_roles = 10;
 // Returns the words for a landmark in messages, such as "landmark 3 (nadir)".
 std::string words_for(const Landmarks &landmarks, std::size_t i);
 
-// These fail with RIIS_INVALID_ARGUMENT and name the landmarks.
+// The following checks fail with RIIS_INVALID_ARGUMENT and name the landmarks.
 
 // Refuses landmarks whose distance from their mean is not that of a heart valve. The message has the size in the other units.
 void check_unit(const Landmarks &landmarks);
-// Refuses roles other than these, for a kind of valve.
+// Refuses a landmark whose role is not one of `roles`. These are the roles that this kind of valve uses.
 void check_roles(const Landmarks &landmarks, const char *kind, const std::vector<std::int32_t> &roles);
-// Refuses another number of landmarks with this role. `most` is 0 for any number.
+// Refuses a number of landmarks with this role that is out of range. `most` is 0 if there is no upper limit.
 void check_count(const Landmarks &landmarks, const char *kind, std::int32_t role, std::size_t least, std::size_t most);
 // Refuses two landmarks of the list whose distance is less than a share of their spread, and landmarks along one line.
 void check_spread(const Landmarks &landmarks, const std::vector<std::size_t> &numbers, double share);

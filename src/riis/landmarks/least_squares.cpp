@@ -9,12 +9,14 @@
 namespace riis {
 namespace {
 
-// The step of central differences, in sizes. It balances their error, step^2, with rounding, 1e-16 / step.
+// The step of central differences, as a share of `size`. It balances the error of the differences, step^2, with rounding, 1e-16 /
+// step.
 constexpr double difference_step = 1e-5;
-// The iteration ends if a step is shorter than this, in sizes.
+// The iteration ends if a step is shorter than this share of `size`.
 constexpr double negligible_step = 1e-13;
-// It also ends if the sum of squares falls by less than this share of itself. The unknowns are then a thousandth of their
-// standard errors from their ends. Residuals that can vanish fall much faster until only rounding is left.
+// The iteration also ends if the sum of squares falls by less than this share of itself. The unknowns are then within a
+// thousandth of their standard errors of their final values. If residuals can vanish, the sum falls much faster, until only
+// rounding is left.
 constexpr double negligible_decrease = 1e-9;
 constexpr int most_iterations = 400;
 
@@ -100,7 +102,7 @@ Minimum minimize(const Residuals &residuals, std::size_t n_residuals, double siz
       gradient[i] = std::inner_product(columns[i].begin(), columns[i].end(), r.begin(), 0.0);
       largest = std::max(largest, matrix[i * n + i]);
     }
-    // An unknown that would leave its bounds rests in this step, so that it does not bend the step of the others.
+    // An unknown that would leave its bounds is left out of this step, so that it does not change the step of the others.
     for (std::size_t i = 0; i < n; ++i) {
       const bool rests = gradient[i] > 0 ? x[i] <= bounds.lower[i] : x[i] >= bounds.upper[i];
       if (!rests) continue;
@@ -110,7 +112,7 @@ Minimum minimize(const Residuals &residuals, std::size_t n_residuals, double siz
     }
     for (bool accepted = false; !accepted; damping *= 8) {
       std::vector<double> damped = matrix, step(n);
-      // The second term keeps the step finite for an unknown on which no residual depends.
+      // The second damping term keeps the step finite for an unknown on which no residual depends.
       for (std::size_t i = 0; i < n; ++i) damped[i * n + i] += damping * matrix[i * n + i] + 1e-3 * damping * largest;
       for (std::size_t i = 0; i < n; ++i) step[i] = -gradient[i];
       if (solve(std::move(damped), step)) {
@@ -178,7 +180,8 @@ Eigen symmetric_eigen(std::vector<double> a, std::size_t n) {
 
 std::vector<double> covariance(const std::vector<double> &normal_matrix, std::size_t n) {
   const Eigen eigen = symmetric_eigen(normal_matrix, n);
-  // The eigenvalues are squares of the singular values of J. Derivatives are right to about 1e-10 of the largest.
+  // Smaller eigenvalues than this count as 0. Eigenvalues are squares of the singular values of J, whose derivatives are right to
+  // about 1e-10 of the largest.
   const double least = 1e-12 * (n == 0 ? 0 : eigen.values.back());
   constexpr double small_share = 1e-8;
   std::vector<double> matrix(n * n);

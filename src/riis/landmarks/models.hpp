@@ -12,7 +12,7 @@
 
 namespace riis {
 
-// The valve's own value of a parameter. Its proportions are the template for the patient's valve.
+// Returns a parameter's value in the template. The template is the valve whose proportions the fit begins with.
 double value_of(const Valve &valve, const std::string &name, std::size_t component = 0);
 
 struct KindOfLandmarks {
@@ -20,9 +20,9 @@ struct KindOfLandmarks {
   std::vector<Pose> starts;
   const char *size_name;  // the parameter that stands for the valve's size
   // Sets parameters that are no lengths or do not grow with the valve's size. The lengths and the model's sizes have been set.
-  // `own` is the valve before. NULL: there is nothing to do.
+  // `own` is the template valve. NULL: there is nothing to set.
   void (*finish)(const Valve &own, Valve &valve);
-  // Refuses a fit that leaves something open. NULL: nothing is.
+  // Refuses a fit that leaves something undetermined. NULL: no fit is refused.
   void (*check)(const LandmarkModel &fitted, const Landmarks &landmarks) = nullptr;
 };
 

@@ -43,7 +43,7 @@ std::vector<std::string> words_of(std::string_view text) {
   return words;
 }
 
-// The result has an entry for each parameter.
+// Returns, for each parameter of the kind, whether the caller holds it.
 std::vector<bool> held_parameters(const Valve &valve, std::string_view held) {
   const auto &specs = valve.kind().parameters;
   std::vector<bool> is_held(specs.size());
@@ -74,7 +74,7 @@ std::pair<Vec3, double> axis_and_angle(const Rotation &r) {
   const double angle = std::atan2(sine, trace - 1) * (180 / pi);
   if (sine > 1e-6) return {unit(twice), angle};
   if (trace > 1) return {{0, 0, 1}, 0};
-  // Half a turn: the columns of R + 1 are along the axis.
+  // The angle is half a turn. Then each column of R + 1 that is not 0 has the direction of the axis.
   const Vec3 columns[3] = {{r.row_x.x + 1, r.row_y.x, r.row_z.x},
                            {r.row_x.y, r.row_y.y + 1, r.row_z.y},
                            {r.row_x.z, r.row_y.z, r.row_z.z + 1}};
@@ -107,12 +107,13 @@ PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::str
 
   PlacedValve placed{valve, landmarks.scale,       {0, 0, 1}, 0,  {0, 0, 0}, fitted.residuals,
                      0,     fitted.rotation_error, 0,         {}, {}};
-  // Lengths grow with the valve. Then the fitted sizes take their values, and last the parameters that depend on several sizes.
+  // First all lengths grow with the valve. Then the fitted sizes take their values. Last come the parameters that depend on
+  // several sizes.
   double size_now = value_of(valve, of_kind.size_name);
   for (const FittedSize &size : model.sizes)
     if (size.name == of_kind.size_name) size_now = size.value;
   const double grown = size_now / value_of(valve, of_kind.size_name);
-  // Lengths that follow by a rule of the valve grow by themselves.
+  // Lengths that follow from others by a rule of the valve grow with these.
   for (const ParameterSpec &spec : specs) {
     if (!grows(spec) || (spec.rule.value && !valve.is_set(spec.name))) continue;
     double values[3] = {0, 0, 0};

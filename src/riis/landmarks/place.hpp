@@ -20,10 +20,10 @@ struct PlacedValve {
   Vec3 rotation_axis;
   double rotation_angle;          // degrees
   Vec3 translation;               // mesh units
-  std::vector<double> residuals;  // of the landmarks, mesh units
-  double noise;                   // on which standard errors rest, mesh units
+  std::vector<double> residuals;  // residuals of the landmarks, mesh units
+  double noise;                   // the noise on which standard errors rest, mesh units
   double rotation_error;          // degrees
-  double position_error;          // of the valve's origin, mesh units
+  double position_error;          // standard error of the valve's origin, mesh units
   // One entry for each parameter of the kind.
   std::vector<std::int32_t> size_state;  // RIIS_SIZE_*
   std::vector<double> standard_error;    // infinite for RIIS_SIZE_TIED, 0 for RIIS_SIZE_KEPT

@@ -50,7 +50,7 @@ KeyTimes::KeyTimes(const char *name, std::int64_t n_keys, const double *time, do
 }
 
 // Adding and subtracting periods rounds, both here and in the caller's time. Without a tolerance, rounding could put the time of
-// a key just before the key, and the rate there is a different one.
+// a key just before the key, where the rate is different.
 double KeyTimes::from_key(std::int64_t i, double time) const {
   const auto if_at = [&](double key) {
     const double difference = time - key, key_lost = difference - time;

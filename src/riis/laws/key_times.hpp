@@ -25,8 +25,8 @@ class KeyTimes {
   // Returns whether the last key is one period after the first. Then the values of the two keys must be equal.
   bool is_closed() const { return is_closed_; }
 
-  // The keys around a time and the times between these keys. They determine the value. Keys are positions in the arrays, so a
-  // time one period later has the same keys.
+  // The keys around a time and the times between these keys. These keys and times determine the value. A key is a position in the
+  // arrays, so a time one period later has the same keys.
   struct KeysAround {
     std::array<std::int64_t, 4> key;  // before the interval, at its two ends, after it
     std::array<double, 3> width;      // from each of these keys to the next; infinite if one of the two is missing

@@ -20,7 +20,8 @@ constexpr double degree = pi / 180;
 void check_time(double time) { check_range("", "time", time, -largest, largest); }
 
 // Rises from 0 at x = 0 to 1 at x = 1. Its first two derivatives are 0 at both ends, so neither the valve's velocity nor its
-// acceleration jumps. Just below x = 1 the polynomial rounds to more than 1, but no valve accepts an opening above 1.
+// acceleration jumps. Just below x = 1 the polynomial may round to more than 1. The result is limited to 1, because no valve
+// accepts an opening above 1.
 double ramp(double x) { return x <= 0 ? 0 : x >= 1 ? 1 : std::min(1.0, x * x * x * (10 + x * (-15 + 6 * x))); }
 double ramp_rate(double x) { return x <= 0 || x >= 1 ? 0 : 30 * x * x * (1 - x) * (1 - x); }
 
@@ -41,7 +42,7 @@ ValueAndRate opening_from_table(const riis_opening_table &table, double time) {
   std::array<double, 4> openings;
   for (std::size_t k = 0; k < 4; ++k) openings[k] = table.opening[around.key[k]];
   const ValueAndRate made = keys.between(around, openings);
-  // Rounding must not take the opening out of its range.
+  // The opening is limited to its range, because rounding could take it out.
   return {std::clamp(made.value, 0.0, 1.0), made.rate};
 }
 
@@ -65,7 +66,7 @@ ValueAndRate opening_from_times(const riis_opening_times &times, double time) {
   const double opened = since / times.opening_duration;
   const double closed = (since - (times.closing_start - times.opening_start)) / times.closing_duration;
   const double height = times.open - times.closed;
-  // Rounding must not take the opening out of its range.
+  // The opening is limited to its range, because rounding could take it out.
   return {std::clamp(times.closed + height * (ramp(opened) - ramp(closed)), std::min(times.closed, times.open),
                      std::max(times.closed, times.open)),
           height * (ramp_rate(opened) / times.opening_duration - ramp_rate(closed) / times.closing_duration)};
@@ -202,8 +203,8 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
   if (!(law.angle_max > law.angle_min))
     fail(RIIS_INVALID_ARGUMENT, "law.angle_max is ", law.angle_max, "; it must be above law.angle_min, ",
          law.angle_min);
-  // An initial state has no pressure difference and no flow, so the present ones are used. Its angle of 0 means angle_min, where
-  // the valve is closed.
+  // An initial state lacks a pressure difference and a flow, so those at the end of the step are used. The angle 0 of an initial
+  // state stands for angle_min, where the valve is closed.
   const bool has_drive = !std::isnan(before.pressure_difference) && !std::isnan(before.flow);
   const double angle = has_drive || before.angle != 0 ? before.angle : law.angle_min;
   check_range("before", "angle", angle, law.angle_min, law.angle_max);

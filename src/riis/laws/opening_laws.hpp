@@ -10,7 +10,7 @@
 
 namespace riis {
 
-// All of these fail with RIIS_INVALID_ARGUMENT. The message names the field and its value.
+// All functions of this file fail with RIIS_INVALID_ARGUMENT for bad input. The message names the field and its value.
 ValueAndRate opening_from_table(const riis_opening_table &table, double time);
 ValueAndRate opening_from_times(const riis_opening_times &times, double time);
 riis_opening_switch_state advance(const riis_opening_switch &law, const riis_opening_switch_state &before, double time,

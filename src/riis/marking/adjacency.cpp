@@ -22,8 +22,8 @@ void check_count(const char *field, std::int64_t n, std::int64_t least) {
 }
 
 constexpr std::int64_t rows_per_block = 4096;
-// Makes rows. append(i, neighbors) appends the neighbours of node i in any order, perhaps repeatedly. append is called twice for
-// each node, first for the row's length and then for the row's columns. So memory never holds a list of all pairs.
+// Makes rows. append(i, neighbors) appends the neighbours of node i in any order, perhaps with repeats. It is called twice for
+// each node, first for the row's length and then for the row's columns, so that memory never holds a list of all pairs.
 template <class Append>
 OwnAdjacency rows_of(std::int64_t n_nodes, int n_threads, const Append &append) {
   OwnAdjacency made;
@@ -64,7 +64,8 @@ OwnAdjacency rows_of(std::int64_t n_nodes, int n_threads, const Append &append) 
   return made;
 }
 
-// Lists for incidence.hpp in which the nodes are the cells and an entry is a face between two cells.
+// The lists that incidence.hpp takes, for the neighbours of cells: here the nodes are the cells, and an entry is a face between
+// two cells.
 struct InnerFaces {
   static constexpr std::int64_t most_neighbors = 1;
 
@@ -92,8 +93,8 @@ struct InnerFaces {
 template <class Id>
 OwnAdjacency adjacency_from_cells_with(const riis_mesh_cells &given, int n_threads, const NarrowLimits &limits) {
   const Cells<Id> cells(given, n_threads);
-  // Code for cells of one shape takes three quarters of the time of general code. It is not compiled for larger meshes, because
-  // hardly any mesh would use it.
+  // Code for cells of one shape takes three quarters of the time of general code. This code is compiled only for meshes that 32
+  // bits can count, because hardly any mesh is larger.
   if (given.offsets || cells.n_nodes() > limits.n_nodes || cells.n_listed() > limits.n_entries)
     return adjacency_of_lists(CellsOfAnyShape<Id>(cells), cells.n_listed(), n_threads, limits);
   const auto made_of = [&](const auto &lists) { return narrow_adjacency_of_lists(lists, n_threads); };

@@ -26,7 +26,7 @@ inline constexpr CellShape prism{6, 9, {{{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5},
 inline constexpr CellShape hexahedron{
     8, 12, {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}}};
 
-// For each position in a cell's list of nodes, the positions that are joined to it by an edge.
+// For each position in a cell's list of nodes, lists the positions that an edge joins to it.
 struct CellNeighbors {
   struct Positions {
     std::int64_t n = 0;
@@ -71,7 +71,7 @@ struct CellNodes {
   std::int64_t nodes_per_cell, base, first_offset;
 
   std::int64_t begin(std::int64_t cell) const { return offsets ? offsets[cell] - first_offset : cell * nodes_per_cell; }
-  // Returns the node at a position in these lists.
+  // Returns the node at a position in the cells' lists.
   std::int64_t node_at(std::int64_t position) const { return ids[position] - base; }
   void prefetch(std::int64_t position) const { __builtin_prefetch(ids + position); }
 };
@@ -145,7 +145,7 @@ class Cells {
   CellNodes<Id> nodes_;
 };
 
-// Lists of cells of one shape, for incidence.hpp. An entry is a position in the cells' lists.
+// The lists that incidence.hpp takes, for cells of one shape. An entry is a position in the cells' lists.
 template <class Id, const CellShape &shape>
 struct CellsOfOneShape {
   static constexpr std::int64_t most_neighbors = neighbors_in<shape>.most;
@@ -170,7 +170,7 @@ struct CellsOfOneShape {
   void prefetch(std::int64_t entry) const { nodes.prefetch(entry); }
 };
 
-// Lists of cells of any shapes, for incidence.hpp. An entry is a cell.
+// The lists that incidence.hpp takes, for cells of any shapes. An entry is a cell.
 template <class Id>
 struct CellsOfAnyShape {
   static constexpr std::int64_t most_neighbors = 7;  // a node listed twice in a cell may be joined to all other nodes

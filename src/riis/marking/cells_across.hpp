@@ -12,7 +12,7 @@
 
 namespace riis {
 
-// Fails with RIIS_INVALID_MESH if a coordinate is not finite or too large.
+// Computes the number of mesh edges across the band. Fails with RIIS_INVALID_MESH if a coordinate is not finite or too large.
 riis_cells_across cells_across(const Marks &marks, const Mesh &mesh, const Adjacency &adjacency, int n_threads);
 
 }  // namespace riis

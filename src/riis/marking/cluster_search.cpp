@@ -38,8 +38,8 @@ class ClusterSearch {
     const Frame &frame = groups_.frame;
     const Placing placing(clusters_, frame);
     const double limit = request.distance_limit * frame.scale;
-    // The second term covers the rounding of the distances that are decided in double precision. The third covers ties, which
-    // may be farther than the closest triangle by this amount.
+    // The second term of the error covers the rounding of the distances that are decided in double precision. The third term
+    // covers ties, which may be farther than the closest triangle by this amount.
     const double error = filter_error(placing.ratio, placing.largest_shift, limit, groups_.longest_edge) +
                          4 * scene_.rounding() * frame.scale + request.ties.of_leaflets * frame.scale;
     reach_ = static_cast<float>(limit + 2 * error);
@@ -76,7 +76,7 @@ class ClusterSearch {
       }
       if (gap_sq <= task_.reach_sq) own_.near_regions.push_back(region);
     }
-    constexpr std::int64_t few = 64;  // searching so few takes a few tenths of a millisecond
+    constexpr std::int64_t few = 64;  // searching so few regions takes a few tenths of a millisecond
     const auto n_near = view(own_.near_regions).size();
     const int n_ran = parallel_for(n_near, request_.n_threads.for_part(n_near, few), [&](std::int64_t i, int thread) {
       search_region(view(own_.near_regions)[i], view(own_.threads)[thread]);
@@ -92,7 +92,7 @@ class ClusterSearch {
         item.thread = static_cast<int>(thread);
         items.push_back(item);
       }
-    constexpr std::int64_t few = 128;  // searching so few takes about half a millisecond
+    constexpr std::int64_t few = 128;  // searching so few clusters takes about half a millisecond
     const auto n = view(items).size();
     const int n_ran = parallel_for(n, request_.n_threads.for_part(n, few), [&](std::int64_t i, int thread) {
       search_cluster(view(items)[i], view(own_.threads)[thread], thread);
@@ -141,7 +141,8 @@ class ClusterSearch {
     const std::size_t first = to.size();
     to.resize(first + n);
     std::int32_t *next = to.data() + first;
-    // Avoids a branch, which the processor could not predict: writes every number, but moves on only after a kept one.
+    // Writes every number, but moves on only after a number that is kept. This avoids a branch that the processor could not
+    // predict.
     for (std::size_t k = 0; k < n; ++k) {
       *next = numbers[k];
       next += bits[k] >> bit & 1;
@@ -166,7 +167,8 @@ class ClusterSearch {
     }
   }
 
-  // The pairs of node and triangle that the filter leaves in a cluster. They wait here to be decided.
+  // The pairs of node and triangle in a cluster that the filter did not dismiss. They are stored until double precision decides
+  // them.
   struct Pairs {
     std::int64_t first_leaf;
     Ties *ties;  // or null
@@ -265,7 +267,7 @@ class ClusterSearch {
     pairs.n = 0;
   }
 
-  // Not inlined, so that the search without ties can use all registers.
+  // This function is not inlined, so that the code for a search without ties can use all registers.
   __attribute__((noinline)) void take_closest_and_ties(ClusterScratch::Thread &own, const Pairs &pairs) const {
     for (std::int64_t i = 0; i < pairs.n; ++i) {
       const std::int32_t node = view(own.pair_nodes)[i];
@@ -310,7 +312,7 @@ void ClusterScratch::prepare(int n_threads) {
     thread.items.clear();
     thread.near_groups.clear();
     thread.leaf_bits.clear();
-    // There is room to spare, because the kernels write whole registers.
+    // The arrays get more room than they need, because the kernels write whole registers.
     constexpr std::int64_t room = room_for_pairs + 16;
     resize(thread.pair_nodes, room);
     resize(thread.pair_triangles, room);

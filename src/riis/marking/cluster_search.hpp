@@ -36,7 +36,7 @@ struct ClusterScratch {
     std::vector<NodeBounds> lower_bounds;  // for each group near a leaf, bounds of the leaf's nodes
     std::vector<std::int32_t> pair_nodes, pair_triangles;
     std::vector<double> pair_decided;      // squares of distances
-    std::vector<ClosestTriangle> closest;  // of a cluster's nodes
+    std::vector<ClosestTriangle> closest;  // closest triangles of a cluster's nodes
     std::int64_t n_queries = 0;
 
     float *room_for_bounds(std::size_t n_groups) {
@@ -51,12 +51,13 @@ struct ClusterScratch {
   void prepare(int n_threads);
 };
 
-// Returns false if single precision cannot separate near from far. This happens if the limit, the mesh or its distance from the
-// surface is about a million times the surface's size. It also happens if the mesh is extremely small compared with the surface.
+// Returns false if single precision cannot separate near nodes from far ones. This happens if the limit, the mesh or its distance
+// from the surface is about a million times the surface's size. It also happens if the mesh is extremely small compared with the
+// surface.
 bool separates_in_single_precision(const SearchRequest &request, const Clusters &clusters);
 
-// The clusters must belong to the request's mesh, and separates_in_single_precision must hold. `kernels` must be those of the
-// request's instructions, except that ./run bench roofline passes kernels that count operations.
+// Searches over clusters. The clusters must belong to the request's mesh, and separates_in_single_precision must hold. `kernels`
+// must be those of the request's instructions, except that ./run bench roofline passes kernels that count operations.
 SearchReport search_clusters(const SearchRequest &request, const Clusters &clusters, const Kernels &kernels,
                              ClusterScratch &scratch, FoundNodes &found);
 

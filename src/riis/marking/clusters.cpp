@@ -41,8 +41,8 @@ Boxes no_boxes() {
 
 std::int64_t n_of(std::int64_t n, std::int64_t size) { return (n + size - 1) / size; }
 
-// Fills leaves with the nodes node_of(position), and then makes the boxes. If memory runs out, clusters that were never made
-// still count as not made.
+// Fills leaves with the nodes node_of(position), and then makes the boxes. If memory runs out, n_nodes stays as it was, so
+// clusters that were never made do not count as made.
 template <class NodeOf>
 void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const NodeOf &node_of) {
   const std::int64_t n_nodes = nodes.n;
@@ -50,7 +50,7 @@ void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const N
   const std::int64_t n_clusters = n_of(n_nodes, nodes_per_cluster);
   if (n_leaves != clusters.n_leaves) {
     clusters.n_leaves = 0;
-    // The memory is not filled with zeros, so that the thread that uses a page is also the first to write it.
+    // The memory is left unfilled. So the thread that uses a page of it is also the first to write to that page.
     const auto n = static_cast<std::size_t>(n_leaves);
     clusters.leaves.reset(new Leaf[n]);
     clusters.points.reset(new LeafPoints[n]);

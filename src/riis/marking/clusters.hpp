@@ -42,7 +42,7 @@ struct Clusters {
   int n_nodes_of(std::int64_t leaf) const;
 };
 
-// A leaf stores node numbers in 32 bits.
+// The limit exists because a leaf stores node numbers in 32 bits.
 inline constexpr std::int64_t max_clustered_nodes = INT64_C(0xffffffff);
 
 // Both functions fail with RIIS_INVALID_MESH for an unusable coordinate. n_nodes is 0 in clusters that were never made.

@@ -21,13 +21,13 @@ struct TriangleDistances {
     return scene.closest(p, limit, instructions, ties);
   }
 
-  // Returns a lower bound d: every point q has a distance of at least d - |q - p|. So a large d proves that points near p are
-  // far from the surface. Returns infinity if d is above the limit.
+  // Returns a number d such that every point q has a distance of at least d - |q - p| from the surface. A large d proves that all
+  // points near p are far from the surface. Returns infinity if d is above the limit.
   double lower_bound(Vec3 p, double limit) const {
     return std::sqrt(scene.closest(p, limit, instructions).distance_sq);
   }
 
-  // Returns the absolute part of a distance's error. The rest is proportional to the distance and to |p|.
+  // Returns the constant part of the error of a distance from p. The other part is proportional to the distance and to |p|.
   double rounding() const { return scene.rounding(); }
 };
 
@@ -43,9 +43,9 @@ struct OtherDistances {
     return {found.distance_sq, found.patch};
   }
 
-  // The distance to fixed points is itself a lower bound. A minimisation may end anywhere on S, so its result at p bounds no
-  // result near p. But each result is the distance to some point of S. So no result is below the distance to the triangles minus
-  // triangle_error.
+  // Sampling measures the distance to fixed points, so the distance is such a bound. A minimisation may end anywhere on S, so its
+  // result at p bounds no result near p. But each of its results is the distance to some point of S, and so at least the distance
+  // to the triangles minus triangle_error.
   double lower_bound(Vec3 p, double limit) const {
     if (method.is_of_fixed_points()) return std::sqrt(method.closest(p, limit).distance_sq);
     const double infinity = std::numeric_limits<double>::infinity();

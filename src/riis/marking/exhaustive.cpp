@@ -12,8 +12,8 @@
 namespace riis {
 namespace {
 
-// A block is so small that two threads get equal shares of a coarse mesh's band, and so large that handing out blocks costs
-// nothing.
+// Blocks are small enough to give two threads equal shares of a coarse mesh's band, and large enough to make handing them out
+// cheap.
 constexpr std::int64_t nodes_per_block = 2048;
 
 template <class Distances>

@@ -30,8 +30,8 @@ void for_each_array(std::int32_t fields, const Visit &visit) {
   if (has(RIIS_FIELD_PATCH)) visit(&NodeFields::patch_id, std::int64_t{1});
 }
 
-// Finds the position of a triangle in the set from its id. Position and id are equal, unless the set left out some of the
-// caller's triangles.
+// Finds the position of a triangle in the set from its id. A triangle's position equals its id, unless the set left out some of
+// the caller's triangles.
 class Positions {
  public:
   explicit Positions(const TriangleSet &set)
@@ -50,7 +50,8 @@ class Positions {
 typedef double Two __attribute__((vector_size(16)));
 
 // The mean of the velocities of the leaflets that tie at a node. A leaflet's velocity is the mean over its tied points. The
-// velocity at the closest triangle is given first. Then the points of one other leaflet after another are added.
+// constructor takes the velocity at the closest triangle. After that, the caller adds the tied points, one other leaflet after
+// another.
 class MeanOfLeaflets {
  public:
   MeanOfLeaflets(std::int32_t closest_leaflet, Vec3 velocity) : closest_leaflet_(closest_leaflet) {
@@ -189,8 +190,7 @@ class TriangleFields {
     }
   }
 
-  // Starting from `tie`, returns the position of the next tie at which a new node begins. Returns the number of all ties if
-  // there is none.
+  // Returns the first position from `tie` on at which the ties of a node begin, or the number of all ties if there is none.
   std::int64_t next_node(std::int64_t tie) const {
     while (tie > 0 && tie < ties_.size() && ties_[tie].point == ties_[tie - 1].point) ++tie;
     return tie;
@@ -250,7 +250,7 @@ class TriangleFields {
 
   const TriangleSet &set_;
   Positions positions_;
-  const double *corners_;  // of the triangles, nine numbers for each
+  const double *corners_;  // corners of the triangles, nine numbers for each
   const StridedPoints &nodes_;
   const Kernels &simd_;
   std::int32_t fields_;
@@ -313,7 +313,7 @@ bool NodeFields::has_room(std::int32_t fields, std::int64_t n) const {
 
 void NodeFields::resize(std::int32_t fields, std::int64_t n) {
   for_each_array(all_fields & ~fields, [&](auto member, std::int64_t) { (this->*member).clear(); });
-  // Old entries are not cleared first, because every entry will be written.
+  // Resizes the arrays without clearing old entries, because every entry will be written.
   for_each_array(fields, [&](auto member, std::int64_t per_node) { riis::resize(this->*member, per_node * n); });
 }
 
@@ -366,7 +366,7 @@ void check_fields(const Surface &surface, std::int32_t fields) {
 bool need_normals(const Surface &surface, std::int32_t fields, std::int64_t n_nodes) {
   if (surface.other_distance()) return false;
   if (fields & (RIIS_FIELD_SIDE | RIIS_FIELD_RIM)) return true;
-  // With fewer triangles than nodes, making a normal for each triangle is cheaper than making one for each node.
+  // If there are fewer triangles than nodes, one normal for each triangle costs less than one for each node.
   return (fields & RIIS_FIELD_NORMAL) && n_nodes > surface.triangles().n_triangles();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A field is data about a node's closest point that a solver's force needs besides the distance.
-// In: nodes within the limit, each with the closest triangle that the search found. Out: an array for each requested field.
+// Computes fields. A field is a number or vector at a node's closest point, such as the velocity, which a solver's force needs
+// besides the distance. In: nodes within the limit, each with the closest triangle that the search found. Out: an array for each
+// requested field.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +42,7 @@ void check_fields(const Surface &surface, std::int32_t fields);
 // Returns whether the fields of n_nodes nodes need Surface::pseudonormals().
 bool need_normals(const Surface &surface, std::int32_t fields, std::int64_t n_nodes);
 
-// Returns the rule for ties that a search must follow for these fields.
+// Returns the rule by which a search must collect ties, if these fields are requested.
 TieRule ties_for(const Surface &surface, std::int32_t fields);
 
 // Writes the fields of the nodes in the list. The memory must be reserved, so this function does not throw.

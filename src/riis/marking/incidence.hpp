@@ -73,7 +73,7 @@ class RowMaker {
   static constexpr std::int64_t most_parts = 8;
   static constexpr std::int64_t items_ahead = 16, entries_ahead = 24;  // how far ahead memory is requested
   static constexpr std::int64_t most_inserted =
-      64;  // rows of more entries are sorted as a whole: insertion would be too slow
+      64;  // a row of more entries is sorted as a whole, because insertion would be too slow
 
   Range items_of(std::int64_t part) const {
     return {lists_.n_items / n_parts_ * part + std::min(lists_.n_items % n_parts_, part),
@@ -84,7 +84,7 @@ class RowMaker {
     return {block * nodes_per_block, std::min((block + 1) * nodes_per_block, lists_.n_nodes)};
   }
 
-  // Counts the entries of each part at each node. Then replaces each count by the position in the block where these entries
+  // Counts the entries of each part at each node. Then replaces each count by the position in the block at which its entries will
   // begin.
   void count() {
     resize(next_, n_parts_ * lists_.n_nodes);
@@ -130,8 +130,8 @@ class RowMaker {
 
   // The memory of one thread while it makes rows.
   struct Scratch {
-    std::vector<std::uint8_t> is_seen;  // for each node, whether the row has it already
-    UnfilledVector<Column> columns;     // of one block
+    std::vector<std::uint8_t> is_seen;  // for each node, whether the row already has the node
+    UnfilledVector<Column> columns;     // columns of one block
   };
 
   // Makes the rows of each block in the memory of its entries. Writes the rows' lengths where the offsets will be.
@@ -147,7 +147,7 @@ class RowMaker {
       const Range nodes = nodes_of(number);
       const Entry *const ends = next_of(n_parts_ - 1);
       const ArrayView<const Entry> entries(block.as<Entry>(), static_cast<std::int64_t>(ends[nodes.end - 1]));
-      const Lists lists = lists_;  // a copy: so the compiler knows that stores to is_seen do not change it
+      const Lists lists = lists_;  // a copy, so that the compiler knows that stores to is_seen do not change the lists
       std::int64_t begin = 0, n_columns = 0;
       for (std::int64_t node = nodes.begin; node < nodes.end; ++node) {
         const auto end = static_cast<std::int64_t>(ends[node]);
@@ -217,7 +217,7 @@ OwnAdjacency narrow_adjacency_of_lists(const Lists &lists, int n_threads) {
   return made;
 }
 
-// The lists must have at most n_entries entries.
+// Makes the adjacency of the lists, which must have at most n_entries entries.
 template <class Lists>
 OwnAdjacency adjacency_of_lists(const Lists &lists, std::int64_t n_entries, int n_threads, const NarrowLimits &limits) {
   OwnAdjacency made;

@@ -54,8 +54,8 @@ struct alignas(64) Finder {
     return crosses;
   }
 
-  // Returns false only if no point of the surface is within the radius of p. This query saves many others. The margin is several
-  // times the rounding, including that of p, which lies near the surface.
+  // Returns false only if no point of the surface is within the radius of p. One such query often makes the queries of single
+  // edges unnecessary. The margin is several times the rounding, including that of p, which lies near the surface.
   bool may_be_within(Vec3 p, double radius) const {
     const TriangleScene &scene = request->surface.scene();
     return scene.closest(p, radius * (1 + 1e-9) + 4 * scene.rounding(), request->instructions).triangle >= 0;
@@ -81,7 +81,7 @@ struct alignas(64) Finder {
       const Vec3 q = checked_point(nodes, j, "node", RIIS_INVALID_MESH);
       const double length = distance(p, q);
       if (length <= too_short || !is_open(j)) return;
-      // Each edge is followed from the end with the lower number, whichever row it is found in.
+      // Each edge is followed from the end with the lower number, even if the edge was found in the other end's row.
       if (crosses(i < j ? p : q, i < j ? q : p)) found.push_back({std::min(i, j), std::max(i, j), length});
     });
   }

@@ -12,7 +12,7 @@
 namespace riis {
 namespace {
 
-// Returns whether most triangles are far from most nodes. With a wider limit, clusters do not help.
+// Returns whether the limit is so small that most triangles are far from most nodes. With a wider limit, clusters do not help.
 bool has_few_near(const SearchRequest &request) {
   const Bounds &bounds = request.surface.scene().bounds();
   const Vec3 extent = bounds.upper - bounds.lower;
@@ -63,8 +63,8 @@ SearchRun run(const SearchRequest &request, std::int32_t search, Marks &marks) {
   }
   switch (search) {
     case RIIS_SEARCH_NEIGHBOR: {
-      // A moving valve is near its last position, so the walk starts at the nodes found last. A list from another mesh with as
-      // many nodes does no harm.
+      // A moving valve is near its last position, so the walk starts at the nodes found last. These may be nodes of another mesh
+      // with as many nodes: a wrong start does no harm.
       const bool fits = marks.stats.n_nodes == request.mesh.nodes().n;
       return {search, search_neighbors(request, fits ? marks.within.nodes.node_id : nowhere, marks.neighbor_scratch,
                                        marks.found)};
@@ -88,8 +88,8 @@ WantedData wanted_data(const SearchRequest &request, const MarkingRequest &asked
   return data;
 }
 
-// Gives the lists room for their new entries. If a list is too short, new lists replace both, but only after all memory was
-// reserved.
+// Gives both lists room for their new entries. If a list lacks room, both are replaced, but only after all memory for the new
+// ones was reserved.
 void make_room(const WantedData &data, const OrderScratch::Counts &n, Marks &marks) {
   if (!marks.within.has_room(data, n.n_within) || !marks.marked.has_room(data, n.n_marked)) {
     ListedNodes within, marked;
@@ -124,7 +124,7 @@ void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks
   request.ties = ties_for(request.surface, data.fields);
   const auto [search, report] = run(request, search_for(request, marking.search), marks);
   const bool limit_is_wider = request.distance_limit > request.surface.half_thickness();
-  // Everything that may fail comes before the lists are overwritten.
+  // Everything that may fail comes first, so that a failure leaves the old lists intact.
   marks.field_scratch.prepare(request, data.fields, marks.found);
   if (need_normals(request.surface, data.fields, marks.found.size())) request.surface.pseudonormals();
   marks.leaflet_ids.reserve(request.surface.leaflet_ids().size());

@@ -40,11 +40,11 @@ struct Marks {
   ListedNodes within;       // nodes within the distance limit
   ListedNodes marked;       // used only if the limit is wider than the half thickness; otherwise `within` has them
   bool was_marked = false;  // false until the first marking
-  WantedData data;          // as in the last marking
+  WantedData data;          // the data of the last marking
   bool limit_is_wider = false;
   double distance_limit = 0;
   double half_thickness = 0;
-  Threads n_threads = 1;                  // of the last marking
+  Threads n_threads = 1;                  // number of threads of the last marking
   std::vector<std::int32_t> leaflet_ids;  // the ids of the surface's leaflets, ascending
   riis_mark_stats stats{};
 

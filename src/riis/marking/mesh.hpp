@@ -48,9 +48,9 @@ class Mesh {
     has_edges_.store(false, std::memory_order_relaxed);
   }
 
-  // These two set new coordinates of the same nodes, or other nodes. A different number of nodes removes the adjacency.
+  // Both functions set new coordinates of the same nodes, or other nodes. A different number of nodes removes the adjacency.
   void borrow_nodes(const StridedPoints &nodes, const Bounds &bounds);
-  // If this function fails, the mesh keeps its nodes.
+  // Copies the nodes. After a failure the mesh keeps its old nodes.
   template <class Real>
   void copy_nodes(const StridedReals<Real> &nodes, const Bounds &bounds) {
     const auto n = static_cast<std::size_t>(3 * nodes.n);

@@ -101,8 +101,8 @@ std::int64_t NearestEdges::of(std::int32_t leaflet_id, Vec3 point) const {
   if (!tree) return -1;
   double least = std::numeric_limits<double>::infinity();
   std::int64_t nearest = -1;
-  // Rounding may put the distance of a box just above the distance of an edge in it. The bound is a little smaller, so that the
-  // search never skips a box with an equally near edge.
+  // Rounding may put the distance of a box just above the distance of an edge in the box. The bound is therefore a little
+  // smaller, and the search never skips a box with an equally near edge.
   const auto bound = [&](std::int64_t box) { return (1 - 1e-12) * distance_sq(view(boxes_)[box], point); };
   std::array<std::int64_t, 64> open;  // boxes to visit: at most one for each of the tree's levels, fewer than 64
   std::size_t n_open = 0;

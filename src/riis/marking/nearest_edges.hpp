@@ -14,7 +14,7 @@ namespace riis {
 struct Edges {
   std::int64_t n = 0;
   const double *ends = nullptr;              // (3, 2, n)
-  const std::int32_t *leaflet_id = nullptr;  // (n), or null if each edge belongs to all leaflets
+  const std::int32_t *leaflet_id = nullptr;  // (n), or null if each edge serves all leaflets
 
   Vec3 first(std::int64_t i) const { return {ends[6 * i], ends[6 * i + 1], ends[6 * i + 2]}; }
   Vec3 second(std::int64_t i) const { return {ends[6 * i + 3], ends[6 * i + 4], ends[6 * i + 5]}; }

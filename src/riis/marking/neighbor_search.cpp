@@ -16,7 +16,7 @@ namespace riis {
 namespace {
 
 constexpr std::int64_t nodes_per_range = NeighborScratch::nodes_per_range, balls_per_block = 16;
-// With fewer balls than these, a part of the search takes a millisecond or two on one thread.
+// For fewer balls than these, one thread suffices, because a part of the search takes it only a millisecond or two.
 constexpr std::int64_t few_balls = 256, few_large_balls = 64;
 
 template <class Distances>
@@ -164,16 +164,16 @@ class NeighborSearch {
     return true;
   }
 
-  // Returns true if the node is certainly farther from the surface than the limit. The proof is that the distance of the ball's
-  // centre minus the node's distance from the centre is a lower bound of the node's distance.
+  // Returns true if the node is certainly farther from the surface than the limit. The proof is a lower bound on the node's
+  // distance: the distance of the ball's centre minus the way from the centre to the node.
   bool is_far(const NodeBalls &balls, const NearBall &near, std::int64_t node) const {
     const Vec3 centre = view(balls.balls)[near.ball].centre;
     const double from_centre = distance(centre, nodes_[node]);
     return near.distance - from_centre > limit_ + slack(near.distance + from_centre, centre);
   }
 
-  // Bounds the rounding of two distances and of a ball's radius. The bound is proportional to these and to the coordinates of the
-  // nodes and the triangles.
+  // Bounds the rounding errors of two distances and of a ball's radius. The bound is proportional to these three lengths and to
+  // the coordinates of the nodes and the triangles.
   double slack(double distances, Vec3 centre) const {
     return 1e-14 * (distances + std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z)) +
            2 * distances_.rounding();

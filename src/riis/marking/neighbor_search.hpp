@@ -57,13 +57,13 @@ class NeighborScratch {
   std::uint8_t walk_ = 0;
 };
 
-// Walks from neighbour to neighbour (paper, 4.2.2 "Recursive neighbor search"). Then proves that each other node is far, or
-// queries it (docs/theory.md, section 7). The walk starts at the nodes in `last`, usually those found by the last marking. The
-// mesh must have an adjacency.
+// Walks from neighbour to neighbour (paper, 4.2.2 "Recursive neighbor search"). Then, for each node that the walk did not reach,
+// proves that it is far, or else queries it (docs/theory.md, section 7). The walk starts at the nodes in `last`, usually those
+// found by the last marking. The mesh must have an adjacency.
 SearchReport search_neighbors(const SearchRequest &request, const std::vector<std::int64_t> &last,
                               NeighborScratch &scratch, FoundNodes &found);
 
-// Runs the paper's algorithm exactly, without the proof. The mesh must have an adjacency.
+// Runs the paper's algorithm exactly, without the proof that the remaining nodes are far. The mesh must have an adjacency.
 SearchReport search_as_the_paper(const SearchRequest &request, NeighborScratch &scratch, FoundNodes &found);
 
 }  // namespace riis

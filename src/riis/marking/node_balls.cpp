@@ -20,7 +20,7 @@ void for_each(std::int64_t n, int n_threads, const Visit &visit) {
   });
 }
 
-// Adds a few units of rounding of the coordinates, because a computed radius may be too small by that much.
+// Returns the radius plus a few units of rounding of the coordinates, because a computed radius may be too small by that much.
 double rounded_up(double radius, Vec3 centre) {
   return radius * (1 + 1e-15) + 1e-15 * (std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z));
 }

@@ -41,7 +41,7 @@ struct NodeList {
     reserve_amply(triangle_id, n);
     reserve_amply(leaflet_id, n);
   }
-  // Does not throw if reserve(n) was called before.
+  // Sets the number of entries. Does not throw if reserve(n) was called before.
   void resize(std::int64_t n) {
     riis::resize(node_id, n);
     riis::resize(distance, n);

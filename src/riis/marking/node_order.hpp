@@ -28,8 +28,8 @@ inline Vec3 node_at(const StridedPoints &nodes, std::int64_t i) {
   return checked_point(nodes, i, "node", RIIS_INVALID_MESH);
 }
 
-// The frame of a mesh's coordinates: (x - centre) * scale. The scale is a power of two that brings them between -1 and 1. A
-// coordinate far outside becomes 2 or -2, which single precision can hold.
+// The frame of a mesh's nodes: it takes a coordinate x to (x - centre) * scale. The scale is a power of two that brings all
+// coordinates between -1 and 1. A coordinate far outside becomes 2 or -2, which single precision can hold.
 struct NodeFrame {
   Vec3 centre{0, 0, 0};
   double scale = 1;
@@ -45,7 +45,7 @@ inline NodeFrame frame_around(const Bounds &nodes) {
   const Vec3 extent = nodes.half_extent();
   int exponent = 0;
   std::frexp(std::max({extent.x, extent.y, extent.z}), &exponent);
-  // Without std::max, a denormal extent would make the scale infinite.
+  // The exponent is limited, because a denormal extent would make the scale infinite.
   return {nodes.middle(), std::ldexp(1.0, -std::max(exponent, -1000))};
 }
 
@@ -83,8 +83,8 @@ template <class Node>
 using NodeItems = UnfilledVector<NodeItem<Node>>;
 
 // Sorts nodes so that near nodes follow each other. Each pass counts the nodes of a part in bins along the longest axis of its
-// box. Then it cuts the part, first into whole clusters and later into whole leaves. The items move from one array to the other
-// and back.
+// box. Then it cuts the part, in early passes between clusters and in later passes between leaves. The items move from one array
+// to the other and back.
 template <class Node>
 class NodeSorter {
  public:
@@ -177,7 +177,7 @@ class NodeSorter {
   };
 
   // A part that is divided into blocks, which threads share. Each block has its box, its counts and the positions of its streams.
-  // OneBlock is the same for one thread and one block.
+  // OneBlock is such a part for one thread and one block.
   struct ManyBlocks {
     const Part &part;
     int n_threads;
@@ -248,7 +248,7 @@ class NodeSorter {
     return box;
   }
 
-  // Calls visit(item, quarter) for all items of a part. Within each quarter it keeps their order.
+  // Calls visit(item, quarter) for all items of a part. The items of each quarter are visited in their order.
   template <class Visit>
   static void for_each_by_quarters(const Item *items, const Part &part, const Visit &visit) {
     const std::int64_t size = part.size() / n_quarters;

@@ -13,7 +13,7 @@ class OpenSets {
  public:
   static constexpr std::int64_t closed = -1;  // the parent of a node that is in no set
 
-  // Borrows the array. Each entry must be `closed`, the node itself, or a lower node of the same set.
+  // Borrows the array of parents. Each entry must be `closed`, the node itself, or a lower node of the same set.
   explicit OpenSets(ArrayView<std::int64_t> parent) : parent_(parent) {}
 
   bool is_open(std::int64_t node) const { return load(node) != closed; }
@@ -26,7 +26,7 @@ class OpenSets {
       std::int64_t parent = load(node);
       const std::int64_t above = load(parent);
       if (above == parent) return parent;
-      replace(node, parent, above);  // fails if another thread has found a still lower parent
+      replace(node, parent, above);  // may fail: another thread may have found a still lower parent
       node = above;
     }
   }
@@ -44,12 +44,13 @@ class OpenSets {
       b = root(b);
       if (a == b) return;
       if (replace(a < b ? b : a, a < b ? b : a, a < b ? a : b)) return;
-      // Tries again, because another thread has given the higher root a parent.
+      // Another thread has given the higher root a parent, so the loop tries again.
     }
   }
 
  private:
-  // Relaxed operations are enough. The parents guard no other data, and the end of the parallel loop orders everything else.
+  // Relaxed atomic operations are enough here. No other data depends on the parents, and the end of the parallel loop orders
+  // everything else.
   std::int64_t load(std::int64_t node) const { return __atomic_load_n(&parent_[node], __ATOMIC_RELAXED); }
   bool replace(std::int64_t node, std::int64_t before, std::int64_t parent) {
     return __atomic_compare_exchange_n(&parent_[node], &before, parent, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);

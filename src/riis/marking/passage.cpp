@@ -52,7 +52,7 @@ struct Candidate {
   }
 };
 
-// An edge that is in the row of `other` only.
+// An edge that only the row of `other` lists.
 struct OneWayEdge {
   std::int64_t node, other;
 
@@ -124,7 +124,8 @@ class Opening {
     return made;
   }
 
-  // Returns the edges to nodes that are not open, if the rows of these nodes lack the edges. Most adjacencies have no such edges.
+  // Returns the edges to nodes that are not open, if the rows of these nodes lack the edges. Most adjacencies are symmetric and
+  // have no such edges.
   std::vector<OneWayEdge> one_way_edges() {
     constexpr std::int64_t rows_per_task = 4096;
     std::vector<std::vector<OneWayEdge>> by_thread;
@@ -150,7 +151,7 @@ class Opening {
   UnfilledVector<std::int64_t> parent_;
 };
 
-// A distance that no node reaches.
+// A distance larger than that of any node.
 constexpr double beyond_all = 10 * max_coordinate;
 
 }  // namespace
@@ -158,14 +159,14 @@ constexpr double beyond_all = 10 * max_coordinate;
 riis_passage find_passage(const SearchRequest &request, const PassageEnds &ends) {
   const auto start = std::chrono::steady_clock::now();
   const double half_thickness = request.surface.half_thickness();
-  // A path comes at least as near to the surface as its two ends.
+  // A path's least distance is at most the distance of each of its ends.
   const double widest =
       std::min(largest_distance(request, "from", ends.from), largest_distance(request, "to", ends.to));
   Opening opening(request, ends);
   double limit = half_thickness, beyond = -1, growth = 2;
   for (int step = 0; opening.joins_beyond(limit); ++step) {
     beyond = limit;
-    if (step >= 4) growth *= growth;  // growth is squared, in case the surface is tiny compared with the mesh
+    if (step >= 4) growth *= growth;  // a surface that is tiny compared with the mesh needs faster growth
     limit = std::min(growth * limit, limit < widest ? widest : beyond_all);
   }
   const Candidate nearest = opening.open_until_joined(beyond);

@@ -17,8 +17,8 @@ struct PassageEnds {
   ArrayView<const std::int64_t> from, to;
 };
 
-// Fails with RIIS_INVALID_ARGUMENT for an end within the half thickness, and with RIIS_INVALID_MESH for an unusable coordinate.
-// Does not use the request's distance limit.
+// Finds the widest passage. Fails with RIIS_INVALID_ARGUMENT for an end within the half thickness, and with RIIS_INVALID_MESH for
+// an unusable coordinate. Does not use the request's distance limit.
 riis_passage find_passage(const SearchRequest &request, const PassageEnds &ends);
 
 }  // namespace riis

@@ -42,7 +42,7 @@ bool WarnedSurfaces::is_first(std::uint64_t surface_number) {
 }
 
 void check_proportions(const Sizes &sizes, std::uint64_t surface_number, WarnedSurfaces &warned) {
-  // With fewer nodes, the mesh's box may have any size.
+  // Meshes with fewer nodes are not checked, because the box of a few nodes may have any size.
   constexpr std::int64_t fewest_nodes = 1000;
   if (sizes.n_nodes < fewest_nodes) return;
   const double mesh = largest_side(sizes.mesh), surface = largest_side(sizes.surface);

@@ -10,8 +10,8 @@
 namespace riis {
 namespace {
 
-// Nodes are sorted stretch by stretch. A stretch is a range of node numbers. A set with one bit for each node of the stretch
-// sorts its nodes.
+// Nodes are sorted stretch by stretch. A stretch is a range of node numbers. Its found nodes become a set with one bit for each
+// node, which gives their order.
 constexpr std::int64_t nodes_per_stretch = 16384, bits_per_word = 64;
 constexpr std::size_t n_words = nodes_per_stretch / bits_per_word;
 
@@ -150,7 +150,7 @@ class Ordering {
   OrderScratch &scratch_;
 };
 
-// For few nodes, other threads would start too late to help.
+// One thread handles few nodes, because other threads would start too late to help.
 int threads_for_order(std::int64_t n_within, int n_threads) {
   constexpr std::int64_t few = 4096;
   return n_within < few ? 1 : n_threads;

@@ -107,7 +107,7 @@ Edges checked_edges(const riis_reaction &reaction) {
 
 // A thread takes blocks of nodes_per_block nodes. A list of fewer than few_nodes nodes uses one thread.
 constexpr std::int64_t nodes_per_block = 4096, few_nodes = 16384;
-// The search of edges has smaller limits, because it takes ten times as long for each node.
+// The search for nearest edges has smaller limits, because a node takes it ten times as long.
 constexpr std::int64_t edge_nodes_per_block = 512, few_edge_nodes = 2048;
 
 // Finds the nearest edge of each node, to which the node's force is added. Entries of nodes without resistance have no meaning.
@@ -173,7 +173,7 @@ void add_resistance(const Marks &marks, const Resistance &resistance, const riis
   if (adds_k_u) require_field(marks, RIIS_FIELD_VELOCITY, "RIIS_FIELD_VELOCITY", "arrays.K_u_surface");
   const auto node_id = view(marks.within.nodes.node_id);
   const double *velocity = marks.within.fields.velocity.data();
-  // If the three components of a node are adjacent, they share a cache line.
+  // If the three components of a node are adjacent, they share a cache line, and one prefetch serves all three.
   const int n_lines = adds_k_u && to.K_u_surface[1] == to.K_u_surface[0] + 1 ? 1 : 3;
   const int n_threads = marks.n_threads.for_part(node_id.size(), few_nodes);
   parallel_for_ranges(node_id.size(), nodes_per_block, n_threads, [&](const Range &range, int) {

@@ -23,7 +23,7 @@ Resistance checked_resistance(const riis_resistance &resistance, const char *nam
 // list. `resistance` is null if `data` requests neither array.
 void list_resistance(const Resistance *resistance, const WantedData &data, const Threads &n_threads, ListedNodes &list);
 
-// The next four functions fail with RIIS_INVALID_ARGUMENT if the marks lack data that the function needs.
+// Each of the next four functions fails with RIIS_INVALID_ARGUMENT if the marks lack data that it needs.
 Resistance checked_resistance(const riis_resistance &resistance, const Marks &marks);
 void add_resistance(const Marks &marks, const Resistance &resistance, const riis_resistance_arrays &to);
 // Adds the flow's force on the surface, and its moments. Also fails, and adds nothing, if the reaction's edges or n_leaflets do

@@ -42,7 +42,7 @@ PooledArena *take_idle(int n_threads) noexcept {
 void destroy(PooledArena *first) noexcept {
   std::optional<tbb::global_control> no_workers;
   try {
-    // With this limit TBB frees an arena at once, and does not wait for workers that it has called.
+    // With a limit of one thread, TBB frees an arena at once and does not wait for workers that it has called.
     no_workers.emplace(tbb::global_control::max_allowed_parallelism, 1);
   } catch (...) {  // no memory for the limit: TBB frees the arena later or keeps it
   }

@@ -21,11 +21,11 @@ inline int default_thread_count() noexcept {
   return n < 1 ? 1 : n;
 }
 
-// By default a call uses one more thread for each such amount of work, which takes half a millisecond or more. On a quiet
-// machine, waking a thread and waiting for it takes a hundredth of that. On a busy machine it takes as long as the system lets
-// other processes run.
+// By default a call uses one more thread for each of these amounts of work, which take half a millisecond or more. On a quiet
+// machine, waking a thread and waiting for it takes a hundredth of that time. On a busy machine it takes as long as the system
+// lets other processes run.
 constexpr std::int64_t triangles_per_thread = 4096, points_per_thread = 2048;
-constexpr std::int64_t nodes_per_thread = 16384;  // of a mesh, or cells or faces
+constexpr std::int64_t nodes_per_thread = 16384;  // nodes of a mesh, or cells or faces
 
 // Returns the number of threads that a caller requests. If it is 0, returns the number that n_items of work keep busy.
 inline Threads threads_for(std::int32_t n_threads, std::int64_t n_items, std::int64_t per_thread) {
@@ -76,7 +76,7 @@ int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
   return n_ran;
 }
 
-// Does the same for [0, n) in ranges of per_block, with body(range, thread). The last range may be shorter.
+// Runs body(range, thread) for [0, n) in ranges of per_block, as the loop over blocks does. The last range may be shorter.
 template <class Body>
 int parallel_for_ranges(std::int64_t n, std::int64_t per_block, int n_threads, const Body &body) {
   return parallel_for((n + per_block - 1) / per_block, n_threads, [&](std::int64_t block, int thread) {

@@ -10,8 +10,8 @@
 namespace riis {
 namespace {
 
-// Depths in half thicknesses. Pairs count if they are at least least_depth deep, which is the default of riis_find_crossings. A
-// pair as deep as least_deepest cannot come from rounding.
+// Both depths are in half thicknesses. A pair counts if its depth is at least least_depth, the default of riis_find_crossings. A
+// depth of least_deepest cannot come from rounding.
 constexpr double least_depth = 1e-6, least_deepest = 1e-3;
 
 // Returns the depth up to which triangles of leaflets may cross although the leaflets only touch (docs/theory.md, section 16).
@@ -20,7 +20,7 @@ double depth_of_contacts(const Valve &valve, const Surface &surface) {
   return 2 * surface.triangles().error_bound;
 }
 
-// Logs a warning if there are crossings. Returns whether it did.
+// Logs a warning if leaflets cross deeper than leaflets that touch. Returns whether it did.
 bool say(const Valve &valve, const Surface &surface, int n_threads) {
   const TriangleSet &set = surface.triangles();
   const Crossings pairs =

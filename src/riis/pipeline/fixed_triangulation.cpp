@@ -11,12 +11,14 @@ namespace {
 
 // The lines are chosen for this many openings, evenly spaced from 0 to 1.
 constexpr int n_openings = 33;
-// Then the lines are tested at n_between more openings between every two neighbours. If the lines are not fine enough at some of
-// these, all lines are chosen again, now also for these openings. This is repeated at most n_trials times.
+// The chosen lines are then tested at n_between more openings between every two neighbouring openings. If the lines are too
+// coarse at some of the tested openings, all lines are chosen again, now for these openings also. The test is repeated at most
+// n_trials times.
 constexpr int n_between = 7, n_trials = 4;
 // A limit on the number of patches, because the choice keeps the patches of all these openings in memory.
 constexpr std::size_t max_patches = 10'000;
-// A warp may move after the triangles were planned. So the plan of a warped valve takes only this share of the allowed error.
+// A warp may change after the triangles were planned, and the error with it. So the plan of a warped valve takes only this share
+// of the allowed error.
 constexpr double warped_share = 0.6;
 
 PatchSet patches_at(Valve &valve, double opening) {

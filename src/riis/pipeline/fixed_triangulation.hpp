@@ -10,8 +10,8 @@ namespace riis {
 
 class FixedTriangulation {
  public:
-  // max_error bounds the distance between triangles and the smooth surface, before placement. Fails as the stages of the
-  // pipeline do. The message names the opening.
+  // Makes the plan. max_error bounds the distance between triangles and the smooth surface, before placement. Fails as the stages
+  // of the pipeline do. The message names the opening.
   FixedTriangulation(const Valve &valve, double max_error, int n_threads);
 
   // Fails with RIIS_INVALID_PARAMETER if the valve differs from the plan's valve in more than its opening.

@@ -46,7 +46,7 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
   if (fixed) fixed->check(valve);
   // Turns parameters into curves and patches.
   PatchSet patches = valve.make_patches();
-  // Does the same for the earlier state. Corresponding points have the same u and v.
+  // Turns the earlier state into curves and patches. Corresponding points of both states have the same u and v.
   std::optional<PatchSet> patches_before;
   std::optional<Motion> motion;
   if (moved) {
@@ -60,7 +60,7 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
                                 : triangulate_adapted(patches, how, surface.take_triangles());
   if (triangles.n_triangles() == 0) fail(RIIS_INVALID_PARAMETER, "the valve has no area");
   const double seconds_triangles = stopwatch.lap();
-  // Makes the other method for distances first, because the library may refuse it.
+  // If distances are not to the triangles, makes the other method first, because the library may refuse it.
   std::unique_ptr<const PatchDistance> distance;
   if (accuracy.measure != RIIS_MEASURE_TRIANGLES)
     distance = make_distance(patches, {accuracy.measure, accuracy.distance_error}, placement, request.flip_normals);

@@ -9,8 +9,8 @@
 namespace riis {
 namespace {
 
-// The memory of a larger surface is not kept, because keeping it would cost more than allocating it again. A triangle takes some
-// 300 bytes.
+// A surface with more triangles gives its memory back, because keeping so much would cost more than allocating it again. A
+// triangle takes about 300 bytes.
 constexpr std::int64_t max_triangles_kept = 1'000'000;
 
 }  // namespace

@@ -21,12 +21,12 @@ class UpdatableSurface {
   const Surface &surface() const { return *surface_; }
   const SurfaceSeconds &seconds() const { return seconds_; }
 
-  // These functions fail as make_surface does, and a failure leaves the surface unchanged. If request.n_threads is 0, the number
-  // of threads follows from the last surface's number of triangles. The first update with accuracy.is_fixed fixes the
+  // The update functions fail as make_surface does, and a failure leaves the surface unchanged. If request.n_threads is 0, the
+  // number of threads follows from the last surface's number of triangles. The first update with accuracy.is_fixed fixes the
   // triangulation. An update without it ends the fixed triangulation.
   void update_from_valve(const Valve &valve, const ValveMotion *motion, const SurfaceRequest &request,
                          const ValveAccuracy &accuracy);
-  // If the arrays contain no faces, they are new vertices for the faces of the last arrays.
+  // Updates the surface from arrays. If they contain no faces, they are new vertices for the faces of the last arrays.
   void update_from_arrays(const riis_surface_arrays &arrays, bool skip_zero_area, const SurfaceRequest &request);
   // Takes the vertices at a time and the mean velocities since dt before that time (Keyframes::at).
   void update_from_keyframes(const Keyframes &frames, double time, double dt, bool skip_zero_area,
@@ -42,7 +42,7 @@ class UpdatableSurface {
   std::unique_ptr<Surface> surface_, before_;        // before_ is kept to reuse its memory
   std::unique_ptr<const FixedTriangulation> fixed_;  // null without RIIS_TRIANGULATION_FIXED
   SurfaceSeconds seconds_{};
-  UserFaces faces_, faces_memory_;                  // of the last arrays; empty after a valve or keyframes
+  UserFaces faces_, faces_memory_;                  // faces of the last arrays; empty after a valve or keyframes
   std::vector<double> frame_xyz_, frame_velocity_;  // memory for updates from keyframes
   CrossingWatch crossing_watch_;
 };

@@ -89,10 +89,11 @@ class Cancelling {
   }
 
  private:
-  // Cancels a part at one of the ends of an edge with an edge that runs against it. Returns false if there is none.
+  // Looks for an edge that covers one end of the given edge in the opposite direction. If there is one, the two cancel there.
+  // Returns false if there is none.
   bool shorten(std::size_t i) {
     const OpenEdge edge = edges_[i];
-    // An edge that ends where this edge begins, and that comes from a point of this edge.
+    // At the start, the other edge ends where the given edge begins, and comes from a point on the given edge.
     for (auto [at, end] = to_.equal_range(edge.from); at != end; ++at)
       if (at->second != i && is_left_[at->second] && is_on(edge, edges_[at->second].from)) {
         const std::size_t other = at->second;
@@ -101,7 +102,7 @@ class Cancelling {
         move_from(i, point);
         return true;
       }
-    // An edge that begins where this edge ends, and that leads to a point of this edge.
+    // At the end, the other edge begins where the given edge ends, and leads to a point on the given edge.
     for (auto [at, end] = from_.equal_range(edge.to); at != end; ++at)
       if (at->second != i && is_left_[at->second] && is_on(edge, edges_[at->second].to)) {
         const std::size_t other = at->second;
@@ -117,7 +118,7 @@ class Cancelling {
     if (vertex == edge.from || vertex == edge.to) return true;
     const Vec3 a = set_.vertex(edge.from), ab = set_.vertex(edge.to) - a, ap = set_.vertex(vertex) - a;
     const double size_sq = dot(ab, ab), share = dot(ap, ab) / size_sq;
-    // Coordinates may come in single precision.
+    // The margin covers coordinates that the caller rounded to single precision.
     const double near = 1e-6 * std::sqrt(size_sq) + 0x1p-22 * (std::abs(a.x) + std::abs(a.y) + std::abs(a.z));
     return share > 0 && share < 1 && length(ap - share * ab) <= near;
   }
@@ -193,7 +194,7 @@ double length_of(const TriangleSet &set, const std::vector<OpenEdge> &edges) {
   return sum;
 }
 
-// Returns, for each edge, the edge that continues its line. Lines end where edges do not come in pairs.
+// Returns, for each edge, the edge that continues its line. A line ends at a vertex whose open edges cannot be paired.
 std::vector<std::optional<std::size_t>> next_edges(const TriangleSet &set, const std::vector<std::int64_t> &place,
                                                    const std::vector<OpenEdge> &edges) {
   std::map<std::int64_t, std::vector<std::size_t>> from, to;

@@ -10,19 +10,19 @@
 
 namespace riis {
 
-// An open edge, in the direction in which its triangle has it.
+// An open edge, in the direction in which it runs round its triangle.
 struct OpenEdge {
   std::int64_t from, to;  // vertices, each of which stands for all vertices with the same coordinates
-  std::int64_t triangle;  // its position in the set
+  std::int64_t triangle;  // the position of its triangle in the set
 };
 
-// Returns the edges that only one triangle has, in the order of the triangles. With by_leaflet, other leaflets' triangles do not
-// count. Where a vertex lies inside the edge of a neighbour, the edges on both sides cancel.
+// Returns the edges that only one triangle has, in the order of the triangles. If by_leaflet is true, only triangles of the same
+// leaflet count. A vertex inside a neighbour's edge opens no edge, because the edges on both sides cancel.
 std::vector<OpenEdge> open_edges(const TriangleSet &set, bool by_leaflet);
 
-// Returns the edges of the longest closed line of open edges, in order. Returns nothing if there is none. Where several lines
-// meet in one vertex, a line goes on at other triangles than those it came along. So the attachments of cusps that meet at
-// commissures are one line, and their free edges are another.
+// Returns the edges of the longest closed line of open edges, in order. Returns nothing if there is none. If several lines meet
+// in one vertex, each line continues along other triangles than before. So the attachments of cusps that meet at commissures make
+// one line, and their free edges make another.
 std::vector<OpenEdge> longest_boundary(const TriangleSet &set);
 
 }  // namespace riis

@@ -29,9 +29,9 @@ TriangleSet others(const TriangleSet &set, std::int32_t leaflet_id, const std::v
   return made;
 }
 
-// Measures parts of one leaflet near the others. The distance from the others changes by at most the way between two points. So a
-// part is wholly within reach or wholly out of reach if the distance of its middle says so. Other parts are halved until they are
-// small. On a small part the distance is taken as linear.
+// Measures parts of one leaflet near the others. Between two points, the distance from the others changes by at most the distance
+// of the two points. So a part is wholly within reach or wholly out of reach if its middle is far enough within or beyond the
+// reach. Other parts are halved until they are small. On a small part, the distance counts as a linear function.
 class Measuring {
  public:
   Measuring(const TriangleScene &scene, double reach) : scene_(scene), reach_(reach) {}
@@ -46,7 +46,7 @@ class Measuring {
     if (radius <= small * reach_)
       return whole * share_below({distance_from(a, radius) - reach_, distance_from(b, radius) - reach_,
                                   distance_from(c, radius) - reach_});
-    // The longest edge is halved.
+    // Halves the longest edge.
     const double ab = distance(a, b), bc = distance(b, c), ca = distance(c, a);
     if (ab >= bc && ab >= ca) return halves(c, a, b);
     return bc >= ca ? halves(a, b, c) : halves(b, c, a);
@@ -65,7 +65,7 @@ class Measuring {
   }
 
  private:
-  static constexpr double small = 1.0 / 8;  // of the reach
+  static constexpr double small = 1.0 / 8;  // size of a small part, as a share of the reach
 
   double halves(Vec3 tip, Vec3 from, Vec3 to) const {
     const Vec3 middle = 0.5 * (from + to);

@@ -21,8 +21,8 @@ struct EdgePart {
   Vec3 from, to;
 };
 
-// Returns the contact of each leaflet. Two leaflets touch where a point of one is within `reach` of the other. `parts` has the
-// free edges. The leaflets of `omitted` touch nothing.
+// Returns the contact of each leaflet. A point of a leaflet is in contact if another leaflet is within `reach` of it. `parts` has
+// the free edges. The leaflets of `omitted` count as touching nothing.
 std::map<std::int32_t, Contact> contacts_of(const TriangleSet &set, const std::vector<EdgePart> &parts, double reach,
                                             const std::vector<std::int32_t> &omitted, int n_threads);
 

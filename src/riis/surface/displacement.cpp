@@ -152,7 +152,8 @@ PatchMotion::PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled)
   const Vec3 *const first = grid.points.data(), *const last = first + grid.points.size();
   sides_.v0 = displacements_of(moved, {&Patch::v0, &GridLine::t0, &GridLine::is_vertex0, first, 1}, u_lines);
   sides_.v1 = displacements_of(moved, {&Patch::v1, &GridLine::t1, &GridLine::is_vertex1, last - n_u, 1}, u_lines);
-  // Without a bulge, a patch of arcs equals the Coons patch of its sides, with the same label v.
+  // A patch of arcs whose bulge is 0 in both states equals the Coons patch of its sides at the same (u, v). So only a patch with
+  // a bulge is treated as one of arcs.
   has_arcs_ = moved.now.patches[moved.patch].bulge != 0 || moved.before.patches[moved.patch].bulge != 0;
   if (has_arcs_) {
     offsets_ = offset_displacements(moved, u_lines.middle());

@@ -28,12 +28,12 @@ struct MovedPatch {
 };
 
 // The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. Both states are
-// evaluated on the smooth patches: on the sides directly, and inside by the same combination of the sides. Only (u,v) identifies
-// a point in both states, so the triangles may change in between. The result is exactly 0 if neither the sides nor the bulge
-// changed.
+// evaluated on the smooth patches: on the sides directly, and inside by the same combination of the sides. A point is identified
+// in both states by (u,v) alone, so the two states may have different triangles. The result is exactly 0 if neither the sides nor
+// the bulge changed.
 class PatchMotion {
  public:
-  // The grid must have been made with its lines kept.
+  // Computes the motion at the grid's vertices. The grid must have been made with its lines kept.
   PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled);
 
   // Returns the displacement at the crossing of two lines of the grid.
@@ -43,8 +43,8 @@ class PatchMotion {
     return at(column_[i] + (static_cast<std::size_t>(column) << (column_levels_[i] - level)),
               row_[j] + (static_cast<std::size_t>(row) << (row_levels_[j] - level)));
   }
-  // Returns the same displacement, but interpolated linearly along a side between the vertices that the neighbouring quad also
-  // has. So the displacement does not jump between neighbouring quads.
+  // Returns the displacement inside a quad, but interpolated linearly along a side between the vertices that the neighbouring
+  // quad also has. So the displacement does not jump between neighbouring quads.
   Vec3 without_jumps(std::size_t i, std::size_t j, int column, int row) const;
 
   // Returns how far the offset O of a patch of arcs (geometry/bulge.hpp) has moved on each of its lines.
@@ -59,7 +59,7 @@ class PatchMotion {
 
   Vector<int> column_levels_, row_levels_;  // the largest level of the quads between two lines
   Vector<std::size_t> column_, row_;        // for each line of the grid, its position among the halved lines
-  Vector<double> u_, v_;                    // of the halved lines
+  Vector<double> u_, v_;                    // u and v of the halved lines
   bool has_arcs_;
   const LevelledGrid &levelled_;
   SideVectors sides_;
@@ -78,7 +78,7 @@ class ImageMotion {
     return {moved.x / seconds_, moved.y / seconds_, moved.z / seconds_};
   }
 
-  // Bounds the error of that velocity. The arguments bound the errors of the displacement and of p.
+  // Bounds the error of a velocity from velocity(). The arguments bound the errors of the displacement and of p.
   double velocity_error(double of_displacement, double of_point) const {
     const auto norm = [](const Rotation &a) {  // the Frobenius norm
       return std::sqrt(dot(a.row_x, a.row_x) + dot(a.row_y, a.row_y) + dot(a.row_z, a.row_z));
@@ -88,7 +88,7 @@ class ImageMotion {
 
  private:
   struct AffineMap {
-    Rotation linear;  // with any scale, perhaps mirrored
+    Rotation linear;  // a matrix with any scale, perhaps mirrored
     Vec3 offset;
   };
   static AffineMap map_of(const PatchImage &image, const Placement &placement);

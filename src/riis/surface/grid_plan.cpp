@@ -20,7 +20,7 @@ namespace {
 // A curve may be halved this often. A request that reaches the limit would make more triangles than this library can hold.
 constexpr int max_rounds = 24;
 
-// The bound on O uses at most this many parts between two lines.
+// The largest number of parts between two lines that the bound on O uses.
 constexpr int most_parts = 8;
 
 // Returns the joints of a side in the patch's parameter.
@@ -32,7 +32,7 @@ Vector<double> joints_of(const PatchSet &set, const Side &side) {
   return joints;
 }
 
-// Moves lines along with the joints between which they lie. If the number of joints changed, the lines stay.
+// Moves each line with the two joints between which it lies. If the number of joints changed, no line moves.
 Vector<double> moved(const Vector<double> &lines, const Vector<double> &from, const Vector<double> &to) {
   Vector<double> made = lines;
   if (from.empty() || from.size() != to.size()) return made;
@@ -48,7 +48,7 @@ Vector<double> moved(const Vector<double> &lines, const Vector<double> &from, co
 
 // Errors of a patch of arcs between two lines of its grid.
 struct ColumnErrors {
-  double base, edge;  // of the chords of both curves
+  double base, edge;  // errors of the chords of both curves
   double off_line;    // the largest distance of O from linear interpolation, at the points between
   double second;      // a bound on |O''|
   double largest, width;
@@ -91,7 +91,7 @@ class PlannedArcs {
     return polyline(edge_, set_.curve_of(patch_.v1), errors, &ColumnErrors::edge);
   }
 
-  // At both ends, the neighbouring patches have exactly the same offsets.
+  // The offsets at both ends are taken from the sides, so that neighbouring patches have the same bits.
   ArcLines arc_lines(const Vector<ColumnErrors> &errors, const Vector<int> &n_parts) const {
     ArcLines made;
     made.u_lines.reserve(lines_.size());
@@ -108,7 +108,7 @@ class PlannedArcs {
   }
 
  private:
-  // Returns the shares of the lines and of the points between them. Records in at_ the positions of the lines.
+  // Returns the shares of the lines and of the points between them. Stores the positions of the lines in at_.
   Vector<double> shares_for(const Vector<int> &n_parts) {
     Vector<double> shares;
     at_.reserve(lines_.size());
@@ -131,7 +131,7 @@ class PlannedArcs {
     const Vector<Bezier> &on_base = base_.between(i, j), &on_edge = edge_.between(i, j);
     const Curve &base = set_.curve_of(patch_.v0), &edge = set_.curve_of(patch_.v1);
     if (on_base.size() > 1 || on_edge.size() > 1) {
-      // O' may jump inside this range. Bulge::linear_error takes jumps into account, and bound_offset does not.
+      // For a range inside which O' may jump, calls Bulge::linear_error, which takes jumps into account. bound_offset does not.
       made.off_line = made.largest = Bulge(along(set_, patch_.v0), along(set_, patch_.v1), patch_.bulge)
                                          .linear_error(shares_[i], shares_[j], offset_share * max_error_);
       return made;
@@ -203,7 +203,7 @@ Vector<double> segments(const Needs &needs, double most) {
   return made;
 }
 
-// Does the same, and also makes the errors of the segments as equal as the positions allow.
+// Takes as few positions as segments() does, but makes the errors of the segments as equal as the positions allow.
 Vector<double> balanced_segments(const Needs &needs, double most) {
   Vector<double> made = segments(needs, most);
   double low = 0, high = most;
@@ -217,14 +217,14 @@ Vector<double> balanced_segments(const Needs &needs, double most) {
   return made;
 }
 
-// Needs come from narrow steps, and errors of wide segments are bounded a little less closely. So some of the allowed error is
-// held back.
+// Needs are computed on narrow steps, but the error of a wide segment is bounded a little less closely. So lines are chosen for
+// this share of the allowed error only.
 constexpr double most_of_allowed = 0.9;
-// Needs are computed on steps. The number of steps is this factor times the largest number of segments of a curve, within these
-// limits.
+// The number of steps on which needs are computed is steps_per_segment times the largest number of segments of a curve. It stays
+// between least_steps and most_steps.
 constexpr int steps_per_segment = 4;
 constexpr std::size_t least_steps = 64, most_steps = 4096;
-// Only one of this many states decides how many steps each line needs. Later every state checks the lines.
+// To save time, only one state out of this many determines the needs. Later the lines are checked in every state.
 constexpr std::size_t states_per_need = 4;
 
 // Halves those steps of a list that are too large. `is_too_large` has an entry for each step.
@@ -292,7 +292,8 @@ class Planner {
   }
 
   // Curves at opposite sides of Coons patches, and at the opposite sides of their neighbours, form a family. If they have the
-  // same vertices, the patches have few lines. Each curve runs with the first curve of its family or against it.
+  // same vertices, the patches have few lines. Each curve runs either in the direction of the first curve of its family or
+  // against it.
   struct Family {
     Vector<std::size_t> curves;
     Vector<bool> runs_against;
@@ -347,7 +348,7 @@ class Planner {
     return shares;
   }
 
-  // Gives each curve those lines of its family that it needs at first. The function `vertices` adds lines later.
+  // Gives each curve a first choice of its family's lines. The function `vertices` adds lines later.
   void plan_families() {
     first_shares_.assign(set_.curves.size(), {0, 1});
     for (const Family &family : families()) {
@@ -355,7 +356,7 @@ class Planner {
       std::size_t n_steps = least_steps;
       for (const std::size_t curve : family.curves)
         n_steps = std::max(n_steps, steps_per_segment * rough_number_of_segments(curve));
-      if (n_steps > most_steps) continue;  // the tolerance is so small that curves are halved from end to end instead
+      if (n_steps > most_steps) continue;  // for so small a tolerance, all parts of the curves are halved instead
       while ((n_steps & (n_steps - 1)) != 0) n_steps += n_steps & -n_steps;
       for (std::size_t k = 0; k < family.curves.size(); ++k)
         needs.push_back(needs_of(family.curves[k], family.runs_against[k], n_steps));
@@ -462,8 +463,8 @@ class Planner {
     return first;
   }
 
-  // Adds lines until base, edge and O are nearly linear between them at every opening. Then takes the fewest parts for O that
-  // are enough.
+  // Adds lines until base, edge and O are nearly linear between them at every opening. Then chooses the smallest sufficient
+  // number of parts for O.
   void plan_arcs(std::size_t patch) {
     PatchPlan &plan = plan_.patches[patch];
     plan.joints = joints(patch);
@@ -488,7 +489,7 @@ class Planner {
     plan_.n_rows = std::max(plan_.n_rows, static_cast<std::size_t>(rows_for(offset, max_error_)));
   }
 
-  // Returns a few lines that should be enough. Some of them are at the joints.
+  // Returns a first choice of few lines, which should be enough. Some of them are at the joints.
   Vector<double> first_arc_lines(std::size_t patch, const Vector<double> &joints) const {
     const Patch &first = set_.patches[patch];
     Vector<double> ends{0};

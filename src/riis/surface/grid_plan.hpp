@@ -13,9 +13,9 @@
 namespace riis {
 
 struct PatchPlan {
-  bool has_arcs = false;  // at one of the openings at least
+  bool has_arcs = false;  // whether the patch is one of arcs at some opening
 
-  GridLines lines;  // of a Coons patch
+  GridLines lines;  // the lines of a Coons patch
 
   // A patch of arcs has lines in u, and joints of the base that the lines move with. Both are given at one of the openings.
   // Between two joints, a line keeps its relative position. Without joints the lines do not move.
@@ -23,8 +23,8 @@ struct PatchPlan {
   Vector<int> n_parts;  // the number of parts between two lines; O is evaluated at the ends of the parts
 };
 
-// The numbering of curves that the sides of patches use. The numbering may depend on the opening: closed mitral leaflets share
-// curves that are separate in open ones.
+// The numbering of curves that the sides of patches use. A set of patches may number its curves differently at each opening. For
+// example, closed mitral leaflets share curves that are separate in open leaflets.
 class CurveNumbering {
  public:
   explicit CurveNumbering(const PatchSet &set);
@@ -42,7 +42,7 @@ class CurveNumbering {
 struct GridPlan {
   Vector<Vector<double>> shares;  // shares of each curve's length at its vertices; empty if only arcs end on it
   Vector<PatchPlan> patches;
-  std::size_t n_rows = 1;  // of all patches of arcs
+  std::size_t n_rows = 1;  // the number of rows of all patches of arcs
 };
 
 // Makes the plan from the patches at each of the openings. All must use one numbering of curves. Keeps each curve of a Coons

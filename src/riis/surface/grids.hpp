@@ -11,8 +11,8 @@
 namespace riis {
 
 // The allowed error is divided as in docs/theory.md, "Tolerance". A point of a Coons patch has the errors of a u curve, of a v
-// curve and of merged grid lines. Each is bounded by its share below. At least 1 - 2 * (curve_share + merge_share) remains for
-// splitting a quad into triangles.
+// curve and of merged grid lines. Each of these errors is bounded by its share below. At least 1 - 2 * (curve_share +
+// merge_share) remains for splitting a quad into triangles.
 inline constexpr double curve_share = 0.45, merge_share = 0.01;
 // The lines of a plan use up their share nearly everywhere. With a larger share, too little would remain for quads, and many
 // quads would be subdivided.
@@ -33,14 +33,15 @@ double rows_for(double offset, double max_error);
 Vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const Vector<double> &tightness = {},
                             int n_threads = 1, bool keeps_lines = false);
 
-// Fails with RIIS_LIMIT_EXCEEDED if rounding of the curves' lengths or coordinates is too large for max_error.
+// Checks the precision of a set. Fails with RIIS_LIMIT_EXCEEDED if rounding of the curves' lengths or coordinates is too large
+// for max_error.
 void check_precision(const PatchSet &set, double max_error);
 
 // Returns max_error minus the deviation of the curves from the shape that they represent. Fails with RIIS_LIMIT_EXCEEDED if the
 // deviation is more than half of max_error.
 double error_left(const PatchSet &set, double max_error);
 
-// Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles.
+// Checks a number of triangles. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles.
 void check_count(double n_triangles, double max_error);
 
 }  // namespace riis

@@ -15,8 +15,8 @@ namespace riis {
 
 class Keyframes {
  public:
-  // Copies all arrays. Fails as triangles_from_arrays does with the faces and the first frame's vertices. Faces without area are
-  // refused only when a surface is made. Messages about bad coordinates name the frame.
+  // Copies all arrays. Fails as triangles_from_arrays does with the faces and the first frame's vertices. A face without area is
+  // not refused here, but only when a surface is made. Messages about bad coordinates name the frame.
   Keyframes(const riis_surface_arrays &arrays, const riis_keyframe_arrays &frames);
   Keyframes(Keyframes &&) = default;  // moving a vector leaves its elements, such as the times, at their address
 

@@ -26,7 +26,8 @@ class AlongAxis {
         axis_(frame.axis()),
         origin_(frame.placement.translation) {
     if (frame.disc.rim.empty()) return;
-    // The smaller of both has the better direction across the axis.
+    // Of the x and y axes, takes the one that is nearer to a right angle with the axis of view. It gives the better direction
+    // across.
     const Vec3 across = cross(axis_, std::abs(dot(x_axis_, axis_)) < std::abs(dot(y_axis_, axis_)) ? x_axis_ : y_axis_);
     y_axis_ = (1 / length(across)) * across;
     x_axis_ = cross(y_axis_, axis_);
@@ -34,7 +35,7 @@ class AlongAxis {
 
   // An axis of length 1 through a point.
   AlongAxis(Vec3 axis, Vec3 origin) : axis_(axis), origin_(origin) {
-    // The coordinate axis that is farthest from being parallel gives the second direction.
+    // The coordinate axis that is nearest to a right angle with `axis` gives the second direction.
     const double x = std::abs(axis.x), y = std::abs(axis.y), z = std::abs(axis.z);
     const Vec3 across = cross(axis, x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1});
     x_axis_ = (1 / length(across)) * across;
@@ -42,7 +43,7 @@ class AlongAxis {
   }
 
   Vec3 axis() const { return axis_; }
-  // Points far from the origin are rounded more.
+  // The rounding grows with the distance of the axis from the origin of coordinates.
   double rounding() const { return 0x1p-48 * length(origin_); }
 
   PlanePoint operator()(Vec3 p) const {
@@ -95,7 +96,7 @@ SeenOutline outline_of_boundary(const TriangleSet &set) {
   for (const OpenEdge &edge : boundary)
     area = area + 0.5 * cross(set.vertex(edge.from) - centre, set.vertex(edge.to) - centre);
   const double size = length(area);
-  // A circle of this length encloses whole^2 / (4 pi).
+  // A circle with the perimeter `whole` encloses the area whole^2 / (4 pi). A line that encloses far less is no outline.
   if (!(size > 1e-3 * whole * whole)) return {{Vec3{0, 0, 0}, {0, 0, 0}}, std::nullopt};
   const AlongAxis seen((1 / size) * area, centre);
   std::vector<PlanePoint> line;

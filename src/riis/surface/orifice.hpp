@@ -45,7 +45,7 @@ struct OrificeLimits {
   double slit;   // how far the perimeter's edge is moved inwards
 };
 
-// The frame is null for triangles from arrays. Then the longest boundary is the outline.
+// Measures the orifice. The frame is null for triangles from arrays, whose longest boundary is the outline.
 Orifice measure_orifice(const TriangleSet &set, const ValveFrame *frame, const OrificeLimits &limits);
 
 // Returns the leaflets, ascending by id.

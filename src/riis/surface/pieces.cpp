@@ -70,7 +70,7 @@ PlacedBy placed_by(const PatchImage &image, const Placement &placement) {
     put({from.row_x.z, from.row_y.z, from.row_z.z}, to[2]);
   };
   put_columns(image.rotation, by.of_image);
-  // Negates a column of the matrix. The product is the same, to the last bit, as with the negated coordinate.
+  // Negates a column of the matrix instead of a coordinate of each point. The products have the same bits.
   if (image.mirror != Mirror::none)
     for (double &x : by.of_image[image.mirror == Mirror::in_x ? 0 : 1]) x = -x;
   put(image.translation, by.offset_of_image);
@@ -169,7 +169,7 @@ Vector<std::size_t> vanished_patches(const Vector<Piece> &pieces) {
   return vanished;
 }
 
-// Old contents may stay in the arrays, because the pieces overwrite everything.
+// Makes room for n triangles. Old contents may stay in the arrays, because the pieces overwrite everything.
 void resize_triangles(std::int64_t n, TriangleSet &triangles) {
   resize(triangles.vertex_id, 3 * n);
   resize(triangles.leaflet_id, n);
@@ -199,8 +199,8 @@ void close_gaps(const Vector<Piece> &pieces, TriangleSet &triangles) {
 }  // namespace
 
 bool is_missed(const TriangleSet &set, const LeftOut &triangle) {
-  // A triangle without area is in fact a segment, its longest edge. The edge is not lost if it is the diagonal of a quad whose
-  // other half was kept. If the triangle is a point, nothing is lost.
+  // A triangle without area is only a segment, its longest edge, or a point. Leaving it out loses nothing if it is a point. It
+  // also loses nothing if the segment is the diagonal of a quad whose other half was kept.
   const Vec3 corner = set.vertex(triangle.corner), a = set.vertex(triangle.a), b = set.vertex(triangle.b);
   const double diagonal = distance(a, b), other = std::max(distance(corner, a), distance(corner, b));
   const bool is_on_diagonal = triangle.other_was_kept && other <= (1 + 1e-9) * diagonal;

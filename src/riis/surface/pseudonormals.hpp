@@ -47,7 +47,7 @@ class Pseudonormals {
     return is_inside ? Feature{of_face(triangle), false}
                      : at_border(triangle, {barycentric[0], barycentric[1], barycentric[2]});
   }
-  // Does the same for points that may be on an edge or a vertex.
+  // Returns the normal and the rim for a point that may be on an edge or a vertex.
   Feature at_border(std::int64_t triangle, Vec3 barycentric) const;
 
  private:

@@ -17,7 +17,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // Bounds the distance between a quad and its triangles at a level of subdivision. The bound is refined no further than `enough`
 // requires.
 double split_error_at(const Quad &quad, int level, double enough) {
-  // Each halving divides the twist of all parts by exactly 4. At low levels there are few parts, so all are checked.
+  // Below this level, all parts are checked, because there are few. From this level on, the bound only uses that each halving
+  // divides the twist by exactly 4.
   constexpr int few = 5;
   const double at_equal_uv = std::ldexp(quad_flatness(quad), -2 * level);
   if (level >= few || (at_equal_uv <= enough && enough < infinity)) return at_equal_uv;
@@ -40,7 +41,7 @@ struct Level {
   double error;
 };
 
-// Halves a quad until its parts are close enough to their triangles. This ends: each level divides the twist by 4.
+// Halves a quad until its parts are close enough to their triangles. The halving ends, because each level divides the twist by 4.
 Level subdivision_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error) {
   const Quad quad = quad_of(grid, i, j);
   const double left = max_error - grid.error(i, j);
@@ -71,7 +72,8 @@ Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double m
   if (!(error <= left)) {
     double shortest = 0;
     const Quad merged = without_shortest_edge(quad, shortest);
-    // The distance between the quad and the merged quad is at most half the edge. The same holds for their triangles.
+    // The quad and the merged quad are at most half the shortest edge apart, and so are their triangles. Hence the sum adds the
+    // whole edge.
     error = std::min(split_error_at(quad, level, infinity), split_error_at(merged, level, infinity) + shortest);
   }
   return {level, grid.error(i, j) + error};

@@ -38,7 +38,7 @@ void for_each_quad(const QuadGrid &grid, const Visit &visit) {
     for (std::size_t i = 0; i + 1 < grid.u.size(); ++i) visit(i, j);
 }
 
-// No quad that the library accepts needs so many halvings.
+// A limit on the number of halvings. No quad that the library accepts needs as many.
 inline constexpr int most_halvings = 13;
 
 // The quads of a patch, and their levels of subdivision in the order of for_each_quad.

@@ -17,10 +17,10 @@ namespace riis {
 enum PatchRim : std::uint8_t { rim_v0 = 1, rim_v1 = 2, rim_u0 = 4, rim_u1 = 8, free_v1 = 16, held = 32 };
 
 // Returns, for each patch_id, the sides on the rim. Two patches share a side if it is the same curve and their images put it at
-// the same position. A patch shares a side with its own mirror image if the curve lies in the mirror's plane. It shares a side
-// with itself if two of its sides are one curve. Images also share the sides at which they are sewn together (Seam). Patches may
-// also meet inside a side, as along the bending curve. The rim does not depend on the vertices there, so a T-junction does not
-// count as rim.
+// the same position. A patch shares a side with its own mirror image if the side lies in the mirror's plane. A patch shares a
+// side with itself if two of its sides are the same curve. Images also share the sides at which they are sewn together (Seam).
+// Patches may also meet inside a side, as along the bending curve. The rim does not depend on the vertices there, so a T-junction
+// does not count as rim.
 Vector<std::uint8_t> rim_sides(const PatchSet &set);
 
 // From the u and v of a vertex, returns the sides of the patch that the vertex lies on. A vertex on a side has exactly the side's

@@ -14,7 +14,7 @@ namespace riis {
 struct SideLine {
   std::int32_t leaflet_id, patch_id;
   Vector<std::int64_t> vertex_id;  // in order along the side; no two vertices have the same parameter
-  AxisLine axis;                   // of the patch, placed
+  AxisLine axis;                   // axis of the patch, placed
 };
 
 double length_of(const TriangleSet &set, const SideLine &side);

@@ -25,8 +25,8 @@ constexpr int n_steps = 64;
 constexpr double quads_wanted = 65536;
 constexpr int fewest = 8, most = 64;
 
-// Returns the volume that a triangle sweeps while its corners move along straight lines. The volume is exact: it is the mean of
-// the corners' shifts times the time average of the area vector.
+// Returns the volume that a triangle sweeps while its corners move along straight lines. The volume is exact, because it equals
+// the mean of the corners' shifts times the time average of the area vector.
 double swept(const Vec3 (&from)[3], const Vec3 (&to)[3]) {
   const Vec3 e = from[1] - from[0], f = from[2] - from[0];
   const Vec3 de = (to[1] - to[0]) - e, df = (to[2] - to[0]) - f;
@@ -87,7 +87,8 @@ void add_swept(const PatchSet &from, const PatchSet &to, const Vector<double> &s
       const PatchImage &image = before.images[i];
       const double volume =
           swept_by_grid(placed(image, points_before), placed(now.images[i], points_now), shares.size());
-      // The triangles of a mirror image are turned over, so that their normals point downstream. The sign of the volume changes.
+      // The triangles of a mirror image are turned over, so that their normals point downstream. Their volume therefore changes
+      // its sign.
       sums[image.leaflet_id] += points_upstream(image) ? -volume : volume;
     }
   }
@@ -121,7 +122,7 @@ SweptVolumes swept_volumes(const Valve &valve, double opening_from, double openi
     for (auto &[id, volume] : back) volume = -volume;
     return back;
   }
-  if (!valve.can_open()) patches_at(valve, opening_to);  // if this fails, the error names the caller's opening
+  if (!valve.can_open()) patches_at(valve, opening_to);  // a failure here names the caller's opening
   std::vector<double> openings{opening_from};
   for (int i = 1; i < n_steps; ++i) {
     const double opening = static_cast<double>(i) / n_steps;

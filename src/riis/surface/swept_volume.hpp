@@ -15,10 +15,11 @@ namespace riis {
 // Maps a leaflet_id to the volume that the leaflet sweeps. No placement is applied to the volumes.
 using SweptVolumes = std::map<std::int32_t, double>;
 
-// Fails if the patches cannot be made at an opening. If the two openings are swapped, only the sign of the result changes.
+// Computes the volumes between two openings. Fails if the patches cannot be made at an opening. If the two openings are swapped,
+// only the sign of the result changes.
 SweptVolumes swept_volumes(const Valve &valve, double opening_from, double opening_to, int n_threads);
 
-// Fails with RIIS_LIMIT_EXCEEDED for more than a million keys between the times.
+// Computes the volumes between two times. Fails with RIIS_LIMIT_EXCEEDED for more than a million keys between them.
 SweptVolumes swept_volumes(const Keyframes &frames, double time_from, double time_to);
 
 }  // namespace riis

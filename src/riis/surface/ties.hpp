@@ -14,7 +14,8 @@ namespace riis {
 
 struct TieRule {
   const std::int32_t *leaflet_id = nullptr, *patch_id = nullptr;  // for each triangle; null if ties are not wanted
-  // Distances count as equal up to these differences: the first for two leaflets, the second for two patches of one leaflet.
+  // Two distances count as equal if they differ by at most these: of_leaflets for two leaflets, of_patches for two patches of one
+  // leaflet.
   double of_leaflets = 0, of_patches = 0;
 
   bool is_tie(const ClosestTriangle &closest, const ClosestTriangle &other) const {
@@ -29,7 +30,7 @@ struct TieRule {
 };
 
 struct Tie {
-  std::int64_t point;  // a number that the search chooses, later a node
+  std::int64_t point;  // the query point's number, which the search chooses; at last a node
   ClosestTriangle triangle;
 };
 
@@ -46,7 +47,8 @@ struct Ties {
   void compare(std::int64_t point, const ClosestTriangle &closest, const ClosestTriangle &other) {
     if (other.triangle < 0 || !rule.is_tie(closest, other)) return;
     if (!candidates.empty()) {
-      // The triangles around a vertex are often compared one after another, and one of them is enough.
+      // Triangles around a vertex are often compared one after another. If they are on one patch, only the nearest stays a
+      // candidate.
       Tie &last = candidates.back();
       if (last.point == point && rule.are_of_one_patch(last.triangle, other)) {
         if (is_closer(other.distance_sq, other.triangle, last.triangle)) last.triangle = other;

@@ -115,7 +115,7 @@ void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, in
   };
   if (!are_known) group_anew();
   enclose(n_threads);
-  // The longest edge of all triangles does not depend on the groups.
+  // Finds the longest edge only here, because it does not depend on the groups.
   longest_edge = 0;
   for (const GroupBounds &group : bounds) longest_edge = std::max(longest_edge, group.longest_edge);
   are_as_before = are_known && size() <= much * size_at_first_;

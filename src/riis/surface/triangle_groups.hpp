@@ -23,7 +23,7 @@ struct Frame {
   Vec3 operator()(Vec3 p) const { return scale * (p - centre); }
 };
 
-// These two round to single precision, towards minus and plus infinity.
+// round_down rounds to single precision towards minus infinity, and round_up towards plus infinity.
 float round_down(double x);
 float round_up(double x);
 
@@ -45,7 +45,7 @@ struct TriangleGroups {
   Frame frame;
   std::vector<double> corners;  // (3, 3, n_triangles), in the set's own coordinates
   std::vector<TriangleGroup> groups;
-  Bounds of_all;  // of all corners, in the set's own coordinates
+  Bounds of_all;  // bounds of all corners, in the set's own coordinates
   std::vector<GroupBounds> bounds;
   float longest_edge = 0;
   // True if each group has the same triangles as before and the groups are not much larger. Then structures built over the

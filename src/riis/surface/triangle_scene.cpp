@@ -88,8 +88,8 @@ struct Query {
   bool is_out_of_memory;
 };
 
-// Queries one triangle. Returns true if it is the closest so far. Not inlined, because the loops over groups would lack
-// registers.
+// Queries one triangle. Returns true if it is the closest so far. The function is not inlined, because the loops over groups
+// would lack registers.
 template <bool keeps_ties>
 __attribute__((noinline)) bool query_triangle(Query &query, std::int64_t triangle) {
   const double *c = query.in->groups.corners.data() + 9 * triangle;
@@ -248,15 +248,15 @@ ClosestTriangle TriangleScene::find_closest(Vec3 p, double limit, InstructionSet
   Query query{&in, &kernels(instructions), p, q, largest, {infinity, -1}, ties, false};
   if constexpr (keeps_ties) ties->candidates.clear();
   if (!(largest <= far_away)) {
-    // The frame's units may overflow here. The point is farther from the surface than the surface's size, so the query ends here
-    // for most limits.
+    // In the frame's units, such a far point may overflow. The point is farther from the surface than the surface is large, so
+    // most limits end the query here.
     if (!may_be_within(p, limit)) return {infinity, -1};
     const std::int64_t n = view(in.groups.corners).size() / 9;
     for (std::int64_t i = 0; i < n; ++i) query_triangle<keeps_ties>(query, i);
   } else {
     double reach = limit;
     if (!(reach * frame.scale < 4 * far_away)) {
-      // This limit would exclude nothing, so the distance of some triangle is used instead.
+      // A limit this large would exclude nothing. So the distance of an arbitrary triangle, the first one, takes its place.
       query_triangle<keeps_ties>(query, 0);
       reach = std::sqrt(query.best.distance_sq);
     }
@@ -285,7 +285,7 @@ void TriangleScene::collect_groups(const float *point, float radius, std::vector
   sphere.y = point[1];
   sphere.z = point[2];
   sphere.time = 0;
-  // The increase covers Embree's own rounding, as in inflated_radius.
+  // The radius is increased to cover Embree's own rounding, as in inflated_radius.
   sphere.radius =
       radius * (1 + 0x1p-20f) + 0x1p-22f * std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
   RTCPointQueryContext context;
@@ -304,13 +304,13 @@ void TriangleScene::collect_along(Vec3 a, Vec3 b, std::vector<std::int32_t> &fou
   const Vec3 from = all.frame(a), to = all.frame(b), middle = 0.5 * (from + to);
   const double radius = 0.5 * distance(from, to);
   const double largest = std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z), radius});
-  if (!(largest <= far_away)) {  // the frame's units may overflow here
+  if (!(largest <= far_away)) {  // in the frame's units, such a segment may overflow
     for (std::size_t i = 0; i < all.bounds.size(); ++i) found.push_back(static_cast<std::int32_t>(i));
   } else {
     const float point[3] = {static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)};
     collect_groups(point, round_up(radius + 0x1p-22 * largest), found);
   }
-  // Rounding to the frame keeps the order of coordinates. So boxes that have a point in common still have one after rounding.
+  // Converting coordinates to the frame rounds them but keeps their order. So boxes that had a point in common still have one.
   Bounds framed;
   framed.add(from);
   framed.add(to);

@@ -63,7 +63,7 @@ class TriangleScene {
   // distance and to |p| are not included.
   double rounding() const { return rounding_; }
 
-  struct Implementation;  // public because Embree's callbacks use it
+  struct Implementation;  // public, because Embree's callbacks use this type
 
  private:
   template <bool keeps_ties>

@@ -23,7 +23,7 @@ struct Grouping {
   bool operator==(const Grouping &other) const { return order == other.order && end == other.end; }
 };
 
-// The vertices of a patch of a valve: those from `first` on, up to the first vertex of the next patch.
+// The vertices of a patch of a valve. They begin at `first` and end before the first vertex of the next patch.
 struct VerticesOfPatch {
   std::int32_t patch_id, leaflet_id;
   std::int64_t first;
@@ -86,7 +86,7 @@ inline bool has_zero_area(Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 ab = b - a, ac = c - a, bc = c - b;
   const double longest_sq = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
   if (!(longest_sq >= min_edge * min_edge)) return true;
-  // Edges from 1e-60 to 1e60 cause neither underflow nor overflow here.
+  // For edges from 1e-60 to 1e60, these products neither underflow nor overflow.
   const Vec3 twice_area = cross(ab, ac);
   return !(dot(twice_area, twice_area) > 1e-24 * longest_sq * longest_sq);
 }

@@ -43,14 +43,14 @@ struct Connectivity {
 // A triangulation that stays the same while a valve opens: grids, levels of the quads' subdivision, and triangles.
 struct TriangulationPlan {
   GridPlan grids;
-  CurveNumbering curves;       // that the grids use
+  CurveNumbering curves;       // the numbering that the grids use
   double max_error;            // the error that the lines and levels were chosen for
-  Vector<Vector<int>> levels;  // of the quads of each patch
+  Vector<Vector<int>> levels;  // levels of the quads of each patch
   Connectivity connectivity;
 };
 
-// Makes the plan from a valve's patches at many openings. asked_error is the max_error of a Triangulation. The plan holds back a
-// small part of this error for other openings. Fails as triangulate_fixed does.
+// Makes the plan from a valve's patches at many openings. asked_error is the max_error of a Triangulation. The plan uses a little
+// less than this error, so that it also serves openings between the given ones. Fails as triangulate_fixed does.
 TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked_error, int n_threads);
 
 // Returns whether the plan's triangles are within asked_error of the smooth surface in a state.

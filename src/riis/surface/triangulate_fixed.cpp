@@ -49,7 +49,7 @@ double rounding_of_corners(const QuadGrid &grid, const Patch &patch, const Place
   double largest = 0, farthest = 0;
   for (const Vec3 &p : grid.points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   for (const PatchImage &image : patch.images) farthest = std::max(farthest, length(image.translation));
-  // Each coordinate is a sum that is accurate to 16 units of rounding of its terms.
+  // Each coordinate is a sum. Its error is at most 16 units of rounding of the terms.
   return 0x1p-48 * (placement.scale * (2 * largest + farthest) + length(placement.translation));
 }
 
@@ -69,7 +69,7 @@ Vector<std::size_t> make_triangles(Pieces &pieces) {
 // Gives a set the triangles of a plan, unless it already has them.
 void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet &set) {
   const std::uint64_t number = 2 * from.number + (flip_normals ? 1 : 0);
-  // The second condition fails for a set whose triangles were moved away.
+  // The number alone does not tell: a set whose triangles were moved away keeps its number but has no triangles.
   if (set.connectivity == number && set.triangle_id.size() == from.triangle_id.size()) return;
   set.connectivity = 0;
   set.vertex_id = from.vertex_id;
@@ -115,7 +115,7 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
                               TriangleSet memory) {
   const Triangulation how = checked(set, asked);
   check_precision(set, how.max_error);
-  // If this state shares curves that other states do not, its curves are renumbered.
+  // A state may share curves that are separate in other states. Then its curves are renumbered as in the plan.
   std::optional<PatchSet> renumbered;
   if (!plan.curves.is_of(set)) renumbered = plan.curves.renumbered(set);
   const PatchSet &patches = renumbered ? *renumbered : set;
@@ -126,13 +126,13 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
            " of the fixed triangulation may be off by ", grids[i].error_bound, " at this opening; it must be at most ",
            how.max_error, ", which is tolerance * half_thickness before scaling");
   if (!take_planned_triangles(patches, how, grids, plan.connectivity, memory)) {
-    // The triangles that have an area here are not those of the plan, so the plan's groups do not fit.
+    // At this opening, other triangles have an area than in the plan. So the plan's groups do not fit, and new groups are made.
     Pieces pieces(patches, how, grids, memory);
     const Vector<std::size_t> vanished = make_triangles(pieces);
     if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
     group_by_place(memory, 0, static_cast<std::int32_t>(memory.n_triangles()), memory.grouping);
   }
-  finish(set, how, std::move(grids), memory);  // with the set's own curves, because shared curves are no rims
+  finish(set, how, std::move(grids), memory);  // not with `patches`: curves that `set` shares are no rims
   return memory;
 }
 
@@ -208,7 +208,7 @@ Connectivity make_connectivity(const PatchSet &state, const Triangulation &how, 
 TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked_error, int n_threads) {
   double max_error = asked_error;
   for (const PatchSet &state : given) max_error = std::min(max_error, error_left(state, asked_error));
-  // The remaining error is for openings between the given ones.
+  // Plans with less than the whole error, because the remainder is for openings between the given ones.
   constexpr double share = 0.95;
   const double planned_error = share * max_error;
   // A curve that is shared at only one opening has two numbers at the others. So the state with most curves gives the numbering.

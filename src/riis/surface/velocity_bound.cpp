@@ -50,11 +50,11 @@ double off_line(double width, double second) { return 0.125 * width * width * se
 struct CurveRange {
   const Bezier *now, *before;
   double t_now[2], t_before[2];
-  double length_now, length_before;  // of the whole curves
-  double width;                      // of the range, in u
+  double length_now, length_before;  // lengths of the whole curves
+  double width;                      // width of the range, in u
 };
 
-// Bounds for a curve on such a range: its unit tangent with the first and second derivative by u, and the length of the whole
+// Bounds for a curve on a range of u: its unit tangent with the first and second derivative by u, and the length of the whole
 // curve.
 struct AlongCurve {
   Both length, value, first, second;
@@ -84,7 +84,7 @@ Derivatives changes_on(const Bezier &now, const Bezier &before, double from, dou
           larger(distance(start[1], start_before[1]), distance(end[1], end_before[1])), third};
 }
 
-// Bounds a curve on a range. Sizes are infinite if the curve may stand still in one of the states.
+// Bounds a curve on a range. The bounds are infinite if the curve's tangent may vanish in one of the two states.
 AlongCurve along(const CurveRange &on) {
   const double from = std::min(on.t_now[0], on.t_before[0]), to = std::max(on.t_now[1], on.t_before[1]);
   const Derivatives now = sizes_on(*on.now, from, to), before = sizes_on(*on.before, from, to);
@@ -96,8 +96,8 @@ AlongCurve along(const CurveRange &on) {
     const Both unknown{infinity, infinity};
     return {length, unknown, unknown, unknown, infinity, infinity, false};
   }
-  // At the same u, the parameters of the two states differ by at most `shift`. It is the difference at the ends, plus the growth
-  // in between that the rates dt/du = length / |B'| allow.
+  // At the same u, the parameters of the two states differ by at most `shift`. `shift` is the difference at the ends, plus the
+  // growth in between that the rates dt/du = length / |B'| allow.
   const Derivatives change = changes_on(*on.now, *on.before, from, to);
   const double at_ends = larger(std::abs(on.t_now[0] - on.t_before[0]), std::abs(on.t_now[1] - on.t_before[1]));
   const double half = 0.5 * on.width, rate_change = length.change / least + whole * change.first / (least * least);
@@ -107,7 +107,8 @@ AlongCurve along(const CurveRange &on) {
   const Both d1{first, change.first + second * shift}, d2{second, change.second + third * shift},
       d3{third, change.third};
   const Both inverse_speed = inverse(least, d1.change), t_first = length * inverse_speed;
-  const Both tangent{1, d1.change / least}, across{1, tangent.change};  // across: the projection along the tangent
+  const Both tangent{1, d1.change / least}, across{1, tangent.change};  // `across` bounds the projection along the
+                                                                        // tangent
   const Both inverse_sq = inverse_speed * inverse_speed;
   const Both bent = length * inverse_sq * across * d2;
   const Both inverse_speed_first = inverse_sq * tangent * d2 * t_first;
@@ -123,7 +124,8 @@ AlongCurve along(const CurveRange &on) {
           least >= tight_share * first && by_itself <= 1 - tight_share};
 }
 
-// Returns bounds that follow from each state by itself. They serve a range on which the two states have different pieces.
+// Returns bounds from each state by itself. They serve a range on which the states lie on different pieces and cannot be
+// compared.
 AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
   const auto of = [](Both a, Both b) { return Both{larger(a.size, b.size), a.size + b.size}; };
   return {of(now.length, before.length),
@@ -195,7 +197,7 @@ class SideInBoth {
   const Curve &now_, &before_;
   const Vector<double> &shares_;
   CurvePoints at_now_, at_before_;
-  // 1 for the state that has one piece more at the start, because a joint passed that end of the curve. Otherwise 0.
+  // For each state, 1 if it has one piece more at the start, because a joint passed that end of the curve. Otherwise 0.
   std::size_t more_now_, more_before_;
 };
 
@@ -279,13 +281,14 @@ Vector<double> off_linear(const TwoCurves &curves, const Vector<GridLine> &lines
     for (std::size_t i = from; i < to; ++i) {
       const AlongCurve on = side.between(i);
       const double second = side.is_same_piece(i) ? on.second_of_point().change : on.size_now + on.size_before;
-      // Green's function of linear interpolation is at most x (width - x) / width. Its integral is at most width squared / 8.
+      // The error of linear interpolation is the integral of Green's function times the second derivative. Green's function is at
+      // most x (width - x) / width, and its integral is at most width squared / 8.
       const double x0 = shares.all()[i] - start, x1 = shares.all()[i + 1] - start, x = std::clamp(0.5 * width, x0, x1);
       error += (x1 - x0) * x * (width - x) / width * second;
       largest = larger(largest, second);
     }
     error = std::min(error, off_line(width, largest));
-    // No point of a curve is farther from the curve's chord than the curve is long.
+    // This bound always holds: no point of a curve is farther from the chord than the curve is long.
     if (!(error <= both_lengths * width)) error = both_lengths * width;
     const auto shift = [&](const GridLine &line) { return both_lengths * std::abs(line.*t - line.middle); };
     made.push_back(error + larger(shift(lines[k]), shift(lines[k + 1])));
@@ -316,7 +319,7 @@ ArcRangeInBoth offset_on(const SideInBoth &base, const SideInBoth &edge, std::si
   const double bend = off_line(width, w2.size);
   const Both w0{larger(larger_of(now[0], now[1]), larger_of(before[0], before[1])) + bend,
                 larger(distance(now[0], before[0]), distance(now[1], before[1])) + off_line(width, w2.change)};
-  // No point moves along a curve by more than the curve's length.
+  // Also bounds |W| by the ends of the range, because no point moves along a curve by more than the curve's length.
   const double w_far =
       larger(larger_of(now[0], now[1]), larger_of(before[0], before[1])) + width * (edge.longer() + base.longer());
   const double w_largest = w0.size <= w_far ? w0.size : w_far;
@@ -383,7 +386,7 @@ Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, con
         passed += on_base.width(i) * 2 * of_factor.size * on.first.size;
       }
     }
-    // O' jumps at a joint, so the bound there uses the first derivative.
+    // O' jumps at a joint, so the bound for such a range uses the first derivative.
     double error = has_joint || passed > 0 ? 0.5 * width * first + passed : off_line(width, second);
     const double at_most = 4 * of_factor.size * largest;  // bounds |O| and its linear interpolation, in both states
     if (!(error <= at_most)) error = at_most;

@@ -31,7 +31,7 @@ struct Gap {
   std::vector<double> distance;  // (2, n_edges); RIIS_FAR_DISTANCE where the line misses the wall
   riis_gap measures;
 };
-// Fails with RIIS_INVALID_ARGUMENT if there are no edges, and if nothing tells which way is outwards.
+// Measures the gap. Fails with RIIS_INVALID_ARGUMENT if there are no edges, and if nothing tells which way is outwards.
 Gap gap_of(const Attachment &attachment, const Wall &wall, int n_threads);
 
 // Returns the lengths of a skirt that reaches the wall from a placed valve, whose patches have no skirt. Where the wall is nearer

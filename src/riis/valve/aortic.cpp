@@ -25,16 +25,16 @@ enum OfCusp {
 // clang-format on
 constexpr std::size_t n_cusps = 3;
 const char *const cusp_names[n_cusps] = {"right", "left", "non_coronary"};
-// These names begin messages. They are constants, because a string is needed only if a check fails.
+// The names of the cusps in messages. They are character constants, because a std::string is needed only if a check fails.
 const char *const cusps[n_cusps] = {"the right cusp", "the left cusp", "the non_coronary cusp"};
 constexpr std::size_t open_radius_ratio = n_general + n_cusps * n_of_cusp, commissure_expansion = open_radius_ratio + 1;
-// With these values the orifice is 3.9 cm2, and no free edge changes its length by more than 5 % (docs/theory.md, section 3).
+// With these defaults the orifice is 3.9 cm2, and no free edge changes its length by more than 5 % (docs/theory.md, section 3).
 constexpr CuspOpening default_opening{0.75, 0.05};
 
 std::size_t position_of(std::size_t cusp, OfCusp parameter) { return n_general + cusp * n_of_cusp + parameter; }
 
-// The rules of rotations that were not set. If the leaflet angles have the sum 180, all neighbours meet at their commissures.
-// Otherwise the three gaps between neighbours, or the three overlaps, are equal.
+// The rules for rotations that the caller did not set. If the leaflet angles have the sum 180, all neighbours meet at their
+// commissures. Otherwise the three gaps between neighbours, or the three overlaps, are equal.
 double leaflet_angle_of(const ParameterValues &values, std::size_t cusp) {
   return values[position_of(cusp, leaflet_angle)][0];
 }
@@ -58,7 +58,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 
 // clang-format off
 ValveKind make_kind() {
-  // These limits suit a valve in any unit from kilometres to micrometres. check_together checks ratios of lengths.
+  // The limits of lengths suit a valve in any unit from kilometres to micrometres. check_together checks ratios of lengths.
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree", *number = "1";
   ValveKind kind{"aortic", {
@@ -144,7 +144,7 @@ void check_together(const ParameterValues &values) {
   }
 }
 
-// Checks every curve of one state. Curves between two checked states lie between the curves of these states.
+// Checks every curve of one state. At any opening, curves lie between those of the two checked states and need no check.
 void check_values(const ParameterValues &values) {
   check_together(values);
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
@@ -170,11 +170,11 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   PatchSet set;
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
     const HalfCusp closed_half = half_cusp(shape_of(closed.values, cusp));
-    // A closed valve does not need the open state of its own parameters, which might be refused.
+    // A closed valve does not make the open state of its own parameters. It does not need that state, which might be refused.
     const HalfCusp open_half = !has_own_open_state ? half_cusp(shape_of(open.values, cusp))
                                : opening != 0      ? own_open_half(closed.values, cusp)
                                                    : open_half_of(closed.values, cusp);
-    // A cusp's position is not given by control points. So its angles and its shift are blended as numbers.
+    // The position of a cusp consists of angles and a shift instead of control points. So these numbers are blended.
     const auto vector_of = [&](OfCusp parameter) {
       const auto &from = closed.values[position_of(cusp, parameter)], &to = open.values[position_of(cusp, parameter)];
       return riis::blend(Vec3{from[0], from[1], from[2]}, Vec3{to[0], to[1], to[2]}, opening);

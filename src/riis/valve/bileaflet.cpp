@@ -27,7 +27,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double a
 
 // clang-format off
 ValveKind make_kind() {
-  // These limits suit a valve in any unit from kilometres to micrometres. check_values checks ratios of lengths.
+  // The limits of lengths suit a valve in any unit from kilometres to micrometres. check_values checks ratios of lengths.
   constexpr double shortest = 1e-9, longest = 1e9;
   const char *length = "length", *degree = "degree";
   ValveKind kind{"bileaflet", {
@@ -82,7 +82,7 @@ struct Shape {
 };
 
 Shape blended(const ValveState &closed, const ValveState &open, double at) {
-  // A value that is equal in both states is not blended. So a housing that does not move is the same to the last bit.
+  // Returns a value that is equal in both states without blending it. So a housing that does not move keeps its bits.
   const auto both = [&](Parameter parameter) {
     const double from = closed.values[parameter][0], to = open.values[parameter][0];
     return from == to ? from : blend(from, to, at);
@@ -124,11 +124,12 @@ class Turn {
 // Every arc has this many pieces. A quarter of a circle is then accurate to 1e-9 of its radius.
 constexpr int n_pieces = 8;
 
-// Bounds the distance of such an arc from its circle, in radii. For a piece of the angle a, it is 2/27 sin^6(a/4) / cos^2(a/4).
+// Bounds the distance of an arc's pieces from the circle, in radii. For a piece of the angle a, the distance is 2/27 sin^6(a/4) /
+// cos^2(a/4).
 double arc_deviation(double whole_angle) {
   const double quarter = 0.25 * whole_angle / n_pieces;
   const double sine = std::sin(quarter), cosine = std::cos(quarter);
-  constexpr double rounding = 1e-3;  // of the bound itself
+  constexpr double rounding = 1e-3;  // a margin for the bound's own rounding, as a share of the bound
   return (1 + rounding) * (2.0 / 27.0) * std::pow(sine, 6) / (cosine * cosine);
 }
 
@@ -148,7 +149,7 @@ Curve make_arc(double circle_radius, double whole_angle, double last_x, double l
   Vector<Bezier> pieces;
   for (int i = 0; i < n_pieces; ++i) {
     const Point from = on_circle(i), to = on_circle(i + 1);
-    // The direction of the circle is the radius turned by 90 degrees.
+    // The circle's tangent is the radius turned by 90 degrees.
     pieces.push_back(Bezier::cubic(placed(from.x, from.y), placed(from.x - reach * from.y, from.y + reach * from.x),
                                    placed(to.x + reach * to.y, to.y - reach * to.x), placed(to.x, to.y)));
   }

@@ -103,8 +103,8 @@ struct Frame {
   double edge_length;
   double band;        // height of the coaptation zone, as a share of the height of the free edge's middle
   double band_lean;   // how much farther from the axis the coaptation line is than the free edge, in the middle
-  double belly_x;     // of the first inner control point of the symmetry curve
-  double belly_rise;  // its height, as a share of the height of the coaptation line's middle
+  double belly_x;     // x of the first inner control point of the symmetry curve
+  double belly_rise;  // height of that point, as a share of the height of the coaptation line's middle
   double band_start;  // height from the second inner control point to the coaptation line, as the same share
 };
 
@@ -225,14 +225,15 @@ Frame closed_frame(const ParameterValues &values) {
   return frame;
 }
 
-// Returns the lower part of the symmetry curve. It ends at `end`, in the direction of `up`, a vector from there to the free edge.
+// Returns the lower part of the symmetry curve. It ends at `end` in the direction of `up`, which is a vector from `end` to the
+// free edge.
 Bezier symmetry_curve(const Frame &frame, Vec3 end, Vec3 up) {
   return Bezier::cubic({frame.root_radius, 0, 0}, {frame.belly_x, 0, frame.belly_rise * end.z},
                        end - (frame.band_start * end.z / up.z) * up, end);
 }
 
 // The open free edge is round, like an arc of a circle seen along the axis. The symmetry curve is straight, and the coaptation
-// zone keeps its share of it.
+// zone has the same share of its length as in the closed state.
 Frame open_frame(const ParameterValues &values) {
   const auto value = [&](Parameter parameter) { return values[parameter][0]; };
   const Frame closed = closed_frame(values);

@@ -26,7 +26,7 @@ struct CuspShape {
 // The parameters that determine how a cusp opens. Kinds of valves with cusps have them at the end of their lists.
 struct CuspOpening {
   double radius_ratio;  // radius of the open free edge at the symmetry plane, divided by the root's radius
-  double expansion;     // of the commissures, as a share of their radius
+  double expansion;     // outward motion of the commissures, as a share of their radius
 };
 // Returns the specs of open_radius_ratio and commissure_expansion.
 std::array<ParameterSpec, 2> cusp_opening_specs(const CuspOpening &defaults);

@@ -85,16 +85,16 @@ std::array<Bezier, 3> half_annulus(const ParameterValues &values, bool flat) {
                              flat ? 0 : value(posterior_horn_height)});
 }
 
-// The annulus, from which the leaflets hang. A(u) is its point, and N(u) is its tangent turned inwards by 90 degrees in the
-// plane.
+// The annulus, from which the leaflets hang. A(u) is its point, and N(u) is the tangent there, turned inwards by 90 degrees in
+// the plane z = 0.
 class Annulus {
  public:
   explicit Annulus(const std::array<Bezier, 3> &half) : half_({half.begin(), half.end()}) {}
 
   const Curve &half() const { return half_; }
   Curve::Frame frame(double u) const { return half_.frame(2 * u); }
-  // Returns U(u, x): the point at the distance x from the annulus, inwards and by an angle below the plane. (The paper prints U
-  // with a product with N. Since the z of N is 0, the angle would have no effect.)
+  // Returns U(u, x): the point at the distance x from the annulus, inwards and by an angle below the plane. (In the paper's
+  // formula the angle multiplies N. Since N has z = 0, the angle would have no effect.)
   Vec3 below(double u, double x, SineCosine angle) const {
     const auto [A, T] = frame(u);
     const double in_plane = std::hypot(T.x, T.y);
@@ -107,7 +107,7 @@ class Annulus {
 };
 
 // Returns the cubic from `first` to `last` that passes through the tip at 1/2. It is the affine image of the cubic that
-// approximates a circular arc of that angle. (The paper's matrix is meant to give this curve, but has rank 3.)
+// approximates a circular arc of that angle. (The paper's matrix should give this curve, but has rank 3.)
 Bezier free_edge(Vec3 first, Vec3 tip, Vec3 last, double arc_angle) {
   const auto [quarter_sine, quarter_cosine] = sine_cosine_degrees(0.25 * arc_angle);
   const auto [half_sine, half_cosine] = sine_cosine_degrees(0.5 * arc_angle);
@@ -147,7 +147,7 @@ HalfValve half_valve(const ParameterValues &values, bool is_open) {
 
   const Annulus annulus(half.annulus);
   const double u_pm = half.u_commissure;
-  // Closed leaflets end in the plane z = 0, for any height of the annulus there.
+  // Closed leaflets end in the plane z = 0, whatever the height of the annulus at the commissures.
   const auto edge_point = [&](double u, double x) {
     Vec3 p = annulus.below(u, x, is_open ? sine_cosine_degrees(value(leaflet_inward_angle)) : SineCosine{0, 1});
     if (!is_open) p.z = 0;
@@ -157,13 +157,13 @@ HalfValve half_valve(const ParameterValues &values, bool is_open) {
   half.anterior = free_edge(commissure, edge_point(0.5, value(anterior_length)), mirrored(commissure), arc_angle);
   half.cleft = 0;
   if (is_open) {
-    // The clefts are at a third of the way along the annulus. The paper exchanges tips and ends of the side scallops.
+    // The clefts stand at a third of the way along the annulus. (The paper swaps the tips and the ends of the side scallops.)
     const Vec3 cleft = edge_point(u_pm / 3, commissure_length);
     half.side_scallop =
         free_edge(commissure, edge_point(2 * u_pm / 3, value(posterior_scallop_length1)), cleft, arc_angle);
     half.middle_scallop = free_edge(cleft, edge_point(0, value(posterior_scallop_length2)), mirrored(cleft), arc_angle);
   } else {
-    // The leaflets meet in one edge. The scallops are thirds of its length.
+    // The closed leaflets meet in one edge. Each scallop takes a third of this edge's length.
     half.cleft = cleft_parameter(half.anterior, half.annulus[0]);
     const auto [side, rest] = split(half.anterior, half.cleft);
     half.side_scallop = side;
@@ -222,7 +222,7 @@ class Patches {
     const auto [side_edge, rest] = split(half.anterior, half.cleft);
     const Bezier middle_edge = up_to_symmetry_plane(rest, (0.5 - half.cleft) / (1 - half.cleft));
     const std::size_t anterior_side = add(side_edge), anterior_middle = add(middle_edge);
-    // Closed leaflets share their edge, so there is only one curve and one polyline.
+    // Closed leaflets share their edge. So the edge is stored once and becomes one polyline.
     const std::size_t posterior_side = is_closed ? anterior_side : add(half.side_scallop);
     const std::size_t posterior_middle =
         is_closed ? anterior_middle : add(up_to_symmetry_plane(half.middle_scallop, 0.5));
@@ -265,8 +265,8 @@ class Patches {
 
   void begin_at(double u, Vec3 on_edge) { last_arc_ = arc(u, on_edge); }
 
-  // Patches run clockwise, down from the anterior point. So S_u x S_v points into the ventricle, downstream. O points along
-  // (edge - annulus) x (the annulus' counter-clockwise direction), hence the minus.
+  // Patches run clockwise, down from the anterior point. So S_u x S_v points into the ventricle, downstream. The minus sign is
+  // there because O points along (edge - annulus) x (the annulus' counter-clockwise direction).
   void add_patch(Side edge, double to_u, Vec3 on_edge, std::int32_t leaflet_id, std::int32_t patch_id,
                  std::int32_t mirrored_patch_id) {
     const Arc from = last_arc_, to = arc(to_u, on_edge);

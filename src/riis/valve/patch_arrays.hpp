@@ -20,7 +20,7 @@ struct PatchArrays {
 
 // Every image becomes a patch of its own. Patches that point upstream are exchanged at u, so that S_u x S_v points downstream.
 PatchArrays arrays_of(const PatchSet &set);
-// The result is valid as long as the arrays.
+// Returns pointers to the arrays, which are valid as long as the arrays.
 riis_valve_patches view_of(const PatchArrays &arrays);
 
 }  // namespace riis

@@ -54,28 +54,29 @@ struct AxisLine {
 };
 
 // A patch, given by its four sides. Each side is named after the parameter that is constant on it. A curve that two patches
-// share is listed once. So it becomes one polyline, and the patches meet without cracks. S_u x S_v points downstream. Mirror
-// images are turned over, so that this holds for them too.
+// share is listed once. So it becomes one polyline, and the patches meet without cracks. S_u x S_v points downstream. The
+// triangles of mirror images are turned over, so that their normals also point downstream.
 struct Patch {
   Side v0, v1, u0, u1;
   Vector<PatchImage> images;
-  // If 0, the patch is the Coons patch of its sides. Otherwise it is the patch of arcs from v0 to v1 with this factor
-  // (geometry/bulge.hpp), and u0 and u1 must be such arcs.
+  // The factor of a patch of arcs, or 0. If it is 0, the patch is the Coons patch of its sides. Otherwise it is the patch of arcs
+  // from v0 to v1 with this factor (geometry/bulge.hpp), and u0 and u1 must be such arcs.
   double bulge = 0;
   AttachedSide attached = AttachedSide::none;
   AxisLine axis = {{0, 0, 0},
                    {0, 0, 1}};  // before an image is placed; the line that a skirt of this patch leads away from
   bool is_skirt = false;
-  // Unless this is no_patch, the patch is a skirt at the side v0 of that patch. The side is the skirt's v1.
+  // The patch of arcs that this patch is a skirt of, or no_patch. The skirt lies at the side v0 of that patch, and this side is
+  // the skirt's v1.
   std::size_t skirt_of_arcs = no_patch;
 };
 
 // The points that two images have in common.
 enum class SeamPlace : std::uint8_t { corner, side_v1, side_u1 };  // the corner is u = v = 1
 
-// Two images that have points in common, which are the same before both images are placed. They are images of one patch, or of
-// two patches. The image `image` takes these points from the image `twin`, because turning both separately would round
-// differently.
+// Two images that have points in common. Before both images are placed, these points are the same points of the patches. They are
+// images of one patch, or of two patches. The image `image` takes these points from the image `twin`, because turning both
+// separately would round differently.
 struct Seam {
   std::size_t patch, image, twin;
   SeamPlace place;
@@ -93,8 +94,8 @@ struct PatchSet {
   Vector<Seam> seams = {};  // at most one for each image
   // Bounds the Hausdorff distance of the patches from the valve's shape. It is not 0 if curves approximate arcs of circles.
   double deviation = 0;
-  // Empty unless the valve blends control points. Otherwise this list has the derivatives of the control points of the first
-  // curves with respect to the opening. These curves have one piece each. The curves of a skirt follow them.
+  // The derivatives of control points with respect to the opening, or nothing if the valve does not blend control points. The
+  // list serves the first curves, which have one piece each. The curves of a skirt come after these and have no entry.
   Vector<Bezier> rates = {};
 
   const Curve &curve_of(const Side &side) const { return curves[side.curve]; }

@@ -111,7 +111,7 @@ class SkirtMaker {
     return set_.curves.size() - 1;
   }
 
-  // Two strips that meet share the line between them.
+  // Returns the curve between two points. Two strips that meet share the line between them.
   std::size_t line(Vec3 outer, Vec3 inner) {
     const auto [found, is_new] = lines_.try_emplace({outer.x, outer.y, outer.z, inner.x, inner.y, inner.z}, 0);
     if (is_new) found->second = add_curve(Bezier::line(outer, inner));
@@ -130,7 +130,7 @@ class SkirtMaker {
     return std::clamp(mean, -most, most);
   }
 
-  // Each part is the cubic with the exact points and the exact derivatives by the share at both of its ends.
+  // Each part is a cubic. At both of its ends it has the exact point and the exact derivative by the share of length.
   static Curve outer_curve(const Curve &inner, const Patch &parent, const Vector<double> &lengths) {
     const std::size_t n = lengths.size() - 1;
     const double step = 1 / static_cast<double>(n);

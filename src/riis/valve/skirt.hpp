@@ -30,10 +30,10 @@ struct HeldSide {
 // Returns the held sides that have a length, in the order of the patches. The patches must have no skirt yet.
 Vector<HeldSide> held_sides(const PatchSet &set);
 
-// The lengths of a skirt that are not the same everywhere. There is one list for each image of each patch with a held side, in
-// the order of held_sides. It has the lengths at evenly spaced shares of the side's length.
+// The lengths of a skirt whose length is not the same everywhere. There is one list for each image of each patch with a held
+// side, in the order of held_sides. It has the lengths at evenly spaced shares of the side's length.
 using SkirtLengths = Vector<Vector<double>>;
-inline constexpr std::size_t n_skirt_parts = 32;  // of each side with such lengths
+inline constexpr std::size_t n_skirt_parts = 32;  // parts of each side with such lengths
 
 // Returns the mean distance of the attachment from its axis. Fails with RIIS_INVALID_PARAMETER unless every side has an outward
 // direction.

@@ -22,7 +22,8 @@ enum Parameter {
 // Half the angle of a cusp in degrees, from its symmetry plane to the end of its free edge.
 constexpr double half_angle = 60;
 
-// The rules of sizes that were not set. Cusps of other sizes cross unless these sizes follow (docs/theory.md, section 3).
+// The rules for sizes that the caller did not set. If other sizes change and these do not follow, the cusps cross
+// (docs/theory.md, section 3).
 using Rule = std::array<double, 3>;
 Rule bending_height_rule(const ParameterValues &values) { return {0.5 * values[leaflet_height][0]}; }
 Rule bending_radius_in_rule(const ParameterValues &values) { return {0.32 * values[root_radius][0]}; }
@@ -109,7 +110,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   const Vec3 shift = riis::blend(Vec3{from[0], from[1], from[2]}, Vec3{to[0], to[1], to[2]}, opening);
   PatchSet set;
   add_cusps(set, blend(closed_half, open_half, opening), rate(closed_half, open_half), equal_places(shift));
-  // At opening 0 the cusps meet along their free edges, otherwise only at the commissures.
+  // Sews the cusps together along their free edges at opening 0, and otherwise only at the commissures.
   sew_equal_cusps(set, top_patch(set), opening == 0 ? SeamPlace::side_v1 : SeamPlace::corner);
   return set;
 }

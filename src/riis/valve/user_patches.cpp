@@ -63,7 +63,7 @@ class PatchReader {
   Patch read(std::int64_t patch) const {
     std::array<Side, 4> sides{};
     for (std::int64_t k = 0; k < 4; ++k) view(sides)[k] = side(patch, k);
-    // Two sides meet in each corner.
+    // Checks each corner, in which two sides meet.
     check_corner(patch, sides, 0, false, 2, false);
     check_corner(patch, sides, 0, true, 3, false);
     check_corner(patch, sides, 1, false, 2, true);
@@ -130,7 +130,8 @@ void check_states(const ValveState &valve, const ValveState &other, const char *
     fail(RIIS_INVALID_PARAMETER, name, " has ", to.curves.size(), " curves and ", to.patches.size(),
          " patches, the valve ", from.curves.size(), " and ", from.patches.size(), ": they must be built alike");
   for (std::size_t i = 0; i < from.curves.size(); ++i) {
-    // Straight lines are stored as quadratics. So a line may become a quadratic in the other state.
+    // The degree of a straight line counts as 2, because lines are stored as quadratics. So a line may become a quadratic in the
+    // other state.
     const int degree = from.curves[i].pieces().front().degree, other_degree = to.curves[i].pieces().front().degree;
     if (degree != other_degree)
       fail(RIIS_INVALID_PARAMETER, "curve ", i, " is cubic in ", other_degree == 3 ? name : "the valve",

@@ -9,8 +9,8 @@
 
 namespace riis {
 
-// Fails with RIIS_INVALID_ARGUMENT for bad fields, and with RIIS_INVALID_PARAMETER for bad curves and patches. The message names
-// the field, the curve or patch, and the value.
+// Makes a patch set from the caller's arrays. Fails with RIIS_INVALID_ARGUMENT for bad fields, and with RIIS_INVALID_PARAMETER
+// for bad curves and patches. The message names the field, the curve or patch, and the value.
 PatchSet patches_from_arrays(const riis_patches &arrays);
 
 const ValveKind &patches_valve_kind();

@@ -49,16 +49,16 @@ std::string_view without_leaflet(std::string_view name) {
 
 bool is_of_a_leaflet(const ParameterSpec &spec) { return spec.name.find('.') != std::string::npos; }
 
-// Says how a name names a parameter, if it does.
+// Says whether a name is that of a parameter, and how.
 struct Naming {
   bool names_it = false;
   bool is_whole = false;  // it names no other parameter
-  double factor = 1;      // from the parameter's value to the value under that name
+  double factor = 1;      // factor from the parameter's value to the value under that name
 };
 
 Naming naming(const ParameterSpec &spec, std::string_view name) {
   const std::string_view full = spec.name, base = without_leaflet(full);
-  const std::string_view leaflet = full.substr(0, full.size() - base.size());  // with its dot
+  const std::string_view leaflet = full.substr(0, full.size() - base.size());  // the leaflet's name with its dot
   const auto names = [&](std::string_view own, double factor) -> Naming {
     if (name == own) return {true, leaflet.empty(), factor};
     const bool is_whole = !leaflet.empty() && name.size() == leaflet.size() + own.size() &&
@@ -81,7 +81,7 @@ void check_range(const ParameterSpec &spec, std::string_view name, double factor
          factor * spec.minimum, " to ", factor * spec.maximum);
 }
 
-// A rule may give a value outside the parameter's range if the values that it takes are near the ends of theirs.
+// Checks values that follow from rules. A rule may give a value out of range if its own inputs are near the ends of their ranges.
 void check_derived(const ValveKind &kind, const ValveState &state) {
   for (std::size_t i = 0; i < kind.parameters.size(); ++i) {
     const ParameterSpec &spec = kind.parameters[i];
@@ -204,7 +204,8 @@ void Valve::set_warp(const WarpMap *closed, const WarpMap *open) {
     warp_.reset();
     return;
   }
-  // The copies are made first, because assignment member by member could fail half way. Their memory comes from the last ones.
+  // The copies are complete before they replace the old maps, because assignment member by member could fail half way. Their
+  // memory comes from maps that were dropped before.
   Warp made{*closed, {}};
   if (open) made.open = *open;
   warp_ = std::move(made);
@@ -349,7 +350,7 @@ PatchSet Valve::make_patches(FoldCheck check) const {
   }
   PatchSet made = kind_->make_patches(state_, open_ ? *open_ : state_, opening());
   if (warp_) made = warped(made, {warp_->closed, warp_->open ? *warp_->open : warp_->closed, opening()}, check);
-  // A warp moves the valve's own axis, so the skirt leads away from the attachment's.
+  // After a warp, the valve's own axis no longer fits. So the skirt then leads away from the axis of the attachment.
   aim_skirt(made, warp_ && kind_->skirt_axis != SkirtAxis::none ? SkirtAxis::boundary : kind_->skirt_axis);
   if (has_skirt()) add_skirt(made, state_.values[kind_->skirt_length][0], skirt_lengths_);
   return made;
@@ -364,7 +365,7 @@ PatchSet Valve::make_patches_before(const Valve &before) const {
     fail(RIIS_INVALID_PARAMETER, "valve_before has ", before.warp_ ? "a" : "no", " warp, but valve has ",
          warp_ ? "one" : "none", ": for a valve at rest, set a warp whose targets are its landmarks");
   try {
-    // The earlier state was the valve's own state once, so its folds were searched for then.
+    // The earlier state was once the valve's present state, and was searched for folds then. So the search is not repeated.
     return before.make_patches(FoldCheck::no);
   } catch (const Error &error) {
     fail(error.status, "in valve_before: ", error.message.text());

@@ -20,8 +20,8 @@ namespace riis {
 
 using ParameterValues = Vector<std::array<double, 3>>;  // one entry for each spec
 
-// The value of a parameter that was not set, from other parameters' values. These come earlier in the list of parameters, so
-// they are known already.
+// Computes the value of a parameter that was not set from other parameters' values. Those parameters come earlier in the list, so
+// their values are known already.
 struct ParameterRule {
   const char *text;  // such as "0.5 leaflet_height"
   std::array<double, 3> (*value)(const ParameterValues &values);
@@ -41,8 +41,8 @@ struct ParameterSpec {
   int n_values;  // 1 or 3
   std::array<double, 3> default_values;
   double minimum, maximum;
-  ParameterRule rule = {nullptr, nullptr};  // for the default values it gives the default value to the last bit
-  OtherName other = {nullptr, 0};           // without the leaflet's name
+  ParameterRule rule = {nullptr, nullptr};  // for default values, the rule gives the default to the last bit
+  OtherName other = {nullptr, 0};           // the other name without the leaflet's name
 };
 
 // A name that a user may expect, and why the kind has no parameter of this name.
@@ -77,7 +77,7 @@ struct ValveKind {
   // The leaflet_id of a wall that hinges reach into, or -1.
   std::int32_t housing = -1;
   Vector<AbsentName> absent = {};
-  // True for leaflets that a warp would bend although they are stiff.
+  // True if the leaflets are stiff. A warp would bend them.
   bool is_rigid = false;
   // The line that a skirt leads away from, and the position of the parameter "skirt_length". with_skirt sets both.
   SkirtAxis skirt_axis = SkirtAxis::none;
@@ -128,19 +128,20 @@ class Valve {
   // a warp the disc does not depend on the opening.
   struct Disc {
     double radius, x, y;    // the centre is the mean translation of the valve or of its leaflets
-    Vector<Vec3> rim = {};  // of a warped valve: the warped corners of a polygon with the disc's area
+    Vector<Vec3> rim = {};  // for a warped valve, the warped corners of a polygon with the disc's area
   };
   Disc disc() const;
 
-  // Returns whether make_patches adds a skirt, which has the leaflet_id skirt_leaflet, or -1 without a skirt.
+  // has_skirt returns whether make_patches adds a skirt. skirt_leaflet returns the leaflet_id of the skirt, or -1 without a
+  // skirt.
   bool has_skirt() const { return kind_->skirt_axis != SkirtAxis::none && state_.values[kind_->skirt_length][0] != 0; }
   std::int32_t skirt_leaflet() const { return has_skirt() ? riis::skirt_leaflet(state_.patches) : -1; }
   // Replaces the skirt by one with these lengths (valve/skirt.hpp). The parameter "skirt_length" becomes the largest of them.
   // Setting that parameter removes the lengths.
   void set_skirt_lengths(SkirtLengths lengths);
 
-  // Fails unless the other valve equals this valve in everything but the opening and the values of a warp. The message names the
-  // first parameter that differs.
+  // Compares with another valve. Fails unless the other valve equals this valve in everything but the opening and the values of a
+  // warp. The message names the first parameter that differs.
   void check_same_but_for_opening(const Valve &other) const;
 
   // Returns whether all parameters but the opening have the kind's defaults.

@@ -16,12 +16,12 @@
 namespace riis {
 namespace {
 
-// Sources count as planar if their rms distance from the plane is below this share of the largest rms extent, ...
+// Sources count as planar if their rms distance from their mean plane is below this share of their largest rms extent.
 constexpr double thinnest_share = 0.05;
-// ... or if noise would change the stretch across the plane by more than this.
+// Sources also count as planar if noise would change the stretch across the plane by more than this.
 constexpr double largest_stretch_error = 0.1;
-// The map follows a part of the noise, so its residuals are smaller than the noise. Of shares from 0.3 to 1, the attachments of
-// random patients were nearest with 0.5 to 0.7 (docs/theory.md, "Warp").
+// The share of the noise that the residuals should have. It is below 1, because the map follows a part of the noise. The
+// attachments of random patients were met best with shares from 0.5 to 0.7 (docs/theory.md, "Warp").
 constexpr double residual_share = 0.6;
 constexpr double line_share = 1e-6, same_place_share = 1e-6;
 
@@ -183,7 +183,7 @@ WarpLandmarks::WarpLandmarks(const Vector<Vec3> &sources, double noise, const ch
       fail(RIIS_INVALID_ARGUMENT, name, ": landmarks ", std::min(i, nearest), " and ", std::max(i, nearest),
            " are in one place, (", sources_[i].x, ", ", sources_[i].y, ", ", sources_[i].z, ")");
     nearest_to.push_back(nearest);
-    // Two landmarks that are nearest to each other have one place between them.
+    // If two landmarks are each other's nearest, the place between them is taken once.
     if (nearest > i || nearest_to[nearest] != i)
       probes_.push_back({0.5 * (sources_[i] + sources_[nearest]), static_cast<std::int64_t>(i)});
   }
@@ -324,8 +324,9 @@ double WarpLandmarks::solve(double lambda) {
   return square;
 }
 
-// Returns the lambda at which the sum of squares of all residuals is a share of the noise's, which is 3 noise^2 for each free
-// landmark. The sum grows with lambda, so there is at most one. Returns infinity if even the affine map is that close.
+// Returns the lambda at which the sum of squares of all residuals is a certain share of its expected value for the noise, 3
+// noise^2 for each free landmark. The sum grows with lambda, so there is at most one such lambda. Returns infinity if even the
+// affine map is that close.
 double WarpLandmarks::smoothing_for_noise() {
   const double noise = noise_ / size_, wanted = residual_share * 3 * noise * noise * static_cast<double>(n_free_);
   if (wanted == 0) return 0;
@@ -361,7 +362,7 @@ void WarpLandmarks::fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &
     for (std::size_t i = 0; i < n; ++i) displacement_[i] = displacement_[i] - dot(axis_[2], scaled_[i]) * terms[3];
   }
   for (std::size_t k = 0; k < n_free_; ++k) {
-    // Two sums at once hide the time of an addition.
+    // Computes two sums at once, which hides the time that an addition takes.
     const double *column = basis_.data() + k * n;
     Vec3 even{0, 0, 0}, odd{0, 0, 0};
     std::size_t i = 0;

@@ -52,12 +52,12 @@ class BlendedWarp {
   double opening_;
 };
 
-// How well a map meets its targets.
+// The quality of a map, which says how well it meets its targets.
 struct WarpQuality {
   double rms_residual, largest_residual;  // distances of mapped sources from their targets
   std::int64_t largest_landmark;
   double smoothing;          // lambda; infinite if the map is affine
-  double least_determinant;  // half way from each landmark to its nearest
+  double least_determinant;  // the least determinant, half way from a landmark to the nearest other landmark
   Vec3 least_point;          // where the determinant is least
   std::int64_t least_landmark;
 };
@@ -76,7 +76,7 @@ class WarpLandmarks {
   // across the plane as the landmarks stretch the plane.
   bool is_planar() const { return is_planar_; }
 
-  // Writes the map to these targets, and its quality. The same targets give the same bits. Does not judge the quality.
+  // Writes the map to these targets, and its quality. The same targets give the same bits. Accepts a map of any quality.
   void fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &quality);
 
  private:
@@ -91,14 +91,14 @@ class WarpLandmarks {
   Vec3 centre_{0, 0, 0};
   double size_ = 1;
   Vec3 axis_[3];                      // principal directions of the sources, the thinnest last
-  std::size_t n_terms_ = 4;           // of the polynomial: 1, and the coordinates along the first axes
+  std::size_t n_terms_ = 4;           // terms of the polynomial: 1, and the coordinates along the first axes
   std::size_t n_free_ = 0;            // the number of landmarks minus n_terms_
   Vector<Vec3> scaled_;               // (source - centre) / size
   Vector<double> basis_;              // (n_free_, n): U, columns orthogonal to the polynomials
   Vector<double> least_squares_;      // (n_terms_, n): gives the polynomial nearest to values
   Vector<double> of_kernel_;          // (n_terms_, n): the same for values of sums of |r|^3, by their weights
-  Vector<double> diagonal_, beside_;  // of the tridiagonal matrix U^T |r|^3 U
-  // Places half way from a landmark to the nearest. A map that folds between landmarks is steepest there.
+  Vector<double> diagonal_, beside_;  // diagonals of the tridiagonal matrix U^T |r|^3 U
+  // The places half way from each landmark to the nearest other one. A map that folds between landmarks changes most there.
   struct Probe {
     Vec3 place;
     std::int64_t landmark;

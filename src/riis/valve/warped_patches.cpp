@@ -15,9 +15,9 @@ namespace riis {
 namespace {
 
 constexpr std::size_t no_copy = static_cast<std::size_t>(-1);
-// The warped points of a curve are taken at these many even steps of its parameter.
+// The warped points of a curve are taken at this many even steps of its parameter.
 constexpr int n_curve_steps = 6;
-// A tangent's length may change by this factor at most, apart from the warp's own stretch there.
+// A tangent's length may change by this factor at most, in addition to the warp's own stretch there.
 constexpr double least_factor = 0.2, most_factor = 5, most_of_missing = 0.5;
 // A patch is searched for folds on a grid of this many cells each way.
 constexpr std::size_t n_fold_cells = 3;
@@ -139,7 +139,7 @@ class Unfolding {
     return made;
   }
 
-  // Gives a patch the points of its twin at the seam. They differ by rounding only.
+  // Gives a patch the points of its twin at the seam. The patch's own points differ from these by rounding only.
   void sew(const Patch &patch, const Patch &twin, SeamPlace place) {
     const Vec3 corner = end_of(twin.v1, true);
     end_of(patch.v1, true) = corner;
@@ -158,11 +158,11 @@ class Unfolding {
 
 struct EndTangent {
   Vec3 warped;    // the direction, as long as the warp makes it
-  double factor;  // of that length in the curve itself: 1, or 0 if the curve has no tangent there
+  double factor;  // 1 if the curve itself has a tangent there, else 0
 };
 
-// Returns the direction of a curve at the first of these control points. It is the direction of the first control point that
-// differs.
+// Returns the direction of a curve at the first of these control points. The direction leads to the first control point that
+// differs from the end.
 EndTangent end_tangent(const std::array<Vec3, 4> &control, const MapAt &at) {
   const double size =
       distance(control[0], control[1]) + distance(control[1], control[2]) + distance(control[2], control[3]);
