@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* Each handle of the library contains such a keeper. Arenas exist as long as any keeper does. */
+/* A keeper like that in each handle of the library. TBB's arenas exist as long as any keeper exists. */
 typedef struct arenas_keeper arenas_keeper;
 arenas_keeper *arenas_keep(void);
 void arenas_let_go(arenas_keeper **keeper);
@@ -19,7 +19,7 @@ int arenas_made(void);
 
 typedef struct walk_seen {
   int is_right;
-  int arena; /* the largest number of threads of the bodies' arena; -1 if two bodies differ */
+  int arena; /* the largest number of threads of the arena in which the bodies ran; -1 if two bodies saw different numbers */
 } walk_seen;
 
 walk_seen walk_once(int n_threads);

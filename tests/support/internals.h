@@ -82,8 +82,8 @@ typedef struct bounded_quad {
 riis_status bounded_quads(const char *kind, int n_parameters, const char *const *names, const double *values,
                           double max_error, int64_t *n_quads, bounded_quad **quads);
 
-/* The triangles and the bound of a valve of the given kind, if its curves deviate from their shape by `deviation`. A fixed
- * triangulation is planned for this state alone. bound_of_patches is the bound for the other methods of measuring, which use
+/* The number of triangles and the error bound of a valve whose curves deviate from their shape by `deviation`. A fixed
+ * triangulation is planned for this state alone. bound_of_patches is the error bound of sampling and minimisation, which use
  * patches. */
 typedef struct deviating {
   int64_t n_triangles;

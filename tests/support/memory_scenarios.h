@@ -54,7 +54,7 @@ static void set_nodes(int64_t n) {
   for (int64_t i = 0; i < nodes.n; ++i) mask[i] = i % 7 != 0;
 }
 
-/* This object stands in a handle before a call. The call may overwrite the handle only on success. */
+/* A handle holds this object before a call that creates one. The call may overwrite the handle only on success. */
 static char no_object;
 #define MADE(type, handle, create)                                                                    \
   do {                                                                                                \
@@ -353,7 +353,7 @@ static void minimized_and_ready(world *w) {
   ready_to_mark(w);
   CHECK_OK(by_minimization(w));
 }
-/* The mesh already has balls or clusters, and they must be computed again. */
+/* The mesh has balls or clusters of old positions, so they must be computed again. */
 static void marked_and_moved(world *w) {
   marked_often(w);
   CHECK_OK(riis_mesh_update(w->mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));

@@ -59,8 +59,8 @@ static inline double largest_velocity(const riis_triangles *s, const double *vel
   return largest;
 }
 
-/* Returns the rounding error of distances near p. Points of one patch may change their order if their distances differ by
- * less. */
+/* Returns the rounding error of distances near p. If the distances of two points of one patch differ by less, rounding
+ * decides which is nearer. */
 static inline long double rounding_near(const double *p, double half_thickness) {
   return 1e-13L * (half_thickness + fabs(p[0]) + fabs(p[1]) + fabs(p[2]));
 }
