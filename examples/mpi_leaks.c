@@ -19,7 +19,7 @@ static int64_t label[n_nodes], by_ranks[n_nodes];
 static void check(riis_status status) {
   if (status == RIIS_OK) return;
   fprintf(stderr, "%s: %s\n", riis_status_name(status), riis_last_error());
-  MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE); /* without this, the other ranks would wait for this rank */
+  MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE); /* a plain exit would leave the other ranks waiting */
 }
 
 /* Marks n_planes planes of the grid from node `first` on, and labels their open regions with ids that count from `first`. */

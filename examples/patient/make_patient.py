@@ -7,7 +7,8 @@ make_patient.py FOLDER [--seed N] [--random] [--noise MM]
 Writes three files into FOLDER. root.stl is a closed surface in millimetres with flat ends. landmarks.mrk.json has three
 commissures and three nadirs, as 3D Slicer writes them. sides.txt has a point before the valve and a point after it. Axes are LPS:
 x to the left, y to the back, z upwards. The root lies obliquely, and no cusp is like another. The seed determines the landmarks'
-noise and the waves of the wall. With --random it determines all else also. Curves of riis have no part in this root, so it tests
+noise and the waves of the wall. With --random the seed also determines everything else. Curves of riis have no part in this root,
+so it tests
 whether a valve of riis fits. Needs only Python's own modules.
 """
 import argparse
