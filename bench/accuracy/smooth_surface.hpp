@@ -30,7 +30,7 @@ class SmoothSurface {
   std::int32_t patch_id(std::size_t image) const { return images_[image].image.patch_id; }
   std::size_t image_of(std::int32_t patch_id) const;
 
-  // The relative error is 1e-13, from the rounding of the curves' lengths.
+  // Returns a point. Its relative error is 1e-13, from the rounding of the curves' lengths.
   Vec3 at(std::size_t image, double u, double v) const;
   // Computes derivatives by differences over `step`. u and v must be at least `step` away from 0 and 1.
   static constexpr double step = 1e-4;

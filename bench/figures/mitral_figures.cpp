@@ -39,7 +39,7 @@ void name_annulus_points(Picture &picture, const Pieces &annulus, bool from_top)
     const std::string name = "A" + std::to_string(of_paper);
     if (from_top)
       picture.add_label_away(annulus[i].first(), middle, name, 34, annulus_colour, 26);
-    else  // in this view A2 and A3 nearly coincide
+    else  // A2 and A3 nearly coincide in this view, so their labels are apart
       picture.add_label(annulus[i].first(), name,
                         of_paper == 2   ? 30
                         : of_paper == 3 ? -14

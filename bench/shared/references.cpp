@@ -136,7 +136,7 @@ struct PointQuery::Implementation {
   static void bounds(const RTCBoundsFunctionArguments *arguments) {
     const double *c = static_cast<const Implementation *>(arguments->geometryUserPtr)->triangles.corners.data() +
                       9 * std::size_t{arguments->primID};
-    constexpr double slack = 1e-6;  // allows for single precision of coordinates of some centimetres
+    constexpr double slack = 1e-6;  // a margin for the single precision of coordinates of some centimetres
     float lower[3], upper[3];
     for (int i = 0; i < 3; ++i) {
       lower[i] = static_cast<float>(std::min({c[i], c[3 + i], c[6 + i]}) - slack);
