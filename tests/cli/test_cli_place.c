@@ -50,7 +50,7 @@ static void every_format_gives_the_same(void **state) {
   assert_true(strstr(program_out, "\"unit\": \"mm\"") && strstr(program_out, "\"axes\": \"LPS\""));
   if (fabs(json_number(program_out, "rms")) > 1e-8) fail_msg("residuals: %s", program_out);
   strcpy(first, strstr(program_out, "\"rotate\""));
-  /* The same in metres and RAS, turned back by the options. */
+  /* The same landmarks are given in metres and RAS, and the options turn them back. */
   RUN_FINE("place", json_of("b.json", "m", 0.01, "RAS", -1, ""), "--valve", "trileaflet", "--unit", "mm", "--axes",
            "LPS", "--output", "-");
   expect_sizes(program_out);

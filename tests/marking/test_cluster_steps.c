@@ -85,11 +85,11 @@ static void non_finite_coordinates(void **state) {
         options.n_threads = threads;
         CHECK_OK(riis_mark_nodes(surface, mesh, &options, kept));
         CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-        if (made_before < 2) { /* otherwise the clusters are used next without change */
+        if (made_before < 2) { /* otherwise the mesh keeps its clusters, and the next marking uses them unchanged */
           free_one_owned(mesh);
           mesh = mesh_of(n, xyz);
         }
-        /* Clusters must be made, or only need new positions. */
+        /* The next marking must make clusters, or give new positions to clusters from before. */
         if (made_before == 1) {
           CHECK_OK(riis_mesh_prepare(mesh, threads));
           CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));

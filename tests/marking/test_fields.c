@@ -290,7 +290,7 @@ static void fields_of_valves_are_those_of_single_queries(void **state) {
 static void fields_of_arrays_are_those_of_single_queries(void **state) {
   (void)state;
   enum { side = 9, max_vertices = 6 * side * side };
-  riis_surface *surface = surface_of_kind("mitral", NULL); /* the updates must forget its rim */
+  riis_surface *surface = surface_of_kind("mitral", NULL); /* updates from arrays must replace the mitral valve's rim */
   for (int trial = 0; trial < 24; ++trial) {
     const int owned_before = n_owned();
     static double height[side + 1][side + 1], xyz[3 * max_vertices];
@@ -307,7 +307,7 @@ static void fields_of_arrays_are_those_of_single_queries(void **state) {
             const int *step = steps[3 * half + k];
             double *p = xyz + 3 * n_vertices;
             p[0] = 0.1 * (i + step[0]), p[1] = 0.1 * (j + step[1]), p[2] = height[i + step[0]][j + step[1]];
-            if (p[0] == 0 && any_of(2)) p[0] = -0.0; /* -0 must count as the same position */
+            if (p[0] == 0 && any_of(2)) p[0] = -0.0; /* 0 and -0 must count as the same position */
             int64_t same = n_vertices;
             for (int64_t v = 0; v < n_vertices && trial % 2; ++v)
               if (is_same_place(xyz + 3 * v, p)) same = v;

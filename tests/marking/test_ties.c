@@ -166,7 +166,7 @@ static void valves_have_the_means_of_their_leaflets(void **state) {
   CHECK_AT_MOST((double)all.unclear, 0.02 * (double)all.nodes);
 }
 
-/* Three copies of random triangles have permuted coordinates. Nodes on the diagonal are equally far from all three. */
+/* Random triangles occur three times, with permuted coordinates. Nodes on the diagonal are equally far from all three. */
 static void three_leaflets_of_arrays_count_alike(void **state) {
   (void)state;
   tie_counts all = {0, 0, 0, 0, 0};

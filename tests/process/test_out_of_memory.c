@@ -42,7 +42,7 @@ static void check_digest(const scenario *s, const world *w, uint64_t expected, c
   if (digest_of(w) != expected) fail_msg("%s, allocation %lld: something else %s", s->name, (long long)n, when);
 }
 
-static int n_grown; /* how often memory stayed allocated after a first call of its kind */
+static int n_grown; /* counts the first calls of their kind after which memory stayed allocated */
 
 /* Makes allocation n fail in a new process state. Returns how many allocations failed, or 0 if there are fewer than n. */
 static int64_t try_one(const scenario *s, const reference *expected, int whose, int64_t n, int and_all_after,
@@ -50,7 +50,7 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
   const live before = live_now();
   world w = {.scenario = s};
   s->make(&w);
-  /* Sets another message, so that the failing call must write its own. */
+  /* A refused call leaves another message, so the failing call must write its own message. */
   assert_int_equal(riis_marks_create(NULL), RIIS_INVALID_ARGUMENT);
   memory_fail(whose, n, and_all_after);
   riis_status status = s->call(&w);
@@ -92,7 +92,7 @@ static reference reference_of(const scenario *s) {
   made.before = digest_of(&w);
   destroy(&w);
   made.after = 0;
-  if (s->flags & IS_FIRST) return made; /* a second call would not be the first of its kind */
+  if (s->flags & IS_FIRST) return made; /* this scenario needs the first call of its kind, so there is no second call */
   s->make(&w);
   CHECK_OK(s->call(&w));
   made.after = digest_of(&w);

@@ -170,7 +170,7 @@ static void a_given_open_state_wins(void **state) {
   CHECK_OK(riis_valve_set_open_state(valve, open));
   assert_true(have_same_shape(valve, open));
   riis_surface *surface = new_surface(valve, NULL);
-  CHECK_OK(riis_valve_set_scalar(valve, "open_radius_ratio", 0.9)); /* the parameter no longer has an effect */
+  CHECK_OK(riis_valve_set_scalar(valve, "open_radius_ratio", 0.9)); /* has no effect beside a given state */
   assert_true(is_same_content(surface, new_surface(valve, NULL)));
 }
 

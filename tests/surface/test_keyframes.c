@@ -94,7 +94,8 @@ static void linear_frames_have_right_hand_and_mean_velocities(void **state) {
   assert_null(keyframes);
 }
 
-/* At a key the velocity is that of the interval after the key, in every period. Adding periods to the key's time rounds the time.
+/* At a key the velocity is that of the interval after the key, in every period. The sum of the key's time and the periods is
+   rounded.
  * */
 static void frames_have_the_velocity_after_them_in_every_period(void **state) {
   (void)state;

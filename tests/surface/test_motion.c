@@ -154,7 +154,7 @@ static void triangles_are_those_of_a_plain_update(void **state) {
     const int64_t n = triangles_of(plain).n_vertices;
     assert_memory_equal(velocity_of(one), velocity_of(moving), (size_t)n * 3 * sizeof(double));
     for (int64_t i = 0; i < 3 * n; ++i) assert_true(isfinite(velocity_of(one)[i]));
-    if (any_of(2)) { /* the next update starts from a surface without velocity */
+    if (any_of(2)) { /* sometimes the next update starts from a surface without velocity */
       CHECK_OK(riis_surface_update(moving, valve, &options));
       assert_null(velocity_of(moving));
       assert_true(is_same_content(moving, plain));
@@ -449,7 +449,7 @@ static void a_copy_is_a_valve_of_its_own(void **state) {
     CHECK_OK(riis_surface_update(b, copy, NULL));
     assert_true(is_same_content(a, b));
     free_one_owned(valve);
-    CHECK_OK(riis_surface_update(b, copy, NULL)); /* the copy has its own second state */
+    CHECK_OK(riis_surface_update(b, copy, NULL)); /* the copied valve has its own second state */
     assert_true(is_same_content(a, b));
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "copy is NULL", riis_valve_copy(copy, NULL));
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve is NULL", riis_valve_copy(NULL, &none));
