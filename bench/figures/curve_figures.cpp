@@ -91,7 +91,7 @@ Panel polyline(double max_error) {
                              number(measured) + "."};
 }
 
-// This tolerance for the upper patch of half a cusp is so coarse that the grid lines can be distinguished.
+// The tolerance for the upper patch of half a cusp, so coarse that the grid lines can be distinguished.
 constexpr double coarse = 0.2;
 constexpr std::int32_t cusp = RIIS_LEAFLET_NON_CORONARY;
 constexpr PictureSize patch_size{900, 680};

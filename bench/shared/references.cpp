@@ -82,7 +82,7 @@ EveryTriangle::EveryTriangle(const Triangles &triangles) {
   }
 }
 
-// The regions are the same as in distance_sq above.
+// Decides by the same regions of the triangle's plane as distance_sq does.
 double EveryTriangle::operator()(const double *p, double) const {
   double least = std::numeric_limits<double>::infinity();
   for (const Prepared &t : triangles_) {

@@ -145,7 +145,7 @@ def wall_triangles(root, rough):
     heights = [BOTTOM + (TOP - BOTTOM) * k / n_heights for k in range(n_heights + 1)]
     angles = [360 * i / N_ANGLES for i in range(N_ANGLES)]
     radius = [[root.tube_radius(a, z) + root.sinus(a, z) + rough(a, z) for a in angles] for z in heights]
-    # From the middle of the lower end to the middle of the upper end.
+    # The rows of points run from the middle of the lower end to the middle of the upper end.
     rows = [(0, j / N_RINGS) for j in range(N_RINGS)] + [(k, 1.0) for k in range(n_heights + 1)]
     rows += [(n_heights, j / N_RINGS) for j in range(N_RINGS - 1, -1, -1)]
     points = [[root.placed(a, share * radius[k][i], heights[k]) for i, a in enumerate(angles)] for k, share in rows]

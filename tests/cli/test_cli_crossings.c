@@ -209,7 +209,8 @@ static void every_run_looks(void **state) {
   expect_tall("riis: a: leaflets right and non-coronary cross at opening 0: ");
 }
 
-/* Placement and opening do not count as a chosen shape. A bileaflet valve's hinges reach into its housing, which is no fault. */
+/* A chosen placement or opening does not count as a chosen shape. A bileaflet valve's hinges reach into its housing, which is no
+ * fault. */
 static void sound_shapes_are_not_named(void **state) {
   (void)state;
   static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet", "coapting"};

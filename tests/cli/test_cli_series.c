@@ -388,7 +388,7 @@ static void test_motion(void **state) {
   free(table);
 }
 
-/* This file name must be escaped in XML. */
+/* The .pvd must escape a file name with characters that XML reserves. */
 static void test_names(void **state) {
   (void)state;
   run_series("a & <b>.pvd", NULL, NULL);

@@ -174,7 +174,7 @@ static void test_positions(void **state) {
   }
 }
 
-/* VTK reads the same nodes in the same order from the .vtu. They are the first frame's nodes. */
+/* From the .vtu, VTK reads the nodes of the first frame in their order. */
 static void test_vtk(void **state) {
   (void)state;
   EXPORT("by_vtk", RAMPS, "--valve", "mitral");

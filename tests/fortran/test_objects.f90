@@ -310,7 +310,8 @@ contains
     call check(size(leaflets) > 0 .and. all(leaflets == 5) .and. all(patches == 0), 'the leaflet and patch ids')
     call valve%destroy()
 
-    ! The same patch: one side is reversed, and curves and sides are integers of the other kind that count from 0.
+    ! The same patch is given in another way: one side is reversed, and curves and sides are integers of the other kind that count
+    ! from 0.
     control(:, 3:4) = square(:, [3, 4])
     reversed = .false.
     reversed(2, 1) = .true.

@@ -110,7 +110,7 @@ static void split_gives_the_same_curve_in_two(void **state) {
 
 static void flatness_is_measured_to_the_segment(void **state) {
   (void)state;
-  const double beyond_the_end[9] = {0, 0, 0, 3, 0, 0, 1, 0, 0}; /* on the line, 2 beyond the segment */
+  const double beyond_the_end[9] = {0, 0, 0, 3, 0, 0, 1, 0, 0}; /* the inner point is 2 beyond the segment */
   CHECK_NEAR(bezier_flatness(2, beyond_the_end), 2, 1e-15);
   const double closed[12] = {0, 0, 0, 0, 3, 0, 4, 0, 0, 0, 0, 0}; /* the paper's formula gives 0/0 here */
   CHECK_NEAR(bezier_flatness(3, closed), 4, 1e-15);

@@ -144,7 +144,7 @@ static void what_auto_is(void **state) {
   CHECK_OK(riis_mesh_prepare(mesh, 0));
   CHECK_OK(riis_mesh_prepare(mesh, 2));
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
-  CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3)); /* nodes moved after the first marking, or before it */
+  CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3)); /* an update of positions keeps the clusters */
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
   free_one_owned(mesh);
   mesh = mesh_of(n, xyz);

@@ -77,7 +77,7 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
       after.embree_bytes == before.embree_bytes && attempt < 5)
     return try_one(s, expected, whose, n, and_all_after, attempt + 1);
   const int grew = memcmp(&before, &after, sizeof before) != 0;
-  /* Memory that is allocated once and kept is accepted, but only once. */
+  /* Memory that a first call of its kind allocates and keeps is accepted, but only for one such call. */
   if (grew && (!(s->flags & IS_FIRST) || n_grown++ > 0))
     fail_msg("%s, allocation %lld: leaks %lld of the library's, %lld of Embree's, %lld bytes of Embree's", s->name,
              (long long)n, (long long)(after.library - before.library), (long long)(after.embree - before.embree),

@@ -26,8 +26,7 @@ static inline int oracle_meet_in_plane(const int64_t *a, const int64_t *b, const
   const int drop = normal.x[0] ? 0 : normal.x[1] ? 1 : 2, u = (drop + 1) % 3, v = (drop + 2) % 3;
   const int turn = normal.x[drop] > 0 ? 1 : -1;
   /* The part of the segment, from t = low to high, that is on the inner side of all sides of the triangle so far. Both ends are
-     fractions with
-   * positive denominators. */
+   * fractions with positive denominators. */
   wide low = 0, low_of = 1, high = 1, high_of = 1;
   for (int i = 0; i < 3; ++i) {
     const int64_t *from = abc + 3 * i, *to = abc + 3 * ((i + 1) % 3);

@@ -319,7 +319,7 @@ static riis_status mark_masked_and_wide(world *w) {
   options.node_mask = mask;
   return riis_mark_nodes(w->surface, w->mesh, &options, w->result);
 }
-/* The result was used by earlier markings. Now it needs more memory than it has, or it has enough after many markings. */
+/* Scenarios that mark into a result of earlier markings. After one marking it needs more memory; after several it has enough. */
 static void marked_before(world *w) {
   ready_to_mark(w);
   CHECK_OK(mark(w));

@@ -112,7 +112,7 @@ static void open_free_edges_are_parabolas(void **state) {
     const double x = p[0] * cos(a) + p[1] * sin(a), y = p[1] * cos(a) - p[0] * sin(a);
     const double end_x = 1.05 * radius_out[cusp] * cos(half_angle[cusp] * cusp_degree),
                  end_y = 1.05 * radius_out[cusp] * sin(half_angle[cusp] * cusp_degree);
-    /* Vertices from split quads lie on chords of the curve. */
+    /* The vertices may be off the curve, because vertices from split quads lie on its chords. */
     CHECK_NEAR(x, 0.75 * 1.29 + (end_x - 0.75 * 1.29) * (y / end_y) * (y / end_y), 0.005);
     CHECK_NEAR(p[2], 0.02, 1e-14);
     ++n;

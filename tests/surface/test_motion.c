@@ -290,7 +290,7 @@ static void placements_move(void **state) {
     if (trial % 2) random_placement(&now);
     now.flip_normals = trial % 5 == 0;
     then = now;
-    /* These options of the earlier placement are ignored. */
+    /* Options of the earlier state that do not place it are ignored. */
     then.tolerance = 7, then.n_threads = -3, then.flip_normals = 9, then.half_thickness = NAN;
     const int what = trial / 3 % 4;
     for (int c = 0; c < 3 && (what == 0 || what == 3); ++c) then.translation[c] += now.scale * between(-1, 1);
@@ -549,7 +549,7 @@ static void refusals_leave_the_surface_as_it_was(void **state) {
   options.scale = 0;
   MOVING_REFUSED(RIIS_INVALID_ARGUMENT, "options.scale is 0;", aortic, before, 1, &options, NULL);
   options = surface_options();
-  options.half_thickness = 1e-3, options.tolerance = 1e-6; /* this fault is found after the curves are made */
+  options.half_thickness = 1e-3, options.tolerance = 1e-6; /* a fault that is found only after the curves are made */
   MOVING_REFUSED(RIIS_LIMIT_EXCEEDED, "16777216 triangles", aortic, before, 1, &options, NULL);
 
   /* Patches with different curves. */

@@ -167,7 +167,7 @@ static void bands_have_the_orifice_of_their_narrow_end(void **state) {
     CHECK_NEAR(found.area, pi * hole * s * s, 1e-3 * s * s);
     CHECK_NEAR(found.radius, 0, 0);
     CHECK_NEAR(leaflet_of(surface, 0).free_edge, 2 * pi * sqrt(hole) * s, 1e-4 * s);
-    /* The axis points to the side to which normals point: seen from outside, up. */
+    /* The axis points to the side to which the normals point. */
     riis_surface_options turned = options;
     const riis_orifice z = orifice_of(surface_of_kind("trileaflet", (turned.flip_normals = 0, &turned)));
     for (int c = 0; c < 3; ++c) CHECK_NEAR(found.axis[c], (options.flip_normals ? -1 : 1) * z.axis[c], 1e-9);

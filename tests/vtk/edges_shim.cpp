@@ -96,7 +96,7 @@ Edges edges_by_middles(int n_corners, const std::vector<Place> &places) {
         const int centre = is_quad ? middle(a, b) : -1;
         if (m >= 0 && n >= 0 && centre < 0) add(m, n);
         if (m >= 0 && n >= 0 && centre >= 0) add(m, centre), add(n, centre);
-        // Here only two opposite sides of the quad have a node in the middle.
+        // If only two opposite sides of the quad have a node in the middle, these nodes are joined.
         if (is_quad && m >= 0 && n < 0) add(m, middle(b, d));
         if (is_quad && m < 0 && n >= 0) add(n, middle(a, d));
       }
