@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * C wrappers of the walks of src/riis/parallel, for several callers at the same time. The assertions stay in C, because a failed
+ * Wraps the walks of src/riis/parallel for C, for several callers at the same time. The assertions stay in C, because a failed
  * assertion leaves by longjmp, which must not cross TBB's stack frames. A walk here visits 32 numbers and adds 32 more. It is
  * correct if it visits each number once. */
 #ifndef RIIS_TEST_ARENAS_H

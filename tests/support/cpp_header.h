@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: Apache-2.0 C wrappers of code that uses riis.hpp, for test_cpp_header.c. */
+/* SPDX-License-Identifier: Apache-2.0 Wraps for C code that uses riis.hpp, for test_cpp_header.c. */
 #ifndef RIIS_TEST_CPP_HEADER_H
 #define RIIS_TEST_CPP_HEADER_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Digests of the content of objects. Contents with equal bits have equal digests. Include after searches.h. */
+ * Computes digests of the content of objects. Contents with equal bits have equal digests. Include after searches.h. */
 #ifndef RIIS_TEST_DIGESTS_H
 #define RIIS_TEST_DIGESTS_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A serial flood fill that labels open regions, random graphs, and meshes in a tube. Include after searches.h and
- * random_meshes.h. */
+ * Provides a serial flood fill that labels open regions, random graphs, and meshes in a tube. Include after
+ * searches.h and random_meshes.h. */
 #ifndef RIIS_TEST_FLOOD_FILL_H
 #define RIIS_TEST_FLOOD_FILL_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * C wrappers of the stages behind the public interface. Points are arrays of 3 doubles. The caller owns results that are
+ * Wraps the stages behind the public interface for C. Points are arrays of 3 doubles. The caller owns results that are
  * returned by pointer and frees them with free(). A refusal is returned as its status, with the message in riis_last_error(). */
 #ifndef RIIS_TEST_INTERNALS_H
 #define RIIS_TEST_INTERNALS_H

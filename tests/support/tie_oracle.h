@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * An independent computation of the surface's velocity near p. It loops over all triangles in extended precision, leaflet by
- * leaflet. Include after riis.h, test_support.h, handles.h and oracle.h. */
+ * Computes the surface's velocity near p independently of the library, by a loop over all triangles in extended precision,
+ * leaflet by leaflet. Include after riis.h, test_support.h, handles.h and oracle.h. */
 #ifndef RIIS_TEST_TIE_ORACLE_H
 #define RIIS_TEST_TIE_ORACLE_H
 
