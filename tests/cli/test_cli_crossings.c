@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * `riis check crossings`, compared with a known crossing and with the C interface, and tested on the library's own valves. */
+ * Tests `riis check crossings` with a known crossing, against the C interface, and on the library's own valves. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

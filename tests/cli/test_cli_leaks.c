@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The warning about edges that cross the valve between unmarked nodes, compared with the C interface for all edges of the
- * mesh. */
+ * Tests the warning about edges that cross the valve between unmarked nodes. The C interface gives the expected leaks,
+ * for all edges of the mesh. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdlib.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * riis place: files of landmarks, the placed valve for other commands, and refusals. The landmarks are made from known sizes. */
+ * Tests riis place: files of landmarks, the placed valve for other commands, and refusals. The landmarks are made from known
+ * sizes. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Module riis: leaflets, orifice, leak, first passage, cells across and swept volume, against closed forms and other calls.
+! Tests module riis: leaflets, orifice, leak, first passage, cells across and swept volume, against closed forms and other
+! calls.
 program test_measures
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Module riis: a valve's sizes and placement from landmarks, against landmarks that are made from known sizes and a known
-! placement.
+! Tests module riis: a valve's sizes and placement from landmarks, against landmarks that are made from known sizes and a
+! known placement.
 program test_placing
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The search over clusters from step to step, chosen by RIIS_SEARCH_AUTO, and called by several threads at the same time. */
+ * Tests the search over clusters from step to step, chosen by RIIS_SEARCH_AUTO, and called by several threads at the same time.
+ * */
 #include <omp.h>
 #include <riis/riis.h>
 

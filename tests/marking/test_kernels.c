@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The kernels, compiled for several instruction sets. Decisions and located points have the bits of the scalar kernel. Single
- * precision is off by no more than the library allows for (docs/theory.md, section 8). No pair that matters is left out,
- * however small the buffer for pairs is. */
+ * Tests the kernels, which are compiled for several instruction sets. Decisions and located points have the bits of the
+ * scalar kernel. Single precision is off by no more than the library allows for (docs/theory.md, section 8). No pair that
+ * matters is left out, however small the buffer for pairs is. */
 #include "internals.h"
 #include "sanitized.h"
 #include "test_support.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The neighbour search from step to step. Valves and nodes move, results are swapped between meshes, and some calls are
- * refused. */
+ * Tests the neighbour search from step to step. Valves and nodes move, results are swapped between meshes, and some
+ * calls are refused. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Resistance, reaction and band sums. Integrals over a grid are compared with the areas of discs, cylinders and spheres, and
- * sums with plain loops. Refusals leave the arrays as they were. */
+ * Tests resistance, reaction and band sums. Integrals over a grid are compared with the areas of discs, cylinders and
+ * spheres, and sums with plain loops. Refusals leave the arrays as they were. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Velocities of nodes that are equally near to several leaflets, or to several patches of one leaflet. Such a node gets the
- * mean velocity, as a loop over all triangles gives it, with the same bits from any search. The sums of K and K u over
- * symmetric meshes stay the same if the mesh moves by a rounding error or is split into parts. Nodes without ties have the
- * velocity of their closest triangle. */
+ * Tests velocities of nodes that are equally near to several leaflets, or to several patches of one leaflet. Such a node
+ * gets the mean velocity, as a loop over all triangles gives it, with the same bits from any search. The sums of K and K u
+ * over symmetric meshes stay the same if the mesh moves by a rounding error or is split into parts. Nodes without ties have
+ * the velocity of their closest triangle. */
 #include <riis/riis.h>
 
 #include "test_support.h"

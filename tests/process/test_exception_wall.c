@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Failures inside the library that a caller cannot provoke. They become a status and a message. If memory runs out, everything
- * stays as it was. */
+ * Tests failures inside the library that a caller cannot provoke. They become a status and a message. If memory runs out,
+ * everything stays as it was. */
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The open state that is defined by an aortic valve's own parameters (docs/theory.md, section 3). */
+ * Tests the open state that an aortic valve's own parameters define (docs/theory.md, section 3). */
 #include <riis/riis.h>
 
 #include "test_support.h"

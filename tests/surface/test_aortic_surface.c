@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The triangles of the aortic valve: the published numbers, the shape, the triangles' data, and the placement. */
+ * Tests the triangles of the aortic valve: the published numbers, the shape, the triangles' data, and the placement. */
 #include <riis/riis.h>
 
 #include "test_support.h"

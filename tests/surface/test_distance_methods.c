@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Distances by sampling and by minimisation, compared with known distances of flat and cylindrical patches, with triangles
+ * Compares distances by sampling and by minimisation with known distances of flat and cylindrical patches, with triangles
  * fifty times as fine, and with each other. */
 #include "internals.h"
 #include "test_support.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The mitral valve through the public interface: the numbers of docs/theory.md, section 4, and properties that hold at any
- * opening. */
+ * Tests the mitral valve through the public interface: the numbers of docs/theory.md, section 4, and properties that hold
+ * at any opening. */
 #include <riis/riis.h>
 
 #include "test_support.h"

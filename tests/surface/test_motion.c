@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Surfaces with a velocity. Their triangles equal those of an update without velocities. Their velocities are compared with
- * known motions. A refusal leaves the surface as it was. The mitral valve's own motion is in test_mitral_motion.c. */
+ * Tests surfaces with a velocity. Their triangles equal those of an update without velocities. Their velocities are
+ * compared with known motions. A refusal leaves the surface as it was. The mitral valve's own motion is in
+ * test_mitral_motion.c. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Valves from the caller's patches: every refusal is tested by status and message. */
+ * Tests every refusal of valves from the caller's patches by status and message. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Surfaces of valves from the caller's patches, compared with the patches' own curves. */
+ * Compares surfaces of valves from the caller's patches with the patches' own curves. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The adjacency of meshes from files, compared with the edges of VTK's own cells, and with the edges of other cells that have
+ * Compares the adjacency of meshes from files with the edges of VTK's own cells, and with the edges of other cells that have
  * the same nodes. */
 #include <math.h>
 #include <riis/riis_vtk.h>
@@ -128,8 +128,8 @@ static void test_curved_cells(void **state) {
   expect_adjacency("prism.vtk", 12, 36);
 }
 
-/* In a triangle, the node in the middle is joined to all other nodes. In a cell, the node in the middle is joined to the
- * middles of the faces. */
+/* In a triangle, the node in the middle is joined to all other nodes. In a triquadratic pyramid, the node in the middle
+ * is joined to the middles of the faces. */
 static void test_triquadratic_pyramid(void **state) {
   (void)state;
   char text[1024] = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 19 double\n";
