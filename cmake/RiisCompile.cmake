@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Options for compiling riis itself. They do not affect its users.
+# Sets options for compiling riis itself, which do not affect the users of riis.
 add_library(riis_compile INTERFACE)
 target_compile_options(riis_compile INTERFACE
   $<$<COMPILE_LANGUAGE:C,CXX>:-Wall -Wextra -Wshadow -Wconversion>

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Resistances for a finite volume code: K of every cell, at the cell's centre. The cell centres are the nodes of riis's mesh,
-! which needs no adjacency. The program checks that the integral of K over the cells is the area of the valve times R/eps. Lengths
-! are in metres.
+! Computes resistances for a finite volume code: K of every cell, at the cell's centre. The cell centres are the nodes of riis's
+! mesh, which needs no adjacency. The program checks that the integral of K over the cells is the area of the valve times R/eps.
+! Lengths are in metres.
 program cell_centres
   use riis
   implicit none

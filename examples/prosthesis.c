@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A user-defined valve: a bioprosthesis of three cusps from control points, marked while it opens. Lengths are in cm.
+ * Makes a user-defined valve, a bioprosthesis of three cusps, from control points, and marks it while it opens. Lengths are in
+ * cm.
  *
  * The ring of radius 1.2 lies at z = 0, and blood flows to +z. The tips of the posts, the commissures, are at z = 1.2. A
  * leaflet consists of two patches. They meet in the leaflet's middle line, from the ring to the free edge. Each patch lies

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The smooth surface to which tolerances refer (docs/theory.md, section 2). It consists of Coons patches and patches of arcs,
-// made from the Bézier curves themselves with the fraction of their exact length as parameter. It has no polylines, no grid and
-// no tolerance.
-// Input: curves and patches of a valve. Output: points, normals and curvatures anywhere.
+// Evaluates the smooth surface to which tolerances refer (docs/theory.md, section 2). The surface consists of Coons patches and
+// patches of arcs, made from the Bézier curves themselves with the fraction of their exact length as parameter. It has no
+// polylines, no grid and no tolerance. Input: curves and patches of a valve. Output: points, normals and curvatures anywhere.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One benchmark per stage, on the aortic valve at the default tolerance and 100,000 nodes around it. Times depend on the machine.
-// Ratios hardly depend on it, because both times of a ratio are measured in the same run.
+// Times each stage by one benchmark, on the aortic valve at the default tolerance and 100,000 nodes around it. Times depend on
+// the machine. Ratios hardly depend on it, because both times of a ratio are measured in the same run.
 #include <benchmark/benchmark.h>
 #include <riis/riis.h>
 
