@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the parts of a valve that can be drawn. Input: a valve, a tolerance. Output: its placed curves with their
-// control points, and its quads, triangles and edges.
+// Makes the parts of a valve that can be drawn.
+// Input: a valve, a tolerance. Output: its placed curves with their control points, and its quads, triangles and edges.
 #pragma once
 
 #include <array>

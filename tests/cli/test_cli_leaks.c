@@ -202,8 +202,8 @@ static void test_one_edge(void **state) {
       strstr(program_out, "leaks     1 edge between unmarked nodes across the surface, length up to 0.75\n"));
 }
 
-/* Tests the coordinates of a leak in a small mesh far from the origin, in two units. Their digits depend on the edge length,
- * and the unit follows them. */
+/* Tests the coordinates of a leak in a small mesh far from the origin, in two units. The number of digits depends on the
+ * edge length, and the unit follows the coordinates. */
 static void test_places(void **state) {
   (void)state;
   const struct {

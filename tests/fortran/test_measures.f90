@@ -164,7 +164,7 @@ contains
     call keyframes%destroy()
   end subroutine test_swept_volumes
 
-  ! A box in which the valve reaches the walls, so that it closes.
+  ! The valve reaches the walls of this box, so the closed valve parts the box.
   subroutine test_passages()
     integer, parameter :: n_side = 17, n_along = 41, n_nodes = n_side * n_side * n_along
     type(riis_valve) :: valve, empty

@@ -153,7 +153,7 @@ static void what_auto_is(void **state) {
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
   free_one_owned(mesh);
-  mesh = mesh_of(n, xyz); /* an earlier marking by any search counts */
+  mesh = mesh_of(n, xyz); /* an earlier marking by any search leads to clusters */
   assert_int_equal(search_of(surface, mesh, RIIS_SEARCH_EXHAUSTIVE), RIIS_SEARCH_EXHAUSTIVE);
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
 }

@@ -42,7 +42,7 @@ static void check_digest(const scenario *s, const world *w, uint64_t expected, c
   if (digest_of(w) != expected) fail_msg("%s, allocation %lld: something else %s", s->name, (long long)n, when);
 }
 
-static int n_grown; /* counts the first calls of their kind after which memory stayed allocated */
+static int n_grown; /* how many calls have kept memory because they were the first of their kind */
 
 /* Makes allocation n fail in a new process state. Returns how many allocations failed, or 0 if there are fewer than n. */
 static int64_t try_one(const scenario *s, const reference *expected, int whose, int64_t n, int and_all_after,

@@ -149,8 +149,8 @@ int kernels_groups_equal(const kernel_group *a, const kernel_group *b);
 /* Gives the squared distances of a point to the group's 16 lanes, in single precision. */
 void kernels_group_distances(int set, const kernel_group *group, const float *point, double margin, float *distance_sq);
 
-/* Returns the library's bound on the error. Points are scaled by `ratio`, moved by `shift`, and are at most `reach` from the
- * surface. */
+/* Returns the library's bound on the error of distances in single precision. Points are scaled by `ratio`, moved by `shift`,
+ * and are at most `reach` from the surface. */
 double kernels_error(double ratio, double shift, double reach, double longest_edge);
 
 /* A search's work on one leaf: up to 32 nodes (3, n_nodes) in the mesh's frame, and the groups of triangles near them, with a

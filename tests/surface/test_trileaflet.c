@@ -66,7 +66,7 @@ static void check_common_vertices(const riis_surface *surface, double scale) {
   free_one_owned(cusp);
 }
 
-/* Cusps share bits in both triangulations, in placed surfaces and after moving updates. */
+/* Cusps have the same bits where they meet: in both triangulations, in placed surfaces and after moving updates. */
 static void cusps_meet_in_the_same_bits(void **state) {
   (void)state;
   random_source random = random_start("test_trileaflet");

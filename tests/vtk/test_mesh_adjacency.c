@@ -199,7 +199,7 @@ static void test_polyhedra(void **state) {
   plain_free(&hexahedra);
 }
 
-/* The four tetrahedra at the corners of a quadratic tetrahedron have exactly its edges. */
+/* The edges of a quadratic tetrahedron are exactly the edges of the four tetrahedra at its corners. */
 static void test_quadratic_tetrahedra(void **state) {
   (void)state;
   const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
