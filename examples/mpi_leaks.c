@@ -13,7 +13,7 @@ enum { n = 27, plane = n * n, n_nodes = n * plane };
 static double xyz[3 * n_nodes];
 static uint8_t in_tube[n_nodes];
 static int64_t region[n_nodes]; /* for each node of a rank's part: the lowest node of its region, within the part */
-static int64_t lowest[n_nodes]; /* for each such node: the lowest node of its region, within the whole mesh */
+static int64_t lowest[n_nodes]; /* for each node of a part: the lowest node of its region, within the whole mesh */
 static int64_t label[n_nodes], by_ranks[n_nodes];
 
 static void check(riis_status status) {

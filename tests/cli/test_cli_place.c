@@ -20,7 +20,7 @@ static void landmark(int i, double scale, double *p) {
   p[0] = scale * (z + 0.2), p[1] = scale * (radius * sin(angle) + 0.1), p[2] = scale * (-radius * cos(angle) - 0.3);
 }
 
-/* Writes a JSON of landmarks; axes and unit are as given, `sign` turns x and y, and `more` has further keys or "". */
+/* Writes a JSON of landmarks with the given unit and axes. `sign` turns x and y, and `more` has further keys or "". */
 static const char *json_of(const char *name, const char *unit, double scale, const char *axes, double sign,
                            const char *more) {
   char text[4096];
