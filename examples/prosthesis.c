@@ -31,7 +31,7 @@ static const double closed_moving[][3] = {
     {-0.60, 1.04, 0.00},  {0.00, 0.00, 0.80},                                           /* middle 1 */
     {-0.60, -1.04, 0.00}, {0.00, 0.00, 0.80},                                           /* middle 2 */
 };
-/* The same curves for the open valve. */
+/* Control points of the same nine curves for the open valve. */
 static const double open_moving[][3] = {
     {0.60, -1.04, 1.20},  {0.87, -0.80, 1.20},  {1.05, -0.37, 1.20},  {1.05, 0.00, 1.20},   /* edge 0a */
     {0.60, 1.04, 1.20},   {0.87, 0.80, 1.20},   {1.05, 0.37, 1.20},   {1.05, 0.00, 1.20},   /* edge 0b */

@@ -26,7 +26,7 @@ program prosthesis
       1.20d0,  0.00d0,  0.00d0,  0.00d0,  0.00d0,  0.80d0, &
      -0.60d0,  1.04d0,  0.00d0,  0.00d0,  0.00d0,  0.80d0, &
      -0.60d0, -1.04d0,  0.00d0,  0.00d0,  0.00d0,  0.80d0]
-  ! The same curves for the open valve.
+  ! Control points of the same nine curves for the open valve.
   double precision, parameter :: open_moving(90) = [ &
       0.60d0, -1.04d0,  1.20d0,  0.87d0, -0.80d0,  1.20d0,  1.05d0, -0.37d0,  1.20d0,  1.05d0,  0.00d0,  1.20d0, &
       0.60d0,  1.04d0,  1.20d0,  0.87d0,  0.80d0,  1.20d0,  1.05d0,  0.37d0,  1.20d0,  1.05d0,  0.00d0,  1.20d0, &

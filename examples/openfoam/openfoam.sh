@@ -464,7 +464,7 @@ of_refused() {
   printf '  %-34s refused: %s\n' "$1" "$3" >>"$of_out/refusals.txt"
 }
 
-# of_bad NAME: makes a case of two steps.
+# of_bad NAME: makes a case of two steps, to which a check gives bad input.
 of_bad() {
   of_case "$1" && of_set "$1" system/controlDict endTime 2e-3 deltaT 1e-3 writeInterval 2
 }

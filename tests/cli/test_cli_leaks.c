@@ -287,7 +287,7 @@ static void keep(const char *key, char said[1000]) {
   snprintf(said, 1000, "%.600s %.300s", program_leaks, found);
 }
 
-/* Hexahedra that are stored as polyhedra have the same leaks and the same passage, in both layouts. */
+/* Hexahedra that are stored as polyhedra, in either layout, have the leaks and the passage of plain hexahedra. */
 static void test_polyhedra(void **state) {
   (void)state;
   static const char *const names[3] = {"cells.vtu", "streams.vtu", "lists.vtu"};

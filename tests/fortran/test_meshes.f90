@@ -220,7 +220,7 @@ contains
     call mesh%set_adjacency(small_offsets, small_columns, status=status)
     call check_ok(status, 'rows of 32 and 32 bits')
     call check_marking(mesh, 'rows of 32 and 32 bits', RIIS_SEARCH_NEIGHBOR)
-    ! These rows count from 0 and name ghost nodes.
+    ! The rows may also count from 0 and name ghost nodes.
     offsets_0 = offsets - 1
     columns_0 = columns - 1
     columns_0(1) = n_nodes + 4

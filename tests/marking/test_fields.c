@@ -400,7 +400,7 @@ static void valves_have_a_rim_all_around_and_none_inside(void **state) {
           ++n_free_closed;
           assert_int_equal(f.rim[k], 0);
         }
-        /* This check does not use the numbers of patches: no rim edge lies in the mitral valve's plane of symmetry. */
+        /* A check without the numbers of patches: no rim edge lies in the mitral valve's plane of symmetry. */
         if (is_mitral && f.rim[k] && r.edge[e] && t == e / 3)
           assert_true(corner_of(&r.c, e)[0] != 0 || corner_of(&r.c, next_of(e))[0] != 0);
       }

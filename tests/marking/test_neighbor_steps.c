@@ -87,7 +87,7 @@ static void a_result_goes_from_mesh_to_mesh(void **state) {
   }
 }
 
-/* There are more steps than a small counter can hold. */
+/* The test makes more steps than a counter of 8 bits could hold. */
 static void many_steps(void **state) {
   (void)state;
   riis_surface *surface = aortic_band(0.1);
@@ -118,7 +118,7 @@ static void nodes_move(void **state) {
     check_same_as_exhaustive(surface, mesh, mark_options(), result);
     check_same_as_exhaustive(surface, mesh, mark_options(), NULL);
   }
-  /* Another number of nodes removes the adjacency. With a new adjacency for these nodes, the search runs again. */
+  /* A changed number of nodes removes the adjacency. With an adjacency for the new nodes, the search runs again. */
   const int64_t fewer = nodes.n / 2;
   CHECK_OK(riis_mesh_update(mesh, fewer, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
   riis_mark_options options = mark_options();

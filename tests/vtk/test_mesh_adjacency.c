@@ -138,8 +138,8 @@ static void test_triquadratic_pyramid(void **state) {
   for (int k = 0; k < 19; ++k) sprintf(text + strlen(text), " %d", k);
   strcat(text, "\nCELL_TYPES 1\n37\n");
   scratch_write_text("pyramid.vtk", text);
-  /* These nodes and their numbers of neighbours are: a corner of the base, the apex, and the middles of a side of the base, of
-   * a side to the apex, of the base, of a triangle, and of the cell. */
+  /* The nodes whose numbers of neighbours are tested are: a corner of the base, the apex, and the middles of a side of the
+   * base, of a side to the apex, of the base, of a triangle, and of the cell. */
   static const int nodes[7] = {1, 4, 5, 10, 13, 14, 18}, n_neighbors[7] = {5, 8, 4, 4, 5, 7, 5};
   riis_vtk_mesh *mesh = read_mesh("pyramid.vtk");
   riis_adjacency *adjacency = NULL;
@@ -167,7 +167,7 @@ static void expect_same_rows(const char *name, const riis_csr *expected) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* Hexahedra have the same edges as polyhedra with the same faces, in both layouts and in several pieces. */
+/* Hexahedra have the same edges as polyhedra with the same faces, in both layouts of the file and in several pieces. */
 static void test_polyhedra(void **state) {
   (void)state;
   const double lower[3] = {0, 0, 0}, upper[3] = {1, 2, 3};
