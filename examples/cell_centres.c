@@ -44,7 +44,7 @@ int main(void) {
   check(riis_marks_create(&marks));
 
   /* With a round rim, the band would have half a tube around the free edges and the annulus. With a cut rim, the band ends
-   * there. */
+   * at these edges. */
   riis_mark_options mark_options;
   riis_resistance resistance;
   check(riis_mark_options_init(&mark_options, sizeof mark_options));

@@ -11,7 +11,7 @@
 #include "handles.h"
 #include "searches.h"
 
-static int n_threads_at_first; /* a sanitizer may have threads of its own */
+static int n_threads_at_first; /* 1, or more with the threads of a sanitizer */
 static int32_t n_threads_asked;
 
 /* Returns the number of threads of this process. */

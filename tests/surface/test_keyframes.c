@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests surfaces from frames in time. Positions and velocities are compared with closed forms. Other tests cover
- * periods and refusals. */
+ * Tests surfaces from frames in time. Positions and velocities are compared with closed forms. Further tests in
+ * this file cover periods and refusals. */
 #include <riis/riis.h>
 
 #include <math.h>
