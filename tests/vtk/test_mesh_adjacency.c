@@ -301,7 +301,7 @@ static void test_long_edges(void **state) {
   assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, n_side, lower, upper, 0), 1);
   expect_long_edges("box.vtu", n_box, inner, outer, 0, 0);
   expect_long_edges("box.vtu", n_box, lower, upper, 0.126, 0);
-  /* The limit equals the length, up to a billionth. */
+  /* The limit equals the length of the cubes' diagonals, up to a billionth. */
   expect_long_edges("box.vtu", n_box, lower, upper, 0.125 * sqrt(3), 0);
   assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
   expect_long_edges("zoo.vtu", n_shim_zoo, inner, outer, 2, 0);
