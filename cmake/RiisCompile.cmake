@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-# Options for compiling riis itself. They do not affect its users.
+# Sets options for compiling riis itself, which do not affect the users of riis.
 add_library(riis_compile INTERFACE)
 target_compile_options(riis_compile INTERFACE
   $<$<COMPILE_LANGUAGE:C,CXX>:-Wall -Wextra -Wshadow -Wconversion>
-  # Results are promised bit for bit, so contraction to fused multiply-add and fast-math are off, whatever the user's flags.
+  # Results are promised bit for bit. So contraction to fused multiply-add and fast-math are off, even if the user's flags request
+  # them.
   $<$<COMPILE_LANGUAGE:C,CXX>:-ffp-contract=off -fno-fast-math>
   $<$<COMPILE_LANGUAGE:Fortran>:-Wall -Wextra -Wimplicit-interface>)
 if(RIIS_WARNINGS_AS_ERRORS)
@@ -14,8 +15,8 @@ if(RIIS_SANITIZE)
   # debug information would double gcc's time for the kernels.
   target_compile_options(riis_compile INTERFACE -fsanitize=${RIIS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
   target_link_options(riis_compile INTERFACE -fsanitize=${RIIS_SANITIZE})
-  # The address sanitizer finds the same errors as this check of object sizes. The kernels compile a third faster without the
-  # check.
+  # The address sanitizer finds all errors that the check of object sizes finds. Without the check the kernels compile a
+  # third faster.
   if(RIIS_SANITIZE MATCHES "address")
     target_compile_options(riis_compile INTERFACE -fno-sanitize=object-size)
   endif()

@@ -129,7 +129,7 @@ if(NOT BUILD_SHARED_LIBS)
   foreach(name IN LISTS OpenMP_CXX_LIB_NAMES)
     string(APPEND riis_pc_static_libs " -l${name}")
   endforeach()
-  # This is the C++ runtime. The compiler driver of any language adds the C runtime.
+  # Only the libraries of the C++ runtime are kept, because the compiler driver of any language adds the C runtime.
   set(riis_runtime ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
   list(FILTER riis_runtime INCLUDE REGEX "^(stdc\\+\\+|c\\+\\+|c\\+\\+abi|m)$")
   list(REMOVE_DUPLICATES riis_runtime)

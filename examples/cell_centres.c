@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Resistances for a finite volume code: K of every cell, at the cell's centre. The cell centres are the nodes of riis's mesh,
- * which needs no adjacency. The program checks that the integral of K over the cells is the area of the valve times R/eps.
- * Lengths are in metres. */
+ * Computes resistances for a finite volume code: K of every cell, at the cell's centre. The cell centres are the nodes of
+ * riis's mesh, which needs no adjacency. The program checks that the integral of K over the cells is the area of the valve
+ * times R/eps. Lengths are in metres. */
 #include <math.h>
 #include <riis/riis.h>
 #include <stdio.h>
@@ -44,7 +44,7 @@ int main(void) {
   check(riis_marks_create(&marks));
 
   /* With a round rim, the band would have half a tube around the free edges and the annulus. With a cut rim, the band ends
-   * there. */
+   * at these edges. */
   riis_mark_options mark_options;
   riis_resistance resistance;
   check(riis_mark_options_init(&mark_options, sizeof mark_options));

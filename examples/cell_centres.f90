@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Resistances for a finite volume code: K of every cell, at the cell's centre. The cell centres are the nodes of riis's mesh,
-! which needs no adjacency. The program checks that the integral of K over the cells is the area of the valve times R/eps. Lengths
-! are in metres.
+! Computes resistances for a finite volume code: K of every cell, at the cell's centre. The cell centres are the nodes of riis's
+! mesh, which needs no adjacency. The program checks that the integral of K over the cells is the area of the valve times R/eps.
+! Lengths are in metres.
 program cell_centres
   use riis
   implicit none
@@ -29,7 +29,8 @@ program cell_centres
   call surface%create(valve, half_thickness=eps, scale=0.01d0) ! the valve is given in centimetres
   call mesh%create(centre)
 
-  ! With a round rim, the band would have half a tube around the free edges and the annulus. With a cut rim, the band ends there.
+  ! With a round rim, the band would have half a tube around the free edges and the annulus. With a cut rim, the band ends at
+  ! these edges.
   call riis_mark_nodes(surface, mesh, result, fields=RIIS_FIELD_RIM)
   call result%add_resistance(R, coefficient, rim=RIIS_RIM_CUT)
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same program as first_marking.c, in C++17. Handles destroy themselves, and errors are exceptions. The output is the same.
+// Does in C++17 what first_marking.c does in C, with the same output. Handles destroy themselves, and errors are exceptions.
 #include <cstdint>
 #include <cstdio>
 #include <exception>

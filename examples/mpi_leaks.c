@@ -13,13 +13,13 @@ enum { n = 27, plane = n * n, n_nodes = n * plane };
 static double xyz[3 * n_nodes];
 static uint8_t in_tube[n_nodes];
 static int64_t region[n_nodes]; /* for each node of a rank's part: the lowest node of its region, within the part */
-static int64_t lowest[n_nodes]; /* for each such node: the lowest node of its region, within the whole mesh */
+static int64_t lowest[n_nodes]; /* for each node of a part: the lowest node of its region, within the whole mesh */
 static int64_t label[n_nodes], by_ranks[n_nodes];
 
 static void check(riis_status status) {
   if (status == RIIS_OK) return;
   fprintf(stderr, "%s: %s\n", riis_status_name(status), riis_last_error());
-  MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE); /* without this, the other ranks would wait for this rank */
+  MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE); /* a plain exit would leave the other ranks waiting */
 }
 
 /* Marks n_planes planes of the grid from node `first` on, and labels their open regions with ids that count from `first`. */

@@ -16,7 +16,7 @@ static int32_t offsets[n_nodes + 1], columns[6 * n_nodes];
 static void check(riis_status status) {
   if (status == RIIS_OK) return;
   fprintf(stderr, "%s: %s\n", riis_status_name(status), riis_last_error());
-  MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE); /* without this, the other ranks would wait for this rank */
+  MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE); /* a plain exit would leave the other ranks waiting */
 }
 
 /* Returns the first node of a rank's part, which consists of whole planes of the grid. */

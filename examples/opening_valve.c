@@ -71,7 +71,7 @@ int main(void) {
     }
 
     const double time = times.opening_start + step * dt;
-    /* With other laws the flow opens the valve: riis_opening_switch_advance and riis_opening_angle_advance. */
+    /* In other laws the flow opens the valve: riis_opening_switch_advance and riis_opening_angle_advance. */
     double opening;
     check(riis_opening_from_times(&times, time, &opening, NULL));
     check(riis_valve_set_scalar(valve, "opening", opening));

@@ -9,7 +9,7 @@
 enum { n = 27, n_nodes = n * n * n, n_blocks = 4 };
 static double xyz[3 * n_nodes]; /* a cube of 3.25 cm around the valve, a node every 1.25 mm */
 
-/* The thread whose call failed must call this, because each thread has its own last error. */
+/* Prints the last error and ends. The thread whose call failed must call it, because each thread has its own last error. */
 static void check(riis_status status) {
   if (status == RIIS_OK) return;
 #pragma omp critical

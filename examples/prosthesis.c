@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A user-defined valve: a bioprosthesis of three cusps from control points, marked while it opens. Lengths are in cm.
+ * Makes a user-defined valve, a bioprosthesis of three cusps, from control points, and marks it while it opens. Lengths are in
+ * cm.
  *
  * The ring of radius 1.2 lies at z = 0, and blood flows to +z. The tips of the posts, the commissures, are at z = 1.2. A
  * leaflet consists of two patches. They meet in the leaflet's middle line, from the ring to the free edge. Each patch lies
@@ -30,7 +31,7 @@ static const double closed_moving[][3] = {
     {-0.60, 1.04, 0.00},  {0.00, 0.00, 0.80},                                           /* middle 1 */
     {-0.60, -1.04, 0.00}, {0.00, 0.00, 0.80},                                           /* middle 2 */
 };
-/* The same curves for the open valve. */
+/* Control points of the same nine curves for the open valve. */
 static const double open_moving[][3] = {
     {0.60, -1.04, 1.20},  {0.87, -0.80, 1.20},  {1.05, -0.37, 1.20},  {1.05, 0.00, 1.20},   /* edge 0a */
     {0.60, 1.04, 1.20},   {0.87, 0.80, 1.20},   {1.05, 0.37, 1.20},   {1.05, 0.00, 1.20},   /* edge 0b */

@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! A user-defined valve: a bioprosthesis of three cusps from control points, marked while it opens. Lengths are in cm.
+! Makes a user-defined valve, a bioprosthesis of three cusps, from control points, and marks it while it opens.
+! Lengths are in cm.
 !
 ! The ring of radius 1.2 lies at z = 0, and blood flows to +z. The tips of the posts, the commissures, are at z = 1.2. A leaflet
 ! consists of two patches. They meet in the leaflet's middle line, from the ring to the free edge. Each patch lies between two
@@ -25,7 +26,7 @@ program prosthesis
       1.20d0,  0.00d0,  0.00d0,  0.00d0,  0.00d0,  0.80d0, &
      -0.60d0,  1.04d0,  0.00d0,  0.00d0,  0.00d0,  0.80d0, &
      -0.60d0, -1.04d0,  0.00d0,  0.00d0,  0.00d0,  0.80d0]
-  ! The same curves for the open valve.
+  ! Control points of the same nine curves for the open valve.
   double precision, parameter :: open_moving(90) = [ &
       0.60d0, -1.04d0,  1.20d0,  0.87d0, -0.80d0,  1.20d0,  1.05d0, -0.37d0,  1.20d0,  1.05d0,  0.00d0,  1.20d0, &
       0.60d0,  1.04d0,  1.20d0,  0.87d0,  0.80d0,  1.20d0,  1.05d0,  0.37d0,  1.20d0,  1.05d0,  0.00d0,  1.20d0, &

@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Resistances for a finite element code: K and K u_surface at the quadrature points of tetrahedra, and their integrals with the
-! shape functions. The quadrature points are the nodes of riis's mesh, which needs no adjacency. The valve is half open and moves
-! with the heart. The program checks that the integral of K is the area of the valve times R/eps, and that K u_surface is K times
-! the valve's velocity. Lengths are in metres.
+! Computes resistances for a finite element code: K and K u_surface at the quadrature points of tetrahedra, and their integrals
+! with the shape functions. The quadrature points are the nodes of riis's mesh, which needs no adjacency. The valve is half open
+! and moves with the heart. The program checks that the integral of K is the area of the valve times R/eps, and that K u_surface
+! is K times the valve's velocity. Lengths are in metres.
 program quadrature_points
   use riis
   implicit none

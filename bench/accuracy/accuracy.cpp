@@ -91,7 +91,7 @@ json measure(const MeasuredSurface &surface, const TruePoints &points, double to
     least = std::min(least, error);
     most = std::max(most, error);
     errors.push_back(std::abs(error));
-    // The margin allows for the rounding of the points' coordinates.
+    // The tolerance has a margin for the rounding of the points' coordinates.
     n_over += std::abs(error) > tolerance + 1e-9;
   }
   json result = summary_of(errors);

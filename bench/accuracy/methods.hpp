@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The paper's three methods for measuring a distance, with the compared settings, on a single leaflet as in the paper.
+// Provides the paper's three methods for measuring a distance, with the compared settings, on a single leaflet as in the paper.
 // Input: a leaflet, a method, a tolerance. Output: a surface for queries through the public interface.
 #pragma once
 

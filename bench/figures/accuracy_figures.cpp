@@ -152,7 +152,7 @@ Colour colour_of_method(std::int32_t method) {
 
 Figure accuracy_figure() {
   Figure figure{"Errors of distances, painted", {}, 3, {}, {}, {}, {}};
-  // At 10 %, samples are far enough apart to be visible.
+  // Sampling has the tolerance 10 %, because its samples are then far enough apart to be visible.
   constexpr std::array<Setting, 3> painted{{{RIIS_MEASURE_MINIMIZATION, 0.01, "0.01"},
                                             {RIIS_MEASURE_SAMPLING, 0.1, "10 %"},
                                             {RIIS_MEASURE_TRIANGLES, 0.1, "10 %"}}};

@@ -125,7 +125,7 @@ Figure aortic_cusp_figure() {
               smooth = triangles_of(fine_model, cusp);
   Points to_fit = quads.points;
   for (const NamedCurve &curve : curves_of(curves, true)) append(to_fit, control_points(*curve.pieces));
-  // This view is from outside and above.
+  // The cusps are seen from outside and above.
   const View view = looking({-1, 0.35, -0.55}, {0, 0, 1});
   const auto picture_of = [&](const std::string &title) {
     Picture picture(cusp_size, view, to_fit);

@@ -91,7 +91,7 @@ Panel polyline(double max_error) {
                              number(measured) + "."};
 }
 
-// This tolerance for the upper patch of half a cusp is so coarse that the grid lines can be distinguished.
+// The tolerance for the upper patch of half a cusp, so coarse that the grid lines can be distinguished.
 constexpr double coarse = 0.2;
 constexpr std::int32_t cusp = RIIS_LEAFLET_NON_CORONARY;
 constexpr PictureSize patch_size{900, 680};
@@ -122,7 +122,7 @@ class PatchPictures {
         grid_(model_.grids[0]),
         sides_(boundary_polylines(model_.patches, model_.patches.patches[0], grid_)),
         quads_(quads_of(model_, cusp, paler(leaflet_colours, 0.55))),
-        // This view is from outside and above.
+        // The patch is seen from outside and above.
         view_(looking(image_.rotation * Vec3{-1, -0.35, -0.75}, {0, 0, 1})) {}
 
   Panel boundary() const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The figures. Each consists of pictures and of texts. The texts contain numbers that are counted while drawing.
+// Declares the figures of the page. Each consists of pictures and of texts. The texts contain numbers that are
+// counted while drawing.
 #pragma once
 
 #include "figures/page.hpp"

@@ -12,7 +12,7 @@ namespace {
 constexpr PictureSize top_size{960, 780}, side_size{960, 620}, surface_size{860, 700}, quads_size{860, 680};
 constexpr Colour annulus_colour = dark, anterior_colour = blue, posterior_colour = vermilion;
 constexpr LeafletColours colours = {blue, orange, green};
-// In this view the anterior point of the annulus is on the right and the ventricle below.
+// The view from the side has the anterior point of the annulus on the right and the ventricle below.
 const View side_view = looking({-1, 0, 0}, {0, 0, 1});
 
 Valve valve_at(double opening) {
@@ -39,7 +39,7 @@ void name_annulus_points(Picture &picture, const Pieces &annulus, bool from_top)
     const std::string name = "A" + std::to_string(of_paper);
     if (from_top)
       picture.add_label_away(annulus[i].first(), middle, name, 34, annulus_colour, 26);
-    else  // in this view A2 and A3 nearly coincide
+    else  // A2 and A3 nearly coincide in this view, so their labels are apart
       picture.add_label(annulus[i].first(), name,
                         of_paper == 2   ? 30
                         : of_paper == 3 ? -14

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture of surfaces, curves, points and texts, seen without perspective on a white background.
+// Draws a picture of surfaces, curves, points and texts, seen without perspective on a white background.
 // Input: objects in centimetres, and the sizes of lines, points and texts in pixels. Output: the bytes of a PNG file.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of a valve that can be drawn.
+// Makes the parts of a valve that can be drawn.
 // Input: a valve, a tolerance. Output: its placed curves with their control points, and its quads, triangles and edges.
 #pragma once
 

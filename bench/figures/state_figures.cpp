@@ -15,7 +15,7 @@ namespace riis::figures {
 namespace {
 
 constexpr PictureSize size{480, 400};
-constexpr std::size_t most_openings = 6;  // so many pictures stand side by side
+constexpr std::size_t most_openings = 6;  // at most this many pictures stand side by side
 constexpr double margin = 26, tolerance = 0.01;
 constexpr Colour orifice_colour{247, 196, 190}, outline_colour = dark;
 // The housing is higher than the closed leaflets, so that they lie inside it.

@@ -49,7 +49,7 @@ void add_outline(Faces &faces, double middle, double step, const Violin &violin)
   const double rise = (top - bottom) / static_cast<double>(widths.size());
   for (std::size_t i = 0; i + 1 < widths.size(); ++i) {
     const double a = half_width * step * widths[i], b = half_width * step * widths[i + 1];
-    // A single point among thousands would have no visible width.
+    // Parts of the outline without visible width are not drawn. A single point among thousands has none.
     if (std::max(a, b) < 0.4) continue;
     const double y = bottom + rise * (static_cast<double>(i) + 0.5);
     // The smoothed outline must not reach beyond the least and the greatest value.

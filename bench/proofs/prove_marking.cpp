@@ -93,7 +93,7 @@ struct Expected {
 };
 
 Expected by_brute_force(const CylinderNodes &nodes, const riis::TriangleSet &set, double half_thickness) {
-  // The kernel's rounding error, for coordinates of some centimetres, is a billionth of this.
+  // The slack is a billion times the kernel's rounding error, for coordinates of some centimetres.
   const double slack = 1e-6;
   const NearTriangles near(set, half_thickness + slack);
   const std::int64_t n = nodes.n_nodes();

@@ -676,7 +676,7 @@ def values_of_page(data, plots):
 
 
 def template(*names):
-    """Returns the prose of these pages, one after the other."""
+    """Returns the prose of the given pages, one after the other."""
     texts = []
     for name in names:
         with open(os.path.join(HERE, f"{name}.template.md"), encoding="utf-8") as file:

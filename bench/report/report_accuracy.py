@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Computes the numbers on accuracy in docs/performance.md from out/bench/accuracy.json, which ./run bench accuracy writes.
+"""Computes the numbers on accuracy in out/bench/details.md from out/bench/accuracy.json, which ./run bench accuracy writes.
 
-accuracy_values(data) returns the numbers by their names in performance.template.md.
+accuracy_values(data) returns the numbers by their names in details.template.md.
 """
 
 

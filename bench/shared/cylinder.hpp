@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes like the paper's: cylinders of tetrahedra around a valve, with any number of nodes.
+// Makes meshes like the paper's: cylinders of tetrahedra around a valve, with any number of nodes.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The library's handles with destructors, for benchmarks. An error ends the program.
+// Gives the library's handles destructors, for benchmarks. An error ends the program.
 #pragma once
 
 #include <riis/riis.h>

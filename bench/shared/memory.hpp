@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The memory of the process, as counted by malloc and by the system.
+// Measures the memory of the process, as malloc and the system count it.
 #pragma once
 
 #include <malloc.h>

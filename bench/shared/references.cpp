@@ -82,7 +82,7 @@ EveryTriangle::EveryTriangle(const Triangles &triangles) {
   }
 }
 
-// The regions are the same as in distance_sq above.
+// Decides by the same regions of the triangle's plane as distance_sq does.
 double EveryTriangle::operator()(const double *p, double) const {
   double least = std::numeric_limits<double>::infinity();
   for (const Prepared &t : triangles_) {
@@ -136,7 +136,7 @@ struct PointQuery::Implementation {
   static void bounds(const RTCBoundsFunctionArguments *arguments) {
     const double *c = static_cast<const Implementation *>(arguments->geometryUserPtr)->triangles.corners.data() +
                       9 * std::size_t{arguments->primID};
-    constexpr double slack = 1e-6;  // allows for single precision of coordinates of some centimetres
+    constexpr double slack = 1e-6;  // a margin for the single precision of coordinates of some centimetres
     float lower[3], upper[3];
     for (int i = 0; i < 3; ++i) {
       lower[i] = static_cast<float>(std::min({c[i], c[3 + i], c[6 + i]}) - slack);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Competitors of the library's marking, written plainly and compiled with the same flags. They are the paper's neighbour search,
-// with a chosen method for distances, and a pass over the coordinates.
+// Declares competitors of the library's marking, written plainly and compiled with the same flags. They are the paper's
+// neighbour search, with a chosen method for distances, and a pass over the coordinates.
 #pragma once
 
 #include <riis/riis.h>

@@ -15,7 +15,7 @@ struct StepOptions {
   double tolerance = 0.05;
   int n_threads = 1;
   std::int32_t instructions = RIIS_INSTRUCTIONS_AUTO;
-  // With a fixed triangulation, the aortic valve moves by its opening.
+  // With a fixed triangulation, the steps of the aortic valve change its opening instead of its cusps' angles.
   std::int32_t triangulation = RIIS_TRIANGULATION_ADAPTED;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Competitors of the library's marking, built if VTK was found. They are VTK's tree of cells with a bounded query
-// (vtkStaticCellLocator), its signed distance (vtkImplicitPolyDataDistance), which has no bound, and its bins of points
-// (vtkStaticPointLocator). They run on one thread.
+// Declares competitors of the library's marking, built if VTK was found. They are VTK's tree of cells with a bounded
+// query (vtkStaticCellLocator), its signed distance (vtkImplicitPolyDataDistance), which has no bound, and its bins of
+// points (vtkStaticPointLocator). They run on one thread.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One benchmark per stage, on the aortic valve at the default tolerance and 100,000 nodes around it. Times depend on the machine,
-// but the ratios hardly do, because both of their times are measured in the same run.
+// Times each stage by one benchmark, on the aortic valve at the default tolerance and 100,000 nodes around it. Times depend on
+// the machine. Ratios hardly depend on it, because both times of a ratio are measured in the same run.
 #include <benchmark/benchmark.h>
 #include <riis/riis.h>
 
@@ -79,7 +79,7 @@ void closest_point(benchmark::State &state) {
   const Surface surface = aortic_surface(static_cast<double>(state.range(0)) * 1e-3);
   std::size_t i = 0;
   riis_closest closest;
-  // The first query with sides prepares the data for sides, so it is not timed.
+  // The first query of a surface prepares the data for sides, so this query is not timed.
   check(riis_closest_point(surface.get(), nodes().data(), &closest, sizeof closest));
   for (auto _ : state) {
     check(riis_closest_point(surface.get(), nodes().data() + 3 * (i++ % 100000), &closest, sizeof closest));

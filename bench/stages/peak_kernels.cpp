@@ -8,7 +8,7 @@
 namespace bench {
 namespace {
 
-// This many independent chains of operations keep all units busy, and fit into sixteen registers.
+// Twelve independent chains of operations keep all units of a core busy, and fit into sixteen registers.
 constexpr int n_chains = 12;
 
 template <class Register, class Scalar, class Step>

@@ -115,7 +115,7 @@ class MovingSteps {
 // A tolerance that gives about ten times as many triangles as the default.
 constexpr double fine = 0.0034;
 
-// The same motion with fine triangulations, adapted and fixed, without a mesh.
+// Times the same motion with fine triangulations, adapted and fixed, without a mesh.
 class FineSteps {
  public:
   explicit FineSteps(const char *kind) : valve_(opening_valve(kind)) {

@@ -19,7 +19,7 @@ out=$(readlink -f -- "$1")
 quick=${2:-}
 cd -- "$here/../.."
 
-# openfoam.sh fetches OpenFOAM's headers and builds the plug-in. It uses these variables and functions.
+# openfoam.sh fetches OpenFOAM's headers and builds the plug-in. It uses the variables and functions that are set here.
 build=build n_jobs=$(nproc)
 say() { printf '==> %s\n' "$*"; }
 step() {
@@ -187,7 +187,7 @@ else
       obstacle "$valve" 0.05 0.025 "$rim"
     done
   done
-  # These cases have a smaller half thickness, other numbers of edges across the band, and other resistances.
+  # Further cases have a smaller half thickness, other numbers of edges across the band, or other resistances.
   for rim in round cut; do
     obstacle bileaflet-1 0.035 0.0175 "$rim"
     obstacle bileaflet-1 0.1 0.1 "$rim"

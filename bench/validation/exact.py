@@ -62,7 +62,8 @@ def contraction_by_streamline(m, n=200_000):
     edge minus the half width of the jet."""
     C = contraction(m)
     k = max(C * m, 1e-7)
-    # t goes from the sink to the edge, and w = exp(i s) with s = pi/2 t^2. This removes the factor 1/s of the integrand.
+    # t goes from the sink to the edge, and w = exp(i s) with s = pi/2 t^2. The variable t removes the factor 1/s of the
+    # integrand.
     t = (np.arange(n) + 0.5) / n
     s = np.pi / 2 * t * t
     w = np.exp(1j * s)

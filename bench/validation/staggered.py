@@ -141,8 +141,8 @@ class Flow:
         area = self.wc * self.dy / 2
         X, Y = np.meshgrid(self.x, self.yc, indexing="ij")
         add(((u[:-1], area), (u[1:], area)), stencil_of(u, 0), stencil_of(X, 0), self.xc[:, None])
-        # These faces lie between volumes of u that are neighbours in y. The flow through a face is half of v in the cell on the
-        # left plus half of v in the cell on the right. At both ends of the grid a face has only one of these halves.
+        # Faces between volumes of u that are neighbours in y come second. The flow through a face is half of v in the cell on
+        # the left plus half of v in the cell on the right. At both ends of the grid a face has only one of these halves.
         left, right = np.concatenate([self.dx[:1] * 0, self.dx / 2]), np.concatenate([self.dx / 2, self.dx[:1] * 0])
         to_left = np.concatenate([v[:1], v])[:, 1:-1]
         to_right = np.concatenate([v, v[-1:]])[:, 1:-1]

@@ -35,7 +35,7 @@ demo_parts() {
   return "$status"
 }
 
-# The demo's valves and their meshes: the aortic valve is the coapting valve in its root.
+# The demo's valves and their meshes. The valve that the demo calls aortic is the coapting valve in its root.
 demo_valves=(aortic mitral)
 declare -A demo_kind=([aortic]=coapting [mitral]=mitral) demo_mesh_of=([aortic]=aortic_root [mitral]=mitral_tube)
 demo_openings=(0 0.25 0.5 0.75 1)

@@ -53,7 +53,7 @@ def flow(comm, law, dt, n_steps, size=2e-3, eps=2e-3, kind="bileaflet", speed=ME
     before = valve.copy()
     surface = riis.Surface(valve, scale=0.01, half_thickness=eps)  # the valve's tables are in cm
 
-    # One time step of the momentum and mass balance. K stands in the matrix, K u_valve on the right.
+    # The equations of one time step balance momentum and mass. K is in the matrix, and K u_valve on the right-hand side.
     new, u_old = fem.Function(W), fem.Function(V, name="velocity")
     (u, p), (v, q) = TrialFunctions(W), TestFunctions(W)
     rho_dt, drag = RHO / fem.Constant(mesh, dt), max_value(K, 0)  # between its points K falls below 0 at places

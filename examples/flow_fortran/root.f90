@@ -9,7 +9,7 @@ module flow_root
   public :: in_root, root_radius
 
   real(dp), parameter :: radian = acos(-1._dp) / 180
-  ! The values of the valve's parameters with these names. The free edges of the closed valve lie at z = 0.
+  ! These constants equal the valve's parameters of the same names. The free edges of the closed valve lie at z = 0.
   real(dp), parameter :: base_radius = 1.25_dp, leaflet_height = 1.2_dp, bending_height = 0.6_dp, leaflet_radius = 1.25_dp, &
     leaflet_angle = 60, bending_radius = 1.275_dp, bending_angle = 35, base_z = -1.2_dp
   ! A sinus bulges outward beyond the attachment. The bulge is largest, 0.5, at the middle of a cusp.

@@ -126,7 +126,8 @@ openfoam_build() {
 openfoam_environment() {
   export WM_PROJECT_DIR=/usr/share/openfoam
   export LD_LIBRARY_PATH=$of_work/plugin${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
-  # There may be more ranks than processors, and the user may be root. The second line is for Open MPI 4, the third for 5.
+  # There may be more ranks than processors, and the user may be root. The settings in the second line are for Open MPI 4, and
+  # those in the third for Open MPI 5.
   export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
   export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1
   export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none
@@ -463,7 +464,7 @@ of_refused() {
   printf '  %-34s refused: %s\n' "$1" "$3" >>"$of_out/refusals.txt"
 }
 
-# of_bad NAME: makes a case of two steps.
+# of_bad NAME: makes a case of two steps, to which a check gives bad input.
 of_bad() {
   of_case "$1" && of_set "$1" system/controlDict endTime 2e-3 deltaT 1e-3 writeInterval 2
 }

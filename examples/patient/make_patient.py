@@ -7,7 +7,8 @@ make_patient.py FOLDER [--seed N] [--random] [--noise MM]
 Writes three files into FOLDER. root.stl is a closed surface in millimetres with flat ends. landmarks.mrk.json has three
 commissures and three nadirs, as 3D Slicer writes them. sides.txt has a point before the valve and a point after it. Axes are LPS:
 x to the left, y to the back, z upwards. The root lies obliquely, and no cusp is like another. The seed determines the landmarks'
-noise and the waves of the wall. With --random it determines all else also. Curves of riis have no part in this root, so it tests
+noise and the waves of the wall. With --random the seed also determines everything else. Curves of riis have no part in this root,
+so it tests
 whether a valve of riis fits. Needs only Python's own modules.
 """
 import argparse
@@ -144,7 +145,7 @@ def wall_triangles(root, rough):
     heights = [BOTTOM + (TOP - BOTTOM) * k / n_heights for k in range(n_heights + 1)]
     angles = [360 * i / N_ANGLES for i in range(N_ANGLES)]
     radius = [[root.tube_radius(a, z) + root.sinus(a, z) + rough(a, z) for a in angles] for z in heights]
-    # From the middle of the lower end to the middle of the upper end.
+    # The rows of points run from the middle of the lower end to the middle of the upper end.
     rows = [(0, j / N_RINGS) for j in range(N_RINGS)] + [(k, 1.0) for k in range(n_heights + 1)]
     rows += [(n_heights, j / N_RINGS) for j in range(N_RINGS - 1, -1, -1)]
     points = [[root.placed(a, share * radius[k][i], heights[k]) for i, a in enumerate(angles)] for k, share in rows]

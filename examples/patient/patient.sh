@@ -110,8 +110,9 @@ random_patients() {
   return "$patient_failed"
 }
 
-# random_patient SEED FOLDER: the commands of docs/patient.md for a random patient. Sinuses are deeper here, so the skirt is
-# longer. The edges are shorter in the band, because gmsh makes some of them longer than the field says.
+# random_patient SEED FOLDER: the commands of docs/patient.md for a random patient. Random patients have deeper sinuses than
+# the page's patient, so the skirt is longer. The edges in the band are shorter, because gmsh makes some edges longer than
+# the field says.
 random_patient() {
   local here=$PWD riis=$PWD/$build/bin/riis from to opening
   mkdir -p "$2" && cd "$2" || return

@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_complete.sh TEST_SOURCE HEADER...
-# Every function, enum constant, struct and field of the headers must appear in the test. This includes appended ones.
+# Every function, enum constant, struct and field of the headers must appear in the test, also if it was appended
+# after a release.
 set -euo pipefail
 test_source=$1
 shift

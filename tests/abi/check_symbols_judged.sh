@@ -23,7 +23,7 @@ refused() {
 }
 list=$root/abi/riis.symbols header=$root/include/riis/riis.h
 "$here/check_symbols.sh" "$list" "$header" "$library"
-# This list has a function that the library lacks, as if a later library had dropped it.
+# gone.symbols has a function that the library lacks, as if a later library had dropped it.
 (cat "$list" && echo 'riis_gone 0.1.0') >"$scratch/gone.symbols"
 refused 'gone or changed: riis_gone' "$scratch/gone.symbols" "$header"
 grep -v '^riis_mesh_create ' "$list" >"$scratch/new.symbols"

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The layouts and values that compiled programs rely on. The numbers are literals, written when the interface was released.
- * Changing one breaks programs, so append instead. Appended fields, functions and values get new lines. The sizes of structs
- * that grew are the only old lines that may change. */
+ * Tests the layouts and values that compiled programs rely on. The numbers are literals, written when the interface was
+ * released. Changing one breaks programs, so append instead. Appended fields, functions and values get new lines. The sizes
+ * of structs that grew are the only old lines that may change. */
 #include <riis/riis.h>
 #include <riis/riis_vtk.h>
 #include <setjmp.h>

@@ -23,7 +23,7 @@ static void give_up(const char *what) {
   exit(1);
 }
 
-/* Both streams go to files: a pipe that nobody reads could fill up. */
+/* Both streams go to files, because a pipe that nobody reads could fill up. */
 static int temporary_file(void) {
   char name[] = "output-XXXXXX";
   const int file = mkstemp(name);
@@ -71,7 +71,7 @@ static pid_t start(const char *argument, va_list rest) {
     dup2(err, STDERR_FILENO);
     if (program_stdout) close(STDOUT_FILENO);
     if (program_stdout && *program_stdout)
-      open(program_stdout, O_WRONLY); /* open returns the lowest free number, which is the number of stdout */
+      open(program_stdout, O_WRONLY); /* open returns the lowest free file number, which is that of the closed stdout */
     execv(RIIS_PROGRAM, (char *const *)(uintptr_t)arguments);
     _exit(127);
   }

@@ -65,7 +65,7 @@ static void test_example(void **state) {
                    8);
   assert_true(row[1] == 0 && row[3] == 0 && fabs(row[4] - 0.5) < 1e-12 && row[5] > 20 && row[6] > 1);
   free(table);
-  /* The same valves one by one, by options. */
+  /* Marks the valves of the case one by one, by options instead of the file. */
   scratch_write_text("open.json", "{\"leaflet_radius_in\": 1, \"bending_radius_in\": 1.1}");
   RUN_FINE("mark", mesh, "--unit", "cm", "--half-thickness", "0.1", "--valve", "mitral", "--opening", "0",
            "--resistance", "10000", "--prefix", "mitral", "--output", scratch_path("m.vtu"), "--quiet");
@@ -195,7 +195,7 @@ static void test_surface_at_rest(void **state) {
 
 #define LANDMARKS "[[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]"
 
-/* A warp that shifts all landmarks by 0.5 along x does what the placement does. */
+/* A warp that shifts all landmarks by 0.5 along x gives the same valve as a placement that is shifted by 0.5. */
 static void test_warp(void **state) {
   (void)state;
   static double one[n_box], two[n_box], velocity[3 * n_box];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * `riis check crossings`, compared with a known crossing and with the C interface, and tested on the library's own valves. */
+ * Tests `riis check crossings` with a known crossing, against the C interface, and on the library's own valves. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -61,7 +61,7 @@ static void a_given_opening_is_the_only_one(void **state) {
   RUN_FINE("check", "crossings", "--valve", file, "--set", "opening=0.2");
   run_program("check", "crossings", "--valve", file, "--opening", "0.5", NULL);
   expect_warning("riis: leaflets 0 and 1 cross at opening 0.5: ");
-  /* Without the option the user's open state has no effect. */
+  /* `riis surface` warns as `riis check crossings --opening 0.5` does, at any opening that it writes. */
   run_program("surface", "--valve", file, "--opening", "0.5", "--output", scratch_path("crossed.vtp"), NULL);
   expect_warning("riis: leaflets 0 and 1 cross at opening 0.5: ");
   run_program("surface", "--valve", file, "--opening", "0.1", "--output", scratch_path("sound.vtp"), NULL);
@@ -172,7 +172,7 @@ static void a_chosen_shape_is_looked_at(void **state) {
   }
   run_program("mark", scratch_path("in.vtu"), TALL, "--strict", NULL);
   assert_int_equal(program_exit_code, 4);
-  /* This command does its own check, so its warning does not recommend the command. */
+  /* The warning of `riis check crossings` does not recommend this command itself. */
   run_program("check", "crossings", TALL, NULL);
   expect_warning(tall_crosses);
   assert_null(strstr(program_crossings, advice));
@@ -209,7 +209,8 @@ static void every_run_looks(void **state) {
   expect_tall("riis: a: leaflets right and non-coronary cross at opening 0: ");
 }
 
-/* Placement and opening do not count as a chosen shape. A bileaflet valve's hinges reach into its housing, which is no fault. */
+/* A chosen placement or opening does not count as a chosen shape. A bileaflet valve's hinges reach into its housing, which is no
+ * fault. */
 static void sound_shapes_are_not_named(void **state) {
   (void)state;
   static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet", "coapting"};

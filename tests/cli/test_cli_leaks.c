@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The warning about edges that cross the valve between unmarked nodes, compared with the C interface for all edges of the
- * mesh. */
+ * Tests the warning about edges that cross the valve between unmarked nodes. The C interface gives the expected leaks,
+ * for all edges of the mesh. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdlib.h>
@@ -202,8 +202,8 @@ static void test_one_edge(void **state) {
       strstr(program_out, "leaks     1 edge between unmarked nodes across the surface, length up to 0.75\n"));
 }
 
-/* Tests the coordinates of a leak in a small mesh far from the origin, in two units. Their digits depend on the edge length,
- * and the unit follows them. */
+/* Tests the coordinates of a leak in a small mesh far from the origin, in two units. The number of digits depends on the
+ * edge length, and the unit follows the coordinates. */
 static void test_places(void **state) {
   (void)state;
   const struct {
@@ -287,7 +287,7 @@ static void keep(const char *key, char said[1000]) {
   snprintf(said, 1000, "%.600s %.300s", program_leaks, found);
 }
 
-/* Hexahedra that are stored as polyhedra have the same leaks and the same passage, in both layouts. */
+/* Hexahedra that are stored as polyhedra, in either layout, have the leaks and the passage of plain hexahedra. */
 static void test_polyhedra(void **state) {
   (void)state;
   static const char *const names[3] = {"cells.vtu", "streams.vtu", "lists.vtu"};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The files that riis writes, compared with the C interface on the same mesh. */
+ * Compares the files that riis writes with the C interface on the same mesh. */
 #include <riis/riis_vtk.h>
 #include <stdlib.h>
 #include <string.h>

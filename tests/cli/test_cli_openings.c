@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Valves that open: the program's marks are compared with the C interface's. The mitral valve has an open state of its own;
- * other valves open between two files. */
+ * Tests valves that open: the program's marks are compared with the C interface's. The mitral valve has an open state of
+ * its own; other valves open between two files. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The output of riis without a mesh, and the reading of its command line. */
+ * Tests the output of riis without a mesh, and the reading of its command line. */
 #include <riis/riis.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Valve parameters from JSON and from --set, checked by `riis params` and by the surface's area. */
+ * Tests valve parameters from JSON and from --set, by `riis params` and by the surface's area. */
 #include <math.h>
 #include <riis/riis.h>
 #include <stdio.h>
@@ -226,7 +226,7 @@ static void test_named_sizes(void **state) {
   assert_non_null(strstr(program_out, "\"rotation\": [\n      0.0,\n      0.0,\n      119.5\n"));
   assert_non_null(strstr(program_out, "\"rotation\": [\n      0.0,\n      0.0,\n      -122.5\n"));
 
-  /* The same names in a case file. */
+  /* A case file also accepts the surgeon's names. */
   const char *const parameters[] = {"\"annulus\": 2.4", "\"annulus\": -2.4", "\"annulus\": 2.4, \"root_radius\": 1.2"};
   const char *const texts[] = {"", "parameter 'annulus' is -2.4; it must be from 2e-09",
                                "annulus and root_radius are given, but they are names of one size"};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * `riis check leaks` with two points, compared with the C interface's passage. The mesh is a box inside the valve's annulus,
+ * Compares `riis check leaks` with two points with the C interface's passage. The mesh is a box inside the valve's annulus,
  * so no path goes round the valve. */
 #include <math.h>
 #include <riis/riis_vtk.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * riis place: files of landmarks, the placed valve for other commands, and refusals. The landmarks are made from known sizes. */
+ * Tests riis place: files of landmarks, the placed valve for other commands, and refusals. The landmarks are made from known
+ * sizes. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,7 +20,7 @@ static void landmark(int i, double scale, double *p) {
   p[0] = scale * (z + 0.2), p[1] = scale * (radius * sin(angle) + 0.1), p[2] = scale * (-radius * cos(angle) - 0.3);
 }
 
-/* Writes a JSON of landmarks; axes and unit are as given, `sign` turns x and y, and `more` has further keys or "". */
+/* Writes a JSON of landmarks with the given unit and axes. `sign` turns x and y, and `more` has further keys or "". */
 static const char *json_of(const char *name, const char *unit, double scale, const char *axes, double sign,
                            const char *more) {
   char text[4096];
@@ -50,7 +51,7 @@ static void every_format_gives_the_same(void **state) {
   assert_true(strstr(program_out, "\"unit\": \"mm\"") && strstr(program_out, "\"axes\": \"LPS\""));
   if (fabs(json_number(program_out, "rms")) > 1e-8) fail_msg("residuals: %s", program_out);
   strcpy(first, strstr(program_out, "\"rotate\""));
-  /* The same in metres and RAS, turned back by the options. */
+  /* The same landmarks are given in metres and RAS, and the options turn them back. */
   RUN_FINE("place", json_of("b.json", "m", 0.01, "RAS", -1, ""), "--valve", "trileaflet", "--unit", "mm", "--axes",
            "LPS", "--output", "-");
   expect_sizes(program_out);

@@ -189,7 +189,8 @@ static void test_values(void **state) {
   RUN_REFUSED(2, "riis: --tolerance is 0; ", "mark", mesh, "--tolerance", "0");
   RUN_REFUSED(2, "riis: --tolerance is -1; ", "mark", mesh, "--tolerance", "-1");
   RUN_REFUSED(2, "riis: --half-thickness is inf; ", "mark", mesh, "--half-thickness", "inf");
-  /* These refusals come before the mesh is read. The mesh is missing, but the message does not name it. */
+  /* Some wrong values of options are refused before the mesh is read. The mesh is missing, but the message does not name it.
+   * */
   mesh = scratch_path("missing.vtu");
   RUN_REFUSED(2, "riis: --distance-limit is 0.05; ", "mark", mesh, "--distance-limit", "0.05");
   RUN_REFUSED(2, "riis: --threads is -2; ", "mark", mesh, "--threads", "-2");

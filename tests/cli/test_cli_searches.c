@@ -101,7 +101,8 @@ static void expect_warning(void) {
   assert_ptr_equal(strchr(program_err, '\n') + 1, program_err + strlen(program_err));
 }
 
-/* If the marked nodes are connected, the paper's search also finds all of them. The search cannot know this, and says so. */
+/* If the marked nodes are connected, the paper's search also finds all of them. The search cannot know that it found all, and
+ * says so. */
 static void test_paper(void **state) {
   (void)state;
   mark_default_valve(0.3, RIIS_AUTO);

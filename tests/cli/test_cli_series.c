@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --times: the files of a series, their times, and their arrays, compared with single runs and the C interface. */
+ * Compares the files of a series (--times), their times, and their arrays with single runs and with the C interface. */
 #include <math.h>
 #include <riis/riis.h>
 #include <stdio.h>
@@ -388,7 +388,7 @@ static void test_motion(void **state) {
   free(table);
 }
 
-/* This file name must be escaped in XML. */
+/* The .pvd must escape a file name with characters that XML reserves. */
 static void test_names(void **state) {
   (void)state;
   run_series("a & <b>.pvd", NULL, NULL);

@@ -132,7 +132,7 @@ static void test_places(void **state) {
               "/nowhere/s.pvd");
   RUN_REFUSED(1, "the folder /nowhere does not exist", "mark", mesh, "--cycle", cycle, "--times", "0,1",
               "--series-table", "/nowhere/s.csv");
-  /* A file has the name of the output folder. */
+  /* The output folder cannot be made, because a file has its name. */
   scratch_write_text("full", "text");
   RUN_REFUSED(1, "full: the folder cannot be made", "mark", mesh, "--valve", "mitral", "--half-thickness", "0.3",
               "--cycle", cycle, "--times", "0,1", "--output", scratch_path("full.pvd"), "--quiet");
@@ -141,7 +141,7 @@ static void test_places(void **state) {
   assert_int_equal(symlink("../in.vtu", scratch_path("in/in_0000.vtu")), 0);
   RUN_REFUSED(2, "holds the file of MESH", "mark", scratch_path("in/in_0000.vtu"), "--cycle", cycle, "--times", "0,1",
               "--output", scratch_path("in.pvd"));
-  /* The mesh already has arrays of these names. */
+  /* The mesh already has arrays with the names of the marks. */
   RUN_FINE("mark", mesh, "--valve", "mitral", "--half-thickness", "0.3", "--output", scratch_path("marked.vtu"));
   RUN_REFUSED(2, "already has an array riis_marked", "mark", scratch_path("marked.vtu"), "--valve", "mitral",
               "--half-thickness", "0.3", "--cycle", cycle, "--times", "0,1", "--output", scratch_path("s.pvd"));

@@ -76,7 +76,7 @@ static double least_distance(const double *point) {
   return least;
 }
 
-/* The edge lengths that the help describes. */
+/* The numbers that decide the edge lengths, as the help of `riis size-field` describes. */
 typedef struct {
   double half_thickness, band, growth, largest;
 } edges;

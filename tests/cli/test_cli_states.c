@@ -393,7 +393,7 @@ static void test_skirts_and_files(void **state) {
   run_program("surface", "--valve", "trileaflet", "--skirt", "2", "--wall", wall, "--output", file, NULL);
   expect_run_fine(__FILE__, __LINE__);
   expect_said("skirt     to the wall, 0.7");
-  /* The outline of that file is the skirt's outer edge. */
+  /* In a file of a valve with a skirt, the outline is the skirt's outer edge. */
   RUN_STATES("--surface", file);
   CHECK_NEAR(cell(0, "orifice_area"), 0, 1e-3);
   /* Without a skirt, a file has the leaflets' free edges. */

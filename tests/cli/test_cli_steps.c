@@ -44,7 +44,7 @@ static void test_refusals(void **state) {
   RUN_REFUSED(2, "--steps", "mark", mesh, "--valve", "mitral", "--steps", "2.5");
   RUN_REFUSED(2, "--steps is not an option", "surface", "--valve", "mitral", "--steps", "2");
   RUN_REFUSED(2, "--surface excludes --steps", "mark", mesh, "--surface", scratch_path("a.vtp"), "--steps", "2");
-  /* This valve cannot move, so it has no steps. */
+  /* A valve from patches with only one state cannot move, so it has no steps. */
   scratch_write_text(
       "patch.json",
       "{\"curves\": {\"a\": [[0,0,0],[1,0,0]], \"b\": [[0,1,0],[1,1,0]], \"c\": [[0,0,0],[0,1,0]],"

@@ -250,7 +250,7 @@ static void test_wrong_file_units(void **state) {
   expect_warning(0, "all 10,648 nodes are marked: the half thickness is 0.1, the largest side of the surface 0.02");
   expect_warning(0, "both look as if they were in metres: write --unit m --surface-unit m\n");
   expect_cured(meshes[0], surfaces[0]);
-  /* This factor is not the ratio of any two units. */
+  /* The factor 0.005 is not the ratio of any two units. */
   run_program("mark", meshes[1], "--surface", surfaces[1], "--scale", "0.005", NULL);
   expect_warning(3, "different units");
   expect_warning(3, "write --scale 0.5 in place of --scale 0.005\n");

@@ -16,7 +16,7 @@
 
 /* ---- The surface by the library's C interface ---- */
 
-/* The same surface twice: as options of riis_surface_create and as arguments of riis. */
+/* A placement of the surface, twice: as options of riis_surface_create and as arguments of riis. */
 typedef struct {
   const char *words[6];
   double scale, half_thickness, turn[4], shift[3];
@@ -174,7 +174,7 @@ static void test_positions(void **state) {
   }
 }
 
-/* VTK reads the same nodes in the same order from the .vtu. They are the first frame's nodes. */
+/* From the .vtu, VTK reads the nodes of the first frame in their order. */
 static void test_vtk(void **state) {
   (void)state;
   EXPORT("by_vtk", RAMPS, "--valve", "mitral");
@@ -384,7 +384,7 @@ static void test_marking_rule(void **state) {
 
 /* ---- The solver's box ---- */
 
-/* One frame, with and without the face that enlarges the box. */
+/* A frame of the solver, with and without the face that enlarges the box. */
 typedef struct {
   int is_closing, n_marked, n_marked_outside, n_of_side[2];
   uris_state all, leaflets; /* n_marked_outside: marked nodes outside the box of the leaflets alone */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * `riis export uris`: refusals, which leave no file, and the frames of cycles and of valves from patches. */
+ * Tests `riis export uris`: refusals, which leave no file, and the frames of cycles and of valves from patches. */
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>

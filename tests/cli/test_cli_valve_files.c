@@ -175,7 +175,7 @@ static void test_bad_files(void **state) {
     scratch_write_text("v.json", files[i].json);
     RUN_REFUSED(1, files[i].text, "mark", scratch_path("in.vtu"), "--valve", scratch_path("v.json"));
   }
-  /* This fault is found only when the surface is made. */
+  /* The program finds the fault of this file only when it makes the surface. */
   scratch_write_text("v.json",
                      "{\"curves\": {\"p\": [[0,0,0]]}, \"patches\": [{\"v0\": \"p\", \"v1\": \"p\", \"u0\": \"p\", "
                      "\"u1\": \"-p\"}]}");

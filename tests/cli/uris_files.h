@@ -14,7 +14,7 @@ typedef struct {
   char name[64];
   int n_nodes, n_triangles, n_open, n_close;
   int *corner; /* (3, n_triangles) */
-  /* Xyz: nodes of the .vtu, (3, n_nodes); open, close: nodes of each frame of the two motions. */
+  /* xyz has the nodes of the .vtu, (3, n_nodes). open and close have the nodes of each frame of the two motions. */
   double *xyz, *open, *close;
 } uris_face;
 

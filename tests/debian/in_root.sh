@@ -153,7 +153,7 @@ configure_root() {
   fi
   "${as_root[@]}" find /etc/apt/ -maxdepth 1 -name 'auth.conf*' -exec cp -R -- {} "$root/etc/apt/" \;
   apt_settings | write "$root/etc/apt/apt.conf.d/90host"
-  # The administrator may have added certificates.
+  # Copies certificates that the administrator may have added.
   if [[ -d /usr/local/share/ca-certificates ]]; then
     "${as_root[@]}" cp -R /usr/local/share/ca-certificates/. "$root/usr/local/share/ca-certificates/"
   fi

@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! A box of nodes around the aortic valve, which the tests of module riis mark, and the expected marks, which riis_c gives.
+! Makes a box of nodes around the aortic valve, which the tests of module riis mark, and the expected marks, which riis_c
+! gives.
 module box
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_loc, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The results that c_twin.c computes for the Fortran tests. The types in c_twin.f90 mirror these structs. */
+ * Declares the results that c_twin.c computes for the Fortran tests. The types in c_twin.f90 mirror these structs. */
 #ifndef RIIS_TESTS_FORTRAN_C_TWIN_H
 #define RIIS_TESTS_FORTRAN_C_TWIN_H
 

@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Laws of opening in module riis. Results equal those of riis_c bit for bit, and a restart in mid-motion changes nothing.
+! Tests laws of opening in module riis. Results equal those of riis_c bit for bit, and a restart in mid-motion changes
+! nothing.
 program test_laws
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_sizeof

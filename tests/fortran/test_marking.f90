@@ -66,7 +66,7 @@ contains
     call result%marked_nodes(node_num, distances, triangles, leaflets)
     call check(all(node_num == expected + 1) .and. all(same(distances, distance)), 'copies over copies')
 
-    ! The limit is wider here. The options that are integers may be of either kind.
+    ! The distance limit is wider than the half thickness. The options that are integers may be of either kind.
     call riis_mark_nodes(surface, mesh, result, distance_limit=0.3d0, search=int(RIIS_SEARCH_EXHAUSTIVE, int64), &
       n_threads=1_int64)
     n = result%n_within_limit()

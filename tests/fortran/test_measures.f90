@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Module riis: leaflets, orifice, leak, first passage, cells across and swept volume, against closed forms and other calls.
+! Tests module riis: leaflets, orifice, leak, first passage, cells across and swept volume, against closed forms and other
+! calls.
 program test_measures
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -163,7 +164,7 @@ contains
     call keyframes%destroy()
   end subroutine test_swept_volumes
 
-  ! A box in which the valve reaches the walls, so that it closes.
+  ! The valve reaches the walls of this box, so the closed valve parts the box.
   subroutine test_passages()
     integer, parameter :: n_side = 17, n_along = 41, n_nodes = n_side * n_side * n_along
     type(riis_valve) :: valve, empty

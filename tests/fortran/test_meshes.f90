@@ -116,7 +116,7 @@ contains
     call check(size(node_num) == size(expected) + 1 .and. node_num(1) == node .and. abs(distance(1) - 0.01d0) < 1d-9, &
       'a node that moved in place is marked')
     xyz(:, node) = -1.4d0
-    ! The mesh was not told of the change, but it borrows the same memory.
+    ! The coordinates changed without an update of the mesh, but the mesh borrows their memory.
     call riis_mark_nodes(surface, mesh, result, search=RIIS_SEARCH_EXHAUSTIVE)
     call check(result%n_marked() == size(expected), 'a node that moved back is not')
     call result%destroy()
@@ -220,7 +220,7 @@ contains
     call mesh%set_adjacency(small_offsets, small_columns, status=status)
     call check_ok(status, 'rows of 32 and 32 bits')
     call check_marking(mesh, 'rows of 32 and 32 bits', RIIS_SEARCH_NEIGHBOR)
-    ! These rows count from 0 and name ghost nodes.
+    ! The rows may also count from 0 and name ghost nodes.
     offsets_0 = offsets - 1
     columns_0 = columns - 1
     columns_0(1) = n_nodes + 4

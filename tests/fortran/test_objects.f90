@@ -177,7 +177,7 @@ contains
     call valve%destroy()
   end subroutine test_valve
 
-  ! Sizes by a surgeon's names, in every order, and sizes that follow from them.
+  ! Sizes are set by a surgeon's names, in every order, and other sizes follow from them.
   subroutine test_named_sizes()
     character(len=*), parameter :: names(3) = [character(len=16) :: 'annulus', 'stj', 'effective_height']
     integer, parameter :: orders(3, 6) = reshape([1, 2, 3, 1, 3, 2, 2, 1, 3, 2, 3, 1, 3, 1, 2, 3, 2, 1], [3, 6])
@@ -310,7 +310,8 @@ contains
     call check(size(leaflets) > 0 .and. all(leaflets == 5) .and. all(patches == 0), 'the leaflet and patch ids')
     call valve%destroy()
 
-    ! The same patch: one side is reversed, and curves and sides are integers of the other kind that count from 0.
+    ! The same patch is given in another way: one side is reversed, and curves and sides are integers of the other kind that count
+    ! from 0.
     control(:, 3:4) = square(:, [3, 4])
     reversed = .false.
     reversed(2, 1) = .true.

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Module riis: a valve's sizes and placement from landmarks, against landmarks that are made from known sizes and a known
-! placement.
+! Tests module riis: a valve's sizes and placement from landmarks, against landmarks that are made from known sizes and a
+! known placement.
 program test_placing
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
@@ -55,7 +55,7 @@ contains
     ! The valve's own translation is -1.2 along z, which is -y of the mesh.
     call check(all(abs(placement%translation - [30d0, -32d0, 7d0]) < 1d-8), 'the translation')
 
-    ! A section gives the same, and a held size keeps its value.
+    ! Landmarks in an array section give the same placement, and a held size keeps its value.
     wide = 0
     wide(2:4, 1:11:2) = landmarks()
     call valve%set('leaflet_height', 1.6d0)

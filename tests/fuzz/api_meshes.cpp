@@ -242,7 +242,7 @@ void make_adjacency_of_cells(Input &in, State &state) {
     offsets[1 + static_cast<std::size_t>(in.byte()) % (offsets.size() - 2)] =
         in.one_in(2) ? in.raw<std::int64_t>() : in.below(64) - 8;
   if (in.one_in(24))
-    offsets[0] = in.one_in(2) ? in.raw<std::int64_t>() | 2 : -1;  // 0 or 1 could be valid, if there are more nodes
+    offsets[0] = in.one_in(2) ? in.raw<std::int64_t>() | 2 : -1;  // neither 0 nor 1, which could be valid
   if (in.one_in(12))
     ids[static_cast<std::size_t>(in.byte()) % ids.size()] = in.one_in(2) ? in.raw<std::int64_t>() : n_nodes + base;
   const Integers node_ids(ids, is_wide), begins(offsets, is_wide);

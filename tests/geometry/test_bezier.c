@@ -61,7 +61,8 @@ static void arc_length_of_known_curves(void **state) {
   /* The length of y = x^2 on [0,1] is (2 sqrt 5 + asinh 2) / 4. */
   const double parabola[9] = {0, 0, 0, 0.5, 0, 0, 1, 1, 0};
   CHECK_NEAR(bezier_arc_length(2, parabola, 0, 1), (2 * sqrt(5.0) + asinh(2.0)) / 4, 1e-12);
-  /* This curve goes out and back on a line. The speed is zero at the turning point, so the length is twice the distance to it. */
+  /* A curve that goes out and back on a line. The speed is zero at the turning point, so the length is twice the distance to it.
+   * */
   const double there_and_back[9] = {0, 0, 0, 1, 0, 0, 0, 0, 0};
   CHECK_NEAR(bezier_arc_length(2, there_and_back, 0, 1), 1, 1e-11);
   const double point[9] = {1, 2, 3, 1, 2, 3, 1, 2, 3};
@@ -110,7 +111,7 @@ static void split_gives_the_same_curve_in_two(void **state) {
 
 static void flatness_is_measured_to_the_segment(void **state) {
   (void)state;
-  const double beyond_the_end[9] = {0, 0, 0, 3, 0, 0, 1, 0, 0}; /* on the line, 2 beyond the segment */
+  const double beyond_the_end[9] = {0, 0, 0, 3, 0, 0, 1, 0, 0}; /* the inner point is 2 beyond the segment */
   CHECK_NEAR(bezier_flatness(2, beyond_the_end), 2, 1e-15);
   const double closed[12] = {0, 0, 0, 0, 3, 0, 4, 0, 0, 0, 0, 0}; /* the paper's formula gives 0/0 here */
   CHECK_NEAR(bezier_flatness(3, closed), 4, 1e-15);
@@ -191,7 +192,7 @@ static void flattening_takes_few_points(void **state) {
   const double k = 0.5522847498, quarter[12] = {1, 0, 0, 1, k, 0, k, 1, 0, 0, 1, 0};
   assert_int_equal(n_flattened(3, quarter, 0.0055), 9);
   assert_int_equal(n_flattened(3, quarter, 0.0014), 17);
-  /* This curve turns on the spot, where curvature gives no bound. */
+  /* A curve that turns on the spot, where curvature gives no bound. */
   const double there_and_back[9] = {0, 0, 0, 1, 0, 0, 0, 0, 0};
   assert_true(n_flattened(2, there_and_back, 1e-3) < 100);
   double *points, *t, *errors;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The offset O(u) of patches made of arcs: its value, and the bound on its deviation from a linear function between two values
- * of u. */
+ * Tests the offset O(u) of patches made of arcs: its value, and the bound on its deviation from a linear function between two
+ * values of u. */
 #include "internals.h"
 #include "test_support.h"
 

@@ -101,7 +101,7 @@ static void a_fan_has_no_hole(void **state) {
       corners[k][0] = cos(angle), corners[k][1] = sin(angle), corners[k][2] = random_between(&rng, -0.1, 0.1);
     }
     for (int i = 0; i < 3; ++i) centre[i] = random_between(&rng, -0.01, 0.01);
-    /* One end is above and one below the centre, or a point of a spoke, up to rounding. */
+    /* One end of the segment is above and one below the fan's centre, or a point of a spoke, up to rounding. */
     const int spoke = trial % n_sides;
     const double share = trial % 3 ? 0 : random_between(&rng, 0, 0.3), tilt = random_between(&rng, -0.1, 0.1);
     for (int i = 0; i < 3; ++i) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Curves of several Bézier pieces, with points given by their fraction of the curve's length. */
+ * Tests curves of several Bézier pieces, with points given by their fraction of the curve's length. */
 #include "internals.h"
 #include "test_support.h"
 

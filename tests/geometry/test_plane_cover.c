@@ -20,7 +20,7 @@ static void test_circle(void **state) {
   for (int n = 64; n <= n_lines; n *= 2) {
     const double error = fabs(shim_circle_area(radius, centre, n) / area - 1);
     CHECK_AT_MOST(error, pow(n, -1.5));
-    CHECK_AT_MOST(error, last / 2.5); /* 2.5 is a little less than 2 to the power of 1.5 */
+    CHECK_AT_MOST(error, last / 2.5); /* doubling the lines divides the error by nearly 2 to the power of 1.5 */
     last = error;
     CHECK_NEAR(shim_uncovered_circle(radius, centre, 0, NULL, n), shim_circle_area(radius, centre, n), 1e-13);
   }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The decision kernel, which finds a triangle's closest point, compared with an independent one in extended precision.
- * Triangles have every shape, size and position. */
+ * Compares the decision kernel, which finds a triangle's closest point, with an independent kernel in extended
+ * precision. Triangles have every shape, size and position. */
 #include "internals.h"
 #include "oracle.h"
 #include "test_support.h"

@@ -154,7 +154,7 @@ check_by_pkg_config() { # arguments: prefix, all|few, more pkg-config options
   for example in "${examples[@]}"; do
     file=$source/examples/$example
     more=${more_flags[$example]:-}
-    # The flags must split into words.
+    # The flags stand without quotes, because they must split into words.
     # shellcheck disable=SC2046,SC2086
     quietly "$CC" "${c_flags[@]}" "$file.c" -o "$out/$example" $more $(flags --cflags --libs "${@:3}" riis)
     if has Fortran; then

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The handle of an adjacency, the rows of a mesh, and the calls after which a mesh has no rows. */
+ * Tests the handle of an adjacency, the rows of a mesh, and the calls after which a mesh has no rows. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The search over clusters from step to step, chosen by RIIS_SEARCH_AUTO, and called by several threads at the same time. */
+ * Tests the search over clusters from step to step, chosen by RIIS_SEARCH_AUTO, and called by several threads at the same time.
+ * */
 #include <omp.h>
 #include <riis/riis.h>
 
@@ -85,11 +86,11 @@ static void non_finite_coordinates(void **state) {
         options.n_threads = threads;
         CHECK_OK(riis_mark_nodes(surface, mesh, &options, kept));
         CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
-        if (made_before < 2) { /* otherwise the clusters are used next without change */
+        if (made_before < 2) { /* otherwise the mesh keeps its clusters, and the next marking uses them unchanged */
           free_one_owned(mesh);
           mesh = mesh_of(n, xyz);
         }
-        /* Clusters must be made, or only need new positions. */
+        /* The next marking must make clusters, or give new positions to clusters from before. */
         if (made_before == 1) {
           CHECK_OK(riis_mesh_prepare(mesh, threads));
           CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
@@ -144,7 +145,7 @@ static void what_auto_is(void **state) {
   CHECK_OK(riis_mesh_prepare(mesh, 0));
   CHECK_OK(riis_mesh_prepare(mesh, 2));
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
-  CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3)); /* nodes moved after the first marking, or before it */
+  CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3)); /* an update of positions keeps the clusters */
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
   free_one_owned(mesh);
   mesh = mesh_of(n, xyz);
@@ -152,7 +153,7 @@ static void what_auto_is(void **state) {
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
   free_one_owned(mesh);
-  mesh = mesh_of(n, xyz); /* an earlier marking by any search counts */
+  mesh = mesh_of(n, xyz); /* an earlier marking by any search leads to clusters */
   assert_int_equal(search_of(surface, mesh, RIIS_SEARCH_EXHAUSTIVE), RIIS_SEARCH_EXHAUSTIVE);
   assert_int_equal(search_of(surface, mesh, any), RIIS_SEARCH_CLUSTERS);
 }

@@ -171,7 +171,7 @@ static void every_search_finds_all_of_nothing(void **state) {
         check_nothing_found(result, search);
       }
     }
-  /* A mesh without nodes may lack an adjacency, as other meshes may. These two searches are then refused. */
+  /* A mesh without nodes may lack an adjacency, as other meshes may. The two searches along an adjacency are then refused. */
   riis_mesh *mesh = empty_mesh();
   riis_mark_options options = mark_options();
   for (int32_t search = RIIS_SEARCH_NEIGHBOR; search <= RIIS_SEARCH_PAPER; ++search) {

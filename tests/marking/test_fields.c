@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The fields of closest points that a marking keeps. They equal those of single queries to the last bit, for any search,
- * threads and instructions. The rim is compared with the numbering of patches and with a count of edges. Wrong requests are
- * refused. */
+ * Tests the fields of closest points that a marking keeps. They equal those of single queries to the last bit, for any
+ * search, threads and instructions. The rim is compared with the numbering of patches and with a count of edges. Wrong
+ * requests are refused. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -290,7 +290,7 @@ static void fields_of_valves_are_those_of_single_queries(void **state) {
 static void fields_of_arrays_are_those_of_single_queries(void **state) {
   (void)state;
   enum { side = 9, max_vertices = 6 * side * side };
-  riis_surface *surface = surface_of_kind("mitral", NULL); /* the updates must forget its rim */
+  riis_surface *surface = surface_of_kind("mitral", NULL); /* updates from arrays must replace the mitral valve's rim */
   for (int trial = 0; trial < 24; ++trial) {
     const int owned_before = n_owned();
     static double height[side + 1][side + 1], xyz[3 * max_vertices];
@@ -307,7 +307,7 @@ static void fields_of_arrays_are_those_of_single_queries(void **state) {
             const int *step = steps[3 * half + k];
             double *p = xyz + 3 * n_vertices;
             p[0] = 0.1 * (i + step[0]), p[1] = 0.1 * (j + step[1]), p[2] = height[i + step[0]][j + step[1]];
-            if (p[0] == 0 && any_of(2)) p[0] = -0.0; /* -0 must count as the same position */
+            if (p[0] == 0 && any_of(2)) p[0] = -0.0; /* 0 and -0 must count as the same position */
             int64_t same = n_vertices;
             for (int64_t v = 0; v < n_vertices && trial % 2; ++v)
               if (is_same_place(xyz + 3 * v, p)) same = v;
@@ -400,7 +400,7 @@ static void valves_have_a_rim_all_around_and_none_inside(void **state) {
           ++n_free_closed;
           assert_int_equal(f.rim[k], 0);
         }
-        /* This check does not use the numbers of patches: no rim edge lies in the mitral valve's plane of symmetry. */
+        /* A check without the numbers of patches: no rim edge lies in the mitral valve's plane of symmetry. */
         if (is_mitral && f.rim[k] && r.edge[e] && t == e / 3)
           assert_true(corner_of(&r.c, e)[0] != 0 || corner_of(&r.c, next_of(e))[0] != 0);
       }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The kernels, compiled for several instruction sets. Decisions and located points have the bits of the scalar kernel. Single
- * precision is off by no more than the library allows for (docs/theory.md, section 8). No pair that matters is left out,
- * however small the buffer for pairs is. */
+ * Tests the kernels, which are compiled for several instruction sets. Decisions and located points have the bits of the
+ * scalar kernel. Single precision is off by no more than the library allows for (docs/theory.md, section 8). No pair that
+ * matters is left out, however small the buffer for pairs is. */
 #include "internals.h"
 #include "sanitized.h"
 #include "test_support.h"
@@ -299,8 +299,7 @@ static void single_precision_is_right_to_its_error(void **state) {
   }
 }
 
-/* --- A leaf of nodes and its groups of triangles
- * ------------------------------------------------------------------------------------------- */
+/* --- A leaf of nodes and its groups of triangles --- */
 
 typedef struct leaf_case {
   enum { max_groups = 24, max_nodes = 32 } sizes;
@@ -368,7 +367,7 @@ static void make_case(int set, int trial, leaf_case *c) {
   }
   random_point_near(c->corners[0], limit, centre);
   if (what == all_near) memset(centre, 0, sizeof centre);
-  if (what == with_edge_across) random_point(1.5, centre); /* so far away that angles matter */
+  if (what == with_edge_across) random_point(1.5, centre); /* so far away that the angles of axes matter */
   const int wanted = 1 + (int)(random_bits(&rng) % max_nodes);
   for (int tries = 0; tries < 1000 && c->n_nodes < wanted; ++tries) {
     double *p = c->points + 3 * c->n_nodes;

@@ -44,7 +44,7 @@ static void aortic_marks_equal_the_oracle(void **state) {
     if (!is_listed) continue;
     CHECK_NEAR(marked.distance[at], expected, 1e-13);
     assert_int_equal(marked.leaflet_id[at], leaflet_id[marked.triangle_id[at]]);
-    /* Checks that the reported triangle is at that distance. */
+    /* Checks that the reported triangle is at the reported distance. */
     double abc[9];
     for (int k = 0; k < 3; ++k)
       memcpy(abc + 3 * k, vertices + 3 * vertex_id[3 * marked.triangle_id[at] + k], 3 * sizeof *abc);

@@ -179,7 +179,7 @@ static void a_steady_step_allocates_nothing(void **state) {
       options.search = search;
       options.n_threads = 1;
       if (kind % 2) options.distance_limit = 0.2;
-      if (kind / 2) options.fields = 255 - RIIS_FIELD_VELOCITY; /* all fields that the surface has */
+      if (kind / 2) options.fields = 255 - RIIS_FIELD_VELOCITY; /* all fields but velocity, which the surface lacks */
       /* The first step allocates memory. This shows that allocations are counted, including those of vectors and aligned ones. */
       assert_true(allocations_of_a_step(surface, mesh, &options, result) > 5);
       allocations_of_a_step(surface, mesh, &options, result);

@@ -48,13 +48,14 @@ static void three_separate_cusps(void **state) {
   riis_marks *paper = marked_by(surface, mesh, RIIS_SEARCH_PAPER, 2, NULL);
   const found_nodes found = marked_in(paper);
   for (int64_t i = 0; i < found.n; ++i) assert_int_equal(found.leaflet_id[i], found.leaflet_id[0]);
-  /* A walk that starts from this result's marks leaves the other nodes to the final check. */
+  /* A walk that starts from the marks of the paper's search leaves all other nodes to the final check. */
   riis_mark_options options = mark_options();
   assert_true(check_same_as_exhaustive(surface, mesh, options, paper).n_unreached == missed);
   assert_int_equal(check_same_as_exhaustive(surface, mesh, options, paper).n_unreached, 0);
 }
 
-/* No edge joins the slabs. The second test uses the same region shifted by half a spacing. */
+/* The mesh consists of slabs that no edge joins. It has the same region twice, and the second copy is shifted by half a spacing.
+   */
 static void mesh_of_several_components(void **state) {
   (void)state;
   riis_surface *surface = aortic_surface(NULL);
@@ -132,7 +133,7 @@ static void isolated_nodes(void **state) {
   const riis_mark_stats first = check_same_as_exhaustive(surface, mesh, mark_options(), result);
   assert_true(first.n_marked > 1000);
   assert_true(first.n_unreached > first.n_marked / 2); /* each walk ends after one step */
-  /* Now all of these nodes are starts of a walk. */
+  /* The second search starts a walk at every node that the first one marked. */
   assert_int_equal(check_same_as_exhaustive(surface, mesh, mark_options(), result).n_unreached, 0);
   assert_true(missed_by_the_paper(surface, mesh, NULL) >= first.n_marked - 1);
 }
@@ -345,7 +346,7 @@ static void masked_nodes_are_left_out(void **state) {
     for (int64_t i = 0; i < found.n; ++i) assert_true(mask[found.node_id[i]]);
     if (trial == 8) {
       assert_int_equal(stats.n_within_limit, 0);
-      missed_by_the_paper(surface, mesh, mask); /* here the mask leaves no node to start from */
+      missed_by_the_paper(surface, mesh, mask); /* the mask of this trial leaves no node to start from */
     } else {
       assert_true(stats.n_within_limit > 100);
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The neighbour search from step to step. Valves and nodes move, results are swapped between meshes, and some calls are
- * refused. */
+ * Tests the neighbour search from step to step. Valves and nodes move, results are swapped between meshes, and some
+ * calls are refused. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -39,7 +39,7 @@ static void a_valve_moves(void **state) {
     assert_true(stats.n_marked > 1000);
     n_unreached += stats.n_unreached, n_marked += stats.n_marked;
   }
-  assert_true(n_unreached < n_marked / 10); /* the last marking is a good start */
+  assert_true(n_unreached < n_marked / 10); /* the walk reaches most nodes, because the last marking is a good start */
 }
 
 static void a_valve_jumps(void **state) {
@@ -58,7 +58,7 @@ static void a_valve_jumps(void **state) {
     CHECK_OK(riis_surface_update(surface, valve, &options));
     const riis_mark_stats stats = check_same_as_exhaustive(surface, mesh, mark_options(), result);
     assert_int_equal(stats.n_marked > 0, fabs(x[step]) < 10);
-    /* In these steps the earlier marking did not help. */
+    /* If the valve jumps to another place, the earlier marking does not help, and the final check finds all nodes. */
     if (step == 1 || step == 2) assert_int_equal(stats.n_unreached, stats.n_within_limit);
   }
 }
@@ -87,7 +87,7 @@ static void a_result_goes_from_mesh_to_mesh(void **state) {
   }
 }
 
-/* There are more steps than a small counter can hold. */
+/* The test makes more steps than a counter of 8 bits could hold. */
 static void many_steps(void **state) {
   (void)state;
   riis_surface *surface = aortic_band(0.1);
@@ -118,7 +118,7 @@ static void nodes_move(void **state) {
     check_same_as_exhaustive(surface, mesh, mark_options(), result);
     check_same_as_exhaustive(surface, mesh, mark_options(), NULL);
   }
-  /* Another number of nodes removes the adjacency. With a new adjacency for these nodes, the search runs again. */
+  /* A changed number of nodes removes the adjacency. With an adjacency for the new nodes, the search runs again. */
   const int64_t fewer = nodes.n / 2;
   CHECK_OK(riis_mesh_update(mesh, fewer, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
   riis_mark_options options = mark_options();

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The neighbour search on several threads: the library's own, and the caller's. */
+ * Tests the neighbour search on several threads: the library's own, and the caller's. */
 #include <omp.h>
 #include <pthread.h>
 #include <riis/riis.h>

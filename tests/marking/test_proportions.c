@@ -80,7 +80,7 @@ static void sizes_that_fit_are_no_news(void **state) {
   assert_int_equal(n_warnings(1, RIIS_AUTO, 0, 4), 0);
   assert_int_equal(n_warnings(0.01, RIIS_AUTO, 0, 0.04), 0);
   assert_int_equal(n_warnings(10, RIIS_AUTO, 0, 400), 0);
-  /* These are parts of a mesh, whose other parts belong to other processes. */
+  /* A mesh far from the valve may be a part of a larger mesh, whose other parts belong to other processes. */
   assert_int_equal(n_warnings(1, RIIS_AUTO, 100, 4), 0);
   assert_int_equal(n_warnings(1, RIIS_AUTO, 1e6, 0.2), 0);
   assert_int_equal(n_warnings(0.01, RIIS_AUTO, -3, 1), 0);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Resistance, reaction and band sums. Integrals over a grid are compared with the areas of discs, cylinders and spheres, and
- * sums with plain loops. Refusals leave the arrays as they were. */
+ * Tests resistance, reaction and band sums. Integrals over a grid are compared with the areas of discs, cylinders and
+ * spheres, and sums with plain loops. Refusals leave the arrays as they were. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -540,7 +540,7 @@ static void refusals_leave_the_arrays(void **state) {
                 riis_marks_add_resistance(f.result, &resistance, &arrays));
   UNCHANGED();
 
-  /* These calls need fields that the marks lack. */
+  /* Calls are refused if the marks lack a field that they need. */
   const char *lacks = "options.fields = 0";
   resistance.rim = RIIS_RIM_CUT;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "RIIS_RIM_CUT needs RIIS_FIELD_RIM|options.fields = 0",

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Velocities of nodes that are equally near to several leaflets, or to several patches of one leaflet. Such a node gets the
- * mean velocity, as a loop over all triangles gives it, with the same bits from any search. The sums of K and K u over
- * symmetric meshes stay the same if the mesh moves by a rounding error or is split into parts. Nodes without ties have the
- * velocity of their closest triangle. */
+ * Tests velocities of nodes that are equally near to several leaflets, or to several patches of one leaflet. Such a node
+ * gets the mean velocity, as a loop over all triangles gives it, with the same bits from any search. The sums of K and K u
+ * over symmetric meshes stay the same if the mesh moves by a rounding error or is split into parts. Nodes without ties have
+ * the velocity of their closest triangle. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -166,7 +166,7 @@ static void valves_have_the_means_of_their_leaflets(void **state) {
   CHECK_AT_MOST((double)all.unclear, 0.02 * (double)all.nodes);
 }
 
-/* Three copies of random triangles have permuted coordinates. Nodes on the diagonal are equally far from all three. */
+/* Random triangles occur three times, with permuted coordinates. Nodes on the diagonal are equally far from all three. */
 static void three_leaflets_of_arrays_count_alike(void **state) {
   (void)state;
   tie_counts all = {0, 0, 0, 0, 0};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Edges that cross the surface between unmarked nodes. For valves they are compared with a loop in extended precision; for
- * plates they are known. */
+ * Tests leaks, the edges that cross the surface between unmarked nodes. For valves they are compared with a loop in
+ * extended precision; for plates they are known. */
 #include <riis/riis.h>
 
 #include "test_support.h"

@@ -260,7 +260,7 @@ static void surface_options_are_refused_by_name(void **state) {
   OPTION_IS_REFUSED(measure_tolerance, 0, "measure_tolerance is 0|1e-06 to 1");
   OPTION_IS_REFUSED(measure_tolerance, 1.5, "measure_tolerance is 1.5");
   OPTION_IS_REFUSED(measure_tolerance, NAN, "measure_tolerance is nan");
-  /* This far from the origin, rounding would flatten the valve. */
+  /* At a distance of 1e14 from the origin, rounding would flatten the valve. */
   OPTION_IS_REFUSED(translation[1], 1e14, "translation moves the valve by 1e+14|tolerance * half_thickness, 0.005");
   options = surface_options();
   options.tolerance = 1e-6;

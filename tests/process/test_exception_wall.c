@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Failures inside the library that a caller cannot provoke. They become a status and a message. If memory runs out, everything
- * stays as it was. */
+ * Tests failures inside the library that a caller cannot provoke. They become a status and a message. If memory runs out,
+ * everything stays as it was. */
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -56,9 +56,9 @@ static int update_without_memory(void) {
   return 0;
 }
 
-/* This check also runs in a child process. The valve has many patches, and the first one already has too many quads. The library
- * makes the curves of a few patches before it counts the quads. It must not make all curves, which would take a gigabyte. Returns
- * 0 if this holds. */
+/* A check that also runs in a child process. The valve has many patches, and the first one already has too many quads. The
+ * library makes the curves of a few patches before it counts the quads. It must not make all curves, which would take a gigabyte.
+ * Returns 0 if this holds. */
 static int refusal_with_little_memory(void) {
   enum { n_patches = 200, n_curves = 4 * n_patches };
   static const double ends[4][4] = {{0, 0, 1, 0}, {0, 1, 1, 1}, {0, 0, 0, 1}, {1, 0, 1, 1}};
@@ -121,7 +121,7 @@ static void what_is_too_much_is_not_made(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(
-          /* This test must be first, because OpenMP does not survive a fork after it has started threads. */
+          /* The test that forks must be first, because OpenMP does not survive a fork after it has started threads. */
           memory_that_runs_out_changes_nothing),
       cmocka_unit_test(what_is_too_much_is_not_made),
       cmocka_unit_test(every_exception_becomes_a_status),

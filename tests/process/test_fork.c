@@ -255,7 +255,7 @@ static int has_threads(const scene *s) {
   return all_have(s, 2, RIIS_OK, NULL) ? 0 : 2;
 }
 
-/* This test runs first, while the process has not used threads yet. */
+/* The test of a parent with one thread runs first, while the process has not used threads yet. */
 static void a_child_of_one_thread_has_threads(void **state) {
   (void)state;
   const scene s = scene_by(1);

@@ -11,7 +11,7 @@
 #include "handles.h"
 #include "searches.h"
 
-static int n_threads_at_first; /* a sanitizer may have threads of its own */
+static int n_threads_at_first; /* 1, or more with the threads of a sanitizer */
 static int32_t n_threads_asked;
 
 /* Returns the number of threads of this process. */
@@ -79,7 +79,7 @@ static void check_surfaces(int32_t triangulation, double tolerance) {
   riis_crossing_options of_crossings;
   CHECK_OK(riis_crossing_options_init(&of_crossings, sizeof of_crossings));
   of_crossings.n_threads = n_threads_asked;
-  const int n_kinds = n_threads_asked == 1 ? 5 : 4; /* the coapting valve is no little work */
+  const int n_kinds = n_threads_asked == 1 ? 5 : 4; /* by default the coapting valve may start threads */
   for (int k = 0; k < n_kinds; ++k) {
     riis_valve *valve = new_valve(kinds[k]), *before = new_valve(kinds[k]);
     riis_surface *surface = NULL;

@@ -42,7 +42,7 @@ static void check_digest(const scenario *s, const world *w, uint64_t expected, c
   if (digest_of(w) != expected) fail_msg("%s, allocation %lld: something else %s", s->name, (long long)n, when);
 }
 
-static int n_grown; /* how often memory stayed allocated after a first call of its kind */
+static int n_grown; /* how many calls have kept memory because they were the first of their kind */
 
 /* Makes allocation n fail in a new process state. Returns how many allocations failed, or 0 if there are fewer than n. */
 static int64_t try_one(const scenario *s, const reference *expected, int whose, int64_t n, int and_all_after,
@@ -50,7 +50,7 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
   const live before = live_now();
   world w = {.scenario = s};
   s->make(&w);
-  /* Sets another message, so that the failing call must write its own. */
+  /* A refused call leaves another message, so the failing call must write its own message. */
   assert_int_equal(riis_marks_create(NULL), RIIS_INVALID_ARGUMENT);
   memory_fail(whose, n, and_all_after);
   riis_status status = s->call(&w);
@@ -77,7 +77,7 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
       after.embree_bytes == before.embree_bytes && attempt < 5)
     return try_one(s, expected, whose, n, and_all_after, attempt + 1);
   const int grew = memcmp(&before, &after, sizeof before) != 0;
-  /* Memory that is allocated once and kept is accepted, but only once. */
+  /* Memory that a first call of its kind allocates and keeps is accepted, but only for one such call. */
   if (grew && (!(s->flags & IS_FIRST) || n_grown++ > 0))
     fail_msg("%s, allocation %lld: leaks %lld of the library's, %lld of Embree's, %lld bytes of Embree's", s->name,
              (long long)n, (long long)(after.library - before.library), (long long)(after.embree - before.embree),
@@ -92,7 +92,7 @@ static reference reference_of(const scenario *s) {
   made.before = digest_of(&w);
   destroy(&w);
   made.after = 0;
-  if (s->flags & IS_FIRST) return made; /* a second call would not be the first of its kind */
+  if (s->flags & IS_FIRST) return made; /* this scenario needs the first call of its kind, so there is no second call */
   s->make(&w);
   CHECK_OK(s->call(&w));
   made.after = digest_of(&w);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A restart in the middle of a cycle: two valves follow laws of opening, and a restart file holds only the states of these laws.
- * To the end of the cycle, K and K u_surface have the same bits as without the restart. */
+ * Tests a restart in the middle of a cycle. Two valves follow laws of opening, and a restart file holds only the states of these
+ * laws. To the end of the cycle, K and K u_surface have the same bits as without the restart. */
 #include <riis/riis.h>
 
 #include "test_support.h"

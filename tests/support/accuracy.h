@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * C wrappers of the points of known distance that bench/accuracy makes. */
+ * Wraps for C the points of known distance that bench/accuracy makes. */
 #ifndef RIIS_TEST_ACCURACY_H
 #define RIIS_TEST_ACCURACY_H
 

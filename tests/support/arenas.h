@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * C wrappers of the walks of src/riis/parallel, for several callers at the same time. The assertions stay in C, because a failed
+ * Wraps the walks of src/riis/parallel for C, for several callers at the same time. The assertions stay in C, because a failed
  * assertion leaves by longjmp, which must not cross TBB's stack frames. A walk here visits 32 numbers and adds 32 more. It is
  * correct if it visits each number once. */
 #ifndef RIIS_TEST_ARENAS_H
@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* Each handle of the library contains such a keeper. Arenas exist as long as any keeper does. */
+/* A keeper like that in each handle of the library. TBB's arenas exist as long as any keeper exists. */
 typedef struct arenas_keeper arenas_keeper;
 arenas_keeper *arenas_keep(void);
 void arenas_let_go(arenas_keeper **keeper);
@@ -19,7 +19,7 @@ int arenas_made(void);
 
 typedef struct walk_seen {
   int is_right;
-  int arena; /* the largest number of threads of the bodies' arena; -1 if two bodies differ */
+  int arena; /* the largest number of threads of the arena in which the bodies ran; -1 if two bodies saw different numbers */
 } walk_seen;
 
 walk_seen walk_once(int n_threads);

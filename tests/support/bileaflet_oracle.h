@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The bileaflet valve in closed form: the positions of a leaflet's points at an angle, and the distance of a point from a
- * leaflet. Include after riis.h, test_support.h and handles.h. */
+ * Describes the bileaflet valve in closed form: the positions of a leaflet's points at an angle, and the distance of a
+ * point from a leaflet. Include after riis.h, test_support.h and handles.h. */
 #ifndef RIIS_TEST_BILEAFLET_ORACLE_H
 #define RIIS_TEST_BILEAFLET_ORACLE_H
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference for every search, in tests and benchmarks: a loop over all triangles with the library's decision kernel.
+// Provides the reference for every search, in tests and benchmarks: a loop over all triangles with the library's
+// decision kernel.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Calls of riis with plain arguments instead of structs, which return riis's status. Other functions return the content of a
- * handle as a struct. */
+ * Wraps calls of riis: they take plain arguments instead of structs, and return riis's status. Other functions return the
+ * content of a handle as a struct. */
 #ifndef RIIS_TEST_CALLS_H
 #define RIIS_TEST_CALLS_H
 

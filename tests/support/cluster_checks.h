@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Markings by the search over clusters, compared with the exhaustive search. Include after searches.h. */
+ * Compares markings by the search over clusters with the exhaustive search. Include after searches.h. */
 #ifndef RIIS_TEST_CLUSTER_CHECKS_H
 #define RIIS_TEST_CLUSTER_CHECKS_H
 

@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: Apache-2.0 C wrappers of code that uses riis.hpp, for test_cpp_header.c. */
+/* SPDX-License-Identifier: Apache-2.0 Wraps for C code that uses riis.hpp, for test_cpp_header.c. */
 #ifndef RIIS_TEST_CPP_HEADER_H
 #define RIIS_TEST_CPP_HEADER_H
 
@@ -14,7 +14,7 @@ extern "C" {
 int64_t cpp_mark(int64_t n, const double *xyz, double half_thickness, int64_t *node_id);
 /* Makes a valve. Returns 0, or the status of the exception, whose message it writes to `text`. */
 int32_t cpp_refusal(const char *kind, char *text, size_t length);
-/* These functions return "", or a description of the fault that they found. */
+/* The checks cpp_wrong_* return "", or a description of the fault that they found. */
 const char *cpp_wrong_with_handles(void);
 const char *cpp_wrong_with_defaults(void);
 const char *cpp_wrong_with_spans(void);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Measures of valves with three cusps, taken from their triangles: free edges, the orifice, and the sectors that keep cusps
+ * Measures valves with three cusps, from their triangles: free edges, the orifice, and the sectors that keep cusps
  * apart. Include after handles.h. */
 #ifndef RIIS_TEST_CUSP_CHECKS_H
 #define RIIS_TEST_CUSP_CHECKS_H

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Digests of the content of objects. Contents with equal bits have equal digests. Include after searches.h. */
+ * Computes digests of the content of objects. Contents with equal bits have equal digests. Include after searches.h. */
 #ifndef RIIS_TEST_DIGESTS_H
 #define RIIS_TEST_DIGESTS_H
 
-static riis_surface_options coarse; /* few triangles, for speed; set this before making a digest */
+static riis_surface_options coarse; /* gives few triangles, for speed; set it before making a digest */
 
 static inline uint64_t add_bytes(uint64_t digest, const void *data, size_t n) {
   const unsigned char *bytes = data;

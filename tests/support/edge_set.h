@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A set of edges as a reference for adjacencies, and the library's builder of rows with other limits. */
+ * Provides a set of edges as a reference for adjacencies, and the library's builder of rows with other limits. */
 #ifndef RIIS_TEST_EDGE_SET_H
 #define RIIS_TEST_EDGE_SET_H
 

@@ -210,7 +210,8 @@ void *rtcNewDevice(const char *config) {
         device,
         [](void *, ssize_t bytes, bool post) {
           const bool refused = bytes > 0 && failing == MEMORY_OF_EMBREE && is_to_fail();
-          // A report after the allocation counts even if the report is refused, because the memory is already allocated.
+          // Embree reports memory before or after it allocates. A late report counts even if it is refused, because the memory
+          // exists.
           if (!refused || post) live_bytes_of_embree += bytes;
           return !refused;
         },

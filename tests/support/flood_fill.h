@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A serial flood fill that labels open regions, random graphs, and meshes in a tube. Include after searches.h and
- * random_meshes.h. */
+ * Provides a serial flood fill that labels open regions, random graphs, and meshes in a tube. Include after
+ * searches.h and random_meshes.h. */
 #ifndef RIIS_TEST_FLOOD_FILL_H
 #define RIIS_TEST_FLOOD_FILL_H
 
@@ -16,8 +16,8 @@ static inline test_mesh both_ways(const test_mesh *mesh) {
   return made;
 }
 
-/* Labels the open regions: walks from each open node that has no label yet, in ascending order. rows must have both directions
- * of each edge. Returns the number of regions. */
+/* Labels the open regions: walks from each open node that has no label yet, in ascending order. The rows must have both
+ * directions of each edge. Returns the number of regions. */
 static inline int64_t flood_fill(const test_mesh *rows, const uint8_t *is_open, int64_t *label) {
   int64_t *stack = malloc((size_t)(rows->n + 1) * sizeof *stack), n_regions = 0;
   for (int64_t i = 0; i < rows->n; ++i) label[i] = -1;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Surfaces that many tests start from. The test owns the objects that functions here return: see owned.h. Include after
- * riis.h and test_support.h. */
+ * Makes surfaces that many tests start from. The test owns the objects that functions here return: see owned.h. Include
+ * after riis.h and test_support.h. */
 #ifndef RIIS_TEST_HANDLES_H
 #define RIIS_TEST_HANDLES_H
 

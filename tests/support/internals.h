@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * C wrappers of the stages behind the public interface. Points are arrays of 3 doubles. The caller owns results that are
+ * Wraps the stages behind the public interface for C. Points are arrays of 3 doubles. The caller owns results that are
  * returned by pointer and frees them with free(). A refusal is returned as its status, with the message in riis_last_error(). */
 #ifndef RIIS_TEST_INTERNALS_H
 #define RIIS_TEST_INTERNALS_H
@@ -82,8 +82,8 @@ typedef struct bounded_quad {
 riis_status bounded_quads(const char *kind, int n_parameters, const char *const *names, const double *values,
                           double max_error, int64_t *n_quads, bounded_quad **quads);
 
-/* The triangles and the bound of a valve of the given kind, if its curves deviate from their shape by `deviation`. A fixed
- * triangulation is planned for this state alone. bound_of_patches is the bound for the other methods of measuring, which use
+/* The number of triangles and the error bound of a valve whose curves deviate from their shape by `deviation`. A fixed
+ * triangulation is planned for this state alone. bound_of_patches is the error bound of sampling and minimisation, which use
  * patches. */
 typedef struct deviating {
   int64_t n_triangles;
@@ -149,8 +149,8 @@ int kernels_groups_equal(const kernel_group *a, const kernel_group *b);
 /* Gives the squared distances of a point to the group's 16 lanes, in single precision. */
 void kernels_group_distances(int set, const kernel_group *group, const float *point, double margin, float *distance_sq);
 
-/* Returns the library's bound on the error. Points are scaled by `ratio`, moved by `shift`, and are at most `reach` from the
- * surface. */
+/* Returns the library's bound on the error of distances in single precision. Points are scaled by `ratio`, moved by `shift`,
+ * and are at most `reach` from the surface. */
 double kernels_error(double ratio, double shift, double reach, double longest_edge);
 
 /* A search's work on one leaf: up to 32 nodes (3, n_nodes) in the mesh's frame, and the groups of triangles near them, with a

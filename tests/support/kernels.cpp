@@ -34,7 +34,7 @@ struct Filter {
   std::vector<TriangleGroup> groups;
   std::vector<GroupBounds> bounds;
   std::vector<std::int32_t> near_groups;
-  std::vector<Leaf> lower_bounds;  // a Leaf, because of its alignment
+  std::vector<Leaf> lower_bounds;  // in a Leaf, because the kernel needs a Leaf's alignment
   Leaf leaf;
   FilterTask task;
   LeafTask of_leaf;

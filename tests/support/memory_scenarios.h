@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Scenarios that call every public function that allocates, each at least once. Include after digests.h. */
+ * Defines scenarios that call every public function that allocates, each at least once. Include after digests.h. */
 #ifndef RIIS_TEST_MEMORY_SCENARIOS_H
 #define RIIS_TEST_MEMORY_SCENARIOS_H
 
@@ -54,7 +54,7 @@ static void set_nodes(int64_t n) {
   for (int64_t i = 0; i < nodes.n; ++i) mask[i] = i % 7 != 0;
 }
 
-/* This object stands in a handle before a call. The call may overwrite the handle only on success. */
+/* A handle holds this object before a call that creates one. The call may overwrite the handle only on success. */
 static char no_object;
 #define MADE(type, handle, create)                                                                    \
   do {                                                                                                \
@@ -319,7 +319,7 @@ static riis_status mark_masked_and_wide(world *w) {
   options.node_mask = mask;
   return riis_mark_nodes(w->surface, w->mesh, &options, w->result);
 }
-/* The result was used by earlier markings. Now it needs more memory than it has, or it has enough after many markings. */
+/* Scenarios that mark into a result of earlier markings. After one marking it needs more memory; after several it has enough. */
 static void marked_before(world *w) {
   ready_to_mark(w);
   CHECK_OK(mark(w));
@@ -353,7 +353,7 @@ static void minimized_and_ready(world *w) {
   ready_to_mark(w);
   CHECK_OK(by_minimization(w));
 }
-/* The mesh already has balls or clusters, and they must be computed again. */
+/* The mesh has balls or clusters of old positions, so they must be computed again. */
 static void marked_and_moved(world *w) {
   marked_often(w);
   CHECK_OK(riis_mesh_update(w->mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));

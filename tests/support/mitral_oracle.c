@@ -18,7 +18,7 @@ typedef struct cubic {
 struct mitral_oracle {
   cubic annulus[6], anterior, scallop[3];
   real u_pm, u_al, triangle, bulge; /* bulge is tan(surface_angle) / 2 */
-  /* The parameter at one third of the closed anterior edge's length, blended between the values of both valves. */
+  /* The cleft: the parameter at one third of the closed anterior edge's length, blended between the values of both valves. */
   real cleft;
   real translation[3];
 };
@@ -91,7 +91,7 @@ static real parameter_at(const cubic *c, real s) {
     else
       low = t;
     real next = t - excess / speed(c, t);
-    if (!(next >= low && next <= high)) next = (low + high) / 2; /* also if the curve's speed is 0 */
+    if (!(next >= low && next <= high)) next = (low + high) / 2; /* also bisects if the curve's speed is 0 */
     if (fabsl(next - t) < 1e-16L) return next;
     t = next;
   }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Markings by the neighbour search, compared with the exhaustive search. Include after searches.h. */
+ * Compares markings by the neighbour search with the exhaustive search. Include after searches.h. */
 #ifndef RIIS_TEST_NEIGHBOR_CHECKS_H
 #define RIIS_TEST_NEIGHBOR_CHECKS_H
 

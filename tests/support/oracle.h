@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * An independent distance to a triangle. It uses Voronoi regions in extended precision, whereas the library projects in double
- * precision. */
+ * Computes an independent distance to a triangle. It uses Voronoi regions in extended precision, whereas the library projects
+ * in double precision. */
 #ifndef RIIS_TEST_ORACLE_H
 #define RIIS_TEST_ORACLE_H
 

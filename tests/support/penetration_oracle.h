@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The penetration depth and the common segment of two triangles, with 113 bits of precision. The depth is the distance from
- * the origin to the convex hull of the nine differences of corners. All planes through three of these differences are tried.
- * The segment ends at the two points, farthest apart, where an edge passes through the other triangle. The library instead
- * compares overlaps along normals, and clips. */
+ * Computes the penetration depth and the common segment of two triangles, with 113 bits of precision. The depth is the
+ * distance from the origin to the convex hull of the nine differences of corners. All planes through three of these
+ * differences are tried. The segment ends at the two points, farthest apart, where an edge passes through the other
+ * triangle. The library instead compares overlaps along normals, and clips. */
 #ifndef RIIS_TEST_PENETRATION_ORACLE_H
 #define RIIS_TEST_PENETRATION_ORACLE_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A solver's plug-in: a shared object that links riis. A program loads, calls and unloads it. */
+ * Stands for a solver's plug-in, a shared object that links riis. A program loads, calls and unloads it. */
 #include <riis/riis.h>
 
 #include <stddef.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Meshes with an adjacency made by hand, and comparisons of search results bit by bit. Include after riis.h, test_support.h and
+ * Makes meshes with an adjacency by hand, and compares search results bit by bit. Include after riis.h, test_support.h and
  * handles.h. */
 #ifndef RIIS_TEST_SEARCHES_H
 #define RIIS_TEST_SEARCHES_H

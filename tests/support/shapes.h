@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Patches that tests can change before they make valves and surfaces from them. Include after handles.h. */
+ * Provides patches that tests can change before they make valves and surfaces from them. Include after handles.h. */
 #ifndef RIIS_TEST_SHAPES_H
 #define RIIS_TEST_SHAPES_H
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The motion of a smooth valve from one state to another, for tests of velocities. From the library it takes only the valve's
- * curves. It computes their lengths by its own quadrature. The search for a point begins at the label (patch, u, v). */
+ * Computes the motion of a smooth valve from one state to another, for tests of velocities. From the library it takes only
+ * the valve's curves. It computes their lengths by its own quadrature. The search for a point begins at the label (patch, u,
+ * v). */
 #ifndef RIIS_TEST_SMOOTH_MOTION_H
 #define RIIS_TEST_SMOOTH_MOTION_H
 

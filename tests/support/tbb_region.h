@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * C wrappers that use TBB as a caller of the library would. The assertions stay in C, because a failed assertion leaves by
- * longjmp, which must not cross TBB's stack frames. */
+ * Wraps for C code that uses TBB as a caller of the library would. The assertions stay in C, because a failed assertion
+ * leaves by longjmp, which must not cross TBB's stack frames. */
 #ifndef RIIS_TEST_TBB_REGION_H
 #define RIIS_TEST_TBB_REGION_H
 

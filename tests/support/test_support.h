@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The common parts of all tests: CMocka's headers in the right order, checks on doubles (CMocka 1.1.5 compares floats), and
- * random numbers with a printed seed. */
+ * Provides the common parts of all tests: CMocka's headers in the right order, checks on doubles (CMocka 1.1.5 compares
+ * floats), and random numbers with a printed seed. */
 #ifndef RIIS_TEST_SUPPORT_H
 #define RIIS_TEST_SUPPORT_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * An independent computation of the surface's velocity near p. It loops over all triangles in extended precision, leaflet by
- * leaflet. Include after riis.h, test_support.h, handles.h and oracle.h. */
+ * Computes the surface's velocity near p independently of the library, by a loop over all triangles in extended precision,
+ * leaflet by leaflet. Include after riis.h, test_support.h, handles.h and oracle.h. */
 #ifndef RIIS_TEST_TIE_ORACLE_H
 #define RIIS_TEST_TIE_ORACLE_H
 
@@ -59,8 +59,8 @@ static inline double largest_velocity(const riis_triangles *s, const double *vel
   return largest;
 }
 
-/* Returns the rounding error of distances near p. Points of one patch may change their order if their distances differ by
- * less. */
+/* Returns the rounding error of distances near p. If the distances of two points of one patch differ by less, rounding
+ * decides which is nearer. */
 static inline long double rounding_near(const double *p, double half_thickness) {
   return 1e-13L * (half_thickness + fabs(p[0]) + fabs(p[1]) + fabs(p[2]));
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The open state that is defined by an aortic valve's own parameters (docs/theory.md, section 3). */
+ * Tests the open state that an aortic valve's own parameters define (docs/theory.md, section 3). */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -112,7 +112,7 @@ static void open_free_edges_are_parabolas(void **state) {
     const double x = p[0] * cos(a) + p[1] * sin(a), y = p[1] * cos(a) - p[0] * sin(a);
     const double end_x = 1.05 * radius_out[cusp] * cos(half_angle[cusp] * cusp_degree),
                  end_y = 1.05 * radius_out[cusp] * sin(half_angle[cusp] * cusp_degree);
-    /* Vertices from split quads lie on chords of the curve. */
+    /* The vertices may be off the curve, because vertices from split quads lie on its chords. */
     CHECK_NEAR(x, 0.75 * 1.29 + (end_x - 0.75 * 1.29) * (y / end_y) * (y / end_y), 0.005);
     CHECK_NEAR(p[2], 0.02, 1e-14);
     ++n;
@@ -170,7 +170,7 @@ static void a_given_open_state_wins(void **state) {
   CHECK_OK(riis_valve_set_open_state(valve, open));
   assert_true(have_same_shape(valve, open));
   riis_surface *surface = new_surface(valve, NULL);
-  CHECK_OK(riis_valve_set_scalar(valve, "open_radius_ratio", 0.9)); /* the parameter no longer has an effect */
+  CHECK_OK(riis_valve_set_scalar(valve, "open_radius_ratio", 0.9)); /* has no effect beside a given state */
   assert_true(is_same_content(surface, new_surface(valve, NULL)));
 }
 

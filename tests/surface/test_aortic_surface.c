@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The triangles of the aortic valve: the published numbers, the shape, the triangles' data, and the placement. */
+ * Tests the triangles of the aortic valve: the published numbers, the shape, the triangles' data, and the placement. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -174,7 +174,7 @@ static void three_cusps_are_three_pieces(void **state) {
    * commissure. */
   double gap = INFINITY;
   int32_t *of_vertex = own(malloc((size_t)n_vertices * sizeof *of_vertex));
-  for (int64_t i = 0; i < n_vertices; ++i) of_vertex[i] = -1; /* marks vertices that only triangles without area had */
+  for (int64_t i = 0; i < n_vertices; ++i) of_vertex[i] = -1; /* -1 stays at vertices that no triangle has */
   for (int64_t i = 0; i < 3 * n; ++i) of_vertex[id[i]] = leaflet_id[i / 3];
   for (int64_t i = 0; i < n_vertices; ++i)
     for (int64_t j = i + 1; j < n_vertices; ++j)

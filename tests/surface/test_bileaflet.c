@@ -216,7 +216,7 @@ static void normals_point_downstream(void **state) {
       CHECK_NEAR(n[1] / size, 0, 1e-6);
       CHECK_NEAR(n[2] / size, cos(angle), 1e-6);
     }
-    assert_int_equal(info_of(surface).n_zero_area, 4); /* one at the corner of every half leaflet */
+    assert_int_equal(info_of(surface).n_zero_area, 4); /* one flat triangle at each half leaflet's corner */
     free_owned_after(owned_before);
   }
   riis_surface *closed = surface_of_kind("bileaflet", NULL);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The bileaflet valve as it opens. Velocities are compared with rotations in closed form. Other tests cover sealing, fixed
- * triangles, second states and copies. */
+ * Tests the bileaflet valve as it opens. Velocities are compared with rotations in closed form. Further tests in this file
+ * cover sealing, fixed triangles, second states and copies. */
 #include <riis/riis.h>
 
 #include "test_support.h"

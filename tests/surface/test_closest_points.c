@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Closest points through the Embree scene, compared with the independent oracle and with plain loops, for every triangle,
+ * Compares closest points from the Embree scene with the independent oracle and with plain loops, for every triangle,
  * placement and limit. */
 #include <riis/riis.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Distances by sampling and by minimisation, compared with known distances of flat and cylindrical patches, with triangles
+ * Compares distances by sampling and by minimisation with known distances of flat and cylindrical patches, with triangles
  * fifty times as fine, and with each other. */
 #include "internals.h"
 #include "test_support.h"
@@ -489,8 +489,8 @@ static void searches_agree(void **state) {
     }
 }
 
-/* Two nodes form a ball. From the ball's middle, minimisation goes to the wrong arm, at a distance of twice the ball's radius.
- * The search must not dismiss the node that minimisation itself finds near. */
+/* Two nodes near the hairpin form a ball. From the ball's middle, minimisation goes to the farther arm, at a distance of twice
+ * the ball's radius. The search must not dismiss the node that minimisation itself finds near. */
 static void local_minima_dismiss_no_group(void **state) {
   (void)state;
   const double xyz[6] = {-0.1, 1, 0.9, 0.6, 1, 0.9};

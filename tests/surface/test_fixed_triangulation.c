@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Triangulations that stay the same while a valve opens. Ids, neighbours and positions on the patches stay, the bound holds at
- * every opening, and a refusal leaves the surface as it was. test_tolerance compares these triangulations with the smooth
- * mitral valve. */
+ * Tests triangulations that stay the same while a valve opens. Ids, neighbours and positions on the patches stay, the bound
+ * holds at every opening, and a refusal leaves the surface as it was. test_tolerance compares these triangulations with the
+ * smooth mitral valve. */
 #include <riis/riis.h>
 
 #include "test_support.h"

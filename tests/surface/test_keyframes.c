@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Surfaces from frames in time. Positions and velocities are compared with closed forms. Other tests cover periods and
- * refusals. */
+ * Tests surfaces from frames in time. Positions and velocities are compared with closed forms. Further tests in
+ * this file cover periods and refusals. */
 #include <riis/riis.h>
 
 #include <math.h>
@@ -94,8 +94,8 @@ static void linear_frames_have_right_hand_and_mean_velocities(void **state) {
   assert_null(keyframes);
 }
 
-/* At a key the velocity is that of the interval after the key, in every period. Adding periods to the key's time rounds the time.
- * */
+/* At a key the velocity is that of the interval after the key, in every period. The sum of the key's time and the periods is
+ * rounded. */
 static void frames_have_the_velocity_after_them_in_every_period(void **state) {
   (void)state;
   const double time[] = {-0.08, 0.15, 0.24, 0.42, 0.65}, height[] = {0, 2, 1, 3, 0.5};

@@ -121,7 +121,7 @@ static double largest_speed(const riis_surface *surface) {
 /* The results of comparing one surface between two states, at its vertices and at random closest points. */
 typedef struct compared {
   double vertices, points; /* the largest difference from the mean velocity of the oracle */
-  double sides;            /* this difference at vertices with v = 0 or 1, on the annulus and on the free edges */
+  double sides;            /* the largest at vertices with v = 0 or 1, on the annulus and on the free edges */
   /* The fraction of vertices that differ only by rounding: all except some on sides of split quads. */
   double exact;
   /* The largest difference from the derivative at the present time, at vertices; -1: not compared. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The mitral valve through the public interface: the numbers of docs/theory.md, section 4, and properties that hold at any
- * opening. */
+ * Tests the mitral valve through the public interface: the numbers of docs/theory.md, section 4, and properties that hold
+ * at any opening. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -188,7 +188,7 @@ static void leaflets_and_patches(void **state) {
       assert_true(n_of_patch[patch] > 20);
       assert_int_equal(n_of_patch[patch], n_of_patch[mirrored[patch]]);
     }
-    assert_true(info_of(surface).n_zero_area > 0); /* at the commissures, where triangles shrink to points */
+    assert_true(info_of(surface).n_zero_area > 0); /* at the commissures quads end in points and lose a triangle */
     free_owned_after(owned_before);
   }
 }

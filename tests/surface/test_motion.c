@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Surfaces with a velocity. Their triangles equal those of an update without velocities. Their velocities are compared with
- * known motions. A refusal leaves the surface as it was. The mitral valve's own motion is in test_mitral_motion.c. */
+ * Tests surfaces with a velocity. Their triangles equal those of an update without velocities. Their velocities are
+ * compared with known motions. A refusal leaves the surface as it was. The mitral valve's own motion is in
+ * test_mitral_motion.c. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -154,7 +155,7 @@ static void triangles_are_those_of_a_plain_update(void **state) {
     const int64_t n = triangles_of(plain).n_vertices;
     assert_memory_equal(velocity_of(one), velocity_of(moving), (size_t)n * 3 * sizeof(double));
     for (int64_t i = 0; i < 3 * n; ++i) assert_true(isfinite(velocity_of(one)[i]));
-    if (any_of(2)) { /* the next update starts from a surface without velocity */
+    if (any_of(2)) { /* sometimes the next update starts from a surface without velocity */
       CHECK_OK(riis_surface_update(moving, valve, &options));
       assert_null(velocity_of(moving));
       assert_true(is_same_content(moving, plain));
@@ -290,7 +291,7 @@ static void placements_move(void **state) {
     if (trial % 2) random_placement(&now);
     now.flip_normals = trial % 5 == 0;
     then = now;
-    /* These options of the earlier placement are ignored. */
+    /* Options of the earlier state that do not place it are ignored. */
     then.tolerance = 7, then.n_threads = -3, then.flip_normals = 9, then.half_thickness = NAN;
     const int what = trial / 3 % 4;
     for (int c = 0; c < 3 && (what == 0 || what == 3); ++c) then.translation[c] += now.scale * between(-1, 1);
@@ -449,7 +450,7 @@ static void a_copy_is_a_valve_of_its_own(void **state) {
     CHECK_OK(riis_surface_update(b, copy, NULL));
     assert_true(is_same_content(a, b));
     free_one_owned(valve);
-    CHECK_OK(riis_surface_update(b, copy, NULL)); /* the copy has its own second state */
+    CHECK_OK(riis_surface_update(b, copy, NULL)); /* the copied valve has its own second state */
     assert_true(is_same_content(a, b));
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "copy is NULL", riis_valve_copy(copy, NULL));
     CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "valve is NULL", riis_valve_copy(NULL, &none));
@@ -549,7 +550,7 @@ static void refusals_leave_the_surface_as_it_was(void **state) {
   options.scale = 0;
   MOVING_REFUSED(RIIS_INVALID_ARGUMENT, "options.scale is 0;", aortic, before, 1, &options, NULL);
   options = surface_options();
-  options.half_thickness = 1e-3, options.tolerance = 1e-6; /* this fault is found after the curves are made */
+  options.half_thickness = 1e-3, options.tolerance = 1e-6; /* a fault that is found only after the curves are made */
   MOVING_REFUSED(RIIS_LIMIT_EXCEEDED, "16777216 triangles", aortic, before, 1, &options, NULL);
 
   /* Patches with different curves. */

@@ -494,7 +494,7 @@ static void the_angle_stays_between_its_stops(void **state) {
   CHECK_NEAR(now.opening, 0, 0);
 }
 
-/* One pressure and flow closes the valve, and the other pair opens it. */
+/* One pair of pressure and flow closes the valve, and the other pair opens it. */
 static void a_first_state_is_closed_whatever_the_law(void **state) {
   (void)state;
   for (int sign = -1; sign <= 1; sign += 2) {

@@ -280,7 +280,7 @@ static void wrong_calls_are_refused(void **state) {
   CHECK_NEAR(none.axis[2], 1, 0);
 }
 
-/* Two patches hang on arches in a plane through the axis, so that their outline is seen edge on. Placements round it. */
+/* Two patches hang on arches in a plane through the axis, so their outline is seen edge on. Placements round its coordinates. */
 static void outlines_seen_edge_on_are_none(void **state) {
   (void)state;
   shape wings = {0};

@@ -55,8 +55,9 @@ static double edge_length(const double *edge) {
   return sqrt(pow(edge[3] - edge[0], 2) + pow(edge[4] - edge[1], 2) + pow(edge[5] - edge[2], 2));
 }
 
-/* Returns the area that the attachment encloses, seen along z. The edges of one half of a mirrored valve run the other way. So
- * the area is summed around the middle without signs. It is the whole area if the attachment is seen once from there. */
+/* Returns the area that the attachment encloses, seen along z. The area is the sum of the triangles between the axis and each
+ * edge. The sum has no signs, because the edges of mirrored halves run in opposite directions. It is right if each ray from
+ * the axis meets the attachment once. */
 static double area_of_attachment(const riis_surface *surface) {
   riis_attachment held;
   CHECK_OK(riis_surface_get_attachment(surface, &held, sizeof held));
@@ -166,7 +167,7 @@ static void bands_have_the_orifice_of_their_narrow_end(void **state) {
     CHECK_NEAR(found.area, pi * hole * s * s, 1e-3 * s * s);
     CHECK_NEAR(found.radius, 0, 0);
     CHECK_NEAR(leaflet_of(surface, 0).free_edge, 2 * pi * sqrt(hole) * s, 1e-4 * s);
-    /* The axis points to the side to which normals point: seen from outside, up. */
+    /* The axis points to the side to which the normals point. */
     riis_surface_options turned = options;
     const riis_orifice z = orifice_of(surface_of_kind("trileaflet", (turned.flip_normals = 0, &turned)));
     for (int c = 0; c < 3; ++c) CHECK_NEAR(found.axis[c], (options.flip_normals ? -1 : 1) * z.axis[c], 1e-9);
@@ -239,7 +240,7 @@ static void contacts_have_known_areas(void **state) {
   for (int trial = 0; trial < 6; ++trial) {
     const riis_surface_options options = oblique();
     const double s = options.scale, reach = between(0.05, 0.2), w = between(1, 2);
-    /* Parallel plates at a distance: the overlap, widened by the rest of a right triangle. */
+    /* Parallel plates touch over their overlap, widened by sqrt(reach^2 - distance^2). */
     const double apart = between(0, 0.8) * reach, shift = between(0.3, 0.6);
     const riis_surface *parallel = plates(w, 0, shift, apart, &options);
     const double wide = w - shift + sqrt(reach * reach - apart * apart);
@@ -248,7 +249,7 @@ static void contacts_have_known_areas(void **state) {
     CHECK_NEAR(coaptation_of(parallel, s * reach, RIIS_ALL_LEAFLETS).area, 2 * s * s * wide, 2e-3 * s * s * reach * 4);
     const riis_coaptation none = coaptation_of(parallel, s * apart * 0.7 + 1e-9 * s, RIIS_ALL_LEAFLETS);
     CHECK_NEAR(none.area + none.edge, 0, 0);
-    /* Two plates with a common edge: within reach of the other up to reach over the sine of the angle. */
+    /* Two plates that share an edge touch over a strip along the edge. Its width is the reach over the sine of their angle. */
     const double angle = between(0.3, 1.2);
     const riis_surface *hinge = plates(w, angle, 0, 0, &options);
     const riis_coaptation found = coaptation_of(hinge, s * reach, 0);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Valves from the caller's patches: every refusal is tested by status and message. */
+ * Tests every refusal of valves from the caller's patches by status and message. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -179,7 +179,7 @@ static void open_states_are_built_alike(void **state) {
   OPEN_IS_REFUSED((other.reversed[0] = 1, other.reversed[1] = 1, other.curve_id[2] = 3, other.curve_id[3] = 2),
                   "patch 0 has other sides in the open state");
 #undef OPEN_IS_REFUSED
-  /* The valve's earlier open state is still there. */
+  /* After the refusals, the valve still has its earlier open state. */
   surface = new_surface(valve, NULL);
   CHECK_SAME(info_of(surface).lower[2], 1);
 }
@@ -214,7 +214,7 @@ static void opening_and_skirt_are_the_parameters(void **state) {
 
 static void patches_without_area_make_no_surface(void **state) {
   (void)state;
-  shape flat = unit_square(); /* shrinks to a line, to a point, or to nearly nothing */
+  shape flat = unit_square(); /* each attempt shrinks it: to a line, to a point, or to nearly nothing */
   for (int attempt = 0; attempt < 3; ++attempt) {
     const int owned_before = n_owned();
     const double scale[3][2] = {{1, 0}, {0, 0}, {1e-200, 1e-200}};
@@ -236,7 +236,7 @@ static void a_patch_thinner_than_the_tolerance_stays(void **state) {
   for (double sagitta = 0.04; sagitta > 1e-6; sagitta /= 10) {
     const int owned_before = n_owned();
     shape made = unit_square();
-    const double y = 4; /* away from the square, whose triangles may use the whole tolerance */
+    const double y = 4; /* away from the unit square, whose triangles may be off by the whole tolerance */
     const int32_t straight = (int32_t)made.n_curves;
     add_line(&made, 0, y, 0, 1, y, 0);
     const int32_t bent = (int32_t)made.n_curves;

@@ -58,7 +58,7 @@ static void add_random(soup *s) {
   }
 }
 
-/* These triangles have small whole coordinates, so they share corners and sides, lie in planes, and cross there exactly. */
+/* Triangles with small whole coordinates share corners and sides, lie in common planes, and cross exactly there. */
 static void add_whole_numbers(soup *s) {
   const int64_t largest = random_integer(1, 4);
   const int in_plane = one_in(3);

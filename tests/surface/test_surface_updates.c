@@ -77,7 +77,7 @@ static content random_content(riis_valve *const *valves) {
     if (any_of(4) == 0) c.options.tolerance = 1;
     if (any_of(8) == 0) c.options.tolerance = 0.01;
     if (any_of(6) == 0) c.options.measure = RIIS_MEASURE_SAMPLING, c.options.measure_tolerance = 0.2;
-    /* This tolerance is so fine that it is refused. */
+    /* Sometimes the tolerance is so fine that it is refused. */
     if (any_of(6) == 0) c.options.tolerance = c.options.half_thickness = 1e-5;
   } else {
     change_soup();

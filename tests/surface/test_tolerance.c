@@ -352,7 +352,7 @@ static void so_it_does_for_other_mitral_valves(void **state) {
       worst = fmax(worst, fmax(d.to_triangles, d.to_smooth));
       ++n_tried;
     } else {
-      assert_int_equal(status, RIIS_INVALID_PARAMETER); /* values that do not fit each other */
+      assert_int_equal(status, RIIS_INVALID_PARAMETER); /* random values may not fit each other */
     }
     free_owned_after(owned_before);
   }
@@ -376,7 +376,7 @@ static void so_does_a_fixed_triangulation(void **state) {
     riis_surface *surface = NULL;
     const riis_status status = riis_surface_create(valve, &options, &surface);
     if (status != RIIS_OK) {
-      assert_int_equal(status, RIIS_INVALID_PARAMETER); /* values that do not fit each other at some opening */
+      assert_int_equal(status, RIIS_INVALID_PARAMETER); /* random values may not fit each other at some opening */
       free_owned_after(owned_before);
       continue;
     }

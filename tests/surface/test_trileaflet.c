@@ -66,7 +66,7 @@ static void check_common_vertices(const riis_surface *surface, double scale) {
   free_one_owned(cusp);
 }
 
-/* This holds for both triangulations, for placed surfaces and after moving updates. */
+/* Cusps have the same bits where they meet: in both triangulations, in placed surfaces and after moving updates. */
 static void cusps_meet_in_the_same_bits(void **state) {
   (void)state;
   random_source random = random_start("test_trileaflet");
@@ -162,9 +162,9 @@ static void closes_cylinders(void **state) {
   for (int i = 0; i < 3; ++i) {
     assert_false(leaks_through(new_valve("trileaflet"), radii[i], -2, 0.1));
     assert_true(leaks_through(valve_at("trileaflet", 0.25), radii[i], -2, 0.1));
-    assert_true(leaks_through(new_valve("aortic"), radii[i], -2, 0.1)); /* the paper's state does not close */
+    assert_true(leaks_through(new_valve("aortic"), radii[i], -2, 0.1)); /* the paper's aortic valve does not close */
   }
-  assert_true(leaks_through(new_valve("trileaflet"), 1.6, -2, 0.1)); /* around the outside of the valve */
+  assert_true(leaks_through(new_valve("trileaflet"), 1.6, -2, 0.1)); /* flow passes around the valve */
 }
 
 /* The attachment is near the wall of a cylinder. The test prints its deviation, for users who make meshes. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Surfaces of valves from the caller's patches, compared with the patches' own curves. */
+ * Compares surfaces of valves from the caller's patches with the patches' own curves. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -317,7 +317,7 @@ static void shared_curves_leave_no_cracks(void **state) {
   for (int is_plane = 0; is_plane < 2; ++is_plane) {
     const int owned_before = n_owned();
     shape pair = pair_of_patches(is_plane ? 0 : 0.25);
-    if (is_plane) { /* the far side is straight too, so all grid lines come from the shared curve */
+    if (is_plane) { /* the far side is also straight, so all grid lines come from the shared curve */
       pair.degree[6] = 1;
       memcpy(pair.control[6][1], pair.control[6][2], sizeof pair.control[6][1]);
     }

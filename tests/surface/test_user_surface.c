@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Surfaces from the caller's arrays: layouts, ids, triangles without area, and winding. */
+ * Tests surfaces from the caller's arrays: layouts, ids, triangles without area, and winding. */
 #include <riis/riis.h>
 
 #include "test_support.h"

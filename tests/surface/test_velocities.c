@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Velocities of opening valves, at vertices and inside triangles, are compared with the smooth motion. The bound on their
- * errors is tested for any motion. */
+ * Velocities of opening valves, at vertices and inside triangles, are compared with the smooth motion. The bound on the
+ * errors of velocities is tested for any motion. */
 #include <riis/riis.h>
 
 #include "test_support.h"

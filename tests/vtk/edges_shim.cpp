@@ -92,11 +92,11 @@ Edges edges_by_middles(int n_corners, const std::vector<Place> &places) {
         if (!on_an_edge(n_corners, c, b)) continue;
         const int d = opposite(c, a, b), n = middle(c, b);
         const bool is_quad = d >= 0 && d < n_corners, is_triangle = on_an_edge(n_corners, a, b) != 0;
-        if (!is_quad && !is_triangle) continue;  // opposite sides of the base, at a pyramid's apex
+        if (!is_quad && !is_triangle) continue;  // a and b are opposite corners of the base, and c is a pyramid's apex
         const int centre = is_quad ? middle(a, b) : -1;
         if (m >= 0 && n >= 0 && centre < 0) add(m, n);
         if (m >= 0 && n >= 0 && centre >= 0) add(m, centre), add(n, centre);
-        // Here only two opposite sides of the quad have a node in the middle.
+        // If only two opposite sides of the quad have a node in the middle, these nodes are joined.
         if (is_quad && m >= 0 && n < 0) add(m, middle(b, d));
         if (is_quad && m < 0 && n >= 0) add(n, middle(a, d));
       }

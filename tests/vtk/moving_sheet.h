@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * A sheet of triangles whose vertices move in straight lines, and its files. Its coordinates at the times 0, 1/4, 1/2 and 1 are
- * whole multiples of 1/64, so every file holds them exactly. */
+ * Makes a sheet of triangles whose vertices move in straight lines, and its files. Its coordinates at the times 0, 1/4, 1/2 and
+ * 1 are whole multiples of 1/64, so every file holds them exactly. */
 #ifndef RIIS_TESTS_MOVING_SHEET_H
 #define RIIS_TESTS_MOVING_SHEET_H
 

@@ -52,7 +52,7 @@ static int64_t middle_of(plain_mesh *mesh, int64_t (*middles)[2], int64_t first,
 }
 
 plain_mesh plain_quadratic_tetrahedra(const plain_mesh *hexahedra) {
-  /* The tetrahedra lie around the diagonal from corner 0 to corner 6. These are their other corners, in order. */
+  /* The tetrahedra of a cube lie around the diagonal from corner 0 to corner 6. `ring` has their other corners, in order. */
   static const int ring[7] = {1, 2, 3, 7, 4, 5, 1};
   static const int sides[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
   const int64_t n_cells = 6 * hexahedra->n_cells, most = hexahedra->n_nodes + 6 * n_cells;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Meshes as plain arrays, and .vtu files of them. The files are written without VTK, so they can have layouts that the
- * installed VTK does not write. */
+ * Makes meshes as plain arrays, and .vtu files of them. The files are written without VTK, so they can have layouts
+ * that the installed VTK does not write. */
 #ifndef RIIS_TESTS_PLAIN_MESH_H
 #define RIIS_TESTS_PLAIN_MESH_H
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * XML files of meshes and surfaces that claim more data than they contain. They are refused before memory is allocated for the
- * claimed data. Files with random damage are read or refused, each in a separate process with limited memory. */
+ * Tests XML files of meshes and surfaces that claim more data than they contain. They are refused before memory is allocated
+ * for the claimed data. Files with random damage are read or refused, each in a separate process with limited memory. */
 #include <riis/riis_vtk.h>
 #include <sys/resource.h>
 #include <sys/wait.h>

@@ -114,7 +114,7 @@ static void test_frames(void **state) {
   assert_false(same_pixels("closed.png", "open.png", 0, 400));
   /* Axes, colour key and scale bar stay. */
   assert_true(same_pixels("closed.png", "open.png", 0, 30));
-  /* Another film draws the same picture, and nothing of the first film's frames. */
+  /* A second film of the same state draws the same picture, and nothing of the first film's frames. */
   film = make_film(mesh);
   open_valve(1);
   draw_frame(film, "Frame", "other.png");

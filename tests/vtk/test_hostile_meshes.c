@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Files of meshes that cannot be read. Each gives an error whose message names the file. Nothing is printed or returned. No
- * truncated file is read as a smaller mesh. */
+ * Tests files of meshes that cannot be read. Each gives an error whose message names the file. Nothing is printed or
+ * returned. No truncated file is read as a smaller mesh. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>

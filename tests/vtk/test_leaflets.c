@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Leaflets of surface files from connected pieces and from arrays, marks with other names, and the length of a mesh's edges.
- * Slow, simple computations check the pieces and the edges. */
+ * Tests leaflets of surface files from connected pieces and from arrays, marks with other names, and the length of a mesh's
+ * edges. Slow, simple computations check the pieces and the edges. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The adjacency of meshes from files, compared with the edges of VTK's own cells, and with the edges of other cells that have
+ * Compares the adjacency of meshes from files with the edges of VTK's own cells, and with the edges of other cells that have
  * the same nodes. */
 #include <math.h>
 #include <riis/riis_vtk.h>
@@ -128,8 +128,8 @@ static void test_curved_cells(void **state) {
   expect_adjacency("prism.vtk", 12, 36);
 }
 
-/* In a triangle, the node in the middle is joined to all other nodes. In a cell, the node in the middle is joined to the
- * middles of the faces. */
+/* In a triangle, the node in the middle is joined to all other nodes. In a triquadratic pyramid, the node in the middle
+ * is joined to the middles of the faces. */
 static void test_triquadratic_pyramid(void **state) {
   (void)state;
   char text[1024] = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 19 double\n";
@@ -138,8 +138,8 @@ static void test_triquadratic_pyramid(void **state) {
   for (int k = 0; k < 19; ++k) sprintf(text + strlen(text), " %d", k);
   strcat(text, "\nCELL_TYPES 1\n37\n");
   scratch_write_text("pyramid.vtk", text);
-  /* These nodes and their numbers of neighbours are: a corner of the base, the apex, and the middles of a side of the base, of
-   * a side to the apex, of the base, of a triangle, and of the cell. */
+  /* The nodes whose numbers of neighbours are tested are: a corner of the base, the apex, and the middles of a side of the
+   * base, of a side to the apex, of the base, of a triangle, and of the cell. */
   static const int nodes[7] = {1, 4, 5, 10, 13, 14, 18}, n_neighbors[7] = {5, 8, 4, 4, 5, 7, 5};
   riis_vtk_mesh *mesh = read_mesh("pyramid.vtk");
   riis_adjacency *adjacency = NULL;
@@ -167,7 +167,7 @@ static void expect_same_rows(const char *name, const riis_csr *expected) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* Hexahedra have the same edges as polyhedra with the same faces, in both layouts and in several pieces. */
+/* Hexahedra have the same edges as polyhedra with the same faces, in both layouts of the file and in several pieces. */
 static void test_polyhedra(void **state) {
   (void)state;
   const double lower[3] = {0, 0, 0}, upper[3] = {1, 2, 3};
@@ -199,7 +199,7 @@ static void test_polyhedra(void **state) {
   plain_free(&hexahedra);
 }
 
-/* The four tetrahedra at the corners of a quadratic tetrahedron have exactly its edges. */
+/* The edges of a quadratic tetrahedron are exactly the edges of the four tetrahedra at its corners. */
 static void test_quadratic_tetrahedra(void **state) {
   (void)state;
   const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
@@ -301,7 +301,7 @@ static void test_long_edges(void **state) {
   assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, n_side, lower, upper, 0), 1);
   expect_long_edges("box.vtu", n_box, inner, outer, 0, 0);
   expect_long_edges("box.vtu", n_box, lower, upper, 0.126, 0);
-  /* The limit equals the length, up to a billionth. */
+  /* The limit equals the length of the cubes' diagonals, up to a billionth. */
   expect_long_edges("box.vtu", n_box, lower, upper, 0.125 * sqrt(3), 0);
   assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
   expect_long_edges("zoo.vtu", n_shim_zoo, inner, outer, 2, 0);

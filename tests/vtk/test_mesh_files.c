@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Meshes read from files and written again. Nodes keep the file's order, points are doubles, every array is kept, and marks
- * equal those of the core. */
+ * Tests meshes that are read from files and written again. Nodes keep the file's order, points are doubles, every array is
+ * kept, and marks equal those of the core. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Parts of a mesh, fields as arrays, and the size of a file. VTK reads the written files back. */
+ * Tests parts of a mesh, fields as arrays, and the size of a file. VTK reads the written files back. */
 #include <riis/riis_vtk.h>
 #include <stdlib.h>
 #include <string.h>

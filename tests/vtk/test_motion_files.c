@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Motions read from files. In every format, the frames move as the closed form says. */
+ * Tests motions that are read from files. In every format, the frames move as the closed form says. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>

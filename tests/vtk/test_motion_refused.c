@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Files of motions that cannot be read. Each refusal names the file or argument and the value. Nothing is printed or returned.
- * Damaged collections never end the process. */
+ * Tests files of motions that cannot be read. Each refusal names the file or argument and the value. Nothing is printed or
+ * returned. Damaged collections never end the process. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>

@@ -167,7 +167,7 @@ static int is_red(const unsigned char *rgb) { return rgb[0] > 180 && rgb[1] < 40
 static int is_skin(const unsigned char *rgb) {
   return rgb[0] == rgb[1] && rgb[1] == rgb[2] && rgb[0] > 200 && rgb[0] < 250;
 }
-/* These functions distinguish full colours from pale ones. */
+/* is_full and is_pale distinguish full colours from pale ones. */
 static int is_full(const unsigned char *rgb) {
   const int most = rgb[0] > rgb[1] ? (rgb[0] > rgb[2] ? rgb[0] : rgb[2]) : (rgb[1] > rgb[2] ? rgb[1] : rgb[2]);
   const int least = rgb[0] < rgb[1] ? (rgb[0] < rgb[2] ? rgb[0] : rgb[2]) : (rgb[1] < rgb[2] ? rgb[1] : rgb[2]);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Surfaces read from files and written. Written files contain the surface that queries return. Surfaces that are read keep
- * winding, order and leaflets. */
+ * Tests surfaces that are read from files and written. Written files contain the surface that queries return. Surfaces
+ * that are read keep winding, order and leaflets. */
 #include <locale.h>
 #include <math.h>
 #include <riis/riis_vtk.h>

@@ -13,7 +13,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-/* One object exists at a time. The tested call makes it, or it is made before the call. */
+/* The objects of the scenarios, of which one exists at a time. The tested call makes it, or it is made before the call. */
 static riis_vtk_mesh *mesh;
 static riis_vtk_surface *read_surface;
 static riis_adjacency *adjacency;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * C wrappers of VTK for tests. They make files and read them back without any code of riis. The assertions stay in C, because a
- * failed assertion leaves the test by longjmp. Every function releases its VTK objects before it returns. */
+ * Wraps VTK for tests in C. The functions make files and read them back without any code of riis. The assertions stay in C,
+ * because a failed assertion leaves the test by longjmp. Every function releases its VTK objects before it returns. */
 #ifndef RIIS_TESTS_VTK_SHIM_H
 #define RIIS_TESTS_VTK_SHIM_H
 

@@ -16,8 +16,8 @@ from PIL import Image, PngImagePlugin
 
 import bezier
 
-# These colours can be distinguished with any colour vision (Okabe, Ito 2008), as in the other figures. Dimension lines and names
-# are dark.
+# The colours of the drawings can be distinguished with any colour vision (Okabe, Ito 2008), as in the other figures. Dimension
+# lines and names are dark.
 BLUE, GREEN, PURPLE, VERMILION = "#0072b2", "#009e73", "#b5548f", "#d55e00"
 DARK, GREY, PALE = "#2d2d2d", "#828282", "#c4c4c4"
 SMALL, NORMAL, LARGE = 9, 10, 11.5  # font sizes, in points

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A heart valve in code_saturne 6.0, by head losses, in C. The momentum equation gets the source -K (u - u_surface). K / rho
- * is a head loss, which code_saturne's pressure equation takes into account. K u_surface is an explicit source term. */
+ * Puts a heart valve into code_saturne 6.0, by head losses, in C. The momentum equation gets the source -K (u - u_surface).
+ * K / rho is a head loss, which code_saturne's pressure equation takes into account. K u_surface is an explicit source term.
+ * */
 #include "cs_defs.h"
 #include "cs_headers.h"
 #include "record.h"

@@ -330,7 +330,7 @@ void riisValve::restart() {
         switchState_.rate = state_.get<scalar>("rate");
         switchState_.progress = state_.get<scalar>("progress");
         switchState_.phase = state_.get<label>("phase");
-        // These keys are missing if the switch had no state yet.
+        // The file lacks the keys pressureDifference, flow and turnTime if the switch had no state yet.
         state_.readIfPresent("pressureDifference", switchState_.pressure_difference);
         state_.readIfPresent("flow", switchState_.flow);
         state_.readIfPresent("turnTime", switchState_.turn_time);
