@@ -12,6 +12,7 @@
 
 #include "common/array_view.hpp"
 #include "program/leaks.hpp"
+#include "program/marking_in_pieces.hpp"
 #include "program/mesh_marking.hpp"
 #include "program/moving_valve.hpp"
 #include "program/outputs.hpp"
@@ -271,16 +272,9 @@ ExitCode run_series(Case &all) {
 
 namespace {
 
-Box empty_box() {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  return {{far, far, far}, {-far, -far, -far}};
-}
-
 void grow(Box &box, const riis_surface_info &surface) {
-  for (int k = 0; k < 3; ++k) {
-    box.lower[k] = std::min(box.lower[k], surface.lower[k]);
-    box.upper[k] = std::max(box.upper[k], surface.upper[k]);
-  }
+  grow(box, surface.lower);
+  grow(box, surface.upper);
 }
 
 void note_nodes(const riis_marks *result, std::vector<std::uint8_t> &is_near) {

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: a mesh in pieces, and a surface. Out: marked pieces in files, and a report as for the joined mesh. Each rank reads, marks and
+// writes its pieces one by one, and keeps only their shared nodes, leaks and counts. Then the ranks exchange these.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "program/leaks.hpp"
+#include "program/mesh_pieces.hpp"
+#include "program/options.hpp"
+#include "program/report.hpp"
+#include "program/warnings.hpp"
+
+namespace riis::program {
+
+// Calls `work` with each of this rank's pieces. A failure ends all ranks.
+void for_own_pieces(const MeshPieces &pieces, const std::function<void(std::int64_t)> &work);
+
+// A Box that contains nothing.
+Box empty_box();
+void grow(Box &box, const double *point);
+void grow(Box &box, const Box &other);
+Box box_of(const PieceNodes &nodes);
+
+// The numbers of a part of a mesh, such as the pieces of a rank. Shared nodes are counted apart.
+struct MeshCounts {
+  std::int64_t n_nodes = 0, n_cells = 0, n_volume_cells = 0, n_cells_left_out = 0;
+  std::int64_t n_with_nodes = 0, n_with_ids = 0;  // pieces
+  double sum_of_edges = 0, n_edge_cells = 0;      // for the mean of the pieces' median edges
+  Box box = empty_box();
+
+  void add(const riis_vtk_mesh *file, const PieceNodes &nodes);
+  double median_edge() const { return n_edge_cells > 0 ? sum_of_edges / n_edge_cells : 0; }
+};
+// Returns the sums over all ranks. Refuses a mesh without nodes, and global ids that only some pieces have.
+MeshCounts sum_of(const MeshCounts &own, const MeshPieces &pieces);
+// Warns if no piece shares a node with another.
+void warn_of_apart(const MeshCounts &counts, const MatchedNodes &matched, const MeshPieces &pieces);
+
+// Writes the pieces of a mesh, and last their list.
+class PieceOutput {
+ public:
+  // `path` is that of the list, or "" if nothing is written. `n_pieces` is the number of pieces on all ranks.
+  PieceOutput(std::string path, std::int64_t n_pieces);
+  bool is_wanted() const { return !path_.empty(); }
+  void write(std::int64_t piece, const riis_vtk_mesh *mesh);
+  // Writes the list, after all ranks have written their pieces.
+  void finish();
+
+ private:
+  std::string path_;
+  std::vector<std::string> files_;
+  PieceList list_;  // with the arrays of this rank's first piece that has nodes, if there is one
+  bool has_arrays_ = false;
+};
+
+// Marks all pieces and writes them. Fills the report, except for the surface.
+void mark_pieces(const MarkOptions &options, const MeshPieces &pieces, const riis_surface *surface,
+                 const riis_valve *valve, const std::vector<std::string> &names_of_arrays, Report &report);
+
+// The end of a passage in a mesh in pieces.
+struct PieceEnd {
+  NodeKey key;
+  double point[3], distance, longest_edge;  // the node's distance to the point that the user gave
+  std::int64_t piece, node, id;
+};
+struct PiecePassage {
+  riis_passage found;
+  bool is_end;  // whether the node is one of the ends
+};
+// Finds the widest passage between two nodes, as riis_find_passage does in a joined mesh.
+PiecePassage find_passage(const MarkOptions &options, const MeshPieces &pieces, const riis_surface *surface,
+                          const PieceEnd (&ends)[2]);
+
+}  // namespace riis::program

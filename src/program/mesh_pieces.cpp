@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/mesh_pieces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "common/array_view.hpp"
+#include "program/outputs.hpp"
+#include "program/ranks.hpp"
+
+namespace riis::program {
+
+MeshPieces::MeshPieces(const std::string &path) : path_(path) {
+  riis_vtk_pieces *list = nullptr;
+  check(riis_vtk_pieces_read(path.c_str(), &list));
+  list_.reset(list);
+  std::int64_t n = 0;
+  const char *const *files = nullptr;
+  check(riis_vtk_pieces_get_files(list, &n, &files));
+  files_.assign(files, files + n);
+}
+
+std::vector<std::int64_t> MeshPieces::own() const {
+  std::vector<std::int64_t> own;
+  for (std::int64_t piece = ranks::rank(); piece < view(files_).size(); piece += ranks::n_ranks()) own.push_back(piece);
+  return own;
+}
+
+MeshFile MeshPieces::read(std::int64_t piece) const {
+  riis_vtk_mesh *mesh = nullptr;
+  check(riis_vtk_pieces_read_mesh(list_.get(), piece, &mesh));
+  return MeshFile(mesh);
+}
+
+bool is_in_pieces(const std::string &mesh) { return has_ending(mesh, ".pvtu"); }
+
+// ---- Nodes ----
+
+namespace {
+
+std::uint64_t mixed(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+  return x ^ (x >> 31);
+}
+
+std::uint64_t hash_of(const double *point, std::uint64_t seed) {
+  std::uint64_t hash = seed;
+  for (int k = 0; k < 3; ++k) {
+    const double x = point[k] + 0.0;  // -0 becomes 0
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &x, sizeof bits);
+    hash = mixed(hash ^ bits);
+  }
+  return hash;
+}
+
+}  // namespace
+
+PieceNodes::PieceNodes(const riis_vtk_mesh *file, const std::string &path) {
+  check(riis_vtk_mesh_get_nodes(file, &n_, nullptr, &xyz_));
+  role_.resize(static_cast<std::size_t>(n_));
+  riis_status status = riis_vtk_mesh_get_sharing(file, n_, role_.data(), nullptr, &counts_, sizeof counts_);
+  if (status == RIIS_FILE_ERROR) throw Refusal{exit_bad_data, path + ": " + riis_last_error()};
+  check(status);
+  if (has_ids()) {
+    ids_.resize(role_.size());
+    check(riis_vtk_mesh_get_sharing(file, n_, role_.data(), ids_.data(), &counts_, sizeof counts_));
+  }
+  if (std::find(role_.begin(), role_.end(), RIIS_VTK_NODE_GHOST) == role_.end()) return;
+  mask_.resize(role_.size());
+  std::transform(role_.begin(), role_.end(), mask_.begin(),
+                 [](std::uint8_t role) { return static_cast<std::uint8_t>(role != RIIS_VTK_NODE_GHOST); });
+}
+
+NodeKey PieceNodes::key(std::int64_t node) const {
+  const std::uint64_t first = hash_of(point(node), 0x243f6a8885a308d3);
+  if (has_ids()) return {static_cast<std::uint64_t>(id(node)), first};
+  return {first, hash_of(point(node), 0x13198a2e03707344)};
+}
+
+// ---- Matching ----
+
+namespace {
+
+std::vector<SharedNode> in_one_list(std::vector<std::vector<SharedNode>> by_piece) {
+  std::size_t n = 0;
+  for (const auto &nodes : by_piece) n += nodes.size();
+  std::vector<SharedNode> all;
+  all.reserve(n);
+  for (auto &nodes : by_piece) {
+    all.insert(all.end(), nodes.begin(), nodes.end());
+    nodes = {};
+  }
+  return all;
+}
+
+template <class T>
+void sort_unique(std::vector<T> &values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+}  // namespace
+
+MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has_ids,
+                         const std::vector<std::string> &files) {
+  constexpr std::size_t few = 1 << 16;
+  const auto n_ranks = static_cast<std::uint64_t>(ranks::n_ranks());
+  // Global ids are dense, so they are mixed to share them out evenly.
+  std::vector<SharedNode> nodes = ranks::exchange(in_one_list(std::move(by_piece)), [&](const SharedNode &node) {
+    return static_cast<std::size_t>(mixed(node.key.a) % n_ranks);
+  });
+  std::sort(nodes.begin(), nodes.end(), [](const SharedNode &p, const SharedNode &q) {
+    return std::tie(p.key.a, p.key.b, p.piece_and_flags) < std::tie(q.key.a, q.key.b, q.piece_and_flags);
+  });
+  MatchedNodes own;
+  std::size_t n_kept = few;
+  for (std::size_t begin = 0, end = 0; begin < nodes.size(); begin = end) {
+    const SharedNode &first = nodes[begin];
+    bool in_several = false;
+    for (end = begin + 1; end < nodes.size() && nodes[end].key == first.key; ++end) {
+      const SharedNode &before = nodes[end - 1], &node = nodes[end];
+      in_several |= node.piece() != before.piece();
+      if (node.region < 0 || before.region < 0) continue;
+      const PieceRegion p{before.piece(), before.region}, q{node.piece(), node.region};
+      if (!(p == q) && (own.joined.empty() || own.joined.back() != std::pair(p, q))) own.joined.emplace_back(p, q);
+    }
+    if (has_ids && end < nodes.size() && nodes[end].key.a == first.key.a)
+      throw Refusal{exit_bad_data, "the node with the global id " +
+                                       std::to_string(static_cast<std::int64_t>(first.key.a)) + " is at one place in " +
+                                       view(files)[first.piece()] + " and at another in " +
+                                       view(files)[nodes[end].piece()]};
+    ++own.n_nodes;
+    own.n_marked += (first.piece_and_flags & SharedNode::marked) != 0;
+    own.n_within_limit += (first.piece_and_flags & SharedNode::within_limit) != 0;
+    own.n_in_several += in_several;
+    if (own.joined.size() > 2 * n_kept) {
+      sort_unique(own.joined);
+      n_kept = std::max(few, own.joined.size());
+    }
+  }
+  sort_unique(own.joined);
+  MatchedNodes all;
+  for (const auto &[n_nodes, n_marked, n_within, n_in_several] : ranks::gather(std::vector<std::array<std::int64_t, 4>>{
+           {own.n_nodes, own.n_marked, own.n_within_limit, own.n_in_several}})) {
+    all.n_nodes += n_nodes;
+    all.n_marked += n_marked;
+    all.n_within_limit += n_within;
+    all.n_in_several += n_in_several;
+  }
+  struct Pair {
+    PieceRegion p, q;
+  };
+  std::vector<Pair> pairs;
+  for (const auto &[p, q] : own.joined) pairs.push_back({p, q});
+  for (const Pair &pair : ranks::gather(pairs)) all.joined.emplace_back(pair.p, pair.q);
+  sort_unique(all.joined);
+  return all;
+}
+
+}  // namespace riis::program

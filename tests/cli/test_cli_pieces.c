@@ -1,0 +1,357 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Meshes in pieces. Random meshes are cut into pieces at random, with and without global ids and ghost cells. The program marks
+ * the pieces and the joined mesh, and both must give the same marks, counts, leaks, regions and passages. Broken lists and
+ * pieces are refused by name. */
+#include <ctype.h>
+#include <math.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "program.h"
+#include "scratch.h"
+#include "test_support.h"
+#include "vtk_shim.h"
+
+enum { most_pieces = 8, most_corners = 8, tetrahedron = 10, hexahedron = 12, wedge = 13 };
+
+static random_source rng;
+
+static int below(int n) { return (int)(random_bits(&rng) % (uint64_t)n); }
+
+/* A mesh of cells of several types. */
+typedef struct whole_mesh {
+  int n_nodes, n_cells;
+  double *xyz;
+  int (*corners)[most_corners], *n_corners, *type, *piece; /* by cell */
+} whole_mesh;
+
+static whole_mesh whole;
+static int n_pieces, has_ids, has_attribute, has_ghosts;
+/* The nodes of each piece in the whole mesh. */
+static int *nodes_of[most_pieces], n_nodes_of[most_pieces];
+
+static void add_cell(int type, int n, const int *corners, const int *positions) {
+  for (int i = 0; i < n; ++i) whole.corners[whole.n_cells][i] = corners[positions[i]];
+  whole.n_corners[whole.n_cells] = n;
+  whole.type[whole.n_cells++] = type;
+}
+
+/* Makes a box of n x n x n nodes that are moved at random. Each small box is a hexahedron, two wedges or six tetrahedra. */
+static void make_whole(int n, int mode) {
+  static const int all[8] = {0, 1, 2, 3, 4, 5, 6, 7}, wedges[2][6] = {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
+  static const int ring[7] = {1, 2, 3, 7, 4, 5, 1};
+  const int most = 6 * (n - 1) * (n - 1) * (n - 1), up = n * n;
+  const double edge = 3.4 / (n - 1);
+  whole.n_nodes = n * n * n;
+  whole.n_cells = 0;
+  whole.xyz = malloc(sizeof *whole.xyz * 3 * (size_t)whole.n_nodes);
+  whole.corners = malloc(sizeof *whole.corners * (size_t)most);
+  whole.n_corners = malloc(sizeof(int) * (size_t)most);
+  whole.type = malloc(sizeof(int) * (size_t)most);
+  whole.piece = malloc(sizeof(int) * (size_t)most);
+  for (int i = 0; i < whole.n_nodes; ++i) {
+    const int at[3] = {i % n, i / n % n, i / n / n};
+    for (int c = 0; c < 3; ++c)
+      whole.xyz[3 * i + c] = -1.7 + edge * at[c] + random_between(&rng, -0.2, 0.2) * edge - (c == 2 ? 0.3 : 0);
+  }
+  for (int i = 0; i < (n - 1) * (n - 1) * (n - 1); ++i) {
+    const int m = n - 1, first = i % m + n * (i / m % m + n * (i / m / m));
+    const int corners[8] = {first,      first + 1,      first + n + 1,      first + n,
+                            first + up, first + up + 1, first + up + n + 1, first + up + n};
+    const int kind = mode < 2 ? mode : below(3);
+    if (kind == 0) add_cell(hexahedron, 8, corners, all);
+    for (int k = 0; kind == 1 && k < 6; ++k) add_cell(tetrahedron, 4, corners, (int[4]){0, ring[k], ring[k + 1], 6});
+    for (int k = 0; kind == 2 && k < 2; ++k) add_cell(wedge, 6, corners, wedges[k]);
+  }
+}
+
+static void forget_whole(void) {
+  free(whole.xyz);
+  free(whole.corners);
+  free(whole.n_corners);
+  free(whole.type);
+  free(whole.piece);
+  for (int i = 0; i < most_pieces; ++i) {
+    free(nodes_of[i]);
+    nodes_of[i] = NULL;
+  }
+}
+
+/* Shares out the cells: each at random, or by layers with a rough boundary. Some pieces may get no cell. */
+static void cut(void) {
+  const int by_layers = below(2);
+  n_pieces = 1 + below(most_pieces);
+  for (int i = 0; i < whole.n_cells; ++i) {
+    const double z = whole.xyz[3 * whole.corners[i][0] + below(3)] + 1.7;
+    const int layer = (int)(z / 3.4 * n_pieces + random_between(&rng, -0.3, 0.3));
+    whole.piece[i] = by_layers ? (layer < 0 ? 0 : layer >= n_pieces ? n_pieces - 1 : layer) : below(n_pieces);
+  }
+  if (n_pieces > 2 && below(2)) /* an empty piece */
+    for (int i = 0; i < whole.n_cells; ++i) whole.piece[i] += whole.piece[i] == 1;
+}
+
+/* Writes an array as text. `format` has one %. */
+#define WRITE_ARRAY(type, name, n, value)                                                \
+  do {                                                                                   \
+    fprintf(file, "<DataArray type=\"%s\" Name=\"%s\" format=\"ascii\">\n", type, name); \
+    for (int i = 0; i < (n); ++i) fprintf(file, "%d ", (int)(value));                    \
+    fprintf(file, "\n</DataArray>\n");                                                   \
+  } while (0)
+
+/* Writes cells and nodes of the whole mesh. `is_ghost` may be NULL. */
+static void write_grid(const char *path, int n_nodes, const int *nodes, int n_cells, const int *cells,
+                       const int *is_ghost, const char *dropped) {
+  int *local = malloc(sizeof(int) * (size_t)whole.n_nodes), end = 0;
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  for (int i = 0; i < n_nodes; ++i) local[nodes[i]] = i;
+  fprintf(file,
+          "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n");
+  fprintf(file, "<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n", n_nodes, n_cells);
+  fprintf(file, "<PointData%s>\n", has_ids && has_attribute ? " GlobalIds=\"GlobalNodeId\"" : "");
+  if (strcmp(dropped, "pressure") != 0) WRITE_ARRAY("Float64", "pressure", n_nodes, 7 * nodes[i]);
+  if (has_ids) WRITE_ARRAY("Int64", "GlobalNodeId", n_nodes, nodes[i]);
+  fprintf(file, "</PointData>\n<CellData>\n");
+  if (is_ghost) WRITE_ARRAY("UInt8", "vtkGhostType", n_cells, is_ghost[i]);
+  fprintf(file, "</CellData>\n<Points>\n<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n");
+  for (int i = 0; i < n_nodes; ++i)
+    for (int c = 0; c < 3; ++c) fprintf(file, "%.17g ", whole.xyz[3 * nodes[i] + c]);
+  fprintf(file,
+          "\n</DataArray>\n</Points>\n<Cells>\n<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n");
+  for (int i = 0; i < n_cells; ++i)
+    for (int c = 0; c < whole.n_corners[cells[i]]; ++c) fprintf(file, "%d ", local[whole.corners[cells[i]][c]]);
+  fprintf(file, "\n</DataArray>\n");
+  WRITE_ARRAY("Int64", "offsets", n_cells, end += whole.n_corners[cells[i]]);
+  WRITE_ARRAY("UInt8", "types", n_cells, whole.type[cells[i]]);
+  fprintf(file, "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+  fclose(file);
+  free(local);
+}
+
+static void write_joined(void) {
+  int *ids = malloc(sizeof(int) * (size_t)(whole.n_nodes + whole.n_cells));
+  for (int i = 0; i < whole.n_nodes + whole.n_cells; ++i) ids[i] = i;
+  write_grid(scratch_path("joined.vtu"), whole.n_nodes, ids, whole.n_cells, ids, NULL, "");
+  free(ids);
+}
+
+static const char *piece_name(int piece) {
+  static char name[32];
+  snprintf(name, sizeof name, "piece%d.vtu", piece);
+  return name;
+}
+
+/* Writes a piece. Its nodes are in a random order. Ghosts are cells of other pieces that share a node with it. */
+static void write_piece(int piece) {
+  char *has_node = calloc((size_t)whole.n_nodes, 1);
+  int *cells = malloc(sizeof(int) * (size_t)whole.n_cells), *ghosts = calloc((size_t)whole.n_cells, sizeof(int)), n = 0;
+  for (int i = 0; i < whole.n_cells; ++i) {
+    if (whole.piece[i] != piece) continue;
+    cells[n++] = i;
+    for (int c = 0; c < whole.n_corners[i]; ++c) has_node[whole.corners[i][c]] = 1;
+  }
+  char *has_ghost_node = malloc((size_t)whole.n_nodes);
+  memcpy(has_ghost_node, has_node, (size_t)whole.n_nodes);
+  for (int i = 0; has_ghosts && i < whole.n_cells; ++i) {
+    int touches = 0;
+    for (int c = 0; c < whole.n_corners[i]; ++c) touches |= has_node[whole.corners[i][c]];
+    if (whole.piece[i] == piece || !touches || below(10) < 3) continue;
+    ghosts[n] = 1;
+    cells[n++] = i;
+    for (int c = 0; c < whole.n_corners[i]; ++c) has_ghost_node[whole.corners[i][c]] = 1;
+  }
+  int *nodes = nodes_of[piece] = malloc(sizeof(int) * (size_t)whole.n_nodes), n_nodes = 0;
+  for (int i = 0; i < whole.n_nodes; ++i)
+    if (has_ghost_node[i]) nodes[n_nodes++] = i;
+  for (int i = n_nodes - 1; i > 0; --i) {
+    const int j = below(i + 1), swap = nodes[i];
+    nodes[i] = nodes[j];
+    nodes[j] = swap;
+  }
+  n_nodes_of[piece] = n_nodes;
+  write_grid(scratch_path(piece_name(piece)), n_nodes, nodes, n, cells, has_ghosts ? ghosts : NULL, "");
+  free(has_node);
+  free(has_ghost_node);
+  free(cells);
+  free(ghosts);
+}
+
+static void write_list(const char *name, int n, const char *const *sources) {
+  FILE *file = fopen(scratch_path(name), "w");
+  assert_non_null(file);
+  fprintf(file, "<?xml version=\"1.0\"?>\n<!-- a list -->\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\">\n");
+  fprintf(file, "<PUnstructuredGrid GhostLevel=\"%d\">\n<PPointData>\n", has_ghosts);
+  fprintf(file, "<PDataArray type=\"Float64\" Name=\"pressure\"/>\n");
+  if (has_ids) fprintf(file, "<PDataArray type=\"Int64\" Name=\"GlobalNodeId\"/>\n");
+  fprintf(file, "</PPointData>\n<PCellData>%s</PCellData>\n",
+          has_ghosts ? "<PDataArray type=\"UInt8\" Name=\"vtkGhostType\"/>" : "");
+  fprintf(file, "<PPoints><PDataArray type=\"Float64\" NumberOfComponents=\"3\"/></PPoints>\n");
+  for (int i = 0; i < n; ++i) fprintf(file, "<Piece Source=\"%s\"/>\n", sources[i]);
+  fprintf(file, "</PUnstructuredGrid>\n</VTKFile>\n");
+  fclose(file);
+}
+
+/* Lists the pieces by relative and absolute paths. */
+static void write_pieces(void) {
+  static char names[most_pieces][4096];
+  const char *sources[most_pieces];
+  for (int i = 0; i < n_pieces; ++i) {
+    write_piece(i);
+    if (i % 3 == 2) {
+      char folder[2048];
+      assert_non_null(realpath(scratch_path("."), folder));
+      snprintf(names[i], sizeof names[i], "%s/%s", folder, piece_name(i));
+    } else {
+      snprintf(names[i], sizeof names[i], "%s", piece_name(i));
+    }
+    sources[i] = names[i];
+  }
+  write_list("mesh.pvtu", n_pieces, sources);
+}
+
+/* ---- Comparisons ---- */
+
+static char *read_text(const char *name) {
+  size_t n = 0;
+  char *text = scratch_read(scratch_path(name), &n);
+  assert_non_null(text);
+  return text;
+}
+
+/* Checks that a key has the same number, or null, in both texts. Numbers may differ by 1e-12 of their size. */
+static void expect_same(const char *key, const char *a, const char *b) {
+  char quoted[64];
+  snprintf(quoted, sizeof quoted, "\"%s\": ", key);
+  const char *p = strstr(a, quoted), *q = strstr(b, quoted);
+  if (!p || !q) {
+    if (p || q) fail_msg("only one has %s: %s %s", key, a, b);
+    return;
+  }
+  p += strlen(quoted), q += strlen(quoted);
+  if (*p == '{') p = strchr(p, '}'), q = strchr(q, '}');
+  if (!isdigit((unsigned char)*p) && *p != '-') {
+    assert_memory_equal(p, q, 4);
+    return;
+  }
+  const double x = strtod(p, NULL), y = strtod(q, NULL);
+  if (!(fabs(x - y) <= 1e-12 * fabs(x))) fail_msg("%s is %.17g in the whole and %.17g in pieces", key, x, y);
+}
+
+static void expect_same_numbers(const char *a, const char *b) {
+  static const char *const keys[] = {"n_nodes",
+                                     "n_cells",
+                                     "n_marked",
+                                     "n_within_limit",
+                                     "complete",
+                                     "n_leaking_edges",
+                                     "longest_leaking_edge",
+                                     "closing_half_thickness",
+                                     "n_volume_cells",
+                                     "n_cells_without_known_edges",
+                                     "n_open_regions",
+                                     "least",
+                                     "mean",
+                                     "most",
+                                     "mean_edge",
+                                     "n_edges",
+                                     "effective_area"};
+  for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i) expect_same(keys[i], a, b);
+}
+
+static void expect_same_array(const char *name) {
+  char type[32];
+  int64_t n_components = 0, n = 0;
+  double *all = malloc(sizeof *all * (size_t)whole.n_nodes), *part = malloc(sizeof *part * (size_t)whole.n_nodes);
+  assert_int_equal(shim_read_array(scratch_path("joined_out.vtu"), 'p', name, type, &n_components, &n, all), 1);
+  for (int piece = 0; piece < n_pieces; ++piece) {
+    char path[64];
+    if (n_nodes_of[piece] == 0) continue;
+    snprintf(path, sizeof path, "out/out_%04d.vtu", piece);
+    assert_int_equal(shim_read_array(scratch_path(path), 'p', name, type, &n_components, &n, part), 1);
+    assert_int_equal(n, n_nodes_of[piece]);
+    for (int i = 0; i < n; ++i) CHECK_SAME(part[i], all[nodes_of[piece][i]]);
+  }
+  free(all);
+  free(part);
+}
+
+static void marks_are_those_of_the_joined_mesh(void **state) {
+  static const char *const valves[] = {"aortic", "coapting", "mitral", "trileaflet", "bileaflet"};
+  (void)state;
+  rng = random_start("marks_are_those_of_the_joined_mesh");
+  int n_leaking = 0, n_several = 0, n_open = 0, n_closed = 0;
+  for (int trial = 0; trial < random_trials(6); ++trial) {
+    char half_thickness[32], limit[32], opening[32], from[96], to[96];
+    const char *const valve = valves[trial % 5];
+    has_ids = below(2), has_attribute = below(2), has_ghosts = below(2);
+    make_whole(7 + below(5), trial % 3);
+    cut();
+    write_joined();
+    write_pieces();
+    const double eps = below(3) ? random_between(&rng, 0.05, 0.3) : random_between(&rng, 0.3, 0.6);
+    snprintf(half_thickness, sizeof half_thickness, "%.3f", eps);
+    snprintf(limit, sizeof limit, "%.3f", 2 * eps);
+    snprintf(opening, sizeof opening, "%.2f", random_between(&rng, 0, 0.3));
+    snprintf(from, sizeof from, "%.3f,%.3f,%.3f", random_between(&rng, -1, 1), random_between(&rng, -1, 1), -1.8);
+    snprintf(to, sizeof to, "%.3f,%.3f,%.3f", random_between(&rng, -1, 1), random_between(&rng, -1, 1), 1.2);
+    run_program("mark", scratch_path("joined.vtu"), "--valve", valve, "--opening", opening, "--half-thickness",
+                half_thickness, "--distance-limit", limit, "--resistance", "1e4", "--output",
+                scratch_path("joined_out.vtu"), "--stats", scratch_path("joined.json"), "--quiet", NULL);
+    const int code = program_exit_code;
+    run_program("mark", scratch_path("mesh.pvtu"), "--valve", valve, "--opening", opening, "--half-thickness",
+                half_thickness, "--distance-limit", limit, "--resistance", "1e4", "--output", scratch_path("out.pvtu"),
+                "--stats", scratch_path("pieces.json"), "--quiet", NULL);
+    if (code != program_exit_code) fail_msg("exit codes %d and %d: %s", code, program_exit_code, program_err);
+    char *joined = read_text("joined.json"), *pieces = read_text("pieces.json");
+    expect_same_numbers(joined, pieces);
+    n_leaking += json_number(joined, "n_leaking_edges") > 0;
+    n_several += n_pieces > 1 && json_number(joined, "n_open_regions") > 1;
+    expect_same_array("riis_marked");
+    expect_same_array("riis_distance");
+    expect_same_array("riis_leaflet");
+    expect_same_array("riis_K");
+    expect_same_array("pressure");
+    free(pieces);
+    /* The written pieces form a mesh with the same marks. */
+    run_program("mark", scratch_path("out.pvtu"), "--valve", valve, "--opening", opening, "--half-thickness",
+                half_thickness, "--distance-limit", limit, "--stats", scratch_path("pieces.json"), "--quiet", NULL);
+    assert_int_equal(program_exit_code, code);
+    pieces = read_text("pieces.json");
+    expect_same_numbers(joined, pieces);
+    free(joined);
+    free(pieces);
+    run_program("check", "leaks", scratch_path("joined.vtu"), "--between", from, to, "--valve", valve, "--opening",
+                opening, "--half-thickness", half_thickness, "--stats", scratch_path("joined.json"), "--quiet", NULL);
+    const int checked = program_exit_code;
+    char refusal[longest_output];
+    memcpy(refusal, program_err, sizeof refusal);
+    run_program("check", "leaks", scratch_path("mesh.pvtu"), "--between", from, to, "--valve", valve, "--opening",
+                opening, "--half-thickness", half_thickness, "--stats", scratch_path("pieces.json"), "--quiet", NULL);
+    if (checked != program_exit_code) fail_msg("%d: %s and %d: %s", checked, refusal, program_exit_code, program_err);
+    if (checked == 0 || checked == 3) {
+      joined = read_text("joined.json"), pieces = read_text("pieces.json");
+      expect_same_numbers(joined, pieces);
+      expect_same("distance", strstr(joined, "\"passage\""), strstr(pieces, "\"passage\""));
+      if (has_ids) expect_same("node_id", joined, pieces);
+      const char *const states[] = {"\"open", "\"closed", "\"none"};
+      for (int i = 0; i < 3; ++i)
+        assert_int_equal(json_has_text(joined, "state", states[i]), json_has_text(pieces, "state", states[i]));
+      n_open += json_has_text(joined, "state", "\"open");
+      n_closed += json_has_text(joined, "state", "\"closed");
+      expect_same("closing_half_thickness", strstr(joined, "\"passage\""), strstr(pieces, "\"passage\""));
+      free(joined);
+      free(pieces);
+    }
+    forget_whole();
+  }
+  printf("%d trials with leaks, %d with several regions, %d open and %d closed passages\n", n_leaking, n_several,
+         n_open, n_closed);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(marks_are_those_of_the_joined_mesh),
+  };
+  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
+}
