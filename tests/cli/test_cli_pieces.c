@@ -276,12 +276,71 @@ static void expect_same_array(const char *name) {
   free(part);
 }
 
+#ifdef RIIS_MPIEXEC
+
+/* Settings for Open MPI, as in tests/install/check_mpi_example.sh. */
+static void use_mpi(void) {
+  static const char *const settings[][2] = {{"OMPI_ALLOW_RUN_AS_ROOT", "1"},
+                                            {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
+                                            {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
+                                            {"OMPI_MCA_hwloc_base_binding_policy", "none"},
+                                            {"OMPI_MCA_mpi_yield_when_idle", "1"},
+                                            {"OMPI_MCA_plm", "isolated"},
+                                            {"OMPI_MCA_pml", "ob1"},
+                                            {"OMPI_MCA_btl", "self,vader"},
+                                            {"OMPI_MCA_btl_vader_single_copy_mechanism", "none"},
+                                            {"PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe"},
+                                            {"PRTE_MCA_hwloc_default_binding_policy", "none"}};
+  for (size_t i = 0; i < sizeof settings / sizeof *settings; ++i) setenv(settings[i][0], settings[i][1], 1);
+  program_file = RIIS_MPIEXEC;
+}
+
+/* Runs the program on this number of ranks. */
+#define RUN_RANKS(n, ...) \
+  (use_mpi(), run_program("-n", n, RIIS_MPI_PROGRAM, __VA_ARGS__, NULL), (void)(program_file = NULL))
+
+/* Checks that several ranks give the same files, numbers and exit code as one process did just before. */
+static void expect_same_by_ranks(const char *n_ranks, const char *valve, const char *opening,
+                                 const char *half_thickness, const char *from, const char *to) {
+  const int code = program_exit_code;
+  char *const one = code == 0 || code == 3 ? read_text("pieces.json") : NULL;
+  RUN_RANKS(n_ranks, "check", "leaks", scratch_path("mesh.pvtu"), "--between", from, to, "--valve", valve, "--opening",
+            opening, "--half-thickness", half_thickness, "--threads", "1", "--stats", scratch_path("ranks.json"),
+            "--quiet");
+  if (code != program_exit_code)
+    fail_msg("%d on one and %d on several ranks: %s", code, program_exit_code, program_err);
+  if (!one) return;
+  char *const several = read_text("ranks.json");
+  expect_same_numbers(one, several);
+  expect_same("distance", strstr(one, "\"passage\""), strstr(several, "\"passage\""));
+  free(several);
+  RUN_RANKS(n_ranks, "mark", scratch_path("mesh.pvtu"), "--valve", valve, "--opening", opening, "--half-thickness",
+            half_thickness, "--threads", "1", "--output", scratch_path("ranks.pvtu"), "--stats",
+            scratch_path("ranks.json"), "--quiet");
+  run_program("mark", scratch_path("mesh.pvtu"), "--valve", valve, "--opening", opening, "--half-thickness",
+              half_thickness, "--output", scratch_path("out.pvtu"), "--stats", scratch_path("pieces.json"), "--quiet",
+              NULL);
+  free(one);
+  char *const marked = read_text("pieces.json"), *const by_ranks = read_text("ranks.json");
+  expect_same_numbers(marked, by_ranks);
+  free(marked);
+  free(by_ranks);
+  for (int i = 0; i < n_pieces; ++i) {
+    char a[64], b[64];
+    snprintf(a, sizeof a, "out/out_%04d.vtu", i);
+    snprintf(b, sizeof b, "ranks/ranks_%04d.vtu", i);
+    assert_true(scratch_is_same(a, b));
+  }
+}
+
+#endif
+
 static void marks_are_those_of_the_joined_mesh(void **state) {
   static const char *const valves[] = {"aortic", "coapting", "mitral", "trileaflet", "bileaflet"};
   (void)state;
   rng = random_start("marks_are_those_of_the_joined_mesh");
   int n_leaking = 0, n_several = 0, n_open = 0, n_closed = 0;
-  for (int trial = 0; trial < random_trials(6); ++trial) {
+  for (int trial = 0; trial < (is_long_test() ? 100 : 6); ++trial) {
     char half_thickness[32], limit[32], opening[32], from[96], to[96];
     const char *const valve = valves[trial % 5];
     has_ids = below(2), has_attribute = below(2), has_ghosts = below(2);
@@ -343,6 +402,10 @@ static void marks_are_those_of_the_joined_mesh(void **state) {
       free(joined);
       free(pieces);
     }
+#ifdef RIIS_MPIEXEC
+    if (trial < 3)
+      expect_same_by_ranks(trial == 0 ? "4" : trial == 1 ? "2" : "1", valve, opening, half_thickness, from, to);
+#endif
     forget_whole();
   }
   printf("%d trials with leaks, %d with several regions, %d open and %d closed passages\n", n_leaking, n_several,
